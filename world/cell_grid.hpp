@@ -1,0 +1,73 @@
+// The plane cut into square cells, to find what is near without looking at
+// everything.
+#pragma once
+
+#include "world/geometry.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace sofof {
+
+/// Things by the cells that they touch.
+class cell_grid {
+public:
+  using item = std::uint32_t;
+
+  /// @param cell_m  Edge of a cell, m, > 0.
+  explicit cell_grid(double cell_m = 10) : cell_m_{cell_m} {}
+
+  /// Files `it` under every cell that the segment's bounding box, grown by
+  /// `margin_m`, touches. One item may be filed many times.
+  void add(point a, point b, double margin_m, item it) {
+    for_cells(a, b, margin_m, [&](std::uint64_t key) {
+      auto& cell = cells_[key];
+      if (cell.empty() || cell.back() != it)
+        cell.push_back(it);
+    });
+  }
+
+  /// @returns whether `holds(item)` is true for something in the cells within
+  /// `radius_m` of `p`; an item may be asked twice.
+  template <class Predicate>
+  bool any_near(point p, double radius_m, Predicate holds) const {
+    auto found = false;
+    for_cells(p, p, radius_m, [&](std::uint64_t key) {
+      if (found)
+        return;
+      if (const auto cell = cells_.find(key); cell != cells_.end())
+        for (const auto it : cell->second)
+          found = found || holds(it);
+    });
+    return found;
+  }
+
+  /// Calls `visit(items)` for every cell, in no particular order.
+  template <class Visitor>
+  void for_each_cell(Visitor visit) const {
+    for (const auto& [key, items] : cells_)
+      visit(items);
+  }
+
+private:
+  std::int64_t index(double x_m) const {
+    return static_cast<std::int64_t>(std::floor(x_m / cell_m_));
+  }
+
+  template <class Function>
+  void for_cells(point a, point b, double margin_m, Function f) const {
+    const auto right = index(std::fmax(a.x_m, b.x_m) + margin_m);
+    const auto top = index(std::fmax(a.y_m, b.y_m) + margin_m);
+    for (auto x = index(std::fmin(a.x_m, b.x_m) - margin_m); x <= right; ++x)
+      for (auto y = index(std::fmin(a.y_m, b.y_m) - margin_m); y <= top; ++y)
+        f(static_cast<std::uint64_t>(x) << 32
+          ^ (static_cast<std::uint64_t>(y) & 0xffffffff));
+  }
+
+  double cell_m_;
+  std::unordered_map<std::uint64_t, std::vector<item>> cells_;
+};
+
+} // namespace sofof

@@ -1,0 +1,224 @@
+// A smooth line through given points, addressed by arc length.
+#include "world/path.hpp"
+
+#include "world/spline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace sofof {
+
+namespace {
+
+constexpr auto table_step_m = 0.5;
+
+/// Where the spline has which arc length: short intervals of its pieces.
+class ruler {
+public:
+  explicit ruler(std::span<const cubic_piece> pieces) {
+    for (const auto& piece : pieces) {
+      knots_m_.push_back(length_m_);
+      const auto n = std::ceil(piece.chord_m / table_step_m);
+      const auto width = piece.chord_m / n;
+      for (auto i = 0.0; i < n; ++i) {
+        marks_.push_back({&piece, i * width, length_m_});
+        length_m_ += piece.length_m(i * width, (i + 1) * width);
+      }
+    }
+    knots_m_.push_back(length_m_);
+  }
+
+  double length_m() const { return length_m_; }
+  const std::vector<double>& knots_m() const { return knots_m_; }
+
+  struct spot {
+    const cubic_piece* piece;
+    double u;
+  };
+
+  /// @param s_m  Not smaller than in the call before.
+  spot find(double s_m) {
+    while (next_ + 1 < marks_.size() && marks_[next_ + 1].s_m <= s_m)
+      ++next_;
+    const auto& mark = marks_[next_];
+    auto u = mark.from + (s_m - mark.s_m);
+    constexpr auto enough_m = 1e-9;
+    for (auto newton = 0; newton < 4; ++newton) {
+      const auto miss_m = mark.s_m + mark.piece->length_m(mark.from, u) - s_m;
+      if (std::abs(miss_m) < enough_m)
+        break;
+      const auto v = mark.piece->slope(u);
+      u -= miss_m / std::sqrt(dot(v, v));
+    }
+    return {mark.piece, u};
+  }
+
+private:
+  struct mark {
+    const cubic_piece* piece;
+    double from; // parameter
+    double s_m;
+  };
+  std::vector<mark> marks_;
+  std::vector<double> knots_m_;
+  double length_m_ = 0;
+  std::size_t next_ = 0;
+};
+
+/// Cubic interpolation between two table entries from values and their
+/// derivatives over arc length: of the position that is the unit tangent, of
+/// the heading the curvature.
+struct hermite {
+  double t, step_m;
+
+  template <class T>
+  T operator()(T low, T low_slope, T high, T high_slope) const {
+    const auto rest = 1 - t, rise = t * t * (3 - 2 * t);
+    return (1 - rise) * low + rise * high
+           + (t * rest * step_m) * (rest * low_slope - t * high_slope);
+  }
+
+  template <class T>
+  T slope(T low, T low_slope, T high, T high_slope) const {
+    const auto rest = 1 - t;
+    return (6 * t * rest / step_m) * (high - low)
+           + rest * (1 - 3 * t) * low_slope + t * (3 * t - 2) * high_slope;
+  }
+};
+
+} // namespace
+
+path::path(std::span<const point> points, bool closed) : closed_{closed} {
+  const auto pieces = fit_spline(points, closed);
+  ruler tape{pieces};
+  length_m_ = tape.length_m();
+  knots_m_.assign(tape.knots_m().begin(),
+                  tape.knots_m().begin() + std::ssize(points));
+  const auto count = std::max(1.0, std::round(length_m_ / table_step_m));
+  step_m_ = length_m_ / count;
+  steps_per_m_ = count / length_m_;
+  table_.reserve(static_cast<std::size_t>(count) + 1);
+  auto heading_rad = 0.0;
+  for (auto i = 0.0; i <= count; ++i) {
+    const auto [piece, u] = tape.find(std::min(i * step_m_, length_m_));
+    const auto slope = piece->slope(u);
+    const auto speed = std::hypot(slope.x_m, slope.y_m);
+    heading_rad += wrap_angle(std::atan2(slope.y_m, slope.x_m) - heading_rad);
+    table_.push_back({piece->at(u), (1 / speed) * slope, heading_rad,
+                      cross(slope, piece->bend(u)) / (speed * speed * speed)});
+  }
+  turn_rad_ = table_.back().heading_rad - table_.front().heading_rad;
+}
+
+path::place path::locate(double s_m) const {
+  auto laps = 0.0;
+  if (closed_ && !(0 <= s_m && s_m < length_m_))
+    laps = std::floor(s_m / length_m_);
+  const auto steps =
+      std::clamp(s_m - laps * length_m_, 0.0, length_m_) * steps_per_m_;
+  const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
+  return {table_[i], table_[i + 1],
+          std::min(steps - static_cast<double>(i), 1.0), laps};
+}
+
+path_point path::at(double s_m) const {
+  const auto [low, high, t, laps] = locate(s_m);
+  const hermite mix{t, step_m_};
+  return {mix(low.at, low.tangent, high.at, high.tangent),
+          mix(low.heading_rad, low.curvature_1pm, high.heading_rad,
+              high.curvature_1pm)
+              + laps * turn_rad_,
+          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
+
+path::view path::look(point p, double s_m) const {
+  const auto [low, high, t, laps] = locate(s_m);
+  const hermite mix{t, step_m_};
+  const auto tangent = mix.slope(low.at, low.tangent, high.at, high.tangent);
+  const auto to = p - mix(low.at, low.tangent, high.at, high.tangent);
+  return {dot(tangent, to), cross(tangent, to),
+          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
+
+path_offset path::project(point p, double s_guess_m, double window_m) const {
+  auto laps_m = 0.0;
+  if (closed_) {
+    laps_m = std::floor(s_guess_m / length_m_) * length_m_;
+    s_guess_m -= laps_m;
+    window_m = std::min(window_m, length_m_ / 2);
+  }
+  auto low_m = s_guess_m - window_m, high_m = s_guess_m + window_m;
+  if (!closed_) {
+    low_m = std::clamp(low_m, 0.0, length_m_);
+    high_m = std::clamp(high_m, 0.0, length_m_);
+    s_guess_m = std::clamp(s_guess_m, low_m, high_m);
+  }
+  auto start_m = s_guess_m + look(p, s_guess_m).along_m;
+  start_m = std::clamp(start_m, low_m, high_m);
+  const auto near_m = step_m_ * nearest_entry(p, start_m, low_m, high_m);
+  const auto foot = refine(p, std::clamp(near_m, low_m, high_m),
+                           std::max(low_m, near_m - step_m_),
+                           std::min(high_m, near_m + step_m_));
+  return {laps_m + foot.s_m, foot.d_m};
+}
+
+/// Number of the nearest entry of the table in a stretch, counted from the
+/// start of the lap: possibly negative, or beyond the lap.
+double path::nearest_entry(point p, double start_m, double low_m,
+                           double high_m) const {
+  const auto count = static_cast<std::int64_t>(table_.size()) - 1;
+  auto entry_at = [&](double s_m) {
+    return static_cast<std::int64_t>(std::floor(s_m * steps_per_m_ + 0.5));
+  };
+  auto away_m = [&](std::int64_t i) {
+    const auto on_lap = i < 0 ? i + count : i > count ? i - count : i;
+    return distance_m(p, table_[static_cast<std::size_t>(on_lap)].at);
+  };
+  const auto start = entry_at(start_m);
+  const auto start_away_m = away_m(start);
+  auto best = start;
+  auto best_away_m = start_away_m;
+  // The distance changes by at most a metre a metre, so wherever it exceeds
+  // the best one by x, the next x metres need not be looked at.
+  auto march = [&](std::int64_t sign, std::int64_t last) {
+    auto excess_m = 0.0;
+    for (auto i = start; i != last;) {
+      const auto skip = static_cast<std::int64_t>(excess_m * steps_per_m_);
+      i += sign * std::max<std::int64_t>(skip, 1);
+      if (sign * (last - i) < 0)
+        return;
+      const auto here_m = away_m(i);
+      if (here_m < best_away_m)
+        best = i, best_away_m = here_m;
+      excess_m = here_m - best_away_m;
+    }
+  };
+  march(1, entry_at(high_m));
+  march(-1, entry_at(low_m));
+  return static_cast<double>(best);
+}
+
+path_offset path::project(point p) const {
+  return project(p, length_m_ / 2, length_m_ / 2);
+}
+
+/// Newton's method for the foot of the perpendicular, kept in its bracket.
+path_offset path::refine(point p, double s_m, double low_m,
+                         double high_m) const {
+  constexpr auto enough_m = 1e-5; // the next step would be its square
+  auto seen = look(p, s_m);
+  for (auto i = 0; i < 20; ++i) {
+    (seen.along_m > 0 ? low_m : high_m) = s_m;
+    const auto slope = std::max(0.1, 1 - seen.curvature_1pm * seen.left_m);
+    const auto next_m = std::clamp(s_m + seen.along_m / slope, low_m, high_m);
+    const auto moved_m = std::abs(next_m - s_m);
+    s_m = next_m;
+    if (moved_m < enough_m)
+      break;
+    seen = look(p, s_m);
+  }
+  return {s_m, seen.left_m};
+}
+
+} // namespace sofof

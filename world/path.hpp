@@ -1,0 +1,90 @@
+// A smooth line through given points, addressed by arc length.
+#pragma once
+
+#include "world/geometry.hpp"
+
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// Where a path is and how it bends at one arc length.
+struct path_point {
+  point at;                 ///< m, east-north.
+  double heading_rad = 0;   ///< Tangent, counter-clockwise from east.
+  double curvature_1pm = 0; ///< Positive to the left.
+};
+
+/// A point seen from a path: arc length and signed offset.
+struct path_offset {
+  double s_m = 0;
+  double d_m = 0; ///< Positive to the left.
+};
+
+/// A cubic spline over chord length (C2, so with continuous curvature)
+/// through the given points, tabulated by arc length; immutable. Open paths
+/// end straight (natural ends), closed ones are periodic.
+class path {
+public:
+  path() = default;
+
+  /// @param points  At least 2 (open) or 3 (closed), no two neighbours equal,
+  ///                m. A closed path returns from the last to the first.
+  /// @throws std::invalid_argument otherwise.
+  explicit path(std::span<const point> points, bool closed = false);
+
+  double length_m() const { return length_m_; }
+  bool closed() const { return closed_; }
+
+  /// Arc lengths of the given points, in order, m.
+  std::span<const double> knots_m() const { return knots_m_; }
+
+  /// The spline to within 0.1 mm. The heading is continuous in s, not
+  /// wrapped: it starts in (-pi, pi], and every lap of a closed path adds the
+  /// path's whole turn (a multiple of 2 pi). Precondition: not empty.
+  /// @param s_m  Any finite value: closed paths wrap, open ones clamp.
+  path_point at(double s_m) const;
+
+  /// Nearest point within `window_m` of arc length around a guess; cheap when
+  /// the guess is good. Precondition: not empty.
+  /// @param s_guess_m  Any finite value; on a closed path laps count.
+  /// @returns an arc length of the guess's lap (or of the next one, over the
+  /// seam); beyond the window or an open end, the offset from the tangent
+  /// there.
+  path_offset project(point p, double s_guess_m, double window_m = 20) const;
+
+  /// Nearest point of the whole path; at most O(length).
+  path_offset project(point p) const;
+
+private:
+  struct knot {
+    point at;
+    point tangent; // of unit length
+    double heading_rad;
+    double curvature_1pm;
+  };
+  struct place {
+    const knot& low;
+    const knot& high;
+    double share; // of the step from low to high, in [0, 1]
+    double laps;  // whole laps before it
+  };
+  struct view { // a point as seen from a place on the path
+    double along_m, left_m, curvature_1pm;
+  };
+  place locate(double s_m) const;
+  view look(point p, double s_m) const;
+  double nearest_entry(point p, double start_m, double low_m,
+                       double high_m) const;
+  path_offset refine(point p, double s_m, double low_m, double high_m) const;
+
+  std::vector<knot> table_; // equidistant in arc length, both ends included
+  std::vector<double> knots_m_;
+  double step_m_ = 0;
+  double steps_per_m_ = 0;
+  double length_m_ = 0;
+  double turn_rad_ = 0; // heading gained over the whole path
+  bool closed_ = false;
+};
+
+} // namespace sofof

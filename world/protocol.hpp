@@ -1,0 +1,35 @@
+// The constants of the offloading protocol; everybody takes them from here.
+#pragma once
+
+#include "world/time.hpp"
+
+namespace sofof::protocol {
+
+using namespace std::chrono_literals;
+
+/// Between two offers to a station that has an offered service not running.
+inline constexpr duration offer_period = 1s;
+/// From a request to its response; then the services stay local.
+inline constexpr duration request_timeout = 500ms;
+/// From acceptance to the first data; the local service runs on meanwhile.
+inline constexpr duration start_timeout = 1s;
+/// After a fallback, per provider and service, before the next request.
+inline constexpr duration cool_down = 1s;
+/// A station whose latest CAM is older has gone.
+/// Source: Dehler & Buchholz 2025, CAM check.
+inline constexpr duration cam_timeout = 2s;
+/// Between two CAMs.
+inline constexpr duration cam_period = 100ms;
+/// Between two answers to results of unknown running services.
+inline constexpr duration unknown_result_period = 200ms;
+
+/// Planned path that a requester looks at and sends along, m, and its step.
+inline constexpr double route_ahead_m = 800;
+inline constexpr double route_spacing_m = 5;
+
+/// Between two steps of a vehicle and its controller.
+inline constexpr duration control_period = 10ms;
+/// Between two looks at the others.
+inline constexpr duration sensor_period = 50ms;
+
+} // namespace sofof::protocol
