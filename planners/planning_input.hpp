@@ -1,0 +1,23 @@
+// What a trajectory planner starts from: own motion and the others.
+#pragma once
+
+#include "world/route.hpp"
+#include "world/time.hpp"
+#include "world/traffic.hpp"
+
+namespace sofof {
+
+/// The state from which to plan, in the frame of the route. It is the point
+/// of the plan in use where that plan is followed well (so that plans join
+/// without a jolt), else the measured state.
+struct planning_input {
+  time_point at;                ///< When this held.
+  double s_m = 0;               ///< Rear axle on the route, laps included.
+  double d_m = 0;               ///< Offset from the centre line, left positive.
+  double heading_error_rad = 0; ///< Against the centre line's tangent.
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+  perception others;
+};
+
+} // namespace sofof

@@ -1,0 +1,55 @@
+// The options of driving, as a scenario file lists them.
+#include "planners/lane_follow.hpp"
+#include "world/cabin.hpp"
+#include "world/vehicle.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace sofof;
+
+namespace {
+
+/// Collects names; checks that defaults keep their ranges.
+class listing : public settings {
+public:
+  std::set<std::string, std::less<>> names;
+
+  void field(std::string_view key, double& value, range r) override {
+    CAPTURE(key);
+    CHECK(names.emplace(key).second);
+    CHECK(value >= r.min);
+    CHECK(value <= r.max);
+    CHECK(r.max < 1e300);
+  }
+  void field(std::string_view, bool&) override {}
+  void field(std::string_view, std::int64_t&, range) override {}
+  void field(std::string_view, std::string&) override {}
+  void field(std::string_view, duration&, duration) override {}
+  void field(std::string_view, std::vector<std::string>&) override {}
+  void field(std::string_view, point&) override {}
+  void field(std::string_view, std::vector<point>&) override {}
+  void table(std::string_view, const std::function<void(settings&)>&) override {
+  }
+  void tables(std::string_view, std::size_t,
+              const std::function<void(std::size_t, settings&)>&) override {}
+  void refuse(std::string_view, const std::string&) override {}
+};
+
+/// Every member is a double, so their number is the struct's size.
+template <class Params>
+void check_all_listed() {
+  Params params;
+  listing list;
+  params.fields(list);
+  CHECK(list.names.size() == sizeof(Params) / sizeof(double));
+}
+
+} // namespace
+
+TEST_CASE("every option is listed once, its default within its range") {
+  check_all_listed<lane_follow_params>();
+  check_all_listed<vehicle_params>();
+  check_all_listed<cabin_params>();
+}

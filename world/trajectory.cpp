@@ -1,0 +1,59 @@
+// Reading a plan between its points.
+#include "world/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+/// The cubic with values y0, y1 and slopes m0, m1 (per unit of time) at the
+/// ends of an interval of length h; x in [0, 1].
+double hermite(double y0, double m0, double y1, double m1, double h, double x) {
+  const auto rest = 1 - x;
+  return y0 * rest * rest * (1 + 2 * x) + y1 * x * x * (3 - 2 * x)
+         + h * x * rest * (m0 * rest - m1 * x);
+}
+
+trajectory_point between(const trajectory_point& a, const trajectory_point& b,
+                         double x) {
+  const auto h = b.t_s - a.t_s;
+  const auto way = b.s_m - a.s_m;
+  trajectory_point p;
+  p.t_s = std::lerp(a.t_s, b.t_s, x);
+  p.s_m = hermite(a.s_m, a.speed_mps, b.s_m, b.speed_mps, h, x);
+  p.speed_mps = std::max(
+      0.0, hermite(a.speed_mps, a.accel_mps2, b.speed_mps, b.accel_mps2, h, x));
+  p.accel_mps2 = std::lerp(a.accel_mps2, b.accel_mps2, x);
+
+  const auto along = way > 1e-9 ? (p.s_m - a.s_m) / way : x;
+  p.heading_rad = std::lerp(a.heading_rad, b.heading_rad, along);
+  p.curvature_1pm = std::lerp(a.curvature_1pm, b.curvature_1pm, along);
+  // The arc lies on the outer side of its chord.
+  const auto chord = b.at - a.at;
+  const auto bulge =
+      0.5 * along * (1 - along) * (b.heading_rad - a.heading_rad);
+  p.at = a.at + along * chord + bulge * point{chord.y_m, -chord.x_m};
+  return p;
+}
+
+} // namespace
+
+time_point trajectory::end() const {
+  return empty() ? start : start + from_seconds(points.back().t_s);
+}
+
+trajectory_point trajectory::at(time_point t) const {
+  const auto t_s = to_seconds(t - start);
+  if (t_s <= 0 || points.size() == 1)
+    return points.front();
+  if (t_s >= points.back().t_s)
+    return points.back();
+  const auto last = points.size() - 2;
+  const auto steps = t_s / points[1].t_s;
+  const auto i = std::min(static_cast<std::size_t>(steps), last);
+  return between(points[i], points[i + 1],
+                 std::clamp(steps - static_cast<double>(i), 0.0, 1.0));
+}
+
+} // namespace sofof
