@@ -1,0 +1,41 @@
+// The two decisions that need no thought; what others are compared with.
+#pragma once
+
+#include "policies/context.hpp"
+
+namespace sofof {
+
+/// LODM that says the same to every offer: "always" or "never".
+class constant_lodm final : public local_policy {
+public:
+  explicit constant_lodm(bool yes) : yes_{yes} {}
+  local_decision decide(const local_context&) override {
+    return {yes_, name()};
+  }
+  std::string_view name() const override { return yes_ ? "always" : "never"; }
+  std::unique_ptr<local_policy> clone() const override {
+    return std::make_unique<constant_lodm>(*this);
+  }
+
+private:
+  bool yes_;
+};
+
+/// CODM that says the same to every request: "always" or "never".
+class constant_codm final : public central_policy {
+public:
+  explicit constant_codm(bool yes) : yes_{yes} {}
+  std::vector<central_decision>
+  decide(const central_context& context) override {
+    return std::vector<central_decision>(context.kinds.size(), {yes_, name()});
+  }
+  std::string_view name() const override { return yes_ ? "always" : "never"; }
+  std::unique_ptr<central_policy> clone() const override {
+    return std::make_unique<constant_codm>(*this);
+  }
+
+private:
+  bool yes_;
+};
+
+} // namespace sofof

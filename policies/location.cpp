@@ -1,0 +1,84 @@
+// The paper's decisions: offload where enough of the way lies ahead.
+#include "policies/location.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sofof {
+
+namespace {
+
+constexpr double standing_mps = 0.1;
+
+} // namespace
+
+std::optional<double> time_in_area_s(std::span<const point> route,
+                                     const polygon& area, double speed_mps) {
+  const auto outside = std::ranges::find_if_not(
+      route, [&](point p) { return area.contains(p); });
+  if (outside == route.begin())
+    return std::nullopt;
+  if (speed_mps < standing_mps)
+    return std::numeric_limits<double>::infinity();
+  const auto inside = static_cast<std::size_t>(outside - route.begin());
+  return length_m(route.first(inside)) / speed_mps;
+}
+
+double distance_in_disc_m(std::span<const point> path, point centre,
+                          double radius_m, double enough_m) {
+  double passed_m = 0;
+  for (std::size_t i = 0; i < path.size() && passed_m <= enough_m; ++i) {
+    if (distance_m(path[i], centre) > radius_m)
+      break;
+    if (i > 0)
+      passed_m += distance_m(path[i - 1], path[i]);
+  }
+  return passed_m;
+}
+
+local_decision location_lodm::decide(const local_context& context) {
+  const auto passed_m = distance_in_disc_m(context.path, context.provider_at,
+                                           radius_m_, min_distance_m_);
+  if (passed_m > min_distance_m_)
+    return {true, "d_passed > d_min"};
+  return {false, "path leaves r_off or ends before d_min"};
+}
+
+void location_lodm::fields(settings& s) {
+  s.field("radius_m", radius_m_, {0, 1e6});
+  s.field("min_distance_m", min_distance_m_, {0, 1e6});
+}
+
+std::unique_ptr<local_policy> location_lodm::clone() const {
+  return std::make_unique<location_lodm>(*this);
+}
+
+std::vector<central_decision>
+location_codm::decide(const central_context& context) {
+  auto all = [&](bool accept, std::string_view why) {
+    return std::vector<central_decision>(context.kinds.size(), {accept, why});
+  };
+  auto on_map = [&](point p) {
+    return context.map.near_lane(p, map_tolerance_m_);
+  };
+  if (!std::ranges::all_of(context.route, on_map))
+    return all(false, "route is not on the map");
+  const auto stay_s =
+      time_in_area_s(context.route, context.area, context.speed_mps);
+  if (!stay_s)
+    return all(false, "outside the area");
+  if (*stay_s < to_seconds(min_time_))
+    return all(false, "t_in_area < t_min");
+  return all(true, "t_in_area >= t_min");
+}
+
+void location_codm::fields(settings& s) {
+  s.field("min_time", min_time_, duration{0});
+  s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
+}
+
+std::unique_ptr<central_policy> location_codm::clone() const {
+  return std::make_unique<location_codm>(*this);
+}
+
+} // namespace sofof

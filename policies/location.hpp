@@ -1,0 +1,56 @@
+// The paper's decisions: offload where enough of the way lies ahead.
+// Source: Dehler & Buchholz 2025, section on location-based decisions.
+#pragma once
+
+#include "policies/context.hpp"
+
+#include <optional>
+
+namespace sofof {
+
+/// Time that a route spends in an area before it first leaves it, at constant
+/// speed: from the first waypoint to the last one inside.
+/// @param route      Waypoints from the vehicle on, m.
+/// @param speed_mps  Current speed; below 0.1 counts as standing.
+/// @returns seconds; infinity when standing; nullopt when the first waypoint
+/// is outside or there is none.
+/// Source: Dehler & Buchholz 2025, eq. (1).
+std::optional<double> time_in_area_s(std::span<const point> route,
+                                     const polygon& area, double speed_mps);
+
+/// Way that a path covers near a point before it leaves the disc round it.
+/// @param path      Waypoints from the vehicle on, m.
+/// @param enough_m  Counting may stop once this is exceeded.
+/// @returns m; 0 when the path begins outside.
+double distance_in_disc_m(std::span<const point> path, point centre,
+                          double radius_m, double enough_m);
+
+/// LODM: accepts an offer as soon as the planned path stays long enough
+/// within r_off of the provider.
+class location_lodm final : public local_policy {
+public:
+  local_decision decide(const local_context& context) override;
+  void fields(settings& s) override;
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<local_policy> clone() const override;
+
+private:
+  double radius_m_ = 300;      // r_off
+  double min_distance_m_ = 50; // d_min
+};
+
+/// CODM: accepts when the route is on the map and the vehicle will stay in
+/// the offloading area long enough.
+class location_codm final : public central_policy {
+public:
+  std::vector<central_decision> decide(const central_context& context) override;
+  void fields(settings& s) override;
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<central_policy> clone() const override;
+
+private:
+  duration min_time_ = std::chrono::seconds{5}; // t_min
+  double map_tolerance_m_ = 3.0;
+};
+
+} // namespace sofof

@@ -1,0 +1,20 @@
+// Policies by name: the one place that knows them all.
+#pragma once
+
+#include "policies/context.hpp"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// @returns the policy with its default options; null for an unknown name.
+std::unique_ptr<local_policy> make_lodm(std::string_view name);
+std::unique_ptr<central_policy> make_codm(std::string_view name);
+
+/// @returns all names, for error messages and lists.
+std::vector<std::string_view> lodm_names();
+std::vector<std::string_view> codm_names();
+
+} // namespace sofof
