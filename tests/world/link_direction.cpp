@@ -1,0 +1,250 @@
+// One direction of a link: delay, airtime, loss, stalls and order.
+#include "world/link_direction.hpp"
+
+#include "tests/support/near.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <vector>
+
+using namespace sofof;
+using test::near;
+using namespace std::chrono_literals;
+
+namespace {
+
+using kind = message_class;
+
+const random_stream seed{1, "link"};
+
+channel draws(const channel_profile& profile, station_id station = 1,
+              std::uint32_t provider = 0) {
+  return {std::make_shared<channel_profile>(profile), seed, station, provider};
+}
+
+channel_profile named(std::string_view name) {
+  return *find_channel_profile(name);
+}
+
+channel_profile measured() {
+  auto p = named("trace");
+  p.trace = {{0, 0.020}, {1, 0.030}, {2, 0.250}};
+  p.scatters_trace = false;
+  return p;
+}
+
+time_point cycle(std::uint64_t n) {
+  return time_point{n * 50ms};
+}
+
+// Arrivals of results 0, 1, 2, ... at 20 Hz.
+std::vector<std::optional<time_point>> results(link_direction link,
+                                               std::uint64_t count) {
+  std::vector<std::optional<time_point>> arrivals;
+  for (std::uint64_t n = 0; n < count; ++n)
+    arrivals.push_back(link.arrival(cycle(n), kind::result, n));
+  return arrivals;
+}
+
+double share_lost(const channel_profile& p, std::uint64_t count) {
+  double lost = 0;
+  for (const auto& t : results({draws(p), way::down, nullptr}, count))
+    lost += !t;
+  return lost / static_cast<double>(count);
+}
+
+} // namespace
+
+TEST_CASE("an ideal link takes no time") {
+  link_direction link{draws(named("ideal")), way::up, nullptr};
+  CHECK(link.arrival(time_point{3ms}, kind::other, 0) == time_point{3ms});
+  CHECK(link.arrival(time_point{3ms}, kind::result, 7) == time_point{3ms});
+}
+
+TEST_CASE("no message overtakes another") {
+  auto p = named("paper-5g");
+  p.network = delay_law::uniform(0ms, 200ms);
+  for (const auto direction : {way::up, way::down}) {
+    link_direction link{draws(p), direction, nullptr};
+    auto last = time_point{};
+    for (std::uint64_t n = 0; n < 2000; ++n) {
+      const auto sent = time_point{n * 10ms};
+      const auto t = link.arrival(sent, n % 3 ? kind::result : kind::other, n);
+      REQUIRE(t >= last);
+      REQUIRE(t >= sent);
+      last = *t;
+    }
+  }
+}
+
+TEST_CASE("other messages do not shift the noise of results") {
+  const auto p = named("paper-sim");
+  link_direction quiet{draws(p), way::down, nullptr};
+  link_direction busy{draws(p), way::down, nullptr};
+  std::uint64_t others = 0;
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    // Early enough not to hold the result up: the delay is below 31.5 ms.
+    for (std::uint64_t i = 0; n > 0 && i < n % 3; ++i)
+      busy.arrival(cycle(n) - 32ms, kind::other, others++);
+    const auto undisturbed = cycle(n) + draws(p).downlink_delay(n, cycle(n));
+    CHECK(quiet.arrival(cycle(n), kind::result, n) == undisturbed);
+    CHECK(busy.arrival(cycle(n), kind::result, n) == undisturbed);
+  }
+}
+
+TEST_CASE("results that are not sent do not shift those that are") {
+  const auto all =
+      results({draws(named("cicv5g-n78")), way::down, nullptr}, 20'000);
+  link_direction half{draws(named("cicv5g-n78")), way::down, nullptr};
+  auto same = 0;
+  for (std::uint64_t n = 0; n < all.size(); n += 2)
+    same += half.arrival(cycle(n), kind::result, n) == all[n];
+  CHECK(same == 10'000);
+}
+
+TEST_CASE("vehicles, providers, directions and classes draw for themselves") {
+  const auto p = named("cicv5g-n8");
+  const auto delay = [&](station_id s, std::uint32_t provider, way w, kind k) {
+    return draws(p, s, provider).network_delay({w, k, 5}, cycle(5));
+  };
+  const auto one = delay(1, 0, way::down, kind::result);
+  CHECK(one == delay(1, 0, way::down, kind::result));
+  CHECK(one != delay(2, 0, way::down, kind::result));
+  CHECK(one != delay(1, 1, way::down, kind::result));
+  CHECK(one != delay(1, 0, way::up, kind::result));
+  CHECK(one != delay(1, 0, way::down, kind::other));
+}
+
+TEST_CASE("what is sent in a stall arrives together after its end") {
+  auto p = named("cicv5g-n78");
+  p.stalls.rate_hz = 0.1;
+  const auto link = draws(p);
+  auto stalls = link.stalls();
+  const auto arrivals = results({link, way::down, nullptr}, 20'000);
+  auto held = 0;
+  for (std::uint64_t n = 1; n < arrivals.size(); ++n) {
+    const auto stall = stalls.at(cycle(n));
+    if (!stall)
+      continue;
+    ++held;
+    const auto released =
+        stall->end + link.burst_delay(way::down, stall->number);
+    // Later when something from before the stall is still under way.
+    CHECK(*arrivals[n] >= released);
+    if (cycle(n + 1) < stall->end)
+      CHECK(arrivals[n] == arrivals[n + 1]);
+  }
+  CHECK(held > 300);
+}
+
+TEST_CASE("a stall holds up both directions and all providers of a vehicle") {
+  const auto p = named("cicv5g-n78");
+  auto one = draws(p, 1, 0).stalls();
+  auto other_provider = draws(p, 1, 1).stalls();
+  auto other_vehicle = draws(p, 2, 0).stalls();
+  auto apart = 0;
+  for (auto t = time_point{}; t < time_point{1000s}; t += 50ms) {
+    const auto stalled = one.at(t).has_value();
+    CHECK(stalled == other_provider.at(t).has_value());
+    apart += stalled != other_vehicle.at(t).has_value();
+  }
+  CHECK(apart > 0);
+}
+
+TEST_CASE("stalls without time in between are refused") {
+  auto p = named("ideal");
+  p.stalls = {4, 240ms, 295ms};
+  CHECK_THROWS_AS(draws(p).stalls(), std::invalid_argument);
+}
+
+TEST_CASE("messages of all vehicles queue for the radio cell") {
+  auto p = named("ideal");
+  p.airtime = delay_law::uniform(2ms, 2ms);
+  const auto cell = std::make_shared<fifo_servers>(1);
+  link_direction a{draws(p, 1), way::up, cell};
+  link_direction b{draws(p, 2), way::up, cell};
+  link_direction elsewhere{draws(p, 3), way::up, nullptr};
+  CHECK(a.arrival(time_point{0ms}, kind::other, 0) == time_point{2ms});
+  CHECK(b.arrival(time_point{1ms}, kind::other, 0) == time_point{4ms});
+  CHECK(elsewhere.arrival(time_point{1ms}, kind::other, 0) == time_point{3ms});
+}
+
+TEST_CASE("named profiles lose nothing") {
+  for (const auto name : channel_profile_names())
+    if (name != "trace")
+      CHECK(share_lost(named(name), 5000) == 0);
+}
+
+TEST_CASE("plain loss takes its share of messages") {
+  auto p = named("ideal");
+  p.loss = 0.05;
+  CHECK(share_lost(p, 100'000) == near(0.05, 0.05));
+}
+
+TEST_CASE("burst loss takes its share, in bursts") {
+  auto p = named("ideal");
+  p.burst_loss = {9s, 1s, 0.01, 0.8};
+  constexpr auto count = 400'000;
+  const auto arrivals = results({draws(p), way::down, nullptr}, count);
+  double lost = 0;
+  double lost_twice = 0;
+  for (auto n = 1; n < count; ++n) {
+    lost += !arrivals[n];
+    lost_twice += !arrivals[n - 1] && !arrivals[n];
+  }
+  const auto expected = 0.9 * 0.01 + 0.1 * 0.8;
+  CHECK(lost / count == near(expected, 0.05));
+  // Mostly both in the bad state: far more than expected² = 0.8 %.
+  CHECK(lost_twice / count > 0.05);
+}
+
+TEST_CASE("loss does not shift the delays of what arrives") {
+  const auto p = named("paper-5g");
+  auto lossy = p;
+  lossy.loss = 0.3;
+  const auto all = results({draws(p), way::down, nullptr}, 50'000);
+  const auto some = results({draws(lossy), way::down, nullptr}, 50'000);
+  double arrived = 0;
+  double delay_ms = 0;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (some[n]) {
+      REQUIRE(some[n] == all[n]);
+      ++arrived;
+      delay_ms += to_milliseconds(*some[n] - cycle(n));
+    }
+  CHECK(delay_ms / arrived == near(5 + 3.74 + 0.2, 0.01));
+}
+
+TEST_CASE("a replayed result takes the measured round trip, a request none") {
+  link_direction down{draws(measured()), way::down, nullptr};
+  link_direction up{draws(measured()), way::up, nullptr};
+  CHECK(down.arrival(time_point{0s}, kind::result, 0) == time_point{20ms});
+  CHECK(down.arrival(time_point{1s}, kind::result, 1) == time_point{1030ms});
+  CHECK(down.arrival(time_point{2s}, kind::result, 2) == time_point{2250ms});
+  CHECK(up.arrival(time_point{2s}, kind::other, 0) == time_point{2s});
+  CHECK(draws(measured()).service_time(0) == 0ms);
+}
+
+TEST_CASE("vehicles replay a trace from places of their own if they may") {
+  auto p = measured();
+  const auto alike = [&] {
+    auto same = 0;
+    for (station_id s = 1; s <= 100; ++s)
+      same += draws(p, s).downlink_delay(0, time_point{}) == 20ms;
+    return same;
+  };
+  CHECK(alike() == 100);
+  p.scatters_trace = true;
+  CHECK(alike() == near(33, 0.5));
+}
+
+TEST_CASE("a trace without samples cannot be replayed") {
+  CHECK_THROWS_AS(draws(named("trace")), std::invalid_argument);
+}
+
+TEST_CASE("a profile is found by its name alone") {
+  for (const auto name : channel_profile_names())
+    CHECK(named(name).name == name);
+  CHECK(!find_channel_profile("5g"));
+}

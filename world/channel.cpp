@@ -1,0 +1,110 @@
+// How long messages travel and results are computed: the draws of one vehicle.
+#include "world/channel.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+// Tells the draws of one message apart.
+enum lane : std::uint32_t {
+  joint_lane,
+  service_lane,
+  network_lane,
+  airtime_lane,
+  loss_lane
+};
+
+duration network_draw(const channel_profile& p, const random_stream& draws,
+                      std::uint64_t number) {
+  return from_seconds(p.network.draw_s(draws, number, network_lane)
+                      + (1 - p.joint_service_share)
+                            * p.joint.draw_s(draws, number, joint_lane));
+}
+
+} // namespace
+
+channel::channel(std::shared_ptr<const channel_profile> profile,
+                 random_stream seed, station_id station, std::uint32_t provider)
+    : of_vehicle_{seed.part("channel").part(station)}, // stalls by vehicle
+      up_{split("up", provider)}, // the rest by provider, too
+      down_{split("down", provider)}, profile_{std::move(profile)} {
+  if (!profile_->replays)
+    return;
+  if (profile_->trace.empty())
+    throw std::invalid_argument{"the trace to replay has no samples"};
+  if (profile_->scatters_trace)
+    trace_start_s_ = of_vehicle_.part("trace").uniform(
+        0, replay_length_s(profile_->trace), 0);
+}
+
+duration channel::service_time(std::uint64_t cycle) const {
+  const auto& draws = of({way::down, message_class::result, cycle});
+  const auto& p = *profile_;
+  return from_seconds(p.service.draw_s(draws, cycle, service_lane)
+                      + p.joint_service_share
+                            * p.joint.draw_s(draws, cycle, joint_lane));
+}
+
+duration channel::network_delay(const message_id& m, time_point sent) const {
+  const auto& p = *profile_;
+  if (p.replays)
+    return m.direction == way::up
+               ? duration{}
+               : from_seconds(replayed_delay_s(
+                   p.trace, trace_start_s_ + to_seconds(sent)));
+  return network_draw(p, of(m), m.number);
+}
+
+duration channel::burst_delay(way direction, std::uint64_t stall) const {
+  return network_draw(*profile_, of(direction).bursts, stall);
+}
+
+duration channel::airtime(const message_id& m) const {
+  return from_seconds(profile_->airtime.draw_s(of(m), m.number, airtime_lane));
+}
+
+bool channel::lost(const message_id& m, bool fading) const {
+  const auto& burst = profile_->burst_loss;
+  const auto arrives =
+      (1 - profile_->loss) * (1 - (fading ? burst.loss_bad : burst.loss_good));
+  return of(m).uniform(m.number, loss_lane) >= arrives;
+}
+
+interruptions channel::stalls() const {
+  const auto& [rate_hz, shortest, longest] = profile_->stalls;
+  if (rate_hz <= 0)
+    return {};
+  const auto mean_quiet = from_seconds(1 / rate_hz) - (shortest + longest) / 2;
+  if (mean_quiet <= duration{})
+    throw std::invalid_argument{"no time is left between two stalls"};
+  return {of_vehicle_.part("stalls"), delay_law::exponential(mean_quiet),
+          delay_law::uniform(shortest, longest)};
+}
+
+interruptions channel::fades() const {
+  const auto& burst = profile_->burst_loss;
+  if (burst.mean_good <= duration{} || burst.mean_bad <= duration{})
+    return {};
+  return {of_vehicle_.part("fades"), delay_law::exponential(burst.mean_good),
+          delay_law::exponential(burst.mean_bad)};
+}
+
+channel::streams channel::split(std::string_view direction,
+                                std::uint32_t provider) const {
+  const auto s = of_vehicle_.part(direction).part(provider);
+  return {s.part("results"), s.part("others"), s.part("bursts")};
+}
+
+const channel::streams& channel::of(way direction) const {
+  return direction == way::up ? up_ : down_;
+}
+
+const random_stream& channel::of(const message_id& m) const {
+  const auto& streams = of(m.direction);
+  return m.kind == message_class::result ? streams.results : streams.others;
+}
+
+} // namespace sofof

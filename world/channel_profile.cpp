@@ -1,0 +1,129 @@
+// The named channel profiles.
+#include "world/channel_profile.hpp"
+
+#include <array>
+
+namespace sofof {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+channel_profile ideal() {
+  return {};
+}
+
+// Ours, fitted to 10.54 ± 9.83 ms and nearly nothing over 50 ms (Dehler &
+// Buchholz 2025, figure "delay-plot"): a light tail.
+channel_profile paper_sim() {
+  channel_profile p;
+  p.joint = delay_law::beta(45ms, 0.646, 2.11);
+  p.joint_service_share = 0.3;
+  return p;
+}
+
+// The other reading of the same mean and deviation: a narrow body and rare
+// stalls like those in the CICV5G data.
+channel_profile paper_sim_stalls() {
+  channel_profile p;
+  p.network = delay_law::lognormal(4ms, 6060us, 3200us);
+  p.stalls = {0.0135, 240ms, 295ms};
+  return p;
+}
+
+// Ours, fitted to the drives of Dehler & Buchholz 2025: 11.94 ± 2.98 ms.
+channel_profile paper_5g() {
+  channel_profile p;
+  p.workers = 2;
+  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_law::lognormal(5ms, 3740us, 2800us);
+  p.airtime = delay_law::exponential(200us);
+  return p;
+}
+
+// Fitted to the measured round trips of CICV5G (Zhang et al. 2025, doi
+// 10.5281/zenodo.17475688): private 5G in town.
+channel_profile cicv5g_n8() {
+  channel_profile p;
+  p.network = delay_law::lognormal_about(12090us, 6220us, 0.424);
+  p.stalls = {0.0116, 240ms, 295ms};
+  return p;
+}
+
+// As before: public 5G in town.
+channel_profile cicv5g_n78() {
+  channel_profile p;
+  p.network = delay_law::lognormal_about(10740us, 4970us, 0.472);
+  p.stalls = {0.0137, 240ms, 295ms};
+  return p;
+}
+
+channel_profile trace() {
+  channel_profile p;
+  p.replays = true;
+  return p;
+}
+
+struct entry {
+  std::string_view name;
+  channel_profile (*make)();
+};
+
+constexpr std::array known_profiles{
+    entry{"ideal", ideal},
+    entry{"paper-sim", paper_sim},
+    entry{"paper-sim-stalls", paper_sim_stalls},
+    entry{"paper-5g", paper_5g},
+    entry{"cicv5g-n8", cicv5g_n8},
+    entry{"cicv5g-n78", cicv5g_n78},
+    entry{"trace", trace},
+};
+
+constexpr settings::range probability{0, 1};
+
+} // namespace
+
+void stall_options::fields(settings& s) {
+  s.field("rate_hz", rate_hz, {0, 1e3});
+  s.field("shortest", shortest, 0ns);
+  s.field("longest", longest, 0ns);
+  if (longest < shortest)
+    s.refuse("longest", "must not be less than shortest");
+  if (rate_hz * to_seconds(shortest + longest) / 2 >= 1)
+    s.refuse("rate_hz", "leaves no time between two stalls");
+}
+
+void burst_loss_options::fields(settings& s) {
+  s.field("mean_good", mean_good, 0ns);
+  s.field("mean_bad", mean_bad, 0ns);
+  s.field("loss_good", loss_good, probability);
+  s.field("loss_bad", loss_bad, probability);
+}
+
+void channel_profile::fields(settings& s) {
+  s.field("workers", workers, {1, 1024});
+  s.field("loss", loss, probability);
+  s.field("scatters_trace", scatters_trace);
+  s.table("stalls", [this](settings& t) { stalls.fields(t); });
+  s.table("burst_loss", [this](settings& t) { burst_loss.fields(t); });
+}
+
+std::vector<std::string_view> channel_profile_names() {
+  std::vector<std::string_view> names;
+  for (const auto& e : known_profiles)
+    names.push_back(e.name);
+  return names;
+}
+
+std::optional<channel_profile> find_channel_profile(std::string_view name) {
+  for (const auto& e : known_profiles) {
+    if (e.name != name)
+      continue;
+    auto profile = e.make();
+    profile.name = name;
+    return profile;
+  }
+  return std::nullopt;
+}
+
+} // namespace sofof

@@ -1,0 +1,76 @@
+// What tells one kind of channel from another: its distributions and loss.
+#pragma once
+
+#include "world/delay_law.hpp"
+#include "world/settings.hpp"
+#include "world/time.hpp"
+#include "world/trace.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Outages of one vehicle's connection: what is sent during one is held back
+/// and released together at its end (head-of-line blocking).
+struct stall_options {
+  double rate_hz = 0; ///< Stalls a second, 0 for none.
+  duration shortest{};
+  duration longest{};
+
+  void fields(settings& s);
+};
+
+/// Two-state loss after Gilbert (1960) and Elliott (1963), in continuous time:
+/// a vehicle's connection is good or bad, both for exponentially distributed
+/// times, and loses messages with a probability of its own in each state.
+struct burst_loss_options {
+  duration mean_good{}; ///< 0: never bad, no burst loss.
+  duration mean_bad{};
+  double loss_good = 0; ///< Probability in [0, 1].
+  double loss_bad = 1;  ///< Probability in [0, 1].
+
+  void fields(settings& s);
+};
+
+/// Everything that tells one kind of channel from another. docs/channels.md
+/// has the sources and the measured figures.
+struct channel_profile {
+  std::string name = "ideal";
+
+  std::int64_t workers = 1; ///< Of one provider, >= 1.
+  delay_law service;        ///< Computing time of a result of unit demand.
+  delay_law network;        ///< Delay of any message, one way.
+  delay_law airtime;        ///< Time in the radio cell that all share.
+
+  /// One draw X a message, on top of the above: `joint_service_share` · X is
+  /// computing time, the rest network delay.
+  delay_law joint;
+  double joint_service_share = 0; ///< In [0, 1].
+
+  stall_options stalls;
+  double loss = 0; ///< Probability in [0, 1] for each message.
+  burst_loss_options burst_loss;
+
+  /// Replays `trace`: a result takes the measured round trip, messages to the
+  /// provider take no time, so that the loop takes what was measured.
+  bool replays = false;
+  std::vector<trace_sample> trace;
+  /// Each vehicle starts at its own place in the trace, else all at its begin.
+  bool scatters_trace = true;
+
+  /// What a scenario may change about a named profile.
+  void fields(settings& s);
+};
+
+/// @returns the names of all profiles, `trace` included.
+std::vector<std::string_view> channel_profile_names();
+
+/// @returns the profile of that name; nullopt when there is none. `trace`
+/// comes without samples.
+std::optional<channel_profile> find_channel_profile(std::string_view name);
+
+} // namespace sofof
