@@ -1,0 +1,130 @@
+// Every actor's interface, a sentence per message: the page to read first.
+#pragma once
+
+#include "messages/lifecycle.hpp"
+#include "messages/motion.hpp"
+#include "messages/qos.hpp"
+#include "messages/record.hpp"
+#include "messages/service.hpp"
+
+#include <caf/result.hpp>
+#include <caf/typed_actor.hpp>
+
+#include <vector>
+
+namespace sofof {
+
+template <class... Ts>
+using takes = caf::result<void>(Ts...);
+
+/// Runs one function of a service, cycle by cycle, and has a life cycle.
+using instance_actor = caf::typed_actor<
+    // Its life cycle shall take this step; an impossible one is ignored.
+    takes<lifecycle_step>,
+    // The next cycles shall start from this.
+    takes<service_input>>;
+
+/// Wherever results of cycles go.
+using result_actor = caf::typed_actor<
+    // A cycle is done.
+    takes<service_result>>;
+
+/// Feeds one accepted service at the provider.
+using provider_manager_actor = result_actor::extend<
+    // New input from the vehicle.
+    takes<service_input>,
+    // The service has ended: finalise the instance.
+    takes<service_end>>;
+
+/// Feeds one service in the vehicle and chooses its source. It alone decides
+/// whose results the client gets, so there is always exactly one source.
+using requester_manager_actor = result_actor::extend<
+    // The client has new input.
+    takes<service_input>,
+    // A provider runs the service too: feed it there, and use the results from
+    // the first one on.
+    takes<running_service, provider_manager_actor>,
+    // The running service has ended: the local service plans at once.
+    takes<service_end>>;
+
+/// Uses what a service gives; there is one per vehicle and kind.
+using client_actor = result_actor::extend<
+    // From now on results come from this source.
+    takes<source_change>,
+    // Inputs are wanted here.
+    takes<requester_manager_actor>>;
+
+/// Barks when results come late or stop coming.
+using watchdog_actor = caf::typed_actor<
+    // Watch this running service; its first result came at this time.
+    takes<running_service, time_point>,
+    // Another result has come.
+    takes<arrival>,
+    // Watch no longer.
+    takes<service_end>>;
+
+/// SR, the vehicle's side of offloading, as providers see it. The sender of
+/// an offer is the provider, or a link that looks like it.
+using requester_actor = result_actor::extend<
+    // A provider has seen this station in its area.
+    takes<service_offer>,
+    // Each requested service is accepted or refused; one manager per accepted
+    // service, in the order of the verdicts.
+    takes<service_response, std::vector<provider_manager_actor>>,
+    // The provider has ended a running service.
+    takes<service_end>>;
+
+/// SR, as the other actors of its vehicle see it.
+using onboard_requester_actor = requester_actor::extend<
+    // The own motion, at every CAM.
+    takes<ego_state>,
+    // The first result of a running service is in use.
+    takes<running_service>,
+    // The watchdog has barked.
+    takes<qos_violation>>;
+
+/// SP, the edge server's side of offloading.
+using provider_actor = caf::typed_actor<
+    // A station moves; its requester can be reached here.
+    takes<cam, requester_actor>,
+    // A station asks for offered services.
+    takes<service_request, requester_actor>,
+    // The requester has ended a running service.
+    takes<service_end>>;
+
+/// All that crosses the air between one vehicle and one provider. It looks
+/// like the far end to both of them: to the provider and its managers like a
+/// requester, to the requester like all of these.
+using link_actor = requester_actor::extend<
+    // As provider_actor and provider_manager_actor take them.
+    takes<cam, requester_actor>, takes<service_request, requester_actor>,
+    takes<service_input>>;
+
+/// A car: moves, sends CAMs, follows the trajectories it is given.
+using vehicle_actor = client_actor::extend<
+    // What the driver has to know about the others.
+    takes<perception>>;
+
+/// The streets and all that moves on them, as sensors would show it.
+using road_actor = caf::typed_actor<
+    // A vehicle is here now; it wants to know what it perceives.
+    takes<motion_report, vehicle_actor>>;
+
+/// Keeps what happened.
+using recorder_actor = caf::typed_actor<
+    // Something worth a line in the log.
+    takes<event_record>,
+    // A requested service was answered.
+    takes<decision_record>,
+    // A remote result came in.
+    takes<cycle_record>,
+    // One side has closed a running service.
+    takes<episode_record>,
+    // Where a vehicle is.
+    takes<track_record>,
+    // How safely a vehicle drove.
+    takes<safety_record>,
+    // Two bodies have touched.
+    takes<collision_record>>;
+
+} // namespace sofof

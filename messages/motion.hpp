@@ -1,0 +1,68 @@
+// Inside one vehicle and its world: how it moves, and what it perceives.
+#pragma once
+
+#include "messages/inspect.hpp"
+#include "messages/service.hpp"
+#include "world/traffic.hpp"
+#include "world/vehicle.hpp"
+
+namespace sofof {
+
+/// Where a vehicle really is; the road derives from it what others see.
+struct motion_report {
+  station_id station = 0;
+  double s_m = 0; ///< Rear axle on its route, laps included.
+  vehicle_state state;
+};
+
+/// What a vehicle tells its own requester at every CAM.
+struct ego_state {
+  cam own;
+  double s_m = 0; ///< Rear axle on its route, laps included.
+};
+
+/// Which source the results of a service come from, from now on.
+struct source_change {
+  service_name kind;
+  bool remote = false;
+};
+
+template <class Inspector>
+bool inspect(Inspector& f, vehicle_state& x) {
+  return f.object(x).fields(
+      f.field("at", x.at), f.field("heading_rad", x.heading_rad),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
+      f.field("steer_rad", x.steer_rad));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, motion_report& x) {
+  return f.object(x).fields(f.field("station", x.station),
+                            f.field("s_m", x.s_m), f.field("state", x.state));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, ego_state& x) {
+  return f.object(x).fields(f.field("own", x.own), f.field("s_m", x.s_m));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, source_change& x) {
+  return f.object(x).fields(f.field("kind", x.kind),
+                            f.field("remote", x.remote));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, lead_vehicle& x) {
+  return f.object(x).fields(
+      f.field("station", x.station), f.field("rear_s_m", x.rear_s_m),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, perception& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("lead", x.lead),
+                            f.field("stop_at_m", x.stop_at_m));
+}
+
+} // namespace sofof

@@ -1,0 +1,145 @@
+// What happened, for the results folder.
+#pragma once
+
+#include "messages/motion.hpp"
+#include "messages/service.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace sofof {
+
+/// Something worth a line in events.jsonl.
+struct event_record {
+  time_point at;
+  std::string what; ///< offer, request, response, switch, violation, …
+  station_id station = 0;
+  boot_id provider = 0;
+  service_name kind; ///< Empty when it concerns no single service.
+  std::uint32_t counter = 0;
+  std::string detail; ///< Why, or how.
+};
+
+/// One requested service has been answered, or has not been in time.
+struct decision_record {
+  time_point at;
+  station_id station = 0;
+  service_name kind;
+  bool accepted = false;
+};
+
+/// One received result of a remote service.
+struct cycle_record {
+  running_service running;
+  std::uint64_t cycle = 0;
+  time_point created;
+  time_point received;
+  duration interarrival{}; ///< Zero for the first of an episode.
+  bool used = false;
+};
+
+/// One side has closed a running service.
+struct episode_record {
+  running_service running;
+  side of = side::requester;
+  time_point accepted;   ///< When the service was accepted.
+  time_point first_data; ///< Requester: the switch to remote; else accepted.
+  bool got_data = false;
+  time_point ended;
+  end_reason reason = end_reason::shutdown;
+  bool fallback = false; ///< Requester: the local service had to jump in.
+};
+
+/// Where a vehicle is, and how old the plan is that it follows.
+struct track_record {
+  time_point at;
+  ego_state ego;
+  double lateral_m = 0; ///< Offset of the rear axle from the lane's centre.
+  duration plan_age{};
+  bool remote = false;
+};
+
+/// How safely a vehicle drove since its last such record.
+struct safety_record {
+  station_id station = 0;
+  duration driven{};
+  duration without_fresh_plan{};
+  duration off_road{};
+  duration max_plan_age{};
+};
+
+/// Two bodies have touched.
+struct collision_record {
+  time_point at;
+  station_id first = 0, second = 0;
+};
+
+template <class Inspector>
+bool inspect(Inspector& f, event_record& x) {
+  return f.object(x).fields(
+      f.field("at", x.at), f.field("what", x.what),
+      f.field("station", x.station), f.field("provider", x.provider),
+      f.field("kind", x.kind), f.field("counter", x.counter),
+      f.field("detail", x.detail));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, decision_record& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("station", x.station),
+                            f.field("kind", x.kind),
+                            f.field("accepted", x.accepted));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, cycle_record& x) {
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("cycle", x.cycle),
+      f.field("created", x.created), f.field("received", x.received),
+      f.field("interarrival", x.interarrival), f.field("used", x.used));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, episode_record& x) {
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("of", x.of),
+      f.field("accepted", x.accepted), f.field("first_data", x.first_data),
+      f.field("got_data", x.got_data), f.field("ended", x.ended),
+      f.field("reason", x.reason), f.field("fallback", x.fallback));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, track_record& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("ego", x.ego),
+                            f.field("lateral_m", x.lateral_m),
+                            f.field("plan_age", x.plan_age),
+                            f.field("remote", x.remote));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, safety_record& x) {
+  return f.object(x).fields(
+      f.field("station", x.station), f.field("driven", x.driven),
+      f.field("without_fresh_plan", x.without_fresh_plan),
+      f.field("off_road", x.off_road), f.field("max_plan_age", x.max_plan_age));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, collision_record& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("first", x.first),
+                            f.field("second", x.second));
+}
+
+/// Takes the records of a run; implemented by whoever keeps them.
+class record_sink {
+public:
+  virtual ~record_sink() = default;
+  virtual void take(const event_record&) = 0;
+  virtual void take(const decision_record&) = 0;
+  virtual void take(const cycle_record&) = 0;
+  virtual void take(const episode_record&) = 0;
+  virtual void take(const track_record&) = 0;
+  virtual void take(const safety_record&) = 0;
+  virtual void take(const collision_record&) = 0;
+};
+
+} // namespace sofof

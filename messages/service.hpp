@@ -1,0 +1,186 @@
+// Offering, requesting, running and ending a service, as it crosses the air.
+#pragma once
+
+#include "messages/inspect.hpp"
+#include "messages/payload.hpp"
+#include "messages/service_name.hpp"
+#include "world/ids.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// One offloading, from acceptance to its end. Both sides and all data name
+/// it, so that duplicates and leftovers of earlier ones are told apart.
+struct running_service {
+  boot_id provider = 0;
+  station_id station = 0;
+  service_name kind;
+  std::uint32_t counter = 0; ///< Rising per provider; 0: the local service.
+  friend auto operator<=>(const running_service&,
+                          const running_service&) = default;
+};
+
+/// A vehicle's own motion, broadcast all the time (Cooperative Awareness).
+struct cam {
+  station_id station = 0;
+  time_point at;
+  point position; ///< Rear axle, m, east-north.
+  double heading_rad = 0;
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+};
+
+/// A provider has seen a station in its area and offers its services.
+struct service_offer {
+  boot_id provider = 0;
+  point position; ///< Of the provider, m, east-north.
+  std::vector<service_name> kinds;
+};
+
+/// A requester asks for some of the offered services.
+struct service_request {
+  boot_id provider = 0;
+  station_id station = 0;
+  std::uint32_t number = 0; ///< Rising per requester.
+  std::vector<service_name> kinds;
+  std::vector<point> route; ///< Planned waypoints from the vehicle on, m.
+  double speed_mps = 0;
+};
+
+/// What a provider says to one requested service.
+struct verdict {
+  running_service running; ///< Counter 0 when refused.
+  bool accepted = false;
+  std::string why; ///< Short; for records.
+};
+
+/// A provider's answer to one request: a verdict for each requested service.
+struct service_response {
+  boot_id provider = 0;
+  station_id station = 0;
+  std::uint32_t number = 0; ///< Of the request.
+  std::vector<verdict> verdicts;
+};
+
+/// What a running service works on next; newer input replaces older.
+struct service_input {
+  running_service running;
+  time_point at;
+  payload what;
+};
+
+/// What one cycle of a running service gave.
+struct service_result {
+  running_service running;
+  std::uint64_t cycle = 0;
+  time_point created; ///< Start of the cycle (t_creation).
+  payload what;
+};
+
+/// Why an offloading ended.
+enum class end_reason : std::uint8_t {
+  left_area,
+  cam_timeout,
+  qos_latency,
+  qos_gap,
+  no_data,
+  refused,
+  peer_lost,
+  shutdown,
+};
+
+inline constexpr std::string_view name_of(end_reason reason) {
+  constexpr std::string_view names[] = {
+      "left_area", "cam_timeout", "qos_latency", "qos_gap",
+      "no_data",   "refused",     "peer_lost",   "shutdown"};
+  return names[static_cast<std::size_t>(reason)];
+}
+
+enum class side : std::uint8_t { requester, provider };
+
+/// One side has ended a running service; saying it twice does no harm.
+struct service_end {
+  running_service running;
+  end_reason reason = end_reason::shutdown;
+  side from = side::requester;
+};
+
+template <class Inspector>
+bool inspect(Inspector& f, running_service& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("kind", x.kind), f.field("counter", x.counter));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, cam& x) {
+  return f.object(x).fields(
+      f.field("station", x.station), f.field("at", x.at),
+      f.field("position", x.position), f.field("heading_rad", x.heading_rad),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_offer& x) {
+  return f.object(x).fields(f.field("provider", x.provider),
+                            f.field("position", x.position),
+                            f.field("kinds", x.kinds));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_request& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("number", x.number), f.field("kinds", x.kinds),
+      f.field("route", x.route), f.field("speed_mps", x.speed_mps));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, verdict& x) {
+  return f.object(x).fields(f.field("running", x.running),
+                            f.field("accepted", x.accepted),
+                            f.field("why", x.why));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_response& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("number", x.number), f.field("verdicts", x.verdicts));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_input& x) {
+  return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
+                            f.field("what", x.what));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_result& x) {
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("cycle", x.cycle),
+      f.field("created", x.created), f.field("what", x.what));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, end_reason& x) {
+  return inspect_enum(f, x, end_reason::shutdown);
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, side& x) {
+  return inspect_enum(f, x, side::provider);
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_end& x) {
+  return f.object(x).fields(f.field("running", x.running),
+                            f.field("reason", x.reason),
+                            f.field("from", x.from));
+}
+
+} // namespace sofof

@@ -1,0 +1,54 @@
+// The one block of type ids. An id is a position, and processes that talk
+// must agree on it: append only.
+#pragma once
+
+#include "messages/interfaces.hpp"
+
+#include <caf/type_id.hpp>
+
+CAF_BEGIN_TYPE_ID_BLOCK(sofof, first_custom_type_id)
+
+CAF_ADD_TYPE_ID(sofof, (sofof::time_point))
+CAF_ADD_TYPE_ID(sofof, (sofof::point))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_name))
+CAF_ADD_TYPE_ID(sofof, (sofof::payload))
+CAF_ADD_TYPE_ID(sofof, (sofof::running_service))
+CAF_ADD_TYPE_ID(sofof, (sofof::cam))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_offer))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_request))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_response))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_input))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_result))
+CAF_ADD_TYPE_ID(sofof, (sofof::service_end))
+CAF_ADD_TYPE_ID(sofof, (sofof::qos_limits))
+CAF_ADD_TYPE_ID(sofof, (sofof::arrival))
+CAF_ADD_TYPE_ID(sofof, (sofof::qos_violation))
+CAF_ADD_TYPE_ID(sofof, (sofof::lifecycle_step))
+CAF_ADD_TYPE_ID(sofof, (sofof::motion_report))
+CAF_ADD_TYPE_ID(sofof, (sofof::ego_state))
+CAF_ADD_TYPE_ID(sofof, (sofof::source_change))
+CAF_ADD_TYPE_ID(sofof, (sofof::perception))
+CAF_ADD_TYPE_ID(sofof, (sofof::event_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::decision_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::cycle_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::episode_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::track_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::safety_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::collision_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::instance_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::result_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::client_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::provider_manager_actor))
+CAF_ADD_TYPE_ID(sofof, (std::vector<sofof::provider_manager_actor>))
+CAF_ADD_TYPE_ID(sofof, (sofof::requester_manager_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::watchdog_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::requester_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::onboard_requester_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::provider_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::link_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::vehicle_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::road_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::recorder_actor))
+CAF_ADD_ATOM(sofof, sofof, tick_atom)
+
+CAF_END_TYPE_ID_BLOCK(sofof)
