@@ -1,0 +1,16 @@
+// The QoS watchdog: barks when results come late or stop coming.
+#pragma once
+
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+namespace sofof {
+
+/// Watches one kind of service in one vehicle. It barks once per running
+/// service, to `requester`, with a qos_violation: when an arrival was later
+/// than the limit, or at the very moment when the gap is too long.
+watchdog_actor spawn_qos_watchdog(caf::actor_system& sys, qos_limits limits,
+                                  onboard_requester_actor requester);
+
+} // namespace sofof

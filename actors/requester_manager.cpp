@@ -1,0 +1,147 @@
+// Service management in the vehicle: chooses the source of one service.
+#include "actors/qos_watchdog.hpp"
+#include "actors/service_manager.hpp"
+#include "actors/time.hpp"
+#include "policies/qos_monitor.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <optional>
+
+namespace sofof {
+
+namespace {
+
+// A service at a provider, waited for or in use.
+struct remote_source {
+  running_service running;
+  provider_manager_actor manager;
+  bool in_use = false;
+  std::optional<std::uint64_t> last_cycle;
+  time_point last_sent;
+  std::optional<time_point> last_received;
+};
+
+struct manager_state {
+  static inline const char* name = "requester_manager";
+
+  requester_manager_actor::stateful_pointer<manager_state> self;
+  requester_manager_setup setup;
+  instance_actor local;
+  watchdog_actor watchdog;
+  std::optional<remote_source> remote;
+  service_input newest;
+
+  void start() {
+    setup.local.running = {0, setup.station, setup.kind, 0};
+    setup.local.results = self;
+    local = spawn_instance(self->system(), setup.local);
+    self->link_to(local);
+    watchdog = spawn_qos_watchdog(self->system(), setup.options.limits,
+                                  setup.requester);
+    self->link_to(watchdog);
+    self->send(local, lifecycle_step::configure);
+    self->send(local, lifecycle_step::activate);
+    self->send(setup.client, requester_manager_actor{self});
+  }
+
+  void feed(service_input& input) {
+    newest = std::move(input);
+    self->send(local, newest);
+    if (remote && now(self) - remote->last_sent >= setup.options.input_period)
+      feed_remote();
+  }
+
+  void feed_remote() {
+    if (newest.what.type().empty())
+      return;
+    remote->last_sent = now(self);
+    self->send(remote->manager,
+               service_input{remote->running, newest.at, newest.what});
+  }
+
+  void await(const running_service& running,
+             const provider_manager_actor& manager) {
+    be_local();
+    remote = remote_source{running, manager, false, {}, {}, {}};
+    feed_remote();
+  }
+
+  void take(const service_result& result) {
+    if (result.running.counter == 0) {
+      if (!remote || !remote->in_use)
+        self->send(setup.client, result);
+    } else if (remote && remote->running == result.running
+               && result.cycle > remote->last_cycle) {
+      take_remote(result);
+    }
+  }
+
+  void take_remote(const service_result& result) {
+    const auto t = now(self);
+    const auto usable =
+        in_time(result.created, t, setup.options.limits.max_latency);
+    const auto gap =
+        remote->last_received ? t - *remote->last_received : duration{0};
+    self->send(setup.recorder, cycle_record{result.running, result.cycle,
+                                            result.created, t, gap, usable});
+    remote->last_cycle = result.cycle;
+    remote->last_received = t;
+    if (!remote->in_use && usable)
+      be_remote(t);
+    else if (remote->in_use)
+      self->send(watchdog, arrival{result.running, result.created, t});
+    if (usable)
+      self->send(setup.client, result);
+  }
+
+  void be_remote(time_point first) {
+    remote->in_use = true;
+    self->send(local, lifecycle_step::deactivate);
+    self->send(watchdog, remote->running, first);
+    self->send(setup.client, source_change{setup.kind, true});
+    self->send(setup.requester, remote->running);
+  }
+
+  void be_local() {
+    if (remote && remote->in_use) {
+      self->send(local, lifecycle_step::activate);
+      self->send(setup.client, source_change{setup.kind, false});
+    }
+    remote.reset();
+  }
+
+  void end(const service_end& e) {
+    if (!remote || remote->running != e.running)
+      return;
+    self->send(watchdog, e);
+    be_local();
+  }
+};
+
+requester_manager_actor::behavior_type
+manager(requester_manager_actor::stateful_pointer<manager_state> self,
+        requester_manager_setup setup) {
+  self->state.self = self;
+  self->state.setup = std::move(setup);
+  self->state.start();
+  return {
+      [self](const service_result& result) { self->state.take(result); },
+      [self](service_input& input) { self->state.feed(input); },
+      [self](const running_service& running,
+             const provider_manager_actor& manager) {
+        self->state.await(running, manager);
+      },
+      [self](const service_end& e) { self->state.end(e); },
+  };
+}
+
+} // namespace
+
+requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
+                                                requester_manager_setup setup) {
+  return sys.spawn(manager, std::move(setup));
+}
+
+} // namespace sofof

@@ -1,0 +1,82 @@
+// What the framework knows of a service: its name, limits and demand, how to
+// run it, and who uses it. A new kind is one new file in actors/services.
+#pragma once
+
+#include "messages/interfaces.hpp"
+#include "world/random.hpp"
+#include "world/settings.hpp"
+#include "world/streets.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// The options that every kind has.
+struct service_options {
+  qos_limits limits;        ///< Of the remote service.
+  duration period{};        ///< Of a cycle, local and remote.
+  duration input_period{};  ///< At least this between two inputs on the air.
+  double demand = 1;        ///< Provider's computing time, in units of the
+                            ///< channel profile's service time.
+  duration run_time_mean{}; ///< Of a local cycle, in virtual time.
+  duration run_time_sd{};
+  duration run_time_max{};
+
+  void fields(settings& s);
+};
+
+/// One running function: from input to result, cycle by cycle. No actor, no
+/// clock; the same inputs give the same results.
+class service_function {
+public:
+  virtual ~service_function() = default;
+
+  /// @param now    Start of the cycle.
+  /// @param input  The newest input; empty before the first one.
+  /// @returns the result; empty when there is none (yet).
+  virtual payload run(time_point now, const service_input& input) = 0;
+};
+
+/// For whom a function or a client is made.
+struct service_setup {
+  streets_ptr world;
+  station_id station = 0;
+  bool remote = false;
+  random_stream noise{0, ""}; ///< A stream of its own.
+};
+
+/// A kind of service with its options.
+class service_kind {
+public:
+  virtual ~service_kind() = default;
+
+  virtual std::string_view name() const = 0;
+
+  /// Lists the options, first the common ones.
+  virtual void fields(settings& s) { common.fields(s); }
+
+  virtual std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const = 0;
+
+  /// @param vehicle  The vehicle that the client belongs to; a kind may
+  ///                 return it when the vehicle itself is the user.
+  virtual client_actor spawn_client(caf::actor_system& sys,
+                                    const service_setup& setup,
+                                    const vehicle_actor& vehicle) const = 0;
+
+  service_options common;
+};
+
+using service_kind_ptr = std::shared_ptr<service_kind>;
+
+/// @returns the kind with its default options; null for an unknown name.
+service_kind_ptr make_service_kind(std::string_view name);
+
+/// @returns the names of all kinds, sorted.
+std::vector<std::string_view> service_kind_names();
+
+} // namespace sofof

@@ -1,0 +1,39 @@
+// Service management, on both sides: feeds a service, forwards its results.
+#pragma once
+
+#include "actors/service_instance.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+namespace sofof {
+
+/// Service management in the vehicle, for one kind.
+struct requester_manager_setup {
+  station_id station = 0;
+  service_name kind;
+  service_options options;
+  instance_setup local; ///< `running`, `results` are filled in.
+  client_actor client;
+  onboard_requester_actor requester;
+  recorder_actor recorder;
+};
+
+/// Owns the local instance, activates it, and feeds it always, so that it can
+/// jump in at any moment. Results of a remote service are used from the first
+/// one that comes in time on: then the local instance is deactivated in the
+/// same turn, the watchdog armed and the requester told. Results that come
+/// too late, twice or out of order are not used.
+requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
+                                                requester_manager_setup setup);
+
+/// Service management at the provider, for one accepted service: configures
+/// and activates the instance, feeds it, and sends its results to
+/// `requester`. Finalises the instance and quits at service_end.
+/// `instance.results` is filled in. Does not outlive `provider`.
+provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
+                                              instance_setup instance,
+                                              requester_actor requester,
+                                              const provider_actor& provider);
+
+} // namespace sofof

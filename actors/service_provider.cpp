@@ -1,0 +1,303 @@
+// SP: the edge server's side of offloading.
+#include "actors/service_provider.hpp"
+
+#include "actors/service_manager.hpp"
+#include "actors/time.hpp"
+#include "world/protocol.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace sofof {
+
+namespace {
+
+using provider_impl = provider_actor::extend<
+    // Has this station fallen silent?
+    takes<tick_atom, station_id>>;
+
+// One running service.
+struct session {
+  running_service running;
+  provider_manager_actor manager;
+  time_point since;
+};
+
+// One station in the area, or that was there a moment ago.
+struct station_record {
+  requester_actor requester;
+  cam latest;
+  time_point heard; // when the latest CAM came
+  time_point next_offer;
+  std::uint32_t last_request = 0;
+  std::vector<session> sessions;
+};
+
+struct provider_state {
+  static inline const char* name = "service_provider";
+
+  provider_impl::stateful_pointer<provider_state> self;
+  provider_setup setup;
+  std::shared_ptr<fifo_servers> workers;
+  std::map<station_id, station_record> stations;
+  std::uint32_t counter = 0;
+
+  // -- CAM, offer, CAM check ----------------------------------------------
+
+  void take(const cam& c, const requester_actor& requester) {
+    if (!setup.area.contains(c.position)) {
+      if (auto i = stations.find(c.station); i != stations.end())
+        forget(i, end_reason::left_area);
+      return;
+    }
+    auto [i, is_new] = stations.try_emplace(c.station);
+    auto& station = i->second;
+    const auto t = now(self);
+    if (is_new) {
+      station.next_offer = t;
+      send_after(self, self, protocol::cam_timeout + duration{1}, tick_atom_v,
+                 c.station);
+    } else if (c.at < station.latest.at) {
+      return; // overtaken on its way
+    }
+    if (station.requester != requester) {
+      station.requester = requester;
+      station.last_request = 0;
+      self->monitor(requester);
+    }
+    station.latest = c;
+    station.heard = t;
+    if (t >= station.next_offer)
+      offer(station, t);
+  }
+
+  void offer(station_record& station, time_point t) {
+    service_offer offered{setup.boot, setup.position, {}};
+    for (const auto& kind : setup.kinds)
+      if (!find(station, kind->name()))
+        offered.kinds.push_back(kind->name());
+    if (offered.kinds.empty())
+      return;
+    station.next_offer = t + protocol::offer_period;
+    self->send(station.requester, offered);
+  }
+
+  // One timer per station is under way; it moves on with the latest CAM.
+  void check(station_id id) {
+    auto i = stations.find(id);
+    if (i == stations.end())
+      return;
+    const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
+    if (now(self) >= deadline)
+      forget(i, end_reason::cam_timeout);
+    else
+      send_at(self, self, deadline, tick_atom_v, id);
+  }
+
+  void forget(std::map<station_id, station_record>::iterator i,
+              end_reason reason) {
+    auto& station = i->second;
+    while (!station.sessions.empty())
+      end(station, station.sessions.front().running, reason, true);
+    self->demonitor(station.requester);
+    stations.erase(i);
+  }
+
+  // -- request and response -----------------------------------------------
+
+  void take(const service_request& request, const requester_actor& requester) {
+    auto i = stations.find(request.station);
+    if (request.provider != setup.boot || i == stations.end()) {
+      refuse(request, requester, "not in the area");
+      return;
+    }
+    auto& station = i->second;
+    if (request.number <= station.last_request)
+      return; // a duplicate, or overtaken by a newer one
+    station.last_request = request.number;
+    respond(request, station, requester, decide(request, station));
+  }
+
+  void refuse(const service_request& request, const requester_actor& requester,
+              std::string_view why) {
+    service_response response{setup.boot, request.station, request.number, {}};
+    for (const auto& kind : request.kinds)
+      response.verdicts.push_back(
+          {{setup.boot, request.station, kind, 0}, false, std::string{why}});
+    self->send(requester, response, std::vector<provider_manager_actor>{});
+  }
+
+  std::vector<central_decision> decide(const service_request& request,
+                                       station_record& station) {
+    std::vector<std::string_view> kinds;
+    for (const auto& kind : request.kinds) {
+      // Who asks again no longer runs it: its service_end was lost.
+      if (const auto* running = find(station, kind.view()))
+        end(station, running->running, end_reason::no_data, true);
+      kinds.push_back(kind.view());
+    }
+    std::vector<central_context::session> sessions;
+    for (const auto& [id, other] : stations)
+      for (const auto& s : other.sessions)
+        sessions.push_back({id, s.running.kind.view(), s.since});
+    return setup.codm->decide({now(self), request.station, kinds, request.route,
+                               request.speed_mps, setup.area, setup.world->map,
+                               sessions});
+  }
+
+  void respond(const service_request& request, station_record& station,
+               const requester_actor& requester,
+               const std::vector<central_decision>& decisions) {
+    service_response response{setup.boot, request.station, request.number, {}};
+    std::vector<provider_manager_actor> managers;
+    for (std::size_t k = 0; k < request.kinds.size(); ++k) {
+      const auto& kind = request.kinds[k];
+      verdict v{{setup.boot, request.station, kind, 0},
+                decisions[k].accept,
+                std::string{decisions[k].why}};
+      const auto offered = find_kind(kind.view());
+      if (!offered) {
+        v.accepted = false;
+        v.why = "not offered here";
+      } else if (v.accepted) {
+        v.running.counter = ++counter;
+        managers.push_back(start(station, *offered, v.running, requester));
+      }
+      response.verdicts.push_back(std::move(v));
+    }
+    self->send(requester, response, managers);
+  }
+
+  provider_manager_actor start(station_record& station,
+                               const service_kind& kind,
+                               const running_service& running,
+                               const requester_actor& requester) {
+    const auto noise = setup.seed.part(kind.name()).part(running.station);
+    instance_setup remote;
+    remote.running = running;
+    remote.function =
+        kind.make_function({setup.world, running.station, true, noise});
+    remote.period = kind.common.period;
+    remote.phase = duration{static_cast<duration::rep>(
+        noise.part("remote phase").uniform(0)
+        * static_cast<double>(remote.period.count()))};
+    remote.finish = computing_time(kind, running.station);
+    auto manager = spawn_provider_manager(self->system(), std::move(remote),
+                                          requester, provider_actor{self});
+    self->monitor(manager);
+    station.sessions.push_back({running, manager, now(self)});
+    return manager;
+  }
+
+  std::function<time_point(time_point, std::uint64_t)>
+  computing_time(const service_kind& kind, station_id station) const {
+    if (!setup.virtual_time)
+      return [](time_point start, std::uint64_t) { return start; };
+    const channel draws{setup.profile, setup.seed, station, setup.number};
+    return [draws, demand = kind.common.demand,
+            queue = workers](time_point start, std::uint64_t cycle) {
+      const auto work = to_seconds(draws.service_time(cycle)) * demand;
+      return queue->finish(start, from_seconds(work));
+    };
+  }
+
+  const service_kind* find_kind(std::string_view name) const {
+    auto i = std::ranges::find(setup.kinds, name,
+                               [](const auto& kind) { return kind->name(); });
+    return i == setup.kinds.end() ? nullptr : i->get();
+  }
+
+  static const session* find(const station_record& station,
+                             std::string_view kind) {
+    auto i = std::ranges::find(station.sessions, kind, [](const session& s) {
+      return s.running.kind.view();
+    });
+    return i == station.sessions.end() ? nullptr : &*i;
+  }
+
+  // -- the end of a running service ---------------------------------------
+
+  void take(const service_end& e) {
+    if (e.from != side::requester)
+      return;
+    if (auto i = stations.find(e.running.station); i != stations.end())
+      end(i->second, e.running, e.reason, false);
+  }
+
+  void lost(const caf::actor_addr& who) {
+    for (auto i = stations.begin(); i != stations.end(); ++i) {
+      if (i->second.requester.address() == who) {
+        forget(i, end_reason::peer_lost);
+        return;
+      }
+      for (const auto& s : i->second.sessions)
+        if (s.manager.address() == who) {
+          end(i->second, s.running, end_reason::peer_lost, true);
+          return;
+        }
+    }
+  }
+
+  // Closes a running service, once; unknown ones have been closed before.
+  void end(station_record& station, running_service running, end_reason reason,
+           bool tell) {
+    auto i = std::ranges::find(station.sessions, running, &session::running);
+    if (i == station.sessions.end())
+      return;
+    const service_end e{running, reason, side::provider};
+    self->demonitor(i->manager);
+    self->send(i->manager, e);
+    if (tell)
+      self->send(station.requester, e);
+    self->send(setup.recorder,
+               episode_record{running, side::provider, i->since, i->since, true,
+                              now(self), reason, false});
+    setup.codm->observe(
+        episode_outcome{to_seconds(now(self) - i->since), name_of(reason)});
+    station.sessions.erase(i);
+    station.next_offer = now(self) + protocol::offer_period;
+  }
+
+  void shut_down() {
+    while (!stations.empty())
+      forget(stations.begin(), end_reason::shutdown);
+  }
+};
+
+provider_impl::behavior_type
+provider(provider_impl::stateful_pointer<provider_state> self,
+         provider_setup setup) {
+  auto& state = self->state;
+  state.self = self;
+  state.setup = std::move(setup);
+  state.workers = std::make_shared<fifo_servers>(state.setup.profile->workers);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->state.lost(down.source); });
+  self->set_exit_handler([self](const caf::exit_msg& exit) {
+    self->state.shut_down();
+    self->quit(exit.reason);
+  });
+  return {
+      [self](const cam& c, const requester_actor& requester) {
+        self->state.take(c, requester);
+      },
+      [self](const service_request& request, const requester_actor& requester) {
+        self->state.take(request, requester);
+      },
+      [self](const service_end& e) { self->state.take(e); },
+      [self](tick_atom, station_id station) { self->state.check(station); },
+  };
+}
+
+} // namespace
+
+provider_actor spawn_service_provider(caf::actor_system& sys,
+                                      provider_setup setup) {
+  return sys.spawn(provider, std::move(setup));
+}
+
+} // namespace sofof

@@ -1,0 +1,39 @@
+// SR: the vehicle's side of offloading.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "messages/type_ids.hpp"
+#include "policies/context.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace sofof {
+
+/// What one vehicle's requester is made of.
+struct requester_setup {
+  station_id station = 0;
+  route_ptr way; ///< The planned route.
+  streets_ptr world;
+  std::vector<service_kind_ptr> kinds;
+  std::unique_ptr<local_policy> lodm;
+  vehicle_actor vehicle;
+  recorder_actor recorder;
+  random_stream noise{0, ""}; ///< Of this vehicle.
+  bool virtual_time = true;   ///< Model run times instead of taking time.
+};
+
+/// Weighs offers, requests services, and owns the states of all services of
+/// its vehicle; one state machine per kind:
+///
+///   local → requested → starting → remote → local
+///
+/// It spawns a manager and a client for each kind. At a violation, or when
+/// the provider is lost or ends the service, the local service is activated
+/// in the same turn. On exit it closes what still runs (shutdown).
+onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
+                                                requester_setup setup);
+
+} // namespace sofof

@@ -1,0 +1,53 @@
+// What vehicles and trajectory planners say to each other.
+#pragma once
+
+#include "messages/payload.hpp"
+#include "planners/planning_input.hpp"
+#include "world/trajectory.hpp"
+
+#include <string>
+
+namespace sofof {
+
+/// Please plan along this route from this state.
+struct plan_request {
+  std::string way; ///< Name of the route; both sides have the map.
+  planning_input from;
+};
+
+template <>
+inline constexpr std::string_view payload_name<plan_request> = "plan_request";
+template <>
+inline constexpr std::string_view payload_name<trajectory> = "trajectory";
+
+void archive(auto& bytes, lead_vehicle& x) {
+  bytes(x.station, x.rear_s_m, x.speed_mps, x.accel_mps2);
+}
+
+void archive(auto& bytes, perception& x) {
+  bytes(x.at, x.lead, x.stop_at_m);
+}
+
+void archive(auto& bytes, planning_input& x) {
+  bytes(x.at, x.s_m, x.d_m, x.heading_error_rad, x.speed_mps, x.accel_mps2,
+        x.others);
+}
+
+void archive(auto& bytes, plan_request& x) {
+  bytes(x.way, x.from);
+}
+
+void archive(auto& bytes, point& x) {
+  bytes(x.x_m, x.y_m);
+}
+
+void archive(auto& bytes, trajectory_point& x) {
+  bytes(x.t_s, x.s_m, x.at, x.heading_rad, x.curvature_1pm, x.speed_mps,
+        x.accel_mps2);
+}
+
+void archive(auto& bytes, trajectory& x) {
+  bytes(x.start, x.points);
+}
+
+} // namespace sofof

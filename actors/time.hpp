@@ -1,0 +1,44 @@
+// The only place where actors read a clock or set a timer, so that the same
+// actor runs in virtual and in wall-clock time.
+#pragma once
+
+#include "world/time.hpp"
+
+#include <caf/actor_clock.hpp>
+
+#include <utility>
+
+namespace sofof {
+
+/// @returns the time of the run that `self` lives in.
+template <class Self>
+time_point now(const Self* self) {
+  return time_point{self->clock().now().time_since_epoch()};
+}
+
+/// Delivers a message at `t`, or at once if that has passed. Messages for the
+/// same moment arrive in the order of these calls. To cancel, carry a number
+/// in the message and stop expecting it.
+template <class Self, class Receiver, class... Ts>
+void send_at(Self* self, const Receiver& receiver, time_point t, Ts&&... xs) {
+  self->scheduled_send(receiver,
+                       caf::actor_clock::time_point{t.time_since_epoch()},
+                       std::forward<Ts>(xs)...);
+}
+
+/// Delivers a message after `d`.
+template <class Self, class Receiver, class... Ts>
+void send_after(Self* self, const Receiver& receiver, duration d, Ts&&... xs) {
+  send_at(self, receiver, now(self) + d, std::forward<Ts>(xs)...);
+}
+
+/// @returns the first moment after `t` on the grid phase + k · period.
+inline time_point next_on_grid(time_point t, duration phase, duration period) {
+  const auto since = t.time_since_epoch() - phase;
+  auto k = since / period;
+  if (since >= duration{0})
+    ++k;
+  return time_point{phase + k * period};
+}
+
+} // namespace sofof

@@ -1,0 +1,237 @@
+// A car: moves, sends CAMs, follows the trajectories it is given.
+#include "actors/vehicle.hpp"
+
+#include "actors/services/trajectory_planning.hpp"
+#include "actors/time.hpp"
+#include "planners/lane_motion.hpp"
+#include "planners/safe_stop.hpp"
+#include "world/protocol.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace sofof {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+using vehicle_impl = vehicle_actor::extend<takes<tick_atom>>;
+
+/// A plan that ends sooner than this is replaced by a safe stop.
+constexpr duration reserve = 1s;
+/// A plan is followed well while the car is no farther from it than this.
+constexpr double followed_m = 1.0;
+constexpr double followed_mps = 1.5;
+/// A car is sought on its route only so far from where it should be.
+constexpr double window_m = 2;
+/// Safety is summed up so often.
+constexpr duration safety_period = 1s;
+
+struct vehicle_actor_state {
+  static inline const char* name = "vehicle";
+
+  vehicle_impl::stateful_pointer<vehicle_actor_state> self;
+  vehicle_setup setup;
+  onboard_requester_actor requester;
+  requester_manager_actor planning; // gets the inputs
+  vehicle_state car;
+  double s_m = 0;
+  std::shared_ptr<const trajectory> plan;
+  time_point plan_created;
+  bool remote = false;
+  time_point due; // of the present step; time does not drift
+  std::uint64_t steps = 0;
+  safety_record safety;
+
+  void start() {
+    const auto p = setup.way->path().at(setup.start_s_m);
+    car.at = p.at;
+    car.heading_rad = p.heading_rad;
+    s_m = setup.start_s_m;
+    due = now(self);
+    stop_safely();
+    plan_created = due;
+    safety.station = setup.station;
+    requester = setup.spawn_requester(vehicle_actor{self});
+    self->monitor(requester); // the car outlives it, and stops safely
+    report();
+    next_step();
+  }
+
+  // -- moving -------------------------------------------------------------
+
+  void next_step() {
+    due += protocol::control_period;
+    send_at(self, self, due, tick_atom_v);
+  }
+
+  void tick() {
+    if (plan->end() - due < reserve)
+      stop_safely();
+    const auto command = follow(car, *plan, due, setup.car);
+    const auto dt_s = to_seconds(protocol::control_period);
+    car = step(car, command, setup.car, dt_s);
+    const auto place =
+        setup.way->path().project(car.at, s_m + car.speed_mps * dt_s, window_m);
+    s_m = place.s_m;
+    ++steps;
+    keep_safety();
+    if (every(protocol::sensor_period))
+      sense(place.d_m);
+    if (every(protocol::cam_period))
+      send_cam();
+    if (setup.track_period > 0ms && every(setup.track_period))
+      self->send(setup.recorder, track_record{due, ego(), place.d_m,
+                                              due - plan_created, remote});
+    if (every(safety_period))
+      flush_safety();
+    next_step();
+  }
+
+  // Whether a period ends with this step. Stations take turns, so that not
+  // everybody sends in the same moment.
+  bool every(duration period) const {
+    const auto n = std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(period / protocol::control_period));
+    return (steps + setup.station) % n == 0;
+  }
+
+  void stop_safely() {
+    plan = std::make_shared<const trajectory>(
+        safe_stop(*setup.way, due, measured()));
+  }
+
+  // -- the others ---------------------------------------------------------
+
+  void report() {
+    self->send(setup.road, motion_report{setup.station, s_m, car},
+               vehicle_actor{self});
+  }
+
+  void sense(double lateral_m) {
+    report();
+    const auto front = setup.way->path().project(
+        car.at
+            + setup.car.wheelbase_m
+                  * point{std::cos(car.heading_rad), std::sin(car.heading_rad)},
+        s_m + setup.car.wheelbase_m, window_m);
+    const auto outermost_m = std::max(std::abs(lateral_m), std::abs(front.d_m))
+                             + setup.car.width_m / 2;
+    if (outermost_m > setup.way->half_width_m(s_m))
+      safety.off_road += protocol::sensor_period;
+  }
+
+  void take(const perception& others) {
+    if (!planning)
+      return;
+    auto from = anchor();
+    from.others = others;
+    self->send(
+        planning,
+        service_input{
+            {}, from.at, payload::of(plan_request{setup.way->name(), from})});
+  }
+
+  // Where to plan from: the point of the plan in use if the car is there,
+  // so that plans join without a jolt, else the car.
+  planning_input anchor() const {
+    const auto t = now(self);
+    const auto p = plan->at(t);
+    if (distance_m(p.at, car.at) > followed_m
+        || std::abs(p.speed_mps - car.speed_mps) > followed_mps)
+      return measured();
+    auto from = seen_from(*setup.way, p);
+    from.at = t;
+    return from;
+  }
+
+  planning_input measured() const {
+    const auto& path = setup.way->path();
+    const auto place = path.project(car.at, s_m, window_m);
+    return {due,
+            place.s_m,
+            place.d_m,
+            wrap_angle(car.heading_rad - path.at(place.s_m).heading_rad),
+            car.speed_mps,
+            car.accel_mps2,
+            {}};
+  }
+
+  // -- plans --------------------------------------------------------------
+
+  void take(const service_result& result) {
+    const auto next = result.what.as<trajectory>();
+    if (!next || next->empty() || result.created < plan_created)
+      return;
+    plan = next;
+    plan_created = result.created;
+  }
+
+  // -- being seen ---------------------------------------------------------
+
+  ego_state ego() const {
+    return {{setup.station, due, car.at, car.heading_rad, car.speed_mps,
+             car.accel_mps2},
+            s_m};
+  }
+
+  void send_cam() {
+    const auto own = ego();
+    self->send(requester, own);
+    for (const auto& a : setup.antennas)
+      if (distance_m(car.at, a.position) <= a.range_m)
+        self->send(a.link, own.own, requester_actor{requester});
+  }
+
+  void keep_safety() {
+    const auto age = due - plan_created;
+    safety.driven += protocol::control_period;
+    safety.max_plan_age = std::max(safety.max_plan_age, age);
+    if (age > setup.fresh_limit)
+      safety.without_fresh_plan += protocol::control_period;
+  }
+
+  void flush_safety() {
+    self->send(setup.recorder, safety);
+    safety = {};
+    safety.station = setup.station;
+  }
+};
+
+vehicle_impl::behavior_type
+vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
+        vehicle_setup setup) {
+  self->state.self = self;
+  self->state.setup = std::move(setup);
+  self->state.start();
+  self->set_down_handler([](const caf::down_msg&) {});
+  self->set_exit_handler([self](const caf::exit_msg& exit) {
+    self->state.flush_safety();
+    self->send_exit(self->state.requester, exit.reason);
+    self->quit(exit.reason);
+  });
+  return {
+      [self](const service_result& result) { self->state.take(result); },
+      [self](const source_change& change) {
+        self->state.remote = change.remote;
+      },
+      [self](const requester_manager_actor& manager) {
+        self->state.planning = manager;
+      },
+      [self](const perception& others) { self->state.take(others); },
+      [self](tick_atom) { self->state.tick(); },
+  };
+}
+
+} // namespace
+
+vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup) {
+  return sys.spawn(vehicle, std::move(setup));
+}
+
+} // namespace sofof

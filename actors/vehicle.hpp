@@ -1,0 +1,42 @@
+// A car: moves, sends CAMs, follows the trajectories it is given.
+#pragma once
+
+#include "messages/type_ids.hpp"
+#include "world/road_map.hpp"
+#include "world/vehicle.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace sofof {
+
+/// A provider that hears this vehicle while it is near enough.
+struct antenna {
+  link_actor link;
+  point position; ///< Of the provider, m, east-north.
+  double range_m = 0;
+};
+
+/// What one vehicle is made of.
+struct vehicle_setup {
+  station_id station = 0;
+  route_ptr way;
+  double start_s_m = 0; ///< It starts standing, here on its route.
+  vehicle_params car;
+  duration fresh_limit{};  ///< Plans older than this are not fresh.
+  duration track_period{}; ///< Between two track records; zero: none.
+  std::vector<antenna> antennas;
+  road_actor road;
+  recorder_actor recorder;
+  /// Makes the vehicle's requester.
+  std::function<onboard_requester_actor(const vehicle_actor&)> spawn_requester;
+};
+
+/// Steps the car at protocol::control_period along the newest trajectory. It
+/// begins with a plan to stand, and when a plan is about to end without a
+/// successor it makes a safe stop of its own: it never is without a plan.
+vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup);
+
+} // namespace sofof

@@ -1,0 +1,99 @@
+// Tests of the QoS watchdog.
+#include "actors/qos_watchdog.hpp"
+
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+const running_service running{1, 101, "trajectory_planning", 7};
+
+struct watched_world : virtual_world {
+  probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
+  watchdog_actor dog =
+      own(spawn_qos_watchdog(system(), {50ms, 100ms}, requester.handle));
+
+  void arrive(duration latency = 10ms) {
+    tell(dog, arrival{running, now() - latency, now()});
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(watched_world, "the watchdog sleeps until it is armed") {
+  run_for(10s);
+  CHECK(requester->count<qos_violation>() == 0);
+}
+
+TEST_CASE_FIXTURE(
+    watched_world,
+    "the watchdog barks when the gap is one nanosecond too long") {
+  tell(dog, running, now());
+  run_for(100ms);
+  CHECK(requester->count<qos_violation>() == 0);
+  run_for(1ns);
+  REQUIRE(requester->count<qos_violation>() == 1);
+  const auto violation = requester->all<qos_violation>().front();
+  CHECK(violation.breach == qos_breach::gap);
+  CHECK(violation.running == running);
+  CHECK(violation.at == time_point{100ms + 1ns});
+}
+
+TEST_CASE_FIXTURE(watched_world,
+                  "results at exactly the longest gap keep the watchdog calm") {
+  tell(dog, running, now());
+  for (int k = 0; k < 50; ++k) {
+    run_for(100ms);
+    arrive();
+  }
+  CHECK(requester->count<qos_violation>() == 0);
+  run_for(101ms);
+  CHECK(requester->count<qos_violation>() == 1);
+}
+
+TEST_CASE_FIXTURE(watched_world,
+                  "a result that comes too late is a violation") {
+  tell(dog, running, now());
+  run_for(50ms);
+  arrive(50ms);
+  CHECK(requester->count<qos_violation>() == 0);
+  arrive(50ms + 1ns);
+  REQUIRE(requester->count<qos_violation>() == 1);
+  CHECK(requester->all<qos_violation>().front().breach == qos_breach::latency);
+}
+
+TEST_CASE_FIXTURE(watched_world,
+                  "the watchdog barks once per running service") {
+  tell(dog, running, now());
+  run_for(10s);
+  arrive(1s);
+  CHECK(requester->count<qos_violation>() == 1);
+}
+
+TEST_CASE_FIXTURE(
+    watched_world,
+    "after service_end the watchdog is silent, and can be armed again") {
+  tell(dog, running, now());
+  tell(dog, service_end{running});
+  run_for(1s);
+  CHECK(requester->count<qos_violation>() == 0);
+  tell(dog, running, now());
+  run_for(1s);
+  CHECK(requester->count<qos_violation>() == 1);
+}
+
+TEST_CASE_FIXTURE(watched_world,
+                  "arrivals of another running service do not count") {
+  tell(dog, running, now());
+  auto other = running;
+  other.counter = 8;
+  run_for(60ms);
+  tell(dog, arrival{other, now() - 1s, now()});
+  run_for(41ms);
+  REQUIRE(requester->count<qos_violation>() == 1);
+  CHECK(requester->all<qos_violation>().front().breach == qos_breach::gap);
+}

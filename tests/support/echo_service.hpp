@@ -1,0 +1,61 @@
+// The smallest service there is, for tests of the framework.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "messages/payload.hpp"
+
+#include <string>
+
+namespace sofof::test {
+
+/// Whatever the client said last.
+struct echo {
+  std::uint64_t number = 0;
+};
+
+void archive(auto& bytes, echo& x) {
+  bytes(x.number);
+}
+
+} // namespace sofof::test
+
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::test::echo> =
+    "echo";
+
+namespace sofof::test {
+
+/// Gives back its input, period by period. Its client is the vehicle's actor.
+class echo_service final : public service_kind {
+public:
+  explicit echo_service(std::string name) : name_{std::move(name)} {
+    using namespace std::chrono_literals;
+    common.limits = {50ms, 100ms};
+    common.period = 50ms;
+    common.input_period = 100ms;
+    common.run_time_mean = 5ms;
+    common.run_time_max = 10ms;
+  }
+
+  std::string_view name() const override { return name_; }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup&) const override {
+    struct function final : service_function {
+      payload run(time_point, const service_input& input) override {
+        return input.what;
+      }
+    };
+    return std::make_shared<function>();
+  }
+
+  client_actor spawn_client(caf::actor_system&, const service_setup&,
+                            const vehicle_actor& vehicle) const override {
+    return vehicle;
+  }
+
+private:
+  std::string name_;
+};
+
+} // namespace sofof::test
