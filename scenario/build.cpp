@@ -1,0 +1,157 @@
+// From a scenario to actors.
+#include "scenario/build.hpp"
+
+#include "actors/network_link.hpp"
+#include "actors/recorder.hpp"
+#include "actors/road.hpp"
+#include "actors/service_provider.hpp"
+#include "actors/service_requester.hpp"
+#include "actors/vehicle.hpp"
+#include "scenario/placement.hpp"
+
+#include <caf/exit_reason.hpp>
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <ranges>
+
+namespace sofof {
+
+namespace {
+
+/// Everybody's noise comes from the seed through streams with names.
+random_stream noise_of(const scenario& s, std::string_view what) {
+  return random_stream{static_cast<std::uint64_t>(s.seed), what};
+}
+
+/// A provider and the radio cell round it.
+struct site {
+  provider_actor provider;
+  const provider_options* options;
+  std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
+  std::shared_ptr<fifo_servers> cell_down = std::make_shared<fifo_servers>(1);
+};
+
+std::vector<service_kind_ptr> offered(const scenario& s,
+                                      const provider_options& options) {
+  if (options.services.empty())
+    return s.services;
+  std::vector<service_kind_ptr> kinds;
+  for (const auto& kind : s.services)
+    if (std::ranges::find(options.services, kind->name())
+        != options.services.end())
+      kinds.push_back(kind);
+  return kinds;
+}
+
+/// A plan is fresh up to the longest time between two usable ones.
+/// Source: latency limit + gap limit + one planning period.
+duration fresh_limit(const scenario& s) {
+  duration limit{0};
+  for (const auto& kind : s.services)
+    if (kind->name() == "trajectory_planning")
+      limit = kind->common.limits.max_latency
+              + kind->common.limits.max_interarrival + kind->common.period;
+  return limit;
+}
+
+provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
+                              std::uint32_t number,
+                              const recorder_actor& recorder,
+                              bool virtual_time) {
+  const auto& options = s.providers[number];
+  provider_setup setup;
+  setup.boot = number + 1;
+  setup.position = options.position_m;
+  setup.area = options.area();
+  setup.world = s.world;
+  setup.kinds = offered(s, options);
+  setup.codm = s.policies.codm->clone();
+  setup.recorder = recorder;
+  setup.profile = s.network.channel;
+  setup.seed = noise_of(s, "network");
+  setup.number = number;
+  setup.virtual_time = virtual_time;
+  return spawn_service_provider(sys, std::move(setup));
+}
+
+antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
+                std::uint32_t number, const site& at) {
+  const channel draws{s.network.channel, noise_of(s, "network"), station,
+                      number};
+  return {spawn_network_link(sys, at.provider,
+                             {{draws, way::up, at.cell_up},
+                              {draws, way::down, at.cell_down},
+                              std::nullopt}),
+          at.options->position_m, at.options->range_m};
+}
+
+// The vehicle calls it later, from its own thread: nothing is borrowed.
+auto requester_maker(caf::actor_system& sys, const scenario& s,
+                     const placed_vehicle& v, const recorder_actor& recorder,
+                     bool virtual_time) {
+  return
+      [&sys, v, recorder, virtual_time, world = s.world, kinds = s.services,
+       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station)](
+          const vehicle_actor& vehicle) {
+        return spawn_service_requester(sys, {v.station, v.way, world, kinds,
+                                             lodm->clone(), vehicle, recorder,
+                                             noise, virtual_time});
+      };
+}
+
+} // namespace
+
+world_actors build(caf::actor_system& sys, const scenario& s,
+                   std::shared_ptr<record_sink> sink, bool virtual_time) {
+  world_actors world;
+  const vehicle_params car;
+  const auto placed = place_vehicles(s);
+  station_routes ways;
+  for (const auto& v : placed)
+    ways[v.station] = v.way;
+  world.recorder = spawn_recorder(sys, std::move(sink));
+  world.road = spawn_road(sys, s.world, ways, car, world.recorder);
+  std::vector<site> sites;
+  for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
+    world.providers.push_back(
+        spawn_provider(sys, s, k, world.recorder, virtual_time));
+    sites.push_back({world.providers.back(), &s.providers[k]});
+  }
+  for (const auto& v : placed) {
+    vehicle_setup setup;
+    setup.station = v.station;
+    setup.way = v.way;
+    setup.start_s_m = v.start_s_m;
+    setup.car = car;
+    setup.fresh_limit = fresh_limit(s);
+    setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
+    for (std::uint32_t k = 0; k < sites.size(); ++k)
+      setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
+    for (const auto& a : setup.antennas)
+      world.links.push_back(a.link);
+    setup.road = world.road;
+    setup.recorder = world.recorder;
+    setup.spawn_requester =
+        requester_maker(sys, s, v, world.recorder, virtual_time);
+    world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
+  }
+  return world;
+}
+
+void dismiss(const world_actors& actors) {
+  const auto reason = caf::exit_reason::user_shutdown;
+  for (const auto& vehicle : actors.vehicles)
+    caf::anon_send_exit(vehicle, reason);
+  for (const auto& provider : actors.providers)
+    caf::anon_send_exit(provider, reason);
+  for (const auto& link : actors.links)
+    caf::anon_send_exit(link, reason);
+  caf::anon_send_exit(actors.road, reason);
+}
+
+void dismiss(const recorder_actor& recorder) {
+  caf::anon_send_exit(recorder, caf::exit_reason::user_shutdown);
+}
+
+} // namespace sofof

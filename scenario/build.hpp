@@ -1,0 +1,36 @@
+// From a scenario to actors.
+#pragma once
+
+#include "messages/type_ids.hpp"
+#include "scenario/scenario.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace sofof {
+
+/// Everything that lives in a run, in the order in which it was spawned.
+struct world_actors {
+  recorder_actor recorder;
+  road_actor road;
+  std::vector<provider_actor> providers;
+  std::vector<link_actor> links;
+  std::vector<vehicle_actor> vehicles;
+};
+
+/// Spawns a scenario's actors. Each provider gets the boot id of its place in
+/// the file, counting from 1; each vehicle a link to each provider.
+/// @param s     Loaded, so that everything in it is valid.
+/// @param sink  Takes all records.
+/// @param virtual_time  Model computing times instead of taking time.
+world_actors build(caf::actor_system& sys, const scenario& s,
+                   std::shared_ptr<record_sink> sink, bool virtual_time);
+
+/// Sends exits so that what still runs is closed on both sides and recorded.
+/// The recorder goes last, in a call of its own.
+void dismiss(const world_actors& actors);
+void dismiss(const recorder_actor& recorder);
+
+} // namespace sofof

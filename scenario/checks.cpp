@@ -1,0 +1,115 @@
+// Checks what no single option of a scenario can tell.
+#include "scenario/checks.hpp"
+
+#include "scenario/placement.hpp"
+#include "scenario/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sofof {
+
+namespace {
+
+void check_routes(const scenario& all, const toml_file& source) {
+  std::vector<std::string_view> known;
+  for (const auto& r : all.world->routes)
+    known.push_back(r->name());
+  for (std::size_t f = 0; f < all.fleets.size(); ++f) {
+    const auto& names = all.fleets[f].routes;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (find_routes(*all.world, names[i]).empty())
+        source.refuse(fmt::format("fleet.{}.routes.{}", f, i),
+                      unknown_word("route on the map", names[i], known));
+  }
+}
+
+void check_stations(const scenario& all, const toml_file& source) {
+  for (std::size_t f = 0; f < all.fleets.size(); ++f) {
+    const auto& fleet = all.fleets[f];
+    for (std::size_t g = 0; g < f; ++g) {
+      const auto& other = all.fleets[g];
+      const auto first = std::max(fleet.first_station, other.first_station);
+      const auto last = std::min(fleet.first_station + fleet.count,
+                                 other.first_station + other.count)
+                        - 1;
+      if (first <= last)
+        source.refuse(
+            fmt::format("fleet.{}.first_station", f),
+            fmt::format("station {} is in fleet {} already; begin at {}.",
+                        first, g, other.first_station + other.count));
+    }
+  }
+}
+
+void check_services(const scenario& all, const toml_file& source) {
+  std::vector<std::string_view> names;
+  for (const auto& kind : all.services) {
+    if (std::ranges::find(names, kind->name()) != names.end())
+      source.refuse(
+          fmt::format("service.{}.name", names.size()),
+          fmt::format("there are two services \"{}\".", kind->name()));
+    names.push_back(kind->name());
+  }
+  for (std::size_t p = 0; p < all.providers.size(); ++p) {
+    const auto& offered = all.providers[p].services;
+    for (std::size_t i = 0; i < offered.size(); ++i)
+      if (std::ranges::find(names, offered[i]) == names.end())
+        source.refuse(fmt::format("provider.{}.services.{}", p, i),
+                      unknown_word("[[service]] here", offered[i], names));
+  }
+}
+
+void check_providers(const scenario& all, const toml_file& source) {
+  const auto& list = all.providers;
+  for (auto p = list.begin(); p != list.end(); ++p)
+    if (std::find_if(
+            list.begin(), p,
+            [&](const auto& earlier) { return earlier.name == p->name; })
+        != p)
+      source.refuse(fmt::format("provider.{}.name", p - list.begin()),
+                    fmt::format("there are two providers \"{}\".", p->name));
+}
+
+constexpr auto more_room =
+    "use fewer vehicles, or another start_m or spacing_m";
+
+void check_placement(const scenario& all, const toml_file& source) {
+  const auto vehicles = place_vehicles(all);
+  for (const auto& v : vehicles)
+    if (v.off_its_way())
+      source.refuse(
+          fmt::format("fleet.{}", v.fleet),
+          fmt::format("vehicle {} would start at {:.0f} m of \"{}\", which has "
+                      "{:.0f} m; {}.",
+                      v.station, v.start_s_m, v.way->name(), v.way->length_m(),
+                      more_room));
+  if (const auto near = find_too_near(vehicles)) {
+    const auto& a = vehicles[near->first];
+    const auto& b = vehicles[near->second];
+    source.refuse(
+        fmt::format("fleet.{}", b.fleet),
+        fmt::format("vehicle {} at {:.0f} m of \"{}\" and vehicle {} at {:.0f} "
+                    "m of \"{}\" would start less than {:.0f} m apart; {}.",
+                    a.station, a.start_s_m, a.way->name(), b.station,
+                    b.start_s_m, b.way->name(), min_start_gap_m, more_room));
+  }
+}
+
+} // namespace
+
+void check_whole(const scenario& all, const toml_file& source) {
+  if (all.fleets.empty())
+    source.refuse("", "there are no vehicles: add a [[fleet]].");
+  if (all.services.empty())
+    source.refuse("", fmt::format("there is no [[service]]; known are {}.",
+                                  fmt::join(service_kind_names(), ", ")));
+  check_routes(all, source);
+  check_stations(all, source);
+  check_services(all, source);
+  check_providers(all, source);
+  check_placement(all, source);
+}
+
+} // namespace sofof

@@ -1,0 +1,16 @@
+// Checks what no single option of a scenario can tell.
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "scenario/toml_file.hpp"
+
+namespace sofof {
+
+/// Refuses a scenario whose parts do not fit together: names that are doubled
+/// or that nothing bears, station ids used twice, vehicles without room.
+/// @param all     With its world.
+/// @param source  Knows the places.
+/// @throws input_error.
+void check_whole(const scenario& all, const toml_file& source);
+
+} // namespace sofof

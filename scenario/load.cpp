@@ -1,0 +1,82 @@
+// From a scenario file to a scenario that is ready to run.
+#include "scenario/load.hpp"
+
+#include "scenario/checks.hpp"
+#include "scenario/input_error.hpp"
+#include "scenario/map_file.hpp"
+#include "scenario/toml_file.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace sofof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Reads a file that an option of the scenario names.
+std::string read_named(const fs::path& file, std::string_view key,
+                       const toml_file& source) {
+  auto text = read_text(file);
+  if (!text)
+    source.refuse(key,
+                  fmt::format("the file {} cannot be read.", file.string()));
+  return *std::move(text);
+}
+
+streets_ptr load_world(const scenario& all, const fs::path& folder,
+                       const toml_file& source) {
+  if (all.grid == !all.map_file.empty())
+    source.refuse(all.grid ? "map" : "",
+                  all.grid
+                      ? "map has no effect beside [street_grid]; remove one."
+                      : "there are no streets: add map = \"FILE\" or a table "
+                        "[street_grid].");
+  if (all.grid)
+    return make_street_grid(all.grid_params);
+  const auto file = folder / all.map_file;
+  return parse_map(read_named(file, "map", source), file);
+}
+
+void load_trace(network_options& network, const fs::path& folder,
+                const toml_file& source) {
+  constexpr std::string_view key = "network.trace";
+  const auto file = folder / network.trace;
+  auto filled = *network.channel;
+  try {
+    filled.trace = parse_trace(read_named(file, key, source));
+  } catch (const std::invalid_argument& problem) {
+    source.refuse(key, fmt::format("{}, {}.", file.string(), problem.what()));
+  }
+  network.channel = std::make_shared<const channel_profile>(std::move(filled));
+}
+
+} // namespace
+
+scenario parse_scenario(std::string_view text, const fs::path& file,
+                        std::span<const std::string> overrides) {
+  toml_file source{text, file.string()};
+  for (const auto& assignment : overrides)
+    source.set(assignment);
+  scenario all;
+  source.read([&](settings& s) { all.fields(s); });
+  const auto folder = file.parent_path();
+  if (!all.network.trace.empty())
+    load_trace(all.network, folder, source);
+  all.world = load_world(all, folder, source);
+  check_whole(all, source);
+  return all;
+}
+
+scenario load_scenario(const fs::path& file,
+                       std::span<const std::string> overrides) {
+  const auto text = read_text(file);
+  if (!text)
+    throw input_error{
+        fmt::format("{}: this file cannot be read.", file.string())};
+  return parse_scenario(*text, file, overrides);
+}
+
+} // namespace sofof

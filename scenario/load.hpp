@@ -1,0 +1,29 @@
+// From a scenario file to a scenario that is ready to run.
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sofof {
+
+/// Reads a scenario, its map and its trace; checks everything that can be
+/// known before the run.
+/// @param file       TOML; docs/scenarios.md describes it. Files named in it
+///                   are sought from its folder on.
+/// @param overrides  "KEY=VALUE" as given to `--set`, applied in this order
+///                   before anything is checked.
+/// @throws input_error with the place of the first mistake.
+scenario load_scenario(const std::filesystem::path& file,
+                       std::span<const std::string> overrides = {});
+
+/// The same for text in memory.
+/// @param file  Where it could stand.
+scenario parse_scenario(std::string_view text,
+                        const std::filesystem::path& file,
+                        std::span<const std::string> overrides = {});
+
+} // namespace sofof

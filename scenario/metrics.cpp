@@ -1,0 +1,124 @@
+// Adding up what happened.
+#include "scenario/metrics.hpp"
+
+#include <algorithm>
+
+namespace sofof {
+
+namespace {
+
+const service_metrics nothing_happened;
+
+} // namespace
+
+std::optional<double> service_metrics::offloaded_share(std::size_t vehicles,
+                                                       double virtual_s) const {
+  const auto driving_s = static_cast<double>(vehicles) * virtual_s;
+  if (driving_s <= 0)
+    return std::nullopt;
+  return t_off_s.sum() / driving_s;
+}
+
+metrics::metrics(const run_info& run) : headline_{run.headline_kind} {
+  for (const auto& kind : run.kinds)
+    of(service_name{kind});
+}
+
+void metrics::take(const event_record& x) {
+  if (x.what == "offer") {
+    ++offers_;
+  } else if (x.what == "switch") {
+    if (x.detail == "remote")
+      open_[{x.kind, x.station}] = {{x.provider, x.station, x.kind, x.counter},
+                                    x.at};
+    else
+      open_.erase({x.kind, x.station});
+  }
+}
+
+void metrics::take(const decision_record& x) {
+  auto& service = of(x.kind);
+  ++(x.accepted ? service.accepted : service.rejected);
+}
+
+std::optional<duration> metrics::take(const cycle_record& x) {
+  auto& service = of(x.running.kind);
+  service.latency.add(x.received - x.created);
+  service.results_used += x.used;
+  if (x.interarrival == duration::zero() && is_first(x.running))
+    return std::nullopt;
+  service.interarrival.add(x.interarrival);
+  return x.interarrival;
+}
+
+void metrics::take(const episode_record& x) {
+  if (x.of != side::requester)
+    return;
+  auto& service = of(x.running.kind);
+  ++service.ended_by[static_cast<std::size_t>(x.reason)];
+  service.fallbacks += x.fallback;
+  if (!x.got_data) {
+    ++service.no_data;
+    return;
+  }
+  ++service.episodes;
+  service.t_off_s.add(to_seconds(x.ended - x.first_data));
+  // Another provider may have taken over already; that one stays open.
+  const auto open = open_.find({x.running.kind, x.running.station});
+  if (open != open_.end() && open->second.running == x.running)
+    open_.erase(open);
+}
+
+void metrics::take(const safety_record& x) {
+  safety_.driven += x.driven;
+  safety_.without_fresh_plan += x.without_fresh_plan;
+  safety_.off_road += x.off_road;
+  safety_.max_plan_age = std::max(safety_.max_plan_age, x.max_plan_age);
+}
+
+void metrics::take(const collision_record&) {
+  ++safety_.collisions;
+}
+
+void metrics::finish(time_point end) {
+  for (const auto& [who, episode] : open_) {
+    auto& service = of(who.first);
+    ++service.episodes;
+    ++service.running_at_end;
+    service.t_off_s.add(to_seconds(end - episode.since));
+  }
+  open_.clear();
+}
+
+const service_metrics& metrics::headline() const {
+  const auto found =
+      std::ranges::find(services_, headline_, &service_metrics::kind);
+  return found != services_.end() ? *found : nothing_happened;
+}
+
+std::size_t metrics::offloaded_now() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(open_, [this](const auto& entry) {
+        return entry.first.first == headline_;
+      }));
+}
+
+service_metrics& metrics::of(const service_name& kind) {
+  const auto found = std::ranges::find(services_, kind, &service_metrics::kind);
+  if (found != services_.end())
+    return *found;
+  auto& added = services_.emplace_back();
+  added.kind = kind;
+  return added;
+}
+
+bool metrics::is_first(const running_service& running) {
+  const auto [at, added] = newest_.try_emplace(
+      {running.kind, running.station, running.provider}, running.counter);
+  if (!added && at->second == running.counter)
+    return false;
+  at->second = running.counter;
+  return true;
+}
+
+} // namespace sofof

@@ -1,0 +1,114 @@
+// Scores a run while its records come in: pure sums, flat over hours.
+#pragma once
+
+#include "messages/record.hpp"
+#include "scenario/run_info.hpp"
+#include "scenario/statistics.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+inline constexpr std::size_t end_reason_count =
+    static_cast<std::size_t>(end_reason::shutdown) + 1;
+
+/// The figures of one kind of service, as the requesters see it.
+struct service_metrics {
+  service_name kind;
+  // Pairs of a request and a service that it names; the answer counts.
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0; ///< No answer in time is a rejection too.
+  std::uint64_t requests() const { return accepted + rejected; }
+
+  std::uint64_t episodes = 0;       ///< Offloadings that got first data.
+  std::uint64_t running_at_end = 0; ///< Those of them that the end cut off.
+  std::uint64_t no_data = 0;        ///< Offloadings that ended without any.
+  std::uint64_t fallbacks = 0;
+  /// Reasons of all that ended, with data or without.
+  std::array<std::uint64_t, end_reason_count> ended_by{};
+  statistics t_off_s; ///< Switch to remote → switch back, of each episode.
+
+  std::uint64_t results_used = 0; ///< Of those that `latency` counts.
+  distribution latency;           ///< t_receiving − t_creation.
+  distribution interarrival;      ///< Between two results of an episode.
+
+  /// @returns the share of driving time that was offloaded, all episodes of
+  /// all vehicles together; nullopt for no vehicle or no time.
+  std::optional<double> offloaded_share(std::size_t vehicles,
+                                        double virtual_s) const;
+};
+
+/// How safely all vehicles drove, together.
+struct safety_metrics {
+  duration driven{};
+  duration without_fresh_plan{};
+  duration off_road{};
+  duration max_plan_age{}; ///< The largest of all.
+  std::uint64_t collisions = 0;
+
+  /// @returns whether the safety line held all the time.
+  bool ok() const {
+    return without_fresh_plan == duration::zero()
+           && off_road == duration::zero() && collisions == 0;
+  }
+};
+
+/// All figures of a run. Meanings: docs/results.md.
+class metrics {
+public:
+  /// @param run  Its kinds are listed even when nothing happens to them;
+  ///             others follow in the order of their first record.
+  explicit metrics(const run_info& run);
+
+  void take(const event_record& x);
+  void take(const decision_record& x);
+  /// @returns the time since the result before; nullopt for the first one of
+  /// an episode. (Its record says zero, and so does that of a result that
+  /// came together with the one before it.)
+  std::optional<duration> take(const cycle_record& x);
+  void take(const episode_record& x);
+  void take(const safety_record& x);
+  void take(const collision_record& x);
+
+  /// The run ends: what is still offloaded counts up to here.
+  void finish(time_point end);
+
+  std::uint64_t offers() const { return offers_; }
+  std::span<const service_metrics> services() const { return services_; }
+  /// @returns the figures that stand at the top level of the summary.
+  const service_metrics& headline() const;
+  const safety_metrics& safety() const { return safety_; }
+  /// @returns the vehicles whose headline service is remote just now.
+  std::size_t offloaded_now() const;
+
+private:
+  struct open_episode {
+    running_service running;
+    time_point since;
+  };
+
+  struct source {
+    service_name kind;
+    station_id station;
+    boot_id provider;
+    friend auto operator<=>(const source&, const source&) = default;
+  };
+
+  service_metrics& of(const service_name& kind);
+  bool is_first(const running_service& running);
+
+  service_name headline_;
+  std::uint64_t offers_ = 0;
+  std::vector<service_metrics> services_;
+  std::map<std::pair<service_name, station_id>, open_episode> open_;
+  std::map<source, std::uint32_t> newest_; ///< Counter of its last episode.
+  safety_metrics safety_;
+};
+
+} // namespace sofof

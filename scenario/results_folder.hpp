@@ -1,0 +1,29 @@
+// Where a run may write, and which files there are its own.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace sofof {
+
+/// Makes the folder of a run: the one asked for, or else the first free one
+/// of results/<scenario>-<seed>, -2, -3, …; two runs never get the same.
+/// @param wanted    Made with its parents where missing. One that holds
+///                  anything is refused unless `force`.
+/// @param scenario  Name; what does not suit a path becomes '_'.
+/// @param force     Take `wanted` as it is.
+/// @param parent    Of the folders that are not asked for.
+/// @throws input_error when refused; nothing is left behind then.
+std::filesystem::path
+make_results_folder(const std::optional<std::filesystem::path>& wanted,
+                    std::string_view scenario, std::int64_t seed, bool force,
+                    const std::filesystem::path& parent = "results");
+
+/// Removes the files of an earlier run from a folder, and nothing else; the
+/// summary goes first.
+/// @throws input_error when one cannot be removed.
+void remove_results(const std::filesystem::path& folder);
+
+} // namespace sofof

@@ -1,0 +1,100 @@
+// Runs a scenario from its first moment to its last, and keeps the results.
+#include "scenario/run.hpp"
+
+#include "scenario/build.hpp"
+#include "scenario/placement.hpp"
+#include "scenario/record_keeper.hpp"
+#include "scenario/results_folder.hpp"
+#include "scenario/runtime.hpp"
+#include "scenario/stopwatch.hpp"
+#include "scenario/table.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+namespace sofof {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The run is looked at so often: progress, Ctrl-C, flushing.
+constexpr duration virtual_slice = 1s;
+constexpr duration wall_slice = 100ms;
+constexpr double flush_every_s = 2;
+
+run_info describe(const scenario& s, const run_options& options) {
+  run_info info;
+  info.scenario = s.name;
+  info.version = options.version;
+  info.config_toml = to_toml(s);
+  info.seed = s.seed;
+  info.vehicles = place_vehicles(s).size();
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    info.provider_names.emplace_back(k + 1, s.providers[k].name);
+  for (const auto& kind : s.services)
+    info.kinds.emplace_back(kind->name());
+  info.cycles = s.record.cycles;
+  info.tracks = s.record.tracks;
+  return info;
+}
+
+/// Moves the run to its end, or to where it was interrupted.
+time_point advance(runtime& time, time_point end, const run_options& options,
+                   const std::atomic<bool>& interrupted, record_keeper& keeper,
+                   progress& shown, const stopwatch& watch) {
+  const auto start = time.now();
+  const auto total_s = to_seconds(end - start);
+  const auto slice = options.realtime ? wall_slice : virtual_slice;
+  double flushed_s = 0;
+  auto t = start;
+  while (t < end && !interrupted) {
+    t = std::min(t + slice, end);
+    time.run_until(t);
+    const auto wall_s = watch.elapsed_s();
+    const auto flush = wall_s - flushed_s > flush_every_s;
+    if (flush)
+      flushed_s = wall_s;
+    const auto offloaded = keeper.with([flush](results& r) {
+      if (flush)
+        r.flush();
+      return r.so_far().offloaded_now();
+    });
+    shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
+  }
+  shown.clear();
+  return t;
+}
+
+} // namespace
+
+run_outcome run(const scenario& s, const run_options& options,
+                const std::atomic<bool>& interrupted, std::ostream& console) {
+  const auto time =
+      options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
+  auto info = describe(s, options);
+  const auto folder =
+      make_results_folder(options.out, s.name, s.seed, options.force);
+  info.start = time->now();
+  const auto keeper = std::make_shared<record_keeper>(folder, info);
+  progress shown{console, options.show};
+  const stopwatch watch;
+  const auto actors = build(time->system(), s, keeper, !options.realtime);
+  const auto ended = advance(*time, info.start + s.length, options, interrupted,
+                             *keeper, shown, watch);
+  dismiss(actors);
+  time->settle(1);
+  dismiss(actors.recorder);
+  time->settle(0);
+  return keeper->with([&](results& r) {
+    const auto end =
+        r.finish(ended, watch.elapsed_s(), ended < info.start + s.length);
+    if (options.show != progress::output::quiet)
+      console << table(r.so_far(), info, end, folder, options.colour);
+    if (end.interrupted)
+      return run_outcome::interrupted;
+    return r.so_far().safety().ok() ? run_outcome::good : run_outcome::unsafe;
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,40 @@
+// Runs a scenario from its first moment to its last, and keeps the results.
+#pragma once
+
+#include "scenario/progress.hpp"
+#include "scenario/scenario.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+namespace sofof {
+
+struct run_options {
+  std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
+  bool force = false;    ///< Write into a folder that is not empty.
+  bool realtime = false; ///< On the wall clock instead of in virtual time.
+  progress::output show = progress::output::quiet;
+  bool colour = false; ///< The console is a terminal.
+  std::string version;
+};
+
+/// How a run ended; the values are the command's exit codes.
+enum class run_outcome {
+  good = 0,
+  unsafe = 1,        ///< Its own safety checks failed, or an actor died.
+  interrupted = 130, ///< As a shell counts Ctrl-C.
+};
+
+/// @param s            Loaded.
+/// @param interrupted  Once true, the run ends soon; what was recorded is
+///                     kept and marked.
+/// @param console      Gets the progress and the final table.
+/// @throws input_error when the results folder is refused or cannot be
+///         written.
+run_outcome run(const scenario& s, const run_options& options,
+                const std::atomic<bool>& interrupted, std::ostream& console);
+
+} // namespace sofof

@@ -1,0 +1,44 @@
+// What is known of a run before it starts, and once it has ended.
+#pragma once
+
+#include "world/ids.hpp"
+#include "world/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+/// Known before the first record.
+struct run_info {
+  std::string scenario;    ///< Its name.
+  std::string version;     ///< Of this program.
+  std::string config_toml; ///< The effective configuration.
+  std::int64_t seed = 0;
+  std::size_t vehicles = 0;
+  std::vector<std::pair<boot_id, std::string>> provider_names;
+  std::vector<std::string> kinds; ///< Of services, in the order of reports.
+  /// The kind whose figures stand at the top level of the summary.
+  std::string headline_kind = "trajectory_planning";
+  bool cycles = true; ///< Write cycles.csv.
+  bool tracks = true; ///< Write tracks.csv.
+  time_point start;   ///< Second 0 of all files.
+};
+
+/// Known once the run has ended.
+struct run_end {
+  double virtual_s = 0; ///< From the start on, on the run's clock.
+  double wall_s = 0;    ///< The same on the wall's.
+  bool interrupted = false;
+
+  /// @returns how much faster than real time it was; nullopt for no time.
+  std::optional<double> x_real_time() const {
+    return wall_s > 0 ? std::optional{virtual_s / wall_s} : std::nullopt;
+  }
+};
+
+} // namespace sofof

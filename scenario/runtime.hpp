@@ -1,0 +1,40 @@
+// The time that a run lives in: virtual or wall clock, around one CAF system.
+#pragma once
+
+#include "world/time.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace sofof {
+
+/// Owns an actor system and moves its time. Call everything from one thread.
+class runtime {
+public:
+  virtual ~runtime() = default;
+
+  virtual caf::actor_system& system() = 0;
+
+  /// @returns the time of the run now.
+  virtual time_point now() const = 0;
+
+  /// Returns when it is `end`: virtual time gets there as fast as it can.
+  virtual void run_until(time_point end) = 0;
+
+  /// After exits were sent: lets everything happen that is due, until only so
+  /// many actors are left.
+  virtual void settle(std::size_t left) = 0;
+};
+
+/// A discrete-event world; begins at time zero, deterministic.
+std::unique_ptr<runtime> make_virtual_runtime();
+
+/// CAF's own scheduler and the machine's steady clock.
+std::unique_ptr<runtime> make_wall_clock_runtime();
+
+/// Makes CAF know our messages; once per process, before any runtime.
+void init_messages();
+
+} // namespace sofof

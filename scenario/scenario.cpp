@@ -1,0 +1,138 @@
+// One experiment: everything that a scenario file can say, with defaults.
+#include "scenario/scenario.hpp"
+
+#include "policies/registry.hpp"
+#include "scenario/listing.hpp"
+#include "scenario/settings_printer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace sofof {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr settings::range any_length_m{0, 1e6};
+constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
+constexpr auto max_vehicles = 1e5;
+constexpr double max_station = std::numeric_limits<station_id>::max();
+
+} // namespace
+
+void fleet_options::fields(settings& s) {
+  s.field("count", count, {1, max_vehicles});
+  s.field("first_station", first_station, {1, max_station});
+  if (static_cast<double>(first_station + count - 1) > max_station)
+    s.refuse("first_station", "leaves too few numbers for all its vehicles.");
+  s.field("routes", routes);
+  if (routes.empty())
+    s.refuse("routes", "must name at least one route.");
+  s.field("placement", placement);
+  if (std::ranges::find(placements, placement) == placements.end())
+    s.refuse("placement", unknown_word("placement", placement, placements));
+  s.field("spacing_m", spacing_m, any_length_m);
+  s.field("start_m", start_m, any_length_m);
+}
+
+polygon provider_options::area() const {
+  if (!area_m.empty())
+    return polygon{area_m};
+  return polygon::regular(position_m, area_radius_m,
+                          static_cast<unsigned>(area_corners));
+}
+
+void provider_options::fields(settings& s) {
+  s.field("name", name);
+  if (name.empty())
+    s.refuse("name", "must not be empty.");
+  s.field("position_m", position_m);
+  if (s.has("area_m", !area_m.empty())) {
+    s.field("area_m", area_m);
+    refuse_bad_polygon(s, "area_m", area_m);
+    for (const auto key : {"area_radius_m", "area_corners"})
+      if (s.has(key, false))
+        s.refuse(key, "has no effect beside area_m; remove one of them.");
+  } else {
+    s.field("area_radius_m", area_radius_m, {1, any_length_m.max});
+    s.field("area_corners", area_corners, {3, 1000});
+  }
+  s.field("range_m", range_m, any_length_m);
+  if (s.has("services", !services.empty())) {
+    s.field("services", services);
+    if (services.empty())
+      s.refuse("services", "must name at least one service; leave it out to "
+                           "offer all.");
+  }
+}
+
+void network_options::fields(settings& s) {
+  s.field("profile", profile);
+  const auto known = find_channel_profile(profile);
+  if (!known)
+    return s.refuse("profile", unknown_word("channel profile", profile,
+                                            channel_profile_names()));
+  if (s.has("trace", !trace.empty())) {
+    s.field("trace", trace);
+    if (!known->replays)
+      s.refuse("trace", "has no effect with this profile; use \"trace\".");
+    if (trace.empty())
+      s.refuse("trace", "must name a file.");
+  } else if (known->replays) {
+    s.refuse("profile", "needs a file to replay: add trace = \"FILE\".");
+  }
+  auto options = channel && channel->name == profile ? *channel : *known;
+  options.fields(s);
+  channel = std::make_shared<const channel_profile>(std::move(options));
+}
+
+policy_options::policy_options()
+    : lodm{make_lodm("location")}, codm{make_codm("location")} {}
+
+void policy_options::fields(settings& s) {
+  s.table("lodm", [this](settings& t) {
+    list_named(t, lodm, make_lodm, "LODM policy", lodm_names());
+  });
+  s.table("codm", [this](settings& t) {
+    list_named(t, codm, make_codm, "CODM policy", codm_names());
+  });
+}
+
+void record_options::fields(settings& s) {
+  s.field("tracks_period", tracks_period, 1ms);
+  s.field("cycles", cycles);
+  s.field("tracks", tracks);
+}
+
+void scenario::fields(settings& s) {
+  s.field("name", name);
+  s.field("duration", length, 1ns);
+  constexpr double max_seed = std::numeric_limits<std::int64_t>::max();
+  s.field("seed", seed, {0, max_seed});
+  if (s.has("map", !map_file.empty()))
+    s.field("map", map_file);
+  grid = s.has("street_grid", grid);
+  if (grid)
+    s.table("street_grid", [this](settings& t) { grid_params.fields(t); });
+  list_all(s, "fleet", fleets);
+  list_all(s, "provider", providers);
+  s.table("network", [this](settings& t) { network.fields(t); });
+  s.tables("service", services.size(), [this](std::size_t i, settings& t) {
+    if (i == services.size())
+      services.emplace_back();
+    list_named(t, services[i], make_service_kind, "kind of service",
+               service_kind_names());
+  });
+  s.table("policies", [this](settings& t) { policies.fields(t); });
+  s.table("record", [this](settings& t) { record.fields(t); });
+}
+
+std::string to_toml(scenario what) {
+  return print_settings([&](settings& s) { what.fields(s); });
+}
+
+} // namespace sofof

@@ -1,0 +1,106 @@
+// One experiment: everything that a scenario file can say, with defaults.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "policies/context.hpp"
+#include "world/channel.hpp"
+#include "world/settings.hpp"
+#include "world/street_grid.hpp"
+#include "world/streets.hpp"
+#include "world/vehicle.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sofof {
+
+/// Vehicles with consecutive station ids that share their routes.
+struct fleet_options {
+  std::int64_t count = 1;
+  std::int64_t first_station = 101;
+  /// Names of routes; station number i takes the i-th, round and round. One
+  /// with `*` at its end stands for all that begin so.
+  std::vector<std::string> routes{"round_trip"};
+  /// "equal": spread evenly over each route from `start_m` on; "convoy": one
+  /// behind the other, `spacing_m` apart, the first one at `start_m`.
+  std::string placement = "equal";
+  double spacing_m = 60; ///< From rear axle to rear axle.
+  double start_m = 0;    ///< Arc length on the route, of the rear axle.
+
+  void fields(settings& s);
+};
+
+/// Where a provider is, and what it offers.
+struct provider_options {
+  std::string name = "mec";
+  point position_m;           ///< pos_SP; also the centre of the area.
+  double area_radius_m = 300; ///< Of the circle round the regular area.
+  std::int64_t area_corners = 24;
+  std::vector<point> area_m;         ///< Polygon instead of the regular area.
+  double range_m = 2000;             ///< CAMs from farther away are not heard.
+  std::vector<std::string> services; ///< Offered kinds; empty: all.
+
+  /// A loaded scenario's provider has one.
+  /// @throws std::invalid_argument for a bad polygon.
+  polygon area() const;
+
+  void fields(settings& s);
+};
+
+/// The channel between vehicles and providers.
+struct network_options {
+  std::string profile = "paper-sim";
+  /// File with measured delays, for the profile "trace"; relative to the
+  /// scenario file.
+  std::string trace;
+  std::shared_ptr<const channel_profile> channel; ///< The profile, resolved.
+
+  void fields(settings& s);
+};
+
+/// How offloading is decided.
+struct policy_options {
+  std::shared_ptr<local_policy> lodm;   ///< Prototype; everybody has a clone.
+  std::shared_ptr<central_policy> codm; ///< Prototype.
+
+  policy_options(); ///< The paper's: "location" for both.
+  void fields(settings& s);
+};
+
+/// Rates of what is sent and written.
+struct record_options {
+  duration tracks_period = std::chrono::milliseconds{100};
+  bool cycles = true; ///< Write cycles.csv.
+  bool tracks = true; ///< Write tracks.csv.
+
+  void fields(settings& s);
+};
+
+/// The whole file.
+struct scenario {
+  std::string name = "scenario";
+  duration length = std::chrono::minutes{10}; ///< `duration` in the file.
+  std::int64_t seed = 1;
+  std::string map_file; ///< `map`; relative to the scenario file.
+  bool grid = false;    ///< A generated street grid instead.
+  street_grid_params grid_params;
+  std::vector<fleet_options> fleets;
+  std::vector<provider_options> providers;
+  network_options network;
+  std::vector<service_kind_ptr> services;
+  policy_options policies;
+  record_options record;
+
+  streets_ptr world; ///< The map, loaded.
+
+  /// Lists everything once.
+  void fields(settings& s);
+};
+
+/// @returns the effective configuration, defaults included, as a scenario
+/// file; file names in it stay as they were given.
+std::string to_toml(scenario what);
+
+} // namespace sofof

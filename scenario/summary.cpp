@@ -1,0 +1,109 @@
+// Every figure under its name; the names are promises (docs/results.md).
+#include "scenario/summary.hpp"
+
+#include "scenario/json.hpp"
+
+namespace sofof {
+
+namespace {
+
+// Decimals of figures without a shortest unit of their own.
+constexpr int second_places = 6;
+constexpr int millisecond_places = 6;
+constexpr int share_places = 6;
+constexpr int wall_places = 3;
+
+void mean_and_max(json_object& to, std::string_view name,
+                  const statistics& figures) {
+  auto object = to.object(name);
+  object.member("mean", rounded(figures.mean(), second_places));
+  object.member("max", rounded(figures.max(), second_places));
+}
+
+void distribution_of(json_object& to, std::string_view name,
+                     const distribution& figures) {
+  const auto ms = [](std::optional<double> x) {
+    return rounded(x, millisecond_places);
+  };
+  auto object = to.object(name);
+  object.member("count", figures.ms().count());
+  object.member("mean", ms(figures.ms().mean()));
+  object.member("std", ms(figures.ms().deviation()));
+  object.member("p50", ms(figures.quantile_ms(0.5)));
+  object.member("p99", ms(figures.quantile_ms(0.99)));
+  object.member("max", ms(figures.ms().max()));
+}
+
+void counts_and_times(json_object& to, const service_metrics& service,
+                      const run_info& run, const run_end& end) {
+  to.member("requests", service.requests());
+  to.member("accepted", service.accepted);
+  to.member("rejected", service.rejected);
+  to.member("episodes", service.episodes);
+  to.member("running_at_end", service.running_at_end);
+  to.member("fallbacks", service.fallbacks);
+  to.member("no_data", service.no_data);
+  mean_and_max(to, "t_off_s", service.t_off_s);
+  to.member("offloaded_share",
+            rounded(service.offloaded_share(run.vehicles, end.virtual_s),
+                    share_places));
+  to.member("results_used", service.results_used);
+  distribution_of(to, "latency_ms", service.latency);
+  distribution_of(to, "interarrival_ms", service.interarrival);
+}
+
+void endings(json_object& to, const service_metrics& service) {
+  auto object = to.object("ended_by");
+  for (std::size_t i = 0; i < end_reason_count; ++i)
+    object.member(name_of(static_cast<end_reason>(i)), service.ended_by[i]);
+}
+
+void safety_of(json_object& to, const safety_metrics& safety) {
+  const auto recorded = safety.driven > duration::zero();
+  auto object = to.object("safety");
+  object.member("driven_s", seconds(safety.driven));
+  object.member("without_fresh_plan_s", seconds(safety.without_fresh_plan));
+  object.member("collisions", safety.collisions);
+  object.member("off_road_s", seconds(safety.off_road));
+  object.member("max_plan_age_s",
+                recorded ? seconds(safety.max_plan_age) : decimal{});
+}
+
+void timing_of(json_object& to, const run_end& end) {
+  auto object = to.object("timing");
+  object.member("wall_s", rounded(end.wall_s, wall_places));
+  object.member("x_real_time", rounded(end.x_real_time(), wall_places));
+}
+
+} // namespace
+
+std::string summary_json(const metrics& m, const run_info& run,
+                         const run_end& end) {
+  std::string text;
+  {
+    json_object top{text, json_object::layout::lines};
+    top.member("version", run.version);
+    top.member("scenario", run.scenario);
+    top.member("seed", decimal{run.seed});
+    top.member("virtual_s", rounded(end.virtual_s, second_places));
+    top.member("interrupted", end.interrupted);
+    top.member("vehicles", run.vehicles);
+    top.member("offers", m.offers());
+    counts_and_times(top, m.headline(), run, end);
+    safety_of(top, m.safety());
+    endings(top, m.headline());
+    {
+      auto services = top.object("services");
+      for (const auto& service : m.services()) {
+        auto object = services.object(service.kind.view());
+        counts_and_times(object, service, run, end);
+        endings(object, service);
+      }
+    }
+    timing_of(top, end);
+  }
+  text += '\n';
+  return text;
+}
+
+} // namespace sofof

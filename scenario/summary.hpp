@@ -1,0 +1,17 @@
+// The figures of a run as one JSON object.
+#pragma once
+
+#include "scenario/metrics.hpp"
+#include "scenario/run_info.hpp"
+
+#include <string>
+
+namespace sofof {
+
+/// @param m  Finished.
+/// @returns the text of summary.json; absent figures are null. All but the
+/// last member, "timing", depends on the records alone.
+std::string summary_json(const metrics& m, const run_info& run,
+                         const run_end& end);
+
+} // namespace sofof

@@ -1,0 +1,20 @@
+// The figures of a run for the eye: what a console shows in the end.
+#pragma once
+
+#include "scenario/metrics.hpp"
+#include "scenario/run_info.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace sofof {
+
+/// @param m       Finished.
+/// @param folder  Where the files are.
+/// @param colour  The reader is a terminal.
+/// @returns lines of at most 80 columns (names and paths may be longer),
+/// with figures in columns, one per kind of service.
+std::string table(const metrics& m, const run_info& run, const run_end& end,
+                  const std::filesystem::path& folder, bool colour);
+
+} // namespace sofof

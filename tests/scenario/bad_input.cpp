@@ -1,0 +1,257 @@
+// What is said about scenarios that are wrong.
+#include "tests/scenario/example.hpp"
+#include "tests/scenario/mistakes.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace sofof;
+
+namespace {
+
+/// Checks what is said about mistakes in the example.
+void check_all(const std::vector<mistake>& mistakes) {
+  for (const auto& m : mistakes) {
+    CAPTURE(m.wrong);
+    auto text = example::with(m.right, m.wrong);
+    const auto place = "example.toml" + take_mark(text);
+    check_says(example::error_of(text), place, m.says);
+  }
+}
+
+/// Checks what is said about `--set`.
+void check_set(const std::string& assignment,
+               const std::vector<std::string_view>& says) {
+  CAPTURE(assignment);
+  const auto error = example::error_of(example::text, {assignment});
+  CHECK(error.starts_with("--set " + assignment + ": "));
+  check_says(error, assignment, says);
+}
+
+/// @returns the example without the part from one text up to another.
+std::string without(std::string_view from, std::string_view to) {
+  auto text = example::text;
+  const auto begin = text.find(from);
+  return text.erase(begin, text.find(to) - begin);
+}
+
+} // namespace
+
+TEST_CASE("the example itself is right") {
+  CHECK(example::error_of(example::text) == "");
+}
+
+TEST_CASE("a missing file is named") {
+  try {
+    load_scenario("nowhere/town.toml");
+    FAIL_CHECK("nothing is said");
+  } catch (const input_error& problem) {
+    check_says(problem.what(), "nowhere/town.toml: ", {"cannot be read"});
+  }
+  CHECK_THROWS_AS(load_scenario(SOFOF_SOURCE_DIR), input_error);
+}
+
+TEST_CASE("TOML that cannot be parsed is refused with its place") {
+  check_all({
+      {"seed = 7", "seed = @= 7", {}},
+      {"[[fleet]]", "[[fleet]@\n", {}},
+      {"seed = 7", "seed = 7\nseed = @8", {"seed"}},
+  });
+}
+
+TEST_CASE("an unknown option is refused with the one that was meant") {
+  check_all({
+      {"seed = 7", "@sed = 7", {"\"sed\"", "did you mean \"seed\"?"}},
+      {"area_radius_m", "@area_radus_m", {"did you mean \"area_radius_m\"?"}},
+      {"min_distance_m", "@distance_m", {"min_distance_m"}},
+      {"[record]", "[@recordings]", {"recordings", "record"}},
+      {"codm = \"always\"",
+       "codm = { name = \"always\", @min_time = \"5s\" }",
+       {"min_time", "Known: name"}},
+      {"[network]", "[network]\n@frequency_ghz = 3.7", {"profile"}},
+      {"[network]", "@[[network]]", {"must be a table"}},
+  });
+}
+
+TEST_CASE("a value of the wrong type is refused") {
+  check_all({
+      {"seed = 7", "seed = @1.5", {"whole number", "1.5"}},
+      {"seed = 7", "seed = @\"7\"", {"whole number", "\"7\""}},
+      {"\"600s\"", "@600", {"duration", "with its unit", "600"}},
+      {"\"600s\"", "@\"600\"", {"duration", "with its unit", "\"600\""}},
+      {"\"example\"", "@true", {"name", "text in quotes", "true"}},
+      {"cycles = false", "cycles = @0", {"true or false"}},
+      {"area_radius_m = 80.0", "area_radius_m = @\"80\"", {"a number"}},
+      {"[0.0, 0.0]", "@[0.0]", {"point [x, y]"}},
+      {"[0.0, 0.0]", "[0.0, @\"north\"]", {"number", "north"}},
+      {"[50, 0]", "@50", {"area_m", "point"}},
+      {"[\"cabin_climate\"]", "@\"cabin_climate\"", {"a list of texts"}},
+      {"[\"cabin_climate\"]", "[@1]", {"text in quotes"}},
+      {"[record]", "@record = 3\n[never]", {}},
+  });
+}
+
+TEST_CASE("a number out of its range is refused") {
+  check_all({
+      {"\"600s\"", "@\"0s\"", {"more than \"0s\""}},
+      {"\"600s\"", "@\"-5s\"", {"more than \"0s\"", "-5s"}},
+      {"\"250ms\"", "@\"250us\"", {"at least \"1ms\""}},
+      {"count = 6", "count = @0", {"count", "from 1 to", "0"}},
+      {"count = 6", "count = @-1", {"count", "from 1 to", "-1"}},
+      {"seed = 7", "seed = @-7", {"from 0"}},
+      {"radius_m = 250.0", "radius_m = @-1", {"from 0", "-1"}},
+      {"radius_m = 250.0", "radius_m = @nan", {"nan"}},
+      {"radius_m = 250.0", "radius_m = @inf", {"inf"}},
+      {"position_m = [0.0, 0.0]", "position_m = [0.0, @inf]", {"position_m"}},
+      {"first_station = 201", "first_station = @4294967295", {"too few"}},
+      {"first_station = 201", "first_station = @4294967296", {"from 1 to"}},
+      {"area_radius_m = 80.0", "area_radius_m = 80\narea_corners = @2", {"3"}},
+  });
+}
+
+TEST_CASE("an area that is no polygon is refused") {
+  check_all({
+      {"[[0, 0], [50, 0], [50.5, 50], [0, 50]]",
+       "@[[0, 0], [50, 0]]",
+       {"area_m", "three corners"}},
+      {"[[0, 0], [50, 0], [50.5, 50], [0, 50]]", "@[]", {"three corners"}},
+      {"[[0, 0], [50, 0], [50.5, 50], [0, 50]]",
+       "@[[0, 0], [50, 50], [50, 0], [0, 50]]",
+       {"area_m", "crosses itself"}},
+      {"services = [\"cabin",
+       "area_radius_m = @3\nservices = [\"cabin",
+       {"no effect beside area_m"}},
+  });
+}
+
+TEST_CASE("an unknown name is refused with those that are known") {
+  check_all({
+      {"codm = \"always\"",
+       "codm = @\"allways\"",
+       {"\"allways\"", "CODM policy", "did you mean \"always\"?", "location",
+        "never"}},
+      {"name = \"location\"",
+       "name = @\"oracle\"",
+       {"LODM policy", "location"}},
+      {"\"paper-sim\"",
+       "@\"paper-7g\"",
+       {"did you mean \"paper-5g\"?", "ideal"}},
+      {"name = \"cabin_climate\"",
+       "name = @\"radio\"",
+       {"kind of service", "trajectory_planning"}},
+      {"placement = \"equal\"", "placement = @\"random\"", {"convoy", "equal"}},
+      {"\"round_trip_opposite\"",
+       "@\"round_trip_oposite\"",
+       {"route", "did you mean \"round_trip_opposite\"?", "straight"}},
+      {"[\"cabin_climate\"]",
+       "[@\"coffee\"]",
+       {"\"coffee\"", "[[service]]", "cabin_climate"}},
+  });
+}
+
+TEST_CASE("a service without a name is refused with those that are known") {
+  check_all({{"[[service]]\nname = \"cabin_climate\"",
+              "@[[service]]\nmax_latency = \"50ms\"",
+              {"kind of service", "cabin_climate", "trajectory_planning"}}});
+}
+
+TEST_CASE("names that must differ are refused where the second stands") {
+  check_all({
+      {"name = \"cloud\"", "name = @\"mec\"", {"two providers \"mec\""}},
+      {"name = \"cabin_climate\"",
+       "name = @\"trajectory_planning\"",
+       {"two services"}},
+      {"first_station = 201",
+       "first_station = @106",
+       {"station 106", "begin at 107"}},
+  });
+}
+
+TEST_CASE("lists that must not be empty are refused") {
+  check_all({
+      {"[\"straight\"]", "@[]", {"routes", "at least one"}},
+      {"[\"cabin_climate\"]", "@[]", {"services", "at least one"}},
+  });
+}
+
+TEST_CASE("a file that is named but missing is refused where it is named") {
+  check_all({
+      {"\"ring.toml\"",
+       "@\"nowhere.toml\"",
+       {"nowhere.toml", "cannot be read"}},
+      {"profile = \"paper-sim\"",
+       "profile = \"trace\"\ntrace = @\"nowhere.csv\"",
+       {"nowhere.csv", "cannot be read"}},
+      {"profile = \"paper-sim\"",
+       "profile = \"trace\"\ntrace = @\"\"",
+       {"file"}},
+      {"profile = \"paper-sim\"", "profile = @\"trace\"", {"trace = \"FILE\""}},
+      {"profile = \"paper-sim\"",
+       "profile = \"ideal\"\ntrace = @\"delays.csv\"",
+       {"no effect"}},
+      {"profile = \"paper-sim\"",
+       "profile = \"trace\"\ntrace = @\"broken_delays.csv\"",
+       {"broken_delays.csv", "line 3", "late"}},
+  });
+}
+
+TEST_CASE("vehicles that have no room are refused") {
+  const auto second = "[[fleet]]\ncount = 2\nfirst_station = 201";
+  check_all({
+      {"[[fleet]]\ncount = 6\nfirst_station = 101",
+       "@[[fleet]]\ncount = 190\nfirst_station = 301",
+       {"vehicle 3", "round_trip", "less than 3 m apart", "fewer vehicles"}},
+      {second,
+       "@[[fleet]]\nspacing_m = 8\ncount = 2\nfirst_station = 201",
+       {"vehicle 201", "vehicle 202", "less than 3 m apart"}},
+      {second,
+       "@[[fleet]]\ncount = 4\nfirst_station = 201",
+       {"vehicle 204", "-30 m", "straight"}},
+      {"[[fleet]]\ncount = 2\nfirst_station = 201\nroutes = [\"straight\"]\n"
+       "placement = \"convoy\"\nstart_m = 150.0",
+       "@[[fleet]]\ncount = 2\nfirst_station = 201\nroutes = [\"straight\"]\n"
+       "placement = \"convoy\"\nstart_m = 250.0",
+       {"vehicle 201", "250 m", "straight"}},
+  });
+}
+
+TEST_CASE("a scenario without streets, vehicles or services is refused") {
+  const auto file = "example.toml: ";
+  check_says(example::error_of(without("map = ", "\n[[fleet]]")), file,
+             {"no streets", "map = \"FILE\"", "[street_grid]"});
+  check_says(example::error_of(without("[[fleet]]", "[[provider]]")), file,
+             {"no vehicles", "[[fleet]]"});
+  check_says(example::error_of(without("[[service]]", "[policies]")), file,
+             {"[[service]]", "trajectory_planning"});
+  check_says(example::error_of(""), file, {"no streets"});
+}
+
+TEST_CASE("a map and a street grid together are refused") {
+  check_all(
+      {{"map = \"ring.toml\"", "map = @\"ring.toml\"\n[street_grid]\n", {}}});
+}
+
+TEST_CASE("a wrong --set is refused with what was typed") {
+  check_set("seed=many", {"whole number", "many"});
+  check_set("duration=-5s", {"more than \"0s\""});
+  check_set("duration=60", {"with its unit"});
+  check_set("sed=3", {"did you mean \"seed\"?"});
+  check_set("provider.0.area_raduis_m=3", {"area_radius_m"});
+  check_set("provider.0.area_radius_m=0", {"from 1"});
+  check_set("provider.7.area_radius_m=3", {"\"7\""});
+  check_set("provider.fog.area_radius_m=3", {"\"fog\""});
+  check_set("fleet.0.count.more=3", {"count"});
+  check_set("fleet=3", {"[[fleet]]"});
+  check_set("name.first=Anna", {"text in quotes"});
+  check_set("policies.codm=oracle", {"CODM policy", "never"});
+  check_set("policies.codm.min_time=5s", {"min_time"});
+  check_set("fleet.0.routes.1=straigt", {"did you mean \"straight\"?"});
+  check_set("fleet.0.routes.2=straight", {"\"2\""});
+  check_set("map=nowhere.toml", {"nowhere.toml"});
+  check_set("fleet.1.first_station=101", {"station 101"});
+  check_set("record.speed=3", {"tracks_period"});
+  check_set("records.cycles=true", {"did you mean \"record\"?"});
+  check_set("seed", {"KEY=VALUE"});
+  check_set("=3", {"empty"});
+  check_set("record..cycles=true", {"empty"});
+  check_set("name=\xff", {});
+}

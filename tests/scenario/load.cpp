@@ -1,0 +1,133 @@
+// From a scenario file to a scenario.
+#include "scenario/load.hpp"
+
+#include "tests/scenario/example.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+TEST_CASE("a scenario holds what its file says") {
+  const auto s = example::load();
+  CHECK(s.name == "example");
+  CHECK(s.length == 600s);
+  CHECK(s.seed == 7);
+  REQUIRE(s.fleets.size() == 2);
+  CHECK(s.fleets[0].count == 6);
+  CHECK(s.fleets[0].first_station == 101);
+  CHECK(s.fleets[0].routes
+        == std::vector<std::string>{"round_trip", "round_trip_opposite"});
+  CHECK(s.fleets[1].placement == "convoy");
+  CHECK(s.fleets[1].start_m == 150);
+  REQUIRE(s.providers.size() == 2);
+  CHECK(s.providers[0].area_radius_m == 80);
+  CHECK(s.providers[1].area_m.size() == 4);
+  CHECK(s.providers[1].area_m[2] == point{50.5, 50});
+  CHECK(s.providers[1].services == std::vector<std::string>{"cabin_climate"});
+  REQUIRE(s.services.size() == 2);
+  CHECK(s.services[0]->name() == "trajectory_planning");
+  CHECK(s.services[0]->common.limits.max_latency == 50ms);
+  CHECK(s.policies.lodm->name() == "location");
+  CHECK(s.policies.codm->name() == "always");
+  CHECK(s.network.channel->name == "paper-sim");
+  CHECK(s.record.tracks_period == 250ms);
+  CHECK_FALSE(s.record.cycles);
+}
+
+TEST_CASE("what a file leaves out keeps its default") {
+  const auto s = example::load();
+  CHECK(s.fleets[0].spacing_m == fleet_options{}.spacing_m);
+  CHECK(s.providers[0].area_corners == 24);
+  CHECK(s.providers[0].services.empty());
+  CHECK(s.record.tracks);
+}
+
+TEST_CASE("the streets come with the scenario") {
+  const auto s = example::load();
+  REQUIRE(s.world);
+  CHECK(s.world->map.name() == "ring");
+  CHECK(s.world->map.origin().utm_e_m == 571656);
+  CHECK(s.world->map.origin().lat_deg == doctest::Approx(48.43236));
+  CHECK(s.world->map.lanes().size() == 5);
+  CHECK(s.world->map.buildings().size() == 1);
+  REQUIRE(s.world->find("round_trip"));
+  CHECK(s.world->find("round_trip")->closed());
+  CHECK(s.world->find("round_trip")->length_m()
+        == doctest::Approx(628.3).epsilon(0.001));
+  CHECK_FALSE(s.world->find("straight")->closed());
+}
+
+TEST_CASE("without a provider there is nothing to offload to, but a scenario") {
+  auto text = example::text;
+  const auto from = text.find("[[provider]]");
+  text.erase(from, text.find("[network]") - from);
+  CHECK(example::load(text).providers.empty());
+}
+
+TEST_CASE("without policies the paper's decide") {
+  auto text = example::text;
+  const auto from = text.find("[policies]");
+  text.erase(from, text.find("[record]") - from);
+  const auto s = example::load(text);
+  CHECK(s.policies.lodm->name() == "location");
+  CHECK(s.policies.codm->name() == "location");
+}
+
+TEST_CASE("a measured trace is read with the scenario") {
+  const auto s = example::load(
+      example::with("profile = \"paper-sim\"",
+                    "profile = \"trace\"\ntrace = \"delays.csv\""));
+  CHECK(s.network.channel->replays);
+  REQUIRE(s.network.channel->trace.size() == 3);
+  CHECK(s.network.channel->trace[1].delay_s == doctest::Approx(0.014));
+}
+
+TEST_CASE("--set changes any option") {
+  const auto s = example::load(
+      example::text,
+      {"seed=42", "duration=90s", "fleet.0.count=4", "name=other",
+       "provider.0.area_radius_m=110", "provider.cloud.position_m=[1, 2.5]",
+       "fleet.0.routes.1=round_trip", "policies.lodm.radius_m=200",
+       "policies.codm.min_time=7s", "policies.codm.name=location",
+       "record.tracks=false", "service.cabin_climate.max_latency=1s"});
+  CHECK(s.seed == 42);
+  CHECK(s.length == 90s);
+  CHECK(s.name == "other");
+  CHECK(s.fleets[0].count == 4);
+  CHECK(s.fleets[0].routes[1] == "round_trip");
+  CHECK(s.providers[0].area_radius_m == 110);
+  CHECK(s.providers[1].position_m == point{1, 2.5});
+  CHECK(s.services[1]->common.limits.max_latency == 1s);
+  CHECK_FALSE(s.record.tracks);
+  const auto text = to_toml(s);
+  CHECK(text.find("radius_m = 200.0") != text.npos);
+  CHECK(text.find("min_time = \"7s\"") != text.npos);
+}
+
+TEST_CASE("of two --set for one option the later counts") {
+  CHECK(example::load(example::text, {"seed=1", "seed=2"}).seed == 2);
+}
+
+TEST_CASE("--set makes tables that the file does not have") {
+  const auto text = example::with("[record]", "[policies.codm_]");
+  CHECK(example::error_of(text).find("codm_") != std::string::npos);
+  const auto bare = example::text.substr(0, example::text.find("[policies]"));
+  const auto s =
+      example::load(bare, {"policies.lodm=never", "record.tracks=false"});
+  CHECK(s.policies.lodm->name() == "never");
+  CHECK_FALSE(s.record.tracks);
+}
+
+TEST_CASE("the scenarios that come with the project can be loaded") {
+  const std::filesystem::path config = SOFOF_SOURCE_DIR "/config";
+  const auto ulm_lehr = load_scenario(config / "ulm_lehr.toml");
+  CHECK(ulm_lehr.fleets.front().count == 6);
+  CHECK(ulm_lehr.services.size() == 2);
+  CHECK(ulm_lehr.world->map.lanes().size() > 2);
+  const auto scale = load_scenario(config / "scale.toml");
+  CHECK(scale.providers.size() == 10);
+  CHECK(scale.length == 60s);
+}

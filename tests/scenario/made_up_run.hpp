@@ -1,0 +1,115 @@
+// Records as a run would make them, with figures that are easy to check.
+#pragma once
+
+#include "messages/record.hpp"
+#include "scenario/run_info.hpp"
+
+#include <chrono>
+#include <cstdint>
+
+namespace sofof::made_up {
+
+using namespace std::chrono_literals;
+
+inline constexpr auto planning = "trajectory_planning";
+inline constexpr boot_id provider = 18'000'000'000'000'000'000u;
+
+/// The run's second 0, which is not the clock's.
+inline constexpr time_point start{5s};
+
+inline time_point at(duration since_start) {
+  return start + since_start;
+}
+
+inline run_info run() {
+  run_info info;
+  info.scenario = "made_up";
+  info.version = "0.1.0";
+  info.config_toml = "seed = 7\n";
+  info.seed = 7;
+  info.vehicles = 2;
+  info.provider_names = {{provider, "mec"}};
+  info.kinds = {planning, "environment"};
+  info.start = start;
+  return info;
+}
+
+inline running_service running(station_id station = 101,
+                               std::uint32_t counter = 1,
+                               service_name kind = planning) {
+  return {provider, station, kind, counter};
+}
+
+inline event_record switched(const running_service& id, bool remote,
+                             duration when) {
+  return {at(when),
+          "switch",
+          id.station,
+          id.provider,
+          id.kind,
+          id.counter,
+          remote ? "remote" : "local"};
+}
+
+inline decision_record decision(bool accepted, service_name kind = planning) {
+  return {at(1s), 101, kind, accepted};
+}
+
+inline cycle_record result(const running_service& id, std::uint64_t cycle,
+                           duration created, duration latency,
+                           duration interarrival) {
+  return {id, cycle, at(created), at(created + latency), interarrival, true};
+}
+
+/// A requester's episode with first data.
+inline episode_record episode(const running_service& id, duration from,
+                              duration to, end_reason reason,
+                              bool fallback = false) {
+  return {id,   side::requester, at(from - 100ms), at(from),
+          true, at(to),          reason,           fallback};
+}
+
+/// The same for a service that never sent anything.
+inline episode_record without_data(const running_service& id, duration from) {
+  return {id,
+          side::requester,
+          at(from),
+          at(from),
+          false,
+          at(from + 1s),
+          end_reason::no_data,
+          false};
+}
+
+/// Lets two vehicles drive for 100 s; `to` takes the records one by one.
+/// Expect: 101 offloaded twice, 20 s and 5 s, and 102 from 90 s on.
+template <class Sink>
+void play(Sink& to) {
+  to.take(event_record{at(9s), "offer", 101, provider, "", 0, ""});
+  to.take(event_record{at(19s), "offer", 102, provider, "", 0, ""});
+  for (const bool accepted : {true, false, true, true, true})
+    to.take(decision(accepted));
+  to.take(decision(true, "environment"));
+
+  to.take(switched(running(101, 1), true, 10s));
+  auto gap = 0ms;
+  for (int i = 0; i < 400; ++i, gap = 50ms)
+    to.take(result(running(101, 1), static_cast<std::uint64_t>(i),
+                   10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
+  to.take(switched(running(101, 1), false, 30s));
+  to.take(episode(running(101, 1), 10s, 30s, end_reason::left_area));
+  to.take(episode_record{running(101, 1), side::provider, at(9s), at(9s), true,
+                         at(30s), end_reason::left_area, false});
+
+  to.take(switched(running(101, 2), true, 60s));
+  to.take(result(running(101, 2), 0, 60s, 12'345'678ns, 0ms));
+  to.take(switched(running(101, 2), false, 65s));
+  to.take(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
+
+  to.take(without_data(running(102, 3), 40s));
+  to.take(switched(running(102, 4), true, 90s));
+  to.take(safety_record{101, 100s, 0s, 0s, 150ms});
+  to.take(safety_record{102, 100s, 0s, 0s, 180ms});
+}
+
+} // namespace sofof::made_up

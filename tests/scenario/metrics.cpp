@@ -1,0 +1,216 @@
+// What the figures of a run count.
+#include "scenario/metrics.hpp"
+
+#include "tests/scenario/made_up_run.hpp"
+#include "world/random.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+using namespace sofof;
+using namespace sofof::made_up;
+
+namespace {
+
+/// The smallest number that a share p of all does not exceed.
+double exact_quantile(std::vector<double> all, double p) {
+  std::ranges::sort(all);
+  const auto rank = std::ceil(p * static_cast<double>(all.size()));
+  return all[static_cast<std::size_t>(rank) - 1];
+}
+
+} // namespace
+
+TEST_CASE("a run is counted as the protocol says") {
+  metrics m{run()};
+  play(m);
+  m.finish(at(100s));
+  const auto& x = m.headline();
+  CHECK(m.offers() == 2);
+  CHECK(x.requests() == 5);
+  CHECK(x.accepted == 4);
+  CHECK(x.rejected == 1);
+  CHECK(x.episodes == 3);
+  CHECK(x.running_at_end == 1);
+  CHECK(x.no_data == 1);
+  CHECK(x.fallbacks == 1);
+  const auto ended = [&x](end_reason why) {
+    return x.ended_by[static_cast<std::size_t>(why)];
+  };
+  CHECK(ended(end_reason::left_area) == 1);
+  CHECK(ended(end_reason::qos_gap) == 1);
+  CHECK(ended(end_reason::no_data) == 1);
+  CHECK(std::reduce(x.ended_by.begin(), x.ended_by.end())
+        == x.episodes - x.running_at_end + x.no_data);
+  CHECK(x.t_off_s.max() == doctest::Approx(20));
+  CHECK(x.latency.ms().count() == 401);
+  CHECK(x.latency.ms().max() == doctest::Approx(12.345678));
+  CHECK(m.services().size() == 2);
+  CHECK(m.services()[1].accepted == 1);
+  CHECK(m.services()[1].episodes == 0);
+}
+
+TEST_CASE("an episode that still runs at the end counts up to the end") {
+  metrics m{run()};
+  m.take(switched(running(), true, 90s));
+  m.finish(at(100s));
+  CHECK(m.headline().episodes == 1);
+  CHECK(m.headline().t_off_s.mean() == doctest::Approx(10));
+  CHECK(m.headline().offloaded_share(2, 100) == doctest::Approx(0.05));
+}
+
+TEST_CASE("the offloaded share is the mean t_off of all episodes, per time") {
+  metrics m{run()};
+  play(m);
+  m.finish(at(100s));
+  const auto& x = m.headline();
+  CHECK(x.offloaded_share(2, 100) == doctest::Approx((20 + 5 + 10) / 200.));
+  CHECK_FALSE(x.offloaded_share(0, 100).has_value());
+  CHECK_FALSE(x.offloaded_share(2, 0).has_value());
+}
+
+TEST_CASE("only the requester's side of an episode is counted") {
+  metrics m{run()};
+  auto provider_side = episode(running(), 10s, 30s, end_reason::left_area);
+  provider_side.of = side::provider;
+  m.take(provider_side);
+  CHECK(m.headline().episodes == 0);
+  CHECK(m.headline().t_off_s.count() == 0);
+}
+
+TEST_CASE("vehicles are offloaded now between switch and switch back") {
+  metrics m{run()};
+  CHECK(m.offloaded_now() == 0);
+  m.take(switched(running(101), true, 10s));
+  m.take(switched(running(102), true, 11s));
+  m.take(switched(running(101, 1, "environment"), true, 11s));
+  CHECK(m.offloaded_now() == 2);
+  m.take(switched(running(101), false, 12s));
+  CHECK(m.offloaded_now() == 1);
+  m.take(episode(running(102), 11s, 13s, end_reason::left_area));
+  CHECK(m.offloaded_now() == 0);
+}
+
+TEST_CASE("a hand-over to the next provider leaves its episode open") {
+  auto next = running(101);
+  next.provider = 2;
+  metrics m{run()};
+  m.take(switched(running(101), true, 10s));
+  m.take(switched(next, true, 20s));
+  m.take(episode(running(101), 10s, 20s, end_reason::left_area));
+  CHECK(m.offloaded_now() == 1);
+  m.finish(at(25s));
+  CHECK(m.headline().episodes == 2);
+  CHECK(m.headline().t_off_s.sum() == doctest::Approx(15));
+}
+
+TEST_CASE("the first result of an episode has no inter-arrival time") {
+  metrics m{run()};
+  CHECK_FALSE(m.take(result(running(101, 1), 0, 1s, 9ms, 0ms)).has_value());
+  CHECK(m.take(result(running(101, 1), 1, 2s, 9ms, 50ms)) == duration{50ms});
+  SUBCASE("two results that come together are zero apart") {
+    CHECK(m.take(result(running(101, 1), 2, 2s, 9ms, 0ms)) == duration{0});
+    CHECK(m.headline().interarrival.ms().count() == 2);
+  }
+  SUBCASE("the next episode starts afresh") {
+    CHECK_FALSE(m.take(result(running(101, 2), 0, 3s, 9ms, 0ms)).has_value());
+    CHECK_FALSE(m.take(result(running(102, 1), 0, 3s, 9ms, 0ms)).has_value());
+    CHECK(m.headline().interarrival.ms().count() == 1);
+  }
+}
+
+TEST_CASE("one touch, one second off the road or with an old plan is unsafe") {
+  metrics m{run()};
+  m.take(safety_record{101, 10s, 0s, 0s, 150ms});
+  m.take(safety_record{102, 10s, 0s, 0s, 120ms});
+  CHECK(m.safety().ok());
+  CHECK(m.safety().driven == duration{20s});
+  CHECK(m.safety().max_plan_age == duration{150ms});
+  SUBCASE("old plan") {
+    m.take(safety_record{101, 1s, 1ns, 0s, 201ms});
+  }
+  SUBCASE("off the road") {
+    m.take(safety_record{101, 1s, 0s, 1s, 0ms});
+  }
+  SUBCASE("touch") {
+    m.take(collision_record{at(3s), 101, 102});
+  }
+  CHECK_FALSE(m.safety().ok());
+}
+
+TEST_CASE("a run without the headline's service has empty headlines") {
+  auto info = run();
+  info.kinds = {"environment"};
+  metrics m{info};
+  m.take(decision(true, "environment"));
+  CHECK(m.headline().requests() == 0);
+  CHECK(m.services().size() == 1);
+}
+
+TEST_CASE("nothing has no mean, no spread and no quantile") {
+  statistics s;
+  distribution d;
+  CHECK_FALSE(s.mean().has_value());
+  CHECK_FALSE(s.max().has_value());
+  CHECK_FALSE(d.quantile_ms(0.5).has_value());
+  s.add(-3);
+  CHECK(s.mean() == -3);
+  CHECK(s.max() == -3);
+  CHECK_FALSE(s.deviation().has_value());
+}
+
+TEST_CASE("quantiles are the exact ones, rounded up to 0.01 ms") {
+  const random_stream noise{1, "quantiles"};
+  distribution d;
+  std::vector<double> all;
+  double sum = 0;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const auto x = from_seconds(noise.exponential(0.011, i));
+    d.add(x);
+    all.push_back(to_milliseconds(x));
+    sum += all.back();
+  }
+  const auto mean = sum / static_cast<double>(all.size());
+  double squares = 0;
+  for (const auto x : all)
+    squares += (x - mean) * (x - mean);
+  CHECK(d.ms().mean() == doctest::Approx(mean));
+  CHECK(d.ms().deviation()
+        == doctest::Approx(
+            std::sqrt(squares / static_cast<double>(all.size() - 1))));
+  for (const auto p : {0.01, 0.5, 0.99, 0.999, 1.0}) {
+    const auto exact = exact_quantile(all, p);
+    CAPTURE(p);
+    CHECK(*d.quantile_ms(p) >= exact);
+    CHECK(*d.quantile_ms(p) <= exact + 0.01);
+  }
+  CHECK(d.quantile_ms(1) == d.ms().max());
+}
+
+TEST_CASE("durations on the histogram's grid are reported as they are") {
+  distribution d;
+  for (const auto ms : {50, 50, 50, 100})
+    d.add(std::chrono::milliseconds{ms});
+  CHECK(d.quantile_ms(0.5) == doctest::Approx(50).epsilon(1e-12));
+  CHECK(d.quantile_ms(0.75) == doctest::Approx(50).epsilon(1e-12));
+  CHECK(d.quantile_ms(0.76) == doctest::Approx(100).epsilon(1e-12));
+}
+
+TEST_CASE("beyond the histogram a quantile is the maximum") {
+  distribution d;
+  d.add(2ms);
+  d.add(distribution::span + 1s);
+  CHECK(d.quantile_ms(0.5) == doctest::Approx(2));
+  CHECK(d.quantile_ms(0.99) == doctest::Approx(2000));
+}
+
+TEST_CASE("clocks that differ may make a latency negative") {
+  distribution d;
+  d.add(-1ms);
+  d.add(-3ms);
+  CHECK(d.ms().mean() == doctest::Approx(-2));
+  CHECK(d.quantile_ms(0.99) == doctest::Approx(-1));
+}

@@ -1,0 +1,436 @@
+// The results folder: what is in it, and that nothing is lost or overwritten.
+#include "scenario/results.hpp"
+
+#include "scenario/input_error.hpp"
+#include "scenario/json.hpp"
+#include "scenario/results_folder.hpp"
+#include "tests/scenario/made_up_run.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+using namespace sofof;
+using namespace sofof::made_up;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that is gone with its test.
+class scratch {
+public:
+  scratch() {
+    static std::atomic<int> count = 0;
+    at_ = fs::temp_directory_path()
+          / ("sofof_results_" + std::to_string(getpid()) + "_"
+             + std::to_string(count++));
+    fs::create_directories(at_);
+  }
+  ~scratch() { fs::remove_all(at_); }
+  scratch(const scratch&) = delete;
+  scratch& operator=(const scratch&) = delete;
+
+  fs::path operator/(const fs::path& name) const { return at_ / name; }
+  const fs::path& path() const { return at_; }
+
+private:
+  fs::path at_;
+};
+
+std::string read(const fs::path& path) {
+  std::ifstream in{path, std::ios::binary};
+  REQUIRE(in.good());
+  return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+void write(const fs::path& path, std::string_view text) {
+  std::ofstream{path, std::ios::binary} << text;
+}
+
+std::vector<std::string> lines(const fs::path& path) {
+  std::ifstream in{path};
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);)
+    all.push_back(line);
+  return all;
+}
+
+nlohmann::ordered_json summary_in(const fs::path& folder) {
+  return nlohmann::ordered_json::parse(read(folder / "summary.json"));
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator{folder})
+    names.push_back(entry.path().filename());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// What an input_error says.
+template <class Action>
+std::string complaint(Action action) {
+  try {
+    action();
+  } catch (const input_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != text.npos;
+}
+
+track_record track() {
+  track_record x;
+  x.at = at(1500ms);
+  x.ego.own = {101, at(1500ms), {571656.1234, 5364810.5}, -1.5, 8.25, -0.0001};
+  x.ego.s_m = 12;
+  x.lateral_m = -0.0625;
+  x.plan_age = 73ms;
+  x.remote = true;
+  return x;
+}
+
+} // namespace
+
+TEST_CASE("a run leaves all its files, and no temporary one") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.finish(at(100s), 2, false);
+  CHECK(names_in(dir.path())
+        == std::vector<std::string>{"config.toml", "cycles.csv", "episodes.csv",
+                                    "events.jsonl", "summary.json",
+                                    "timing.csv", "tracks.csv"});
+  CHECK(read(dir / "config.toml") == "seed = 7\n");
+}
+
+TEST_CASE("cycles and tracks are written only when wanted") {
+  const scratch dir;
+  auto info = run();
+  info.cycles = info.tracks = false;
+  results r{dir.path(), info};
+  play(r);
+  r.take(track());
+  r.finish(at(100s), 2, false);
+  CHECK_FALSE(fs::exists(dir / "cycles.csv"));
+  CHECK_FALSE(fs::exists(dir / "tracks.csv"));
+  CHECK(summary_in(dir.path())["latency_ms"]["count"] == 401);
+}
+
+TEST_CASE("the summary says what happened") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  const auto end = r.finish(at(100s), 2, false);
+  CHECK(end.virtual_s == 100);
+  const auto s = summary_in(dir.path());
+  CHECK(s["version"] == "0.1.0");
+  CHECK(s["scenario"] == "made_up");
+  CHECK(s["seed"] == 7);
+  CHECK(s["virtual_s"] == 100);
+  CHECK(s["interrupted"] == false);
+  CHECK(s["vehicles"] == 2);
+  CHECK(s["offers"] == 2);
+  CHECK(s["requests"] == 5);
+  CHECK(s["episodes"] == 3);
+  CHECK(s["fallbacks"] == 1);
+  CHECK(s["no_data"] == 1);
+  CHECK(s["t_off_s"]["max"] == 20);
+  CHECK(s["t_off_s"]["mean"] == doctest::Approx(35. / 3).epsilon(1e-6));
+  CHECK(s["offloaded_share"] == doctest::Approx(0.175));
+  CHECK(s["latency_ms"]["p50"] == 10);
+  CHECK(s["latency_ms"]["max"] == 12.345678);
+  CHECK(s["interarrival_ms"]["mean"] == 50);
+  CHECK(s["safety"]["without_fresh_plan_s"] == 0);
+  CHECK(s["safety"]["max_plan_age_s"] == 0.18);
+  CHECK(s["ended_by"]["left_area"] == 1);
+  CHECK(s["ended_by"]["shutdown"] == 0);
+  CHECK(s["services"][planning]["requests"] == 5);
+  CHECK(s["services"]["environment"]["accepted"] == 1);
+  CHECK(s["services"]["environment"]["t_off_s"]["mean"].is_null());
+  CHECK(s["services"]["environment"]["latency_ms"]["std"].is_null());
+  CHECK(s["timing"]["wall_s"] == 2);
+  CHECK(s["timing"]["x_real_time"] == 50);
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : s.items())
+    keys.push_back(key);
+  CHECK(keys.front() == "version");
+  CHECK(keys.back() == "timing");
+}
+
+TEST_CASE("times in files count from the start and are exact to the ns") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  r.take(result(running(), 3, 60s, 12'345'678ns, 0ms));
+  auto late = result(running(), 4, 60s + 50ms + 1ns, 9ms, 46'654'323ns);
+  late.used = false;
+  r.take(late);
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "cycles.csv");
+  REQUIRE(all.size() == 3);
+  CHECK(all[0]
+        == "station,provider,provider_id,service,counter,cycle,created_s,"
+           "received_s,latency_ms,interarrival_ms,used");
+  CHECK(all[1]
+        == "101,mec,18000000000000000000,trajectory_planning,1,3,"
+           "60.000000000,60.012345678,12.345678,,1");
+  CHECK(all[2]
+        == "101,mec,18000000000000000000,trajectory_planning,1,4,"
+           "60.050000001,60.059000001,9.000000,46.654323,0");
+}
+
+TEST_CASE("each closed side is a line in episodes.csv") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "episodes.csv");
+  REQUIRE(all.size() == 5);
+  CHECK(all[0]
+        == "side,station,provider,provider_id,service,counter,accepted_s,"
+           "first_data_s,ended_s,t_off_s,reason,fallback");
+  CHECK(all[1]
+        == "requester,101,mec,18000000000000000000,trajectory_planning,1,"
+           "9.900000000,10.000000000,30.000000000,20.000000000,left_area,0");
+  CHECK(all[2]
+        == "provider,101,mec,18000000000000000000,trajectory_planning,1,"
+           "9.000000000,,30.000000000,,left_area,0");
+  CHECK(all[4]
+        == "requester,102,mec,18000000000000000000,trajectory_planning,3,"
+           "40.000000000,,41.000000000,,no_data,0");
+}
+
+TEST_CASE("tracks have millimetres, and zero has no sign") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  r.take(track());
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "tracks.csv");
+  REQUIRE(all.size() == 2);
+  CHECK(all[0]
+        == "t_s,station,x_m,y_m,heading_rad,speed_mps,accel_mps2,s_m,"
+           "lateral_m,plan_age_ms,source");
+  CHECK(all[1]
+        == "1.500000000,101,571656.123,5364810.500,-1.500000,8.250,0.000,"
+           "12.000,-0.063,73.000000,remote");
+}
+
+TEST_CASE("every event is a JSON object, whatever its text") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  const std::string odd = "say \"no\"\\\n\tt_off \x01 \xff ü";
+  r.take(event_record{at(1s), "response", 101, provider, planning, 4, odd});
+  r.take(collision_record{at(2s), 101, 102});
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "events.jsonl");
+  REQUIRE(all.size() == 2);
+  using json = nlohmann::ordered_json;
+  const auto event = json::parse(all[0]);
+  CHECK(event["t_s"] == 1);
+  CHECK(event["provider"] == "mec");
+  CHECK(event["provider_id"] == provider);
+  CHECK(event["counter"] == 4);
+  CHECK(event["detail"] == "say \"no\"\\\n\tt_off \x01 \ufffd ü");
+  CHECK(all[1]
+        == "{\"t_s\":2.000000000,\"what\":\"collision\",\"station\":101,"
+           "\"provider\":\"\",\"provider_id\":0,\"service\":\"\","
+           "\"counter\":0,\"detail\":\"with 102\"}");
+}
+
+TEST_CASE("a name with a comma stays one field") {
+  std::string out;
+  append(out, std::string_view{"plain"});
+  append(out, std::string_view{"a,b"});
+  append(out, std::string_view{"say \"no\""});
+  CHECK(out == "plain\"a,b\"\"say \"\"no\"\"\"");
+}
+
+TEST_CASE("decimals are exact at both ends of their range") {
+  const auto text = [](decimal x) {
+    std::string out;
+    append(out, x);
+    return out;
+  };
+  CHECK(text({0, 0}) == "0");
+  CHECK(text({5, 3}) == "0.005");
+  CHECK(text({-5, 3}) == "-0.005");
+  CHECK(text({INT64_MAX, 9}) == "9223372036.854775807");
+  CHECK(text({INT64_MIN, 18}) == "-9.223372036854775808");
+  CHECK(text(rounded(0.0005, 3)) == "0.001");
+  CHECK(text(rounded(-0.0004, 3)) == "0.000");
+  CHECK(text(rounded(NAN, 3)).empty());
+  CHECK(text(rounded(-INFINITY, 3)).empty());
+  CHECK(text(rounded(1e17, 3)).empty());
+}
+
+TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
+  const scratch first, second;
+  for (const auto* dir : {&first, &second}) {
+    results r{dir->path(), run()};
+    play(r);
+    r.take(track());
+    r.finish(at(100s), dir == &first ? 2 : 3, false);
+  }
+  for (const auto* name : {"config.toml", "episodes.csv", "cycles.csv",
+                           "tracks.csv", "events.jsonl"})
+    CHECK(read(first / name) == read(second / name));
+  auto one = summary_in(first.path()), other = summary_in(second.path());
+  CHECK(one != other);
+  one.erase("timing");
+  other.erase("timing");
+  CHECK(one == other);
+}
+
+TEST_CASE("figures of the wall's clock have a file of their own") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  r.take_timing("solve_p99_us", 31.5);
+  r.finish(at(100s), 2, false);
+  CHECK(read(dir / "timing.csv")
+        == "figure,value\nwall_s,2.000000\nx_real_time,50.000000\n"
+           "solve_p99_us,31.500000\n");
+}
+
+TEST_CASE("a run without any record has a summary full of nulls") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  r.finish(start, 0, false);
+  const auto s = summary_in(dir.path());
+  CHECK(s["virtual_s"] == 0);
+  CHECK(s["offloaded_share"].is_null());
+  CHECK(s["latency_ms"]["p99"].is_null());
+  CHECK(s["safety"]["max_plan_age_s"].is_null());
+  CHECK(s["timing"]["x_real_time"].is_null());
+}
+
+TEST_CASE("an interrupted run keeps its figures and says so") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.finish(at(95s), 2, true);
+  const auto s = summary_in(dir.path());
+  CHECK(s["interrupted"] == true);
+  CHECK(s["virtual_s"] == 95);
+  CHECK(s["episodes"] == 3);
+  CHECK(lines(dir / "cycles.csv").size() == 402);
+}
+
+TEST_CASE("a killed run keeps what was flushed, but has no summary") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.flush();
+  CHECK(lines(dir / "cycles.csv").size() == 402);
+  CHECK(lines(dir / "episodes.csv").size() == 5);
+  CHECK_FALSE(fs::exists(dir / "summary.json"));
+}
+
+TEST_CASE("a run that nobody finishes keeps its lines") {
+  const scratch dir;
+  {
+    results r{dir.path(), run()};
+    play(r);
+  }
+  CHECK(lines(dir / "cycles.csv").size() == 402);
+  CHECK_FALSE(fs::exists(dir / "summary.json"));
+}
+
+TEST_CASE("a long run reaches the disk without being asked to") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  for (int i = 0; i < 10'000; ++i)
+    r.take(track());
+  CHECK(fs::file_size(dir / "tracks.csv") > 500'000);
+}
+
+TEST_CASE("a full disk is reported in a sentence that says what to do") {
+  if (!fs::exists("/dev/full")) {
+    MESSAGE("skipped: there is no /dev/full here");
+    return;
+  }
+  output_file full{"/dev/full"};
+  full.text() = "something";
+  const auto said = complaint([&full] { full.flush(); });
+  CHECK(contains(said, "/dev/full"));
+  CHECK(contains(said, "No space left"));
+  CHECK(contains(said, "--out"));
+  CHECK(full.text().empty());
+}
+
+TEST_CASE("a folder that cannot be written to is reported") {
+  const scratch dir;
+  const auto said = complaint([&dir] { results{dir / "missing", run()}; });
+  CHECK(contains(said, "missing"));
+  CHECK(contains(said, "No such file"));
+}
+
+TEST_CASE("runs without a folder of their own never share one") {
+  const scratch dir;
+  const auto make = [&dir](std::string_view name) {
+    return make_results_folder({}, name, 7, false, dir / "results");
+  };
+  CHECK(make("ulm") == dir / "results/ulm-7");
+  CHECK(make("ulm") == dir / "results/ulm-7-2");
+  CHECK(make("ulm") == dir / "results/ulm-7-3");
+  CHECK(fs::is_directory(dir / "results/ulm-7-3"));
+  CHECK(make("../etc/x y") == dir / "results/.._etc_x_y-7");
+}
+
+TEST_CASE("a folder that is asked for is made with its parents") {
+  const scratch dir;
+  CHECK(make_results_folder(dir / "a/b", "ulm", 7, false) == dir / "a/b");
+  CHECK(fs::is_directory(dir / "a/b"));
+  // It is empty, so it may be used.
+  CHECK(make_results_folder(dir / "a/b/", "ulm", 7, false) == dir / "a/b");
+}
+
+TEST_CASE("a folder with something in it is refused, and left alone") {
+  const scratch dir;
+  write(dir / "thesis.tex", "mine");
+  const auto said =
+      complaint([&dir] { make_results_folder(dir.path(), "ulm", 7, false); });
+  CHECK(contains(said, "not empty"));
+  CHECK(contains(said, "--force"));
+  CHECK(names_in(dir.path()) == std::vector<std::string>{"thesis.tex"});
+}
+
+TEST_CASE("force replaces the files of a run and nothing else") {
+  const scratch dir;
+  write(dir / "thesis.tex", "mine");
+  write(dir / "summary.json", "old");
+  write(dir / "cycles.csv", "old");
+  auto info = run();
+  info.cycles = false;
+  results r{make_results_folder(dir.path(), "ulm", 7, true), info};
+  CHECK(read(dir / "thesis.tex") == "mine");
+  CHECK_FALSE(fs::exists(dir / "summary.json"));
+  CHECK_FALSE(fs::exists(dir / "cycles.csv"));
+}
+
+TEST_CASE("a file in the way of the folder is refused") {
+  const scratch dir;
+  write(dir / "out", "mine");
+  for (const bool force : {false, true}) {
+    const auto said =
+        complaint([&] { make_results_folder(dir / "out", "ulm", 7, force); });
+    CHECK(contains(said, "in the way"));
+  }
+  CHECK(read(dir / "out") == "mine");
+}
+
+TEST_CASE("a folder that cannot be made leaves no parents behind") {
+  const scratch dir;
+  const auto too_long = dir / "a" / std::string(300, 'x');
+  const auto said =
+      complaint([&] { make_results_folder(too_long, "ulm", 7, false); });
+  CHECK(contains(said, "cannot make"));
+  CHECK(contains(said, "--out"));
+  CHECK_FALSE(fs::exists(dir / "a"));
+}

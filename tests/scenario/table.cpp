@@ -1,0 +1,158 @@
+// The table in the end, and the line while one waits.
+#include "scenario/table.hpp"
+
+#include "scenario/progress.hpp"
+#include "tests/scenario/made_up_run.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+
+using namespace sofof;
+using namespace sofof::made_up;
+
+namespace {
+
+std::string table_of(const metrics& m, bool colour = false,
+                     bool interrupted = false) {
+  return table(m, run(), {100, 2, interrupted}, "results/made_up-7", colour);
+}
+
+metrics played() {
+  metrics m{run()};
+  play(m);
+  m.finish(at(100s));
+  return m;
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != text.npos;
+}
+
+/// Characters on the screen of each line; all are one column wide.
+std::vector<std::size_t> widths(const std::string& text) {
+  std::istringstream in{text};
+  std::vector<std::size_t> all;
+  for (std::string line; std::getline(in, line);)
+    all.push_back(static_cast<std::size_t>(std::ranges::count_if(
+        line, [](char c) { return (c & 0xc0) != 0x80; }))); // UTF-8 heads
+  return all;
+}
+
+/// The line of `text` that starts with `label`, blanks left out.
+std::string line_of(const std::string& text, std::string_view label) {
+  std::istringstream in{text};
+  for (std::string line; std::getline(in, line);) {
+    const auto from = line.find_first_not_of(' ');
+    if (from != line.npos && line.substr(from).starts_with(label))
+      return line;
+  }
+  return {};
+}
+
+} // namespace
+
+TEST_CASE("the table shows every figure with its unit") {
+  const auto text = table_of(played());
+  MESSAGE("\n" << text);
+  CHECK(contains(text, "made_up, seed 7"));
+  CHECK(contains(text, "2 vehicles for 100.0 s in 2.0 s, 50.0 x real time"));
+  CHECK(contains(text, "2 offers"));
+  CHECK(contains(line_of(text, "accepted"), " 4 "));
+  CHECK(contains(line_of(text, "qos_gap"), " 1 "));
+  CHECK(line_of(text, "cam_timeout").empty());
+  CHECK(contains(line_of(text, "t_off mean"), "11.67 s"));
+  CHECK(contains(line_of(text, "offloaded share"), "17.5 %"));
+  CHECK(contains(line_of(text, "latency"), "10.01 ± 1.42 ms"));
+  CHECK(contains(line_of(text, "inter-arrival"), "50.00 ms"));
+  CHECK(contains(text, "results in results/made_up-7"));
+  CHECK_FALSE(contains(text, "\x1b"));
+}
+
+TEST_CASE("the columns of a block end together within 80 columns") {
+  const auto text = table_of(played());
+  for (const auto width : widths(text))
+    CHECK(width <= 80);
+  const auto width = line_of(text, "offloading").size();
+  CHECK(line_of(text, "requests").size() == width);
+  CHECK(line_of(text, "t_off max").size() == width);
+  CHECK(line_of(text, "latency").size() == width + 1); // ± has two bytes
+}
+
+TEST_CASE("many services stand below each other") {
+  auto info = run();
+  info.kinds = {planning, "environment", "cooperative_intersection", "parking",
+                "a_name_of_as_many_characters_as"};
+  metrics m{info};
+  play(m);
+  m.finish(at(100s));
+  const auto text = table(m, info, {100, 2, false}, "out", false);
+  for (const auto& kind : info.kinds)
+    CHECK(contains(text, kind));
+  for (const auto width : widths(text))
+    CHECK(width <= 80);
+}
+
+TEST_CASE("a violated safety line cannot be overlooked") {
+  auto m = played();
+  CHECK(contains(line_of(table_of(m), "without a fresh plan"), "ok"));
+  CHECK(contains(line_of(table_of(m), "collisions"), "ok"));
+  CHECK_FALSE(contains(table_of(m), "VIOLATED"));
+  m.take(collision_record{at(3s), 101, 102});
+  CHECK(contains(line_of(table_of(m), "collisions"), "VIOLATED"));
+  CHECK(contains(line_of(table_of(m), "off the road"), "ok"));
+}
+
+TEST_CASE("nobody is called safe whose driving was not recorded") {
+  const metrics m{run()};
+  CHECK(contains(table_of(m), "not recorded"));
+  CHECK_FALSE(contains(table_of(m), "ok"));
+}
+
+TEST_CASE("an interrupted run says so in the table") {
+  CHECK(contains(table_of(played(), false, true), "INTERRUPTED"));
+}
+
+TEST_CASE("colour is for terminals") {
+  CHECK(contains(table_of(played(), true), "\x1b[32mok\x1b[0m"));
+}
+
+TEST_CASE("a terminal shows one line, redrawn at most five times a second") {
+  std::ostringstream out;
+  progress p{out, progress::output::terminal};
+  p.update(0, 1800, 0, 0);
+  CHECK(contains(out.str(), "0 %"));
+  out.str("");
+  p.update(40, 1800, 1, 0.19);
+  CHECK(out.str().empty());
+  p.update(42, 1800, 1, 0.21);
+  CHECK(out.str()
+        == "\r\x1b[K  2 %  42 of 1800 s  200.0 x real time  1 offloaded"
+           "  ETA 9 s");
+  out.str("");
+  p.clear();
+  CHECK(out.str() == "\r\x1b[K");
+}
+
+TEST_CASE("a log gets a plain line every ten seconds") {
+  std::ostringstream out;
+  progress p{out, progress::output::plain};
+  for (int i = 0; i <= 250; ++i)
+    p.update(i, 14'400, 3, 0.1 * i);
+  p.clear();
+  CHECK(out.str()
+        == "  1 %  100 of 14400 s  10.0 x real time  3 offloaded"
+           "  ETA 23 min 50 s\n"
+           "  1 %  200 of 14400 s  10.0 x real time  3 offloaded"
+           "  ETA 23 min 40 s\n");
+}
+
+TEST_CASE("whoever wants silence gets it") {
+  std::ostringstream out;
+  progress p{out, progress::output::quiet};
+  for (int i = 0; i < 100; ++i)
+    p.update(i, 100, 0, i);
+  p.clear();
+  CHECK(out.str().empty());
+}
