@@ -1,0 +1,13 @@
+// A sub-command of `sofof`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace sofof {
+
+/// Each adds itself to the command line; when it was chosen, `exit_code` gets
+/// what the process shall exit with.
+void add_run(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+
+} // namespace sofof

@@ -1,0 +1,43 @@
+// The command-line arguments that name a scenario and change it.
+#pragma once
+
+#include "scenario/load.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sofof {
+
+struct scenario_arguments {
+  std::string file;
+  std::vector<std::string> set; ///< KEY=VALUE, in the order given.
+  std::string seed;
+  std::string length;
+
+  void add_to(CLI::App& command) {
+    command.add_option("FILE", file, "Scenario file (TOML)")->required();
+    command.add_option("--seed", seed, "Seed of all randomness")
+        ->type_name("N");
+    command.add_option("--duration", length, "Length of the run, with a unit")
+        ->type_name("600s");
+    command
+        .add_option("--set", set,
+                    "Change an option of the file, e.g. network.profile=ideal")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->expected(1);
+  }
+
+  scenario load() const {
+    auto overrides = set;
+    if (!seed.empty())
+      overrides.push_back("seed=" + seed);
+    if (!length.empty())
+      overrides.push_back("duration=" + length);
+    return load_scenario(file, overrides);
+  }
+};
+
+} // namespace sofof
