@@ -26,31 +26,36 @@ std::string read_named(const fs::path& file, std::string_view key,
   return *std::move(text);
 }
 
-streets_ptr load_world(const scenario& all, const fs::path& folder,
-                       const toml_file& source) {
+void load_world(scenario& all, const fs::path& folder,
+                const toml_file& source) {
   if (all.grid == !all.map_file.empty())
     source.refuse(all.grid ? "map" : "",
                   all.grid
                       ? "map has no effect beside [street_grid]; remove one."
                       : "there are no streets: add map = \"FILE\" or a table "
                         "[street_grid].");
-  if (all.grid)
-    return make_street_grid(all.grid_params);
+  if (all.grid) {
+    all.world = make_street_grid(all.grid_params);
+    return;
+  }
   const auto file = folder / all.map_file;
-  return parse_map(read_named(file, "map", source), file);
+  all.map_text = read_named(file, "map", source);
+  all.world = parse_map(all.map_text, file);
 }
 
-void load_trace(network_options& network, const fs::path& folder,
+void load_trace(scenario& all, const fs::path& folder,
                 const toml_file& source) {
   constexpr std::string_view key = "network.trace";
-  const auto file = folder / network.trace;
-  auto filled = *network.channel;
+  const auto file = folder / all.network.trace;
+  auto filled = *all.network.channel;
   try {
-    filled.trace = parse_trace(read_named(file, key, source));
+    all.trace_text = read_named(file, key, source);
+    filled.trace = parse_trace(all.trace_text);
   } catch (const std::invalid_argument& problem) {
     source.refuse(key, fmt::format("{}, {}.", file.string(), problem.what()));
   }
-  network.channel = std::make_shared<const channel_profile>(std::move(filled));
+  all.network.channel =
+      std::make_shared<const channel_profile>(std::move(filled));
 }
 
 } // namespace
@@ -64,8 +69,8 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
   source.read([&](settings& s) { all.fields(s); });
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())
-    load_trace(all.network, folder, source);
-  all.world = load_world(all, folder, source);
+    load_trace(all, folder, source);
+  load_world(all, folder, source);
   check_whole(all, source);
   return all;
 }

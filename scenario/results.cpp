@@ -44,6 +44,10 @@ results::results(std::filesystem::path folder, run_info run)
     cycles_.emplace(folder_ / "cycles.csv", cycles_header);
   if (run_.tracks)
     tracks_.emplace(folder_ / "tracks.csv", tracks_header);
+  if (!run_.map_toml.empty())
+    write_file(folder_ / "map.toml", run_.map_toml);
+  if (!run_.trace_text.empty())
+    write_file(folder_ / "trace.txt", run_.trace_text);
   write_file(folder_ / "config.toml", run_.config_toml);
 }
 

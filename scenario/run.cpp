@@ -23,11 +23,25 @@ constexpr duration virtual_slice = 1s;
 constexpr duration wall_slice = 100ms;
 constexpr double flush_every_s = 2;
 
+/// A results folder holds its own copies of the files that the scenario
+/// names, so that its config.toml runs again wherever the folder goes.
+scenario with_own_files(scenario s) {
+  if (!s.map_text.empty())
+    s.map_file = "map.toml";
+  if (!s.trace_text.empty())
+    s.network.trace = "trace.txt";
+  return s;
+}
+
 run_info describe(const scenario& s, const run_options& options) {
   run_info info;
   info.scenario = s.name;
   info.version = options.version;
-  info.config_toml = to_toml(s);
+  info.config_toml =
+      "# The effective configuration of this run; `sofof run` takes it.\n"
+      + to_toml(with_own_files(s));
+  info.map_toml = s.map_text;
+  info.trace_text = s.trace_text;
   info.seed = s.seed;
   info.vehicles = place_vehicles(s).size();
   for (std::size_t k = 0; k < s.providers.size(); ++k)

@@ -18,6 +18,8 @@ struct run_info {
   std::string scenario;    ///< Its name.
   std::string version;     ///< Of this program.
   std::string config_toml; ///< The effective configuration.
+  std::string map_toml;    ///< The map that it names; empty for none.
+  std::string trace_text;  ///< The trace that it names; empty for none.
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
   std::vector<std::pair<boot_id, std::string>> provider_names;

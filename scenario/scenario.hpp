@@ -93,7 +93,9 @@ struct scenario {
   policy_options policies;
   record_options record;
 
-  streets_ptr world; ///< The map, loaded.
+  streets_ptr world;      ///< The map, loaded.
+  std::string map_text;   ///< What the map's file says; empty for a grid.
+  std::string trace_text; ///< What the trace's file says; empty for none.
 
   /// Lists everything once.
   void fields(settings& s);
