@@ -28,8 +28,8 @@ struct lane_order::gaze {
   void take(const occupant& o, double axle_m, itinerary::leg own,
             double at_least_m = -1e300) {
     const auto rear_m = std::max(axle_m - o.rear_m, at_least_m);
-    if (o.station != self.known.station
-        && (!nearest || rear_m < nearest->rear_m))
+    const auto is_own_tail = o.station == self.known.station; // a lap ahead
+    if (!is_own_tail && (!nearest || rear_m < nearest->rear_m))
       nearest = {o.who, axle_m, rear_m, own, o.leg};
   }
 };
@@ -90,9 +90,7 @@ std::optional<sighting> lane_order::find(gaze from) const {
 void lane_order::look_along(gaze& from, itinerary::leg i) const {
   const auto start_m = from.self.way->start_m(i);
   const auto& lane = lanes_[from.self.way->lane(i)];
-  auto o = from.first_ahead(lane, start_m);
-  if (o != lane.end() && o->station == from.self.known.station)
-    ++o; // its own tail, a short lap ahead
+  const auto o = from.first_ahead(lane, start_m);
   if (o != lane.end())
     from.take(*o, start_m + o->s_m, i);
 }

@@ -1,0 +1,137 @@
+// Who is where on the road, who leads whom, and whose turn it is.
+#include "world/traffic.hpp"
+
+#include "world/driver.hpp"
+#include "world/lane_order.hpp"
+#include "world/right_of_way.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sofof {
+
+namespace {
+
+/// From where to where a body reaches at most.
+struct extent {
+  double west_m, east_m;
+  const road_user* who;
+};
+
+/// @returns half the diagonal of a box: no corner is farther from its centre.
+double radius_m(const oriented_box& box) {
+  return 0.5 * std::hypot(box.length_m, box.width_m);
+}
+
+bool touch(const oriented_box& a, const oriented_box& b) {
+  return distance_m(a.centre, b.centre) <= radius_m(a) + radius_m(b)
+         && overlap(a, b);
+}
+
+} // namespace
+
+struct traffic::state {
+  explicit state(const road_map& map)
+      : all{list_encounters(map)}, order{all}, crossings{map} {}
+
+  auto find(station_id station) {
+    return std::ranges::lower_bound(drivers, station, {}, &driver::station);
+  }
+
+  /// Road users of one route share what is known of it.
+  std::shared_ptr<const itinerary> find_way(const route_ptr& on) const {
+    for (const auto& d : drivers)
+      if (d.way->on() == on)
+        return d.way;
+    return std::make_shared<const itinerary>(on, all);
+  }
+
+  void perceive(time_point now);
+  void find_touching();
+
+  const encounters all;
+  lane_order order;
+  right_of_way crossings;
+  std::vector<driver> drivers; // in order of station ids
+  std::vector<extent> from_west;
+  std::vector<std::pair<station_id, station_id>> touching;
+};
+
+traffic::traffic(const road_map& map) : state_{std::make_unique<state>(map)} {}
+
+traffic::traffic(traffic&&) noexcept = default;
+traffic& traffic::operator=(traffic&&) noexcept = default;
+traffic::~traffic() = default;
+
+void traffic::report(const road_user& user) {
+  auto& drivers = state_->drivers;
+  const auto d = state_->find(user.station);
+  if (d == drivers.end() || d->station() != user.station)
+    drivers.insert(d, driver{user, state_->find_way(user.on)});
+  else if (d->known.on == user.on)
+    d->known = user;
+  else
+    *d = driver{user, state_->find_way(user.on)};
+}
+
+void traffic::remove(station_id station) {
+  const auto d = state_->find(station);
+  if (d != state_->drivers.end() && d->station() == station)
+    state_->drivers.erase(d);
+}
+
+void traffic::update(time_point now) {
+  for (auto& d : state_->drivers)
+    d.leg = d.way->leg_at(d.known.s_m);
+  state_->order.sort(state_->drivers);
+  state_->crossings.decide(state_->drivers, state_->order, now);
+  state_->perceive(now);
+  state_->find_touching();
+}
+
+void traffic::state::perceive(time_point now) {
+  for (std::size_t i = 0; i < drivers.size(); ++i) {
+    auto& d = drivers[i];
+    d.seen = {now, {}, {}};
+    if (const auto ahead = order.ahead_of(i)) {
+      const auto& other = drivers[ahead->who].known;
+      d.seen.lead = {other.station, ahead->rear_m, other.speed_mps,
+                     other.accel_mps2};
+    }
+    if (std::isfinite(d.line_m))
+      d.seen.stop_at_m = d.line_m - stop_margin_m;
+  }
+}
+
+/// Sweeps from west to east: only bodies at the same easting can touch.
+void traffic::state::find_touching() {
+  touching.clear();
+  from_west.clear();
+  for (const auto& d : drivers) {
+    const auto x_m = d.known.body.centre.x_m, r_m = radius_m(d.known.body);
+    from_west.push_back({x_m - r_m, x_m + r_m, &d.known});
+  }
+  std::ranges::sort(from_west, {}, &extent::west_m);
+  for (auto a = from_west.begin(); a != from_west.end(); ++a)
+    for (auto b = a + 1; b != from_west.end() && b->west_m <= a->east_m; ++b)
+      if (touch(a->who->body, b->who->body))
+        touching.push_back(std::minmax(a->who->station, b->who->station));
+  std::ranges::sort(touching);
+}
+
+perception traffic::perceive(station_id station) const {
+  const auto d = state_->find(station);
+  if (d == state_->drivers.end() || d->station() != station)
+    throw std::out_of_range{
+        fmt::format("There is no road user {} in the traffic.", station)};
+  return d->seen;
+}
+
+std::vector<std::pair<station_id, station_id>> traffic::collisions() const {
+  return state_->touching;
+}
+
+} // namespace sofof

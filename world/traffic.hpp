@@ -1,0 +1,87 @@
+// Who is where on the road, who leads whom, and whose turn it is. This is
+// the ground truth that sensors and traffic rules are derived from.
+#pragma once
+
+#include "world/ids.hpp"
+#include "world/road_map.hpp"
+#include "world/time.hpp"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+/// One road user, as the traffic sees it.
+struct road_user {
+  station_id station = 0;
+  route_ptr on;   ///< Its route.
+  double s_m = 0; ///< Rear axle on the route, laps included.
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+  double front_m = 4.0175; ///< Rear axle to front bumper.
+  double rear_m = 1.0825;  ///< Rear axle to rear bumper.
+  oriented_box body;       ///< Where it really is.
+};
+
+/// The nearest road user ahead on one's own way.
+struct lead_vehicle {
+  station_id station = 0;
+  double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
+                       ///< route, laps counted as the follower counts.
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+  friend bool operator==(const lead_vehicle&, const lead_vehicle&) = default;
+};
+
+/// What a driver has to know about the others.
+struct perception {
+  time_point at;
+  std::optional<lead_vehicle> lead;
+  /// The front bumper must not pass this arc length on the own route: a
+  /// crossing has not been granted yet.
+  std::optional<double> stop_at_m;
+};
+
+/// All road users, in lane order; neighbours are found along the lanes, never
+/// by comparing all pairs. What comes out does not depend on the order of the
+/// reports.
+class traffic {
+public:
+  explicit traffic(const road_map& map);
+  traffic(traffic&&) noexcept;
+  traffic& operator=(traffic&&) noexcept;
+  ~traffic();
+
+  /// Adds a road user, or replaces what is known of it. With another route it
+  /// loses what was granted on the old one: change routes before crossings.
+  void report(const road_user& user);
+
+  void remove(station_id station);
+
+  /// Sorts the road users into their lanes and decides every crossing anew.
+  /// A crossing (zone of a `conflict`) is closed by default and granted in
+  /// lane order, to those who find room behind it; who holds it keeps it until
+  /// its rear has left. Right of way: lower rank first, then earlier arrival
+  /// at the zone, then lower station id; a lower priority is granted only when
+  /// it clears the zone before anybody of higher priority arrives, but who has
+  /// waited for 20 s goes before all ranks. So nobody waits for ever. A grant
+  /// is never revoked, so acting on an old perception is safe.
+  void update(time_point now);
+
+  /// @returns what `station` perceives, as of the last `update`; before its
+  /// first one it must not move.
+  /// @throws std::out_of_range when there is no such road user.
+  perception perceive(station_id station) const;
+
+  /// @returns the pairs of road users whose bodies touch, lower id first,
+  /// in rising order, as of the last `update`.
+  std::vector<std::pair<station_id, station_id>> collisions() const;
+
+private:
+  struct state;
+  std::unique_ptr<state> state_;
+};
+
+} // namespace sofof
