@@ -51,8 +51,11 @@ void des_clock::fire_next() {
   if (next.what.disposed())
     return;
   advance_to(next.at);
-  const auto ran = next.what.run() == caf::action::transition::success;
-  if (ran && next.period.count() > 0)
+  using caf::action;
+  const auto again = next.what.run() == action::transition::success
+                     && next.period.count() > 0
+                     && next.what.reschedule() == action::transition::success;
+  if (again)
     schedule_periodically(next.at + next.period, std::move(next.what),
                           next.period);
 }

@@ -8,8 +8,8 @@ namespace sofof {
 
 namespace {
 
-recorder_actor::behavior_type recorder(recorder_actor::pointer,
-                                       std::shared_ptr<record_sink> sink) {
+recorder_actor::behavior_type
+recorder(recorder_actor::pointer, const std::shared_ptr<record_sink>& sink) {
   return {
       [sink](const event_record& r) { sink->take(r); },
       [sink](const decision_record& r) { sink->take(r); },

@@ -19,7 +19,7 @@ struct remote_source {
   provider_manager_actor manager;
   bool in_use = false;
   std::optional<std::uint64_t> last_cycle;
-  time_point last_sent;
+  std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
 };
 
@@ -49,8 +49,13 @@ struct manager_state {
   void feed(service_input& input) {
     newest = std::move(input);
     self->send(local, newest);
-    if (remote && now(self) - remote->last_sent >= setup.options.input_period)
+    if (remote && input_due())
       feed_remote();
+  }
+
+  bool input_due() const {
+    return !remote->last_sent
+           || now(self) - *remote->last_sent >= setup.options.input_period;
   }
 
   void feed_remote() {

@@ -49,9 +49,12 @@ struct provider_state {
   // -- CAM, offer, CAM check ----------------------------------------------
 
   void take(const cam& c, const requester_actor& requester) {
+    const auto known = stations.find(c.station);
+    if (known != stations.end() && c.at < known->second.latest.at)
+      return; // overtaken on its way
     if (!setup.area.contains(c.position)) {
-      if (auto i = stations.find(c.station); i != stations.end())
-        forget(i, end_reason::left_area);
+      if (known != stations.end())
+        forget(known, end_reason::left_area);
       return;
     }
     auto [i, is_new] = stations.try_emplace(c.station);
@@ -61,8 +64,6 @@ struct provider_state {
       station.next_offer = t;
       send_after(self, self, protocol::cam_timeout + duration{1}, tick_atom_v,
                  c.station);
-    } else if (c.at < station.latest.at) {
-      return; // overtaken on its way
     }
     if (station.requester != requester) {
       station.requester = requester;
@@ -163,6 +164,9 @@ struct provider_state {
       if (!offered) {
         v.accepted = false;
         v.why = "not offered here";
+      } else if (v.accepted && find(station, kind.view())) {
+        v.accepted = false;
+        v.why = "named twice";
       } else if (v.accepted) {
         v.running.counter = ++counter;
         managers.push_back(start(station, *offered, v.running, requester));

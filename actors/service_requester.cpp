@@ -209,7 +209,7 @@ struct requester_state {
         accepted(*slot, v, *manager);
       else if (open)
         refused(*slot, v.why);
-      else if (v.accepted)
+      else if (v.accepted && !find(v.running)) // not just a duplicate
         tell_provider({v.running, end_reason::no_data, side::requester});
       if (v.accepted)
         ++manager;

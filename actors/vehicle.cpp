@@ -209,7 +209,16 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->state.start();
-  self->set_down_handler([](const caf::down_msg&) {});
+  self->set_down_handler([self](const caf::down_msg&) {
+    self->send(self->state.setup.recorder,
+               event_record{now(self),
+                            "requester_lost",
+                            self->state.setup.station,
+                            0,
+                            {},
+                            0,
+                            {}});
+  });
   self->set_exit_handler([self](const caf::exit_msg& exit) {
     self->state.flush_safety();
     self->send_exit(self->state.requester, exit.reason);

@@ -6,11 +6,13 @@
 #include "actors/road.hpp"
 #include "actors/service_provider.hpp"
 #include "actors/service_requester.hpp"
+#include "actors/supervisor.hpp"
 #include "actors/vehicle.hpp"
 #include "scenario/placement.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <ranges>
@@ -100,10 +102,26 @@ auto requester_maker(caf::actor_system& sys, const scenario& s,
       };
 }
 
+std::vector<std::pair<caf::actor, std::string>>
+named(const world_actors& world, const scenario& s,
+      const std::vector<placed_vehicle>& placed) {
+  std::vector<std::pair<caf::actor, std::string>> names{
+      {caf::actor_cast<caf::actor>(world.recorder), "the recorder"},
+      {caf::actor_cast<caf::actor>(world.road), "the road"}};
+  for (std::size_t k = 0; k < world.providers.size(); ++k)
+    names.emplace_back(caf::actor_cast<caf::actor>(world.providers[k]),
+                       fmt::format("provider {}", s.providers[k].name));
+  for (std::size_t k = 0; k < world.vehicles.size(); ++k)
+    names.emplace_back(caf::actor_cast<caf::actor>(world.vehicles[k]),
+                       fmt::format("vehicle {}", placed[k].station));
+  return names;
+}
+
 } // namespace
 
 world_actors build(caf::actor_system& sys, const scenario& s,
-                   std::shared_ptr<record_sink> sink, bool virtual_time) {
+                   std::shared_ptr<record_sink> sink, bool virtual_time,
+                   std::function<void(const std::string&)> on_loss) {
   world_actors world;
   const vehicle_params car;
   const auto placed = place_vehicles(s);
@@ -136,11 +154,15 @@ world_actors build(caf::actor_system& sys, const scenario& s,
         requester_maker(sys, s, v, world.recorder, virtual_time);
     world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
   }
+  if (on_loss)
+    world.supervisor =
+        spawn_supervisor(sys, named(world, s, placed), std::move(on_loss));
   return world;
 }
 
 void dismiss(const world_actors& actors) {
   const auto reason = caf::exit_reason::user_shutdown;
+  caf::anon_send_exit(actors.supervisor, reason);
   for (const auto& vehicle : actors.vehicles)
     caf::anon_send_exit(vehicle, reason);
   for (const auto& provider : actors.providers)

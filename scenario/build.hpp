@@ -6,7 +6,9 @@
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace sofof {
@@ -18,6 +20,7 @@ struct world_actors {
   std::vector<provider_actor> providers;
   std::vector<link_actor> links;
   std::vector<vehicle_actor> vehicles;
+  caf::actor supervisor;
 };
 
 /// Spawns a scenario's actors. Each provider gets the boot id of its place in
@@ -25,8 +28,10 @@ struct world_actors {
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.
 /// @param virtual_time  Model computing times instead of taking time.
+/// @param on_loss  Called with a sentence when one of them dies.
 world_actors build(caf::actor_system& sys, const scenario& s,
-                   std::shared_ptr<record_sink> sink, bool virtual_time);
+                   std::shared_ptr<record_sink> sink, bool virtual_time,
+                   std::function<void(const std::string&)> on_loss = {});
 
 /// Sends exits so that what still runs is closed on both sides and recorded.
 /// The recorder goes last, in a call of its own.

@@ -63,7 +63,7 @@ void json_object::new_line(int depth) {
   if (how_ == layout::one_line)
     return;
   out_ += '\n';
-  out_.append(static_cast<std::size_t>(2 * depth), ' ');
+  out_.append(2 * static_cast<std::size_t>(depth), ' ');
 }
 
 } // namespace sofof

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sofof {
 
@@ -15,7 +16,7 @@ constexpr auto wipe_line = "\r\x1b[K";
 
 /// @returns "8 s", "3 min 5 s", or "2 h 7 min".
 std::string for_people(double seconds) {
-  const auto s = static_cast<long>(seconds + 0.5);
+  const auto s = std::lround(seconds);
   if (s < 60)
     return fmt::format("{} s", s);
   if (s < 3600)

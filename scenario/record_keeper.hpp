@@ -7,6 +7,8 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sofof {
@@ -34,6 +36,13 @@ public:
     if (failure_)
       std::rethrow_exception(failure_);
     return use(results_);
+  }
+
+  /// Something else went wrong; the first failure counts.
+  void fail(const std::string& why) {
+    const std::lock_guard lock{mutex_};
+    if (!failure_)
+      failure_ = std::make_exception_ptr(std::runtime_error{why});
   }
 
 private:

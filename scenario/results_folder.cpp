@@ -73,7 +73,7 @@ fs::path make_results_folder(const std::optional<fs::path>& wanted,
     return folder;
   }
   // "out/" has an empty last part.
-  const auto folder = wanted->has_filename() ? *wanted : wanted->parent_path();
+  auto folder = wanted->has_filename() ? *wanted : wanted->parent_path();
   std::error_code error;
   if (make_all(folder))
     return folder;

@@ -80,6 +80,14 @@ time_point advance(runtime& time, time_point end, const run_options& options,
   return t;
 }
 
+/// Ends all actors: their system waits for them before it goes.
+void end_all(runtime& time, const world_actors& actors) {
+  dismiss(actors);
+  time.settle(1);
+  dismiss(actors.recorder);
+  time.settle(0);
+}
+
 } // namespace
 
 run_outcome run(const scenario& s, const run_options& options,
@@ -93,13 +101,17 @@ run_outcome run(const scenario& s, const run_options& options,
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};
   const stopwatch watch;
-  const auto actors = build(time->system(), s, keeper, !options.realtime);
-  const auto ended = advance(*time, info.start + s.length, options, interrupted,
-                             *keeper, shown, watch);
-  dismiss(actors);
-  time->settle(1);
-  dismiss(actors.recorder);
-  time->settle(0);
+  const auto actors = build(time->system(), s, keeper, !options.realtime,
+                            [keeper](const auto& why) { keeper->fail(why); });
+  time_point ended;
+  try {
+    ended = advance(*time, info.start + s.length, options, interrupted, *keeper,
+                    shown, watch);
+  } catch (...) { // the disk is full, say
+    end_all(*time, actors);
+    throw;
+  }
+  end_all(*time, actors);
   return keeper->with([&](results& r) {
     const auto end =
         r.finish(ended, watch.elapsed_s(), ended < info.start + s.length);

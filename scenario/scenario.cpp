@@ -111,7 +111,7 @@ void record_options::fields(settings& s) {
 void scenario::fields(settings& s) {
   s.field("name", name);
   s.field("duration", length, 1ns);
-  constexpr double max_seed = std::numeric_limits<std::int64_t>::max();
+  constexpr double max_seed = 0x1p63; // no int64 exceeds it
   s.field("seed", seed, {0, max_seed});
   if (s.has("map", !map_file.empty()))
     s.field("map", map_file);

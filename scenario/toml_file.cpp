@@ -146,7 +146,7 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
   return std::string{std::istreambuf_iterator{in}, {}};
 }
 
-toml_file::toml_file(std::string_view text, std::string file)
+toml_file::toml_file(std::string_view text, const std::string& file)
     : content_{new content{file, parse(text, file)}} {}
 
 toml_file::~toml_file() = default;

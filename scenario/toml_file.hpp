@@ -22,7 +22,7 @@ class toml_file {
 public:
   /// @param text  The content, UTF-8.
   /// @param file  What to call it in errors.
-  toml_file(std::string_view text, std::string file);
+  toml_file(std::string_view text, const std::string& file);
   ~toml_file();
 
   /// Changes one option, as `--set` does. Tables that are missing on the way

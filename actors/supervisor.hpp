@@ -1,0 +1,22 @@
+// Notices when an actor that must live as long as the run has died.
+#pragma once
+
+#include <caf/actor.hpp>
+#include <caf/actor_system.hpp>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+/// @param watched  Actors and what they are called.
+/// @param on_loss  Called with a sentence for each one that ends otherwise
+///                 than by user_shutdown; from the supervisor's thread.
+caf::actor
+spawn_supervisor(caf::actor_system& sys,
+                 std::vector<std::pair<caf::actor, std::string>> watched,
+                 std::function<void(const std::string&)> on_loss);
+
+} // namespace sofof
