@@ -11,9 +11,17 @@ namespace {
 
 struct manager_state {
   static inline const char* name = "provider_manager";
+  provider_manager_actor::stateful_pointer<manager_state> self = nullptr;
+  caf::actor_addr provider;
   instance_actor instance;
   requester_actor requester;
   bool fed = false;
+
+  // A provider lives long, and does not forget by itself who watched it.
+  ~manager_state() {
+    if (self)
+      self->demonitor(provider);
+  }
 };
 
 provider_manager_actor::behavior_type
@@ -21,6 +29,8 @@ manager(provider_manager_actor::stateful_pointer<manager_state> self,
         instance_setup setup, requester_actor requester,
         const provider_actor& provider) {
   auto& state = self->state;
+  state.self = self;
+  state.provider = provider.address();
   setup.results = self;
   state.requester = std::move(requester);
   state.instance = spawn_instance(self->system(), std::move(setup));

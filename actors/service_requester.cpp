@@ -26,7 +26,8 @@ using requester_impl = onboard_requester_actor::extend<
 struct known_provider {
   provider_actor handle;
   std::optional<std::uint32_t> open_request;
-  time_point last_complaint; // about results of unknown running services
+  std::optional<time_point>
+      last_complaint; // about results of unknown running services
 };
 
 enum class phase { local, requested, starting, remote };
@@ -263,9 +264,10 @@ struct requester_state {
     if (i == providers.end())
       return;
     const auto t = now(self);
-    if (t - i->second.last_complaint < protocol::unknown_result_period)
+    auto& last = i->second.last_complaint;
+    if (last && t - *last < protocol::unknown_result_period)
       return;
-    i->second.last_complaint = t;
+    last = t;
     tell_provider({running, end_reason::no_data, side::requester});
   }
 
@@ -348,7 +350,7 @@ struct requester_state {
       setup.lodm->observe(
           episode_outcome{to_seconds(t - slot.first_data), name_of(reason)});
     }
-    if (is_fallback(reason))
+    if (fallback)
       slot.cool_until[slot.provider] = t + protocol::cool_down;
     slot.at = phase::local;
   }

@@ -166,8 +166,11 @@ struct vehicle_actor_state {
 
   void take(const service_result& result) {
     const auto next = result.what.as<trajectory>();
-    if (!next || next->empty() || result.created < plan_created)
+    if (!next || !next->is_sound() || result.created < plan_created)
       return;
+    const auto t = now(self);
+    if (next->start > t || next->end() < t)
+      return; // of another time
     plan = next;
     plan_created = result.created;
   }

@@ -107,6 +107,7 @@ private:
     duration since{};
     read(since);
     t = time_point{since};
+    ok_ = ok_ && is_plausible(t);
   }
   template <class T>
   void read(std::optional<T>& x) {

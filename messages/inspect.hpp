@@ -27,7 +27,7 @@ bool inspect(Inspector& f, time_point& x) {
   auto get = [&x] { return x.time_since_epoch().count(); };
   auto set = [&x](duration::rep count) {
     x = time_point{duration{count}};
-    return true;
+    return is_plausible(x);
   };
   return f.apply(get, set);
 }

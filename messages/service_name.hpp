@@ -34,7 +34,7 @@ public:
   friend bool inspect(Inspector& f, service_name& x) {
     auto get = [&x] { return std::string{x.view()}; };
     auto set = [&x](const std::string& text) {
-      if (text.size() > max_size)
+      if (text.size() > max_size || text.find('\0') != text.npos)
         return false;
       x = service_name{text};
       return true;

@@ -28,7 +28,7 @@ double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m) {
   double passed_m = 0;
   for (std::size_t i = 0; i < path.size() && passed_m <= enough_m; ++i) {
-    if (distance_m(path[i], centre) > radius_m)
+    if (!(distance_m(path[i], centre) <= radius_m)) // nor what is no number
       break;
     if (i > 0)
       passed_m += distance_m(path[i - 1], path[i]);
@@ -67,7 +67,7 @@ location_codm::decide(const central_context& context) {
       time_in_area_s(context.route, context.area, context.speed_mps);
   if (!stay_s)
     return all(false, "outside the area");
-  if (*stay_s < to_seconds(min_time_))
+  if (!(*stay_s >= to_seconds(min_time_))) // nor what is no number
     return all(false, "t_in_area < t_min");
   return all(true, "t_in_area >= t_min");
 }

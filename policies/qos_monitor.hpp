@@ -6,10 +6,11 @@
 
 namespace sofof {
 
-/// @returns whether a result came in time; exactly at the limit is in time.
+/// @returns whether a result came in time: exactly at the limit is in time,
+/// from the future is not.
 constexpr bool in_time(time_point created, time_point received,
                        duration max_latency) {
-  return received - created <= max_latency;
+  return created <= received && received - created <= max_latency;
 }
 
 /// Watches the gaps between received results.

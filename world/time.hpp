@@ -21,6 +21,16 @@ struct world_clock {
 
 using time_point = world_clock::time_point;
 
+/// Times of strangers lie within this, so that differences never overflow;
+/// 36 years.
+inline constexpr duration longest_time{std::int64_t{1} << 60};
+
+/// @returns whether a time from a stranger can be reckoned with.
+constexpr bool is_plausible(time_point t) {
+  return t.time_since_epoch() <= longest_time
+         && t.time_since_epoch() >= -longest_time;
+}
+
 /// @returns `d` in seconds.
 constexpr double to_seconds(duration d) {
   return static_cast<double>(d.count()) * 1e-9;

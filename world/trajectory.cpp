@@ -7,6 +7,11 @@
 namespace sofof {
 namespace {
 
+/// Plans with other steps are no plans.
+constexpr double min_step_s = 1e-3;
+constexpr double max_step_s = 10;
+constexpr double step_tolerance = 1e-6;
+
 /// The cubic with values y0, y1 and slopes m0, m1 (per unit of time) at the
 /// ends of an interval of length h; x in [0, 1].
 double hermite(double y0, double m0, double y1, double m1, double h, double x) {
@@ -41,6 +46,26 @@ trajectory_point between(const trajectory_point& a, const trajectory_point& b,
 
 time_point trajectory::end() const {
   return empty() ? start : start + from_seconds(points.back().t_s);
+}
+
+bool trajectory::is_sound() const {
+  if (points.size() < 2 || points.front().t_s != 0)
+    return false;
+  const auto step_s = points[1].t_s;
+  if (!(step_s >= min_step_s && step_s <= max_step_s))
+    return false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    const auto due_s = static_cast<double>(i) * step_s;
+    if (!(std::abs(p.t_s - due_s) <= step_tolerance * step_s)
+        || !(p.speed_mps >= 0))
+      return false;
+    // A sum is finite only if everything in it is.
+    if (!std::isfinite(p.s_m + p.at.x_m + p.at.y_m + p.heading_rad
+                       + p.curvature_1pm + p.speed_mps + p.accel_mps2))
+      return false;
+  }
+  return true;
 }
 
 trajectory_point trajectory::at(time_point t) const {

@@ -127,7 +127,7 @@ cabin(cabin_impl::stateful_pointer<cabin_actor_state> self,
       [](const source_change&) {},
       [self](const requester_manager_actor& manager) {
         self->state.manager = manager;
-      self->state.ask();
+        self->state.ask();
       },
       [self](tick_atom) { self->state.tick(); },
   };

@@ -289,3 +289,17 @@ TEST_CASE("when the provider crashes, its vehicles go on locally at once") {
     live(seed, {}, 1, from_seconds(random.between(5, 60)), book);
   }
 }
+
+TEST_CASE("when a vehicle crashes, its provider closes what it ran for it") {
+  dice random{2020};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    faulty_world w{seed, {}, 1};
+    w.run_and_check(from_seconds(random.between(15, 50))); // in the area
+    w.kill(w.vehicle);
+    w.run_for(5s); // longer than the CAM check takes
+    CHECK(w.book->closed_by_provider.size() >= 2);
+    for (const auto& [running, times] : w.book->closed_by_provider)
+      CHECK(times == 1);
+  }
+}

@@ -27,10 +27,11 @@ public:
   struct entry {
     time_point at;
     caf::message what;
+    caf::strong_actor_ptr from; ///< Null for nobody.
   };
 
-  void add(time_point at, caf::message what) {
-    entries_.push_back({at, std::move(what)});
+  void add(time_point at, caf::message what, caf::strong_actor_ptr from) {
+    entries_.push_back({at, std::move(what), std::move(from)});
   }
 
   /// @returns the first elements of all messages that begin with a T.
@@ -58,6 +59,16 @@ public:
     return all<T>().size();
   }
 
+  /// @returns the second elements of all messages whose second is a T.
+  template <class T>
+  std::vector<T> seconds() const {
+    std::vector<T> found;
+    for (const auto& e : entries_)
+      if (e.what.size() > 1 && e.what.type_at(1) == caf::type_id_v<T>)
+        found.push_back(e.what.get_as<T>(1));
+    return found;
+  }
+
   const std::vector<entry>& entries() const { return entries_; }
   void clear() { entries_.clear(); }
 
@@ -78,7 +89,7 @@ struct listener<caf::result<void>(Ts...)> {
   template <class Self>
   static auto make(Self* self, std::shared_ptr<told> log) {
     return [self, log](const Ts&... xs) {
-      log->add(now(self), caf::make_message(xs...));
+      log->add(now(self), caf::make_message(xs...), self->current_sender());
     };
   }
 };
@@ -160,6 +171,16 @@ public:
   void kill(const Handle& handle) {
     caf::anon_send_exit(handle, caf::exit_reason::kill);
     settle();
+  }
+
+  /// @returns whether an actor has quit or was ended.
+  template <class Handle>
+  static bool is_gone(const Handle& handle) {
+    // CAF calls back at once for an actor that is gone, else some day.
+    auto gone = std::make_shared<bool>(false);
+    caf::actor_cast<caf::actor>(handle)->attach_functor(
+        [gone] { *gone = true; });
+    return *gone;
   }
 
 private:

@@ -71,3 +71,30 @@ TEST_CASE("a plan of one point is that point at all times") {
   CHECK(plan.at(time_point{from_seconds(1)}).speed_mps == 3);
   CHECK(plan.end() == plan.start);
 }
+
+TEST_CASE("a plan that can be followed is sound") {
+  CHECK(on_a_circle().is_sound());
+}
+
+TEST_CASE("a stranger's plan is not sound when it could mislead the car") {
+  const auto spoilt = [](auto spoil) {
+    auto plan = on_a_circle();
+    spoil(plan.points);
+    return plan.is_sound();
+  };
+  const auto nan = std::nan("");
+  CHECK(!spoilt([](auto& p) { p.clear(); }));
+  CHECK(!spoilt([](auto& p) { p.resize(1); }));
+  CHECK(!spoilt([](auto& p) { p[0].t_s = 0.05; }));
+  CHECK(!spoilt([](auto& p) { p[4].t_s = p[3].t_s; }));
+  CHECK(!spoilt([](auto& p) { std::swap(p[4], p[5]); }));
+  CHECK(!spoilt([](auto& p) { p[1].t_s = 1e-9; }));
+  CHECK(!spoilt([&](auto& p) { p[2].t_s = nan; }));
+  CHECK(!spoilt([](auto& p) { p[2].speed_mps = -1; }));
+  CHECK(!spoilt([&](auto& p) { p[2].speed_mps = nan; }));
+  CHECK(!spoilt([&](auto& p) { p[9].s_m = nan; }));
+  CHECK(!spoilt([](auto& p) { p[9].at.y_m = HUGE_VAL; }));
+  CHECK(!spoilt([&](auto& p) { p[9].heading_rad = nan; }));
+  CHECK(!spoilt([&](auto& p) { p[9].curvature_1pm = nan; }));
+  CHECK(!spoilt([&](auto& p) { p[10].accel_mps2 = nan; }));
+}

@@ -1,0 +1,225 @@
+// Tests of the service provider: how a running service ends.
+#include "tests/actors/provider_world.hpp"
+
+#include <algorithm>
+
+using namespace sofof;
+using namespace sofof::test;
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a station that leaves the area loses its services") {
+  hear(inside);
+  start({one, two});
+  const auto accepted = now();
+  const auto running = verdicts();
+  const auto ran_by = managers();
+  stay(1s);
+  hear(outside);
+  REQUIRE(ends().size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(ends()[k].running == running[k].running);
+    CHECK(ends()[k].reason == end_reason::left_area);
+    CHECK(ends()[k].from == side::provider);
+    CHECK(is_gone(ran_by[k]));
+  }
+  REQUIRE(episodes().size() == 2);
+  for (const auto& e : episodes()) {
+    CHECK(e.of == side::provider);
+    CHECK(e.reason == end_reason::left_area);
+    CHECK(e.accepted == accepted);
+    CHECK(e.ended == now());
+  }
+  CHECK(!still_sends());
+}
+
+TEST_CASE_FIXTURE(provider_world, "leaving on and on ends a service once") {
+  hear(inside);
+  start({one});
+  for (int k = 0; k < 5; ++k) {
+    run_for(100ms);
+    hear(outside);
+  }
+  run_for(5s);
+  CHECK(ends().size() == 1);
+  CHECK(episodes().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a station is gone when its CAM is older than two seconds") {
+  hear(inside);
+  start({one});
+  stay(1s);
+  run_for(2s);
+  CHECK(ends().empty());
+  CHECK(episodes().empty());
+  run_for(1ns);
+  REQUIRE(ends().size() == 1);
+  CHECK(ends().front().reason == end_reason::cam_timeout);
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::cam_timeout);
+  CHECK(episodes().front().ended == now());
+  CHECK(!still_sends());
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a CAM every two seconds keeps a service alive") {
+  hear(inside);
+  start({one});
+  for (int k = 0; k < 10; ++k) {
+    run_for(2s);
+    hear(inside);
+  }
+  CHECK(episodes().empty());
+  CHECK(still_sends());
+}
+
+TEST_CASE_FIXTURE(provider_world, "a silent station that comes back is offered "
+                                  "to, and watched, like a new one") {
+  hear(inside);
+  run_for(3s);
+  hear(inside);
+  CHECK(offers().size() == 2);
+  start({one});
+  run_for(2s);
+  CHECK(episodes().empty());
+  run_for(1ns);
+  CHECK(episodes().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world, "leaving and coming back does not leave an "
+                                  "older alarm behind") {
+  hear(inside);
+  run_for(1s);
+  hear(outside);
+  run_for(500ms);
+  hear(inside);
+  start({one});
+  run_for(2s);
+  CHECK(episodes().empty());
+  run_for(1ns);
+  CHECK(episodes().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world, "a CAM that was overtaken changes nothing") {
+  hear(inside);
+  start({one});
+  const cam older{station, now() - 1s, outside, 0, 10, 0};
+  tell(provider, older, requester.handle);
+  CHECK(episodes().empty());
+  run_for(1s);
+  auto old_inside = older;
+  old_inside.position = inside;
+  tell(provider, old_inside, requester.handle);
+  run_for(1s + 1ns); // it does not count as a sign of life either
+  CHECK(episodes().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world, "the requester ends its service: it is "
+                                  "closed with that reason, once") {
+  hear(inside);
+  start({one, two});
+  const auto running = verdicts().front().running;
+  const auto manager = managers().front();
+  const service_end end{running, end_reason::qos_latency, side::requester};
+  for (int k = 0; k < 3; ++k)
+    tell(provider, end);
+  CHECK(is_gone(manager));
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().running == running);
+  CHECK(episodes().front().reason == end_reason::qos_latency);
+  CHECK(ends().empty()); // the requester knows
+  run_for(10ms);
+  requester->clear();
+  run_for(100ms);
+  for (const auto& r : requester->all<service_result>())
+    CHECK(r.running.kind == two);
+  CHECK(requester->count<service_result>() > 0);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "the end of an older or a strange running service does not "
+                  "concern the present one") {
+  hear(inside);
+  ask(make_request({one}));
+  const auto older = verdicts().front().running;
+  start({one}); // ends the older one
+  const auto present = verdicts().front().running;
+  REQUIRE(episodes().size() == 1);
+  for (const auto& r : {older,
+                        {boot + 1, station, one, present.counter},
+                        {boot, station, two, present.counter},
+                        {boot, station + 1, one, present.counter},
+                        {boot, station, one, present.counter + 1}})
+    tell(provider, service_end{r, end_reason::qos_gap, side::requester});
+  CHECK(episodes().size() == 1);
+  CHECK(still_sends());
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "when the requester is lost its services are closed") {
+  hear(inside);
+  hear(inside, neighbour, 102);
+  start({one, two});
+  const auto ran_by = managers();
+  tell(provider, service_request{boot, 102, 1, {one}, {inside}, 10},
+       neighbour.handle);
+  kill(requester.handle);
+  REQUIRE(episodes().size() == 2);
+  for (const auto& e : episodes()) {
+    CHECK(e.reason == end_reason::peer_lost);
+    CHECK(e.running.station == station);
+  }
+  for (const auto& m : ran_by)
+    CHECK(is_gone(m));
+  run_for(5s);
+  CHECK(episodes().size() == 3); // the neighbour has fallen silent
+}
+
+TEST_CASE_FIXTURE(provider_world, "when a manager is lost its service is "
+                                  "closed, and the requester told") {
+  hear(inside);
+  start({one, two});
+  kill(managers().front());
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().running == verdicts().front().running);
+  CHECK(episodes().front().reason == end_reason::peer_lost);
+  REQUIRE(ends().size() == 1);
+  CHECK(ends().front().running == verdicts().front().running);
+  requester->clear();
+  run_for(100ms);
+  CHECK(requester->count<service_result>() > 0);
+  for (const auto& r : requester->all<service_result>())
+    CHECK(r.running.kind == two);
+  hear(outside);
+  CHECK(episodes().size() == 2);
+}
+
+TEST_CASE_FIXTURE(provider_world, "a provider that shuts down closes what "
+                                  "runs and says so") {
+  hear(inside);
+  start({one, two});
+  const auto ran_by = managers();
+  caf::anon_send_exit(provider, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(is_gone(provider));
+  REQUIRE(episodes().size() == 2);
+  for (const auto& e : episodes())
+    CHECK(e.reason == end_reason::shutdown);
+  REQUIRE(ends().size() == 2);
+  for (const auto& e : ends())
+    CHECK(e.reason == end_reason::shutdown);
+  for (const auto& m : ran_by)
+    CHECK(is_gone(m));
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a killed provider takes its managers with it") {
+  hear(inside);
+  start({one});
+  const auto ran_by = managers();
+  kill(provider);
+  CHECK(is_gone(ran_by.front()));
+  requester->clear();
+  run_for(1s);
+  CHECK(requester->entries().empty());
+}

@@ -1,0 +1,282 @@
+// Tests of the network link: it looks like the far end, later or never.
+#include "actors/network_link.hpp"
+
+#include "tests/support/echo_service.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+/// A link between a probe that stands for the requester (near) and one that
+/// stands for the provider (far). Every message takes exactly 20 ms.
+struct linked_world : virtual_world {
+  const running_service one{11, 101, "one", 7}, two{11, 101, "two", 8};
+  probe<provider_actor> far = listen<provider_actor>();
+  probe<requester_actor> near = listen<requester_actor>();
+  probe<provider_manager_actor> first = listen<provider_manager_actor>();
+  probe<provider_manager_actor> second = listen<provider_manager_actor>();
+  link_actor link = join({});
+
+  static channel_profile steady() {
+    channel_profile p;
+    p.network = delay_law::uniform(20ms, 20ms);
+    return p;
+  }
+
+  link_actor join(std::optional<link_fault_options> faults,
+                  const channel_profile& profile = steady()) {
+    const random_stream seed{1, "network"};
+    const channel draws{std::make_shared<const channel_profile>(profile), seed,
+                        101, 0};
+    link_setup setup{
+        {draws, way::up, nullptr}, {draws, way::down, nullptr}, {}};
+    if (faults)
+      setup.faults.emplace(seed.part("faults"), *faults);
+    return own(spawn_network_link(system(), far.handle, std::move(setup)));
+  }
+
+  void say_cam() { tell(link, cam{101, now(), {1, 2}, 3, 4, 5}, near.handle); }
+  /// Lets both ends know each other, and forgets about it.
+  void meet() {
+    say_cam();
+    run_for(1s);
+    far->clear();
+  }
+  /// The provider accepts both services.
+  void accept() {
+    tell(link, service_response{11, 101, 3, {{one, true, ""}, {two, true, ""}}},
+         std::vector{first.handle, second.handle});
+    run_for(1s);
+  }
+  void result(std::uint64_t cycle) {
+    tell(link, service_result{one, cycle, now(), payload::of(echo{cycle})});
+  }
+  std::vector<std::uint64_t> cycles() const {
+    std::vector<std::uint64_t> all;
+    for (const auto& r : near->all<service_result>())
+      all.push_back(r.cycle);
+    return all;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(linked_world, "a CAM arrives after the delay, unchanged") {
+  const auto sent = now();
+  say_cam();
+  run_for(20ms - 1ns);
+  CHECK(far->count<cam>() == 0);
+  run_for(1ns);
+  REQUIRE(far->count<cam>() == 1);
+  CHECK(far->times<cam>().front() == sent + 20ms);
+  const auto c = far->all<cam>().front();
+  CHECK(c.station == 101);
+  CHECK(c.at == sent);
+  CHECK(c.position == point{1, 2});
+}
+
+TEST_CASE_FIXTURE(linked_world, "to the provider the link looks like the "
+                                "requester") {
+  say_cam();
+  tell(link, service_request{11, 101, 3, {"one"}, {{1, 2}}, 5}, near.handle);
+  run_for(20ms);
+  CHECK(far->seconds<requester_actor>()
+        == std::vector<requester_actor>(2, requester_actor{link}));
+  REQUIRE(far->count<service_request>() == 1);
+  CHECK(far->all<service_request>().front().number == 3);
+}
+
+TEST_CASE_FIXTURE(linked_world, "to the requester the link looks like the "
+                                "provider") {
+  meet();
+  const auto sent = now();
+  tell_as(far.handle, link, service_offer{11, {1, 2}, {"one"}});
+  run_for(1s);
+  REQUIRE(near->count<service_offer>() == 1);
+  CHECK(near->times<service_offer>().front() == sent + 20ms);
+  CHECK(caf::actor_cast<provider_actor>(near->entries().front().from)
+        == provider_actor{link});
+}
+
+TEST_CASE_FIXTURE(linked_world, "to the requester the link looks like the "
+                                "managers of its services") {
+  meet();
+  accept();
+  REQUIRE(near->count<service_response>() == 1);
+  CHECK(near->all<service_response>().front().verdicts.size() == 2);
+  const auto given = near->seconds<std::vector<provider_manager_actor>>();
+  REQUIRE(given.size() == 1);
+  CHECK(
+      given.front()
+      == std::vector<provider_manager_actor>(2, provider_manager_actor{link}));
+}
+
+TEST_CASE_FIXTURE(linked_world,
+                  "each input finds its manager, after the delay") {
+  meet();
+  accept();
+  const auto sent = now();
+  tell(link, service_input{two, sent, payload::of(echo{2})});
+  tell(link, service_input{one, sent, payload::of(echo{1})});
+  run_for(1s);
+  REQUIRE(first->count<service_input>() == 1);
+  REQUIRE(second->count<service_input>() == 1);
+  CHECK(first->all<service_input>().front().running == one);
+  CHECK(second->all<service_input>().front().what.as<echo>()->number == 2);
+  CHECK(first->times<service_input>().front() == sent + 20ms);
+}
+
+TEST_CASE_FIXTURE(linked_world, "a refused service has no manager") {
+  meet();
+  tell(link, service_response{11, 101, 3, {{one, false, ""}, {two, true, ""}}},
+       std::vector{second.handle});
+  tell(link, service_input{two, now(), payload::of(echo{2})});
+  tell(link, service_input{one, now(), payload::of(echo{1})});
+  run_for(1s);
+  CHECK(second->count<service_input>() == 1);
+  CHECK(first->count<service_input>() == 0);
+}
+
+TEST_CASE_FIXTURE(linked_world, "an ended service is not fed any more") {
+  meet();
+  accept();
+  tell(link, service_end{one, end_reason::qos_gap, side::requester});
+  tell(link, service_input{one, now(), payload::of(echo{1})});
+  tell(link, service_input{two, now(), payload::of(echo{1})});
+  run_for(1s);
+  CHECK(first->count<service_input>() == 0);
+  CHECK(second->count<service_input>() == 1);
+}
+
+TEST_CASE_FIXTURE(linked_world, "a service_end goes to the other side") {
+  meet();
+  const auto sent = now();
+  tell(link, service_end{one, end_reason::qos_gap, side::requester});
+  tell(link, service_end{two, end_reason::left_area, side::provider});
+  run_for(1s);
+  REQUIRE(far->count<service_end>() == 1);
+  REQUIRE(near->count<service_end>() == 1);
+  CHECK(far->all<service_end>().front().running == one);
+  CHECK(near->all<service_end>().front().running == two);
+  CHECK(far->times<service_end>().front() == sent + 20ms);
+  CHECK(near->times<service_end>().front() == sent + 20ms);
+}
+
+TEST_CASE_FIXTURE(linked_world, "a result arrives after the delay, unchanged") {
+  meet();
+  const auto sent = now();
+  result(5);
+  run_for(1s);
+  REQUIRE(near->count<service_result>() == 1);
+  CHECK(near->times<service_result>().front() == sent + 20ms);
+  const auto r = near->all<service_result>().front();
+  CHECK(r.running == one);
+  CHECK(r.created == sent);
+  CHECK(r.what.as<echo>()->number == 5);
+}
+
+TEST_CASE_FIXTURE(linked_world,
+                  "before anybody has spoken, the provider's words get lost") {
+  tell(link, service_offer{11, {}, {"one"}});
+  result(1);
+  run_for(1s);
+  CHECK(near->entries().empty());
+  CHECK(!is_gone(link));
+}
+
+TEST_CASE_FIXTURE(linked_world,
+                  "results arrive in the order they were sent, however the "
+                  "delay varies") {
+  link = join({}, *find_channel_profile("paper-5g"));
+  meet();
+  std::vector<std::uint64_t> sent;
+  for (std::uint64_t k = 1; k <= 500; ++k) {
+    result(k);
+    sent.push_back(k);
+    run_for(100us);
+  }
+  run_for(1s);
+  CHECK(cycles() == sent);
+}
+
+TEST_CASE_FIXTURE(linked_world,
+                  "what else is sent does not change when results arrive") {
+  const auto profile = *find_channel_profile("paper-5g");
+  const auto arrivals = [&](bool with_offers) {
+    link = join({}, profile);
+    meet();
+    near->clear();
+    const auto began = now();
+    for (std::uint64_t k = 1; k <= 50; ++k) {
+      result(k);
+      run_for(90ms);
+      if (with_offers)
+        tell(link, service_offer{11, {}, {"one"}});
+      run_for(110ms);
+    }
+    std::vector<duration> all;
+    for (const auto t : near->times<service_result>())
+      all.push_back(t - began);
+    return all;
+  };
+  const auto alone = arrivals(false);
+  CHECK(alone.size() == 50);
+  CHECK(arrivals(true) == alone);
+}
+
+TEST_CASE_FIXTURE(linked_world, "the link does not outlive the provider") {
+  meet();
+  kill(far.handle);
+  CHECK(is_gone(link));
+}
+
+TEST_CASE_FIXTURE(linked_world, "the link does not outlive the requester") {
+  meet();
+  kill(near.handle);
+  CHECK(is_gone(link));
+}
+
+TEST_CASE_FIXTURE(linked_world, "what is lost never arrives, either way") {
+  link = join(link_fault_options{1, 0, 0, 0ms});
+  say_cam();
+  result(1);
+  tell(link, service_offer{11, {}, {"one"}});
+  run_for(5s);
+  CHECK(far->entries().empty());
+  CHECK(near->entries().empty());
+}
+
+TEST_CASE_FIXTURE(linked_world, "what is doubled arrives twice, the first "
+                                "time on time") {
+  link = join(link_fault_options{0, 1, 0, 300ms});
+  const auto sent = now();
+  say_cam();
+  result(1);
+  run_for(5s);
+  REQUIRE(far->count<cam>() == 2);
+  CHECK(near->count<service_result>() == 2);
+  CHECK(far->times<cam>().front() == sent + 20ms);
+}
+
+TEST_CASE_FIXTURE(linked_world, "what is reordered arrives once, some later "
+                                "than what was sent after it") {
+  link = join(link_fault_options{0, 0, 0.5, 300ms});
+  say_cam();
+  for (std::uint64_t k = 1; k <= 100; ++k) {
+    result(k);
+    run_for(10ms);
+  }
+  run_for(1s);
+  auto all = cycles();
+  CHECK(all.size() == 100);
+  CHECK(!std::ranges::is_sorted(all));
+  std::ranges::sort(all);
+  CHECK(std::ranges::adjacent_find(all) == all.end());
+}

@@ -1,0 +1,279 @@
+// Tests of the service provider: from a CAM to running services.
+#include "tests/actors/provider_world.hpp"
+
+using namespace sofof;
+using namespace sofof::test;
+
+TEST_CASE_FIXTURE(provider_world, "a station outside the area gets no offer") {
+  hear(outside);
+  run_for(5s);
+  hear(outside);
+  CHECK(requester->entries().empty());
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "the first CAM inside the area is answered by an offer of "
+                  "all services, at once") {
+  hear(outside);
+  run_for(100ms);
+  hear(inside);
+  REQUIRE(offers().size() == 1);
+  CHECK(requester->times<service_offer>().front() == now());
+  const auto offer = offers().front();
+  CHECK(offer.provider == boot);
+  CHECK(offer.position == point{1, 2});
+  CHECK(offer.kinds == std::vector{one, two});
+}
+
+TEST_CASE_FIXTURE(provider_world, "the rim counts as inside") {
+  hear({100, 100});
+  CHECK(offers().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world, "offers are repeated every second, exactly") {
+  const auto began = now();
+  hear(inside);
+  stay(3s);
+  CHECK(requester->times<service_offer>()
+        == std::vector{began, began + 1s, began + 2s, began + 3s});
+}
+
+TEST_CASE_FIXTURE(provider_world, "a CAM a nanosecond before the second is "
+                                  "over brings no offer") {
+  hear(inside);
+  run_for(1s - 1ns);
+  hear(inside);
+  CHECK(offers().size() == 1);
+  run_for(1ns);
+  hear(inside);
+  CHECK(offers().size() == 2);
+}
+
+TEST_CASE_FIXTURE(provider_world, "without CAMs there are no offers") {
+  hear(inside);
+  run_for(1900ms);
+  CHECK(offers().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "only services that do not run are offered again") {
+  hear(inside);
+  start({two});
+  stay(1s);
+  REQUIRE(offers().size() == 2);
+  CHECK(offers().back().kinds == std::vector{one});
+  start({one});
+  stay(3s);
+  CHECK(offers().size() == 2);
+}
+
+TEST_CASE_FIXTURE(provider_world, "what has ended is offered again") {
+  hear(inside);
+  start({one, two});
+  stay(5s);
+  CHECK(offers().size() == 1);
+  tell(provider, service_end{verdicts().front().running, end_reason::qos_gap,
+                             side::requester});
+  stay(1s);
+  REQUIRE(offers().size() == 2);
+  CHECK(offers().back().kinds == std::vector{one});
+}
+
+TEST_CASE_FIXTURE(provider_world, "each station is offered to by itself") {
+  hear(inside);
+  run_for(500ms);
+  hear(inside, neighbour, 102);
+  hear(inside);
+  CHECK(offers().size() == 1);
+  CHECK(neighbour->count<service_offer>() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "who comes back is offered to at the first CAM again") {
+  hear(inside);
+  run_for(100ms);
+  hear(outside);
+  run_for(100ms);
+  hear(inside);
+  CHECK(offers().size() == 2);
+}
+
+// -- request and response ----------------------------------------------------
+
+TEST_CASE_FIXTURE(provider_world, "the CODM judges a request as it came") {
+  hear(inside);
+  auto request = make_request({two, one});
+  request.route = {{10, 0}, {20, 0}, {30, 5}};
+  request.speed_mps = 12.5;
+  ask(request);
+  REQUIRE(codm->asked.size() == 1);
+  const auto& asked = codm->asked.front();
+  CHECK(asked.now == now());
+  CHECK(asked.station == station);
+  CHECK(asked.kinds == std::vector<std::string>{"two", "one"});
+  CHECK(asked.route == request.route);
+  CHECK(asked.speed_mps == 12.5);
+  CHECK(asked.sessions.empty());
+}
+
+TEST_CASE_FIXTURE(provider_world, "the CODM sees what runs, of all stations") {
+  hear(inside);
+  hear(inside, neighbour, 102);
+  start({one, two});
+  tell(provider, service_request{boot, 102, 1, {one}, {inside}, 10},
+       neighbour.handle);
+  REQUIRE(codm->asked.size() == 2);
+  using sessions = std::vector<std::pair<station_id, std::string>>;
+  CHECK(codm->asked.back().sessions
+        == sessions{{station, "one"}, {station, "two"}});
+}
+
+TEST_CASE_FIXTURE(provider_world, "a request is answered at once, a verdict "
+                                  "for each service, in their order") {
+  codm->accepted = {"two"};
+  hear(inside);
+  ask(make_request({one, two}));
+  REQUIRE(responses().size() == 1);
+  CHECK(requester->times<service_response>().front() == now());
+  const auto r = responses().front();
+  CHECK(r.provider == boot);
+  CHECK(r.station == station);
+  CHECK(r.number == last_number);
+  REQUIRE(r.verdicts.size() == 2);
+  CHECK(r.verdicts[0].running == running_service{boot, station, one, 0});
+  CHECK(!r.verdicts[0].accepted);
+  CHECK(r.verdicts[0].why == "as told");
+  CHECK(r.verdicts[1].accepted);
+  CHECK(r.verdicts[1].running.kind == two);
+  CHECK(r.verdicts[1].running.counter > 0);
+  CHECK(managers().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "an accepted service runs from its first input on") {
+  hear(inside);
+  ask(make_request({one}));
+  CHECK(!still_sends());
+  hear(inside);
+  tell(managers().front(), service_input{{}, now(), payload::of(echo{5})});
+  run_for(10ms);
+  REQUIRE(requester->count<service_result>() > 0);
+  const auto result = requester->all<service_result>().front();
+  CHECK(result.running == verdicts().front().running);
+  CHECK(result.what.as<echo>()->number == 5);
+}
+
+TEST_CASE_FIXTURE(provider_world, "an unknown service is refused, whatever the "
+                                  "CODM says; the others are not") {
+  codm->accepted = {"one", "unheard_of"};
+  hear(inside);
+  ask(make_request({"unheard_of", one}));
+  REQUIRE(verdicts().size() == 2);
+  CHECK(!verdicts()[0].accepted);
+  CHECK(verdicts()[0].running.counter == 0);
+  CHECK(verdicts()[1].accepted);
+  CHECK(managers().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "counters rise over services, stations and episodes") {
+  hear(inside);
+  hear(inside, neighbour, 102);
+  ask(make_request({one, two}));
+  const auto first = verdicts();
+  tell(provider, service_request{boot, 102, 1, {one}, {inside}, 10},
+       neighbour.handle);
+  const auto second =
+      neighbour->all<service_response>().front().verdicts.front();
+  hear(outside);
+  hear(inside);
+  ask(make_request({one}));
+  const auto third = verdicts().front();
+  CHECK(first[0].running.counter == 1);
+  CHECK(first[1].running.counter == 2);
+  CHECK(second.running.counter == 3);
+  CHECK(third.running.counter == 4);
+}
+
+TEST_CASE_FIXTURE(provider_world, "the duplicate of a request is ignored") {
+  hear(inside);
+  const auto request = make_request({one});
+  ask(request);
+  run_for(50ms);
+  ask(request);
+  CHECK(responses().size() == 1);
+  CHECK(ends().empty());
+  CHECK(codm->asked.size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a request that was overtaken by a newer one is ignored") {
+  hear(inside);
+  const auto older = make_request({one});
+  ask(make_request({two}));
+  ask(older);
+  REQUIRE(responses().size() == 1);
+  CHECK(verdicts().front().running.kind == two);
+}
+
+TEST_CASE_FIXTURE(provider_world, "a station nobody has seen is refused") {
+  ask(make_request({one, two}));
+  REQUIRE(responses().size() == 1);
+  CHECK(responses().front().number == last_number);
+  REQUIRE(verdicts().size() == 2);
+  for (const auto& v : verdicts()) {
+    CHECK(!v.accepted);
+    CHECK(v.running.counter == 0);
+  }
+  CHECK(managers().empty());
+  CHECK(codm->asked.empty());
+}
+
+TEST_CASE_FIXTURE(provider_world, "a station that has left is refused") {
+  hear(inside);
+  hear(outside);
+  ask(make_request({one}));
+  CHECK(!verdicts().front().accepted);
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a request to an earlier life of the provider is refused") {
+  hear(inside);
+  auto request = make_request({one});
+  request.provider = boot - 1;
+  ask(request);
+  REQUIRE(responses().size() == 1);
+  CHECK(!verdicts().front().accepted);
+  CHECK(codm->asked.empty());
+}
+
+TEST_CASE_FIXTURE(provider_world, "who asks for what runs has missed its end: "
+                                  "it is closed and started anew") {
+  hear(inside);
+  start({one});
+  const auto before = verdicts().front().running;
+  const auto manager = managers().front();
+  run_for(1s);
+  ask(make_request({one}));
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().running == before);
+  CHECK(is_gone(manager));
+  CHECK(verdicts().front().accepted);
+  CHECK(verdicts().front().running.counter > before.counter);
+}
+
+TEST_CASE_FIXTURE(provider_world, "a request for nothing is answered so") {
+  hear(inside);
+  ask(make_request({}));
+  REQUIRE(responses().size() == 1);
+  CHECK(verdicts().empty());
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "a request that names a service twice starts it once") {
+  hear(inside);
+  ask(make_request({one, one}));
+  CHECK(managers().size() == 1);
+  hear(outside);
+  CHECK(episodes().size() == 1);
+}

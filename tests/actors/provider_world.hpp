@@ -1,0 +1,107 @@
+// One service provider among probes that stand for requesters.
+#pragma once
+
+#include "actors/service_provider.hpp"
+#include "tests/actors/spy_policies.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <utility>
+
+namespace sofof::test {
+
+struct provider_world : virtual_world {
+  static constexpr boot_id boot = 11;
+  static constexpr station_id station = 101;
+  static constexpr point inside{10, 0}, outside{101, 0};
+  const service_name one{"one"}, two{"two"};
+
+  std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<requester_actor> requester = listen<requester_actor>();
+  probe<requester_actor> neighbour = listen<requester_actor>();
+  provider_actor provider = own(spawn_service_provider(system(), setup()));
+  std::uint32_t last_number = 0;
+
+  provider_world() { run_for(10s); } // the clock's zero is no special time
+
+  provider_setup setup() {
+    provider_setup s;
+    s.boot = boot;
+    s.position = {1, 2};
+    s.area = polygon{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
+    s.world = std::make_shared<streets>();
+    s.kinds = {std::make_shared<echo_service>("one"),
+               std::make_shared<echo_service>("two")};
+    s.codm = std::make_unique<spy_codm>(codm);
+    s.recorder = recorder.handle;
+    s.profile =
+        std::make_shared<channel_profile>(*find_channel_profile("ideal"));
+    s.seed = random_stream{1, "network"};
+    return s;
+  }
+
+  // -- what happens to the provider ---------------------------------------
+
+  void hear(point where, const probe<requester_actor>& from,
+            station_id who = station) {
+    tell(provider, cam{who, now(), where, 0, 10, 0}, from.handle);
+  }
+  void hear(point where) { hear(where, requester); }
+
+  /// Hears CAMs at 10 Hz from inside for some time, the last one at its end.
+  void stay(duration d) {
+    for (auto left = d; left >= 100ms; left -= 100ms) {
+      run_for(100ms);
+      hear(inside);
+    }
+  }
+  service_request make_request(std::vector<service_name> kinds) {
+    return {boot, station, ++last_number, std::move(kinds), {inside}, 10};
+  }
+  void ask(const service_request& request) {
+    tell(provider, request, requester.handle);
+  }
+  /// Asks, and starts what was accepted.
+  void start(std::vector<service_name> kinds) {
+    ask(make_request(std::move(kinds)));
+    for (const auto& m : managers())
+      tell(m, service_input{{}, now(), payload::of(echo{1})});
+  }
+
+  // -- what it has done ---------------------------------------------------
+
+  std::vector<service_offer> offers() const {
+    return requester->all<service_offer>();
+  }
+  std::vector<service_response> responses() const {
+    return requester->all<service_response>();
+  }
+  /// The managers that came with the last response.
+  std::vector<provider_manager_actor> managers() const {
+    const auto all = requester->seconds<std::vector<provider_manager_actor>>();
+    REQUIRE(!all.empty());
+    return all.back();
+  }
+  std::vector<verdict> verdicts() const {
+    REQUIRE(!responses().empty());
+    return responses().back().verdicts;
+  }
+  std::vector<service_end> ends() const {
+    return requester->all<service_end>();
+  }
+  std::vector<episode_record> episodes() const {
+    return recorder->all<episode_record>();
+  }
+  /// @returns whether the provider still computes for the requester.
+  bool still_sends() {
+    const auto before = requester->count<service_result>();
+    run_for(100ms);
+    return requester->count<service_result>() > before;
+  }
+};
+
+} // namespace sofof::test

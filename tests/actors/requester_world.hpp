@@ -1,0 +1,155 @@
+// One service requester among probes: its vehicle, two providers, and the
+// managers of accepted services.
+#pragma once
+
+#include "actors/service_requester.hpp"
+#include "tests/actors/spy_policies.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace sofof::test {
+
+struct requester_world : virtual_world {
+  static constexpr station_id station = 101;
+  static constexpr boot_id here = 11, elsewhere = 22;
+  const service_name one{"one"}, two{"two"};
+
+  std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
+  probe<vehicle_actor> vehicle = listen<vehicle_actor>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<provider_actor> provider = listen<provider_actor>();
+  probe<provider_actor> other = listen<provider_actor>();
+  probe<provider_manager_actor> manager = listen<provider_manager_actor>();
+  streets_ptr world = one_street();
+  onboard_requester_actor requester = spawn();
+
+  requester_world() {
+    settle();
+    drive_to(100);
+    run_for(10s); // the clock's zero is no special time
+    for (const auto& m : vehicle->all<requester_manager_actor>())
+      tell(m, service_input{{}, now(), payload::of(echo{1})});
+    run_for(1s);
+    vehicle->clear();
+    recorder->clear();
+  }
+
+  static streets_ptr one_street() {
+    auto world = std::make_shared<streets>();
+    world->map =
+        road_map{"street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
+    world->routes.push_back(world->map.make_route(
+        "street", std::vector<std::string>{"street"}, false));
+    return world;
+  }
+
+  onboard_requester_actor spawn() {
+    requester_setup setup;
+    setup.station = station;
+    setup.way = world->routes.front();
+    setup.world = world;
+    setup.kinds = {std::make_shared<echo_service>("one"),
+                   std::make_shared<echo_service>("two")};
+    setup.lodm = std::make_unique<spy_lodm>(lodm);
+    setup.vehicle = vehicle.handle;
+    setup.recorder = recorder.handle;
+    setup.noise = random_stream{1, "vehicle"};
+    return own(spawn_service_requester(system(), std::move(setup)));
+  }
+
+  // -- what happens to the requester --------------------------------------
+
+  void drive_to(double x_m, double speed_mps = 15) {
+    tell(requester,
+         ego_state{{station, now(), {x_m, 0}, 0, speed_mps, 0}, x_m});
+  }
+  void offer(std::vector<service_name> kinds) {
+    offer_from(provider, here, std::move(kinds));
+  }
+  void offer_from(const probe<provider_actor>& from, boot_id id,
+                  std::vector<service_name> kinds) {
+    tell_as(from.handle, requester,
+            service_offer{id, {500, 20}, std::move(kinds)});
+  }
+
+  /// Answers a request: counter 0 refuses.
+  void answer(const service_request& request,
+              const std::vector<std::pair<service_name, std::uint32_t>>& what) {
+    service_response response{request.provider, station, request.number, {}};
+    std::vector<provider_manager_actor> managers;
+    for (const auto& [kind, counter] : what) {
+      response.verdicts.push_back(
+          {{request.provider, station, kind, counter}, counter > 0, "as told"});
+      if (counter > 0)
+        managers.push_back(manager.handle);
+    }
+    tell(requester, response, managers);
+  }
+  void result(const running_service& r, std::uint64_t cycle,
+              duration latency = 10ms) {
+    tell(requester,
+         service_result{r, cycle, now() - latency, payload::of(echo{cycle})});
+  }
+
+  running_service at_here(const service_name& kind,
+                          std::uint32_t counter) const {
+    return {here, station, kind, counter};
+  }
+
+  /// Brings the given services of the first provider to `starting`; counters
+  /// rise from 7 on.
+  void start(const std::vector<service_name>& kinds) {
+    offer(kinds);
+    std::vector<std::pair<service_name, std::uint32_t>> yes;
+    for (std::uint32_t counter = 7; const auto& kind : kinds)
+      yes.emplace_back(kind, counter++);
+    answer(last_request(), yes);
+  }
+  /// The same, up to the first data.
+  void start_remote(const std::vector<service_name>& kinds) {
+    start(kinds);
+    for (std::uint32_t counter = 7; const auto& kind : kinds)
+      result(at_here(kind, counter++), 1);
+  }
+
+  // -- what it has done ---------------------------------------------------
+
+  service_request last_request() const {
+    const auto all = provider->all<service_request>();
+    REQUIRE(!all.empty());
+    return all.back();
+  }
+  std::size_t requests() const { return provider->count<service_request>(); }
+  std::vector<service_end> ends() const { return provider->all<service_end>(); }
+  std::vector<episode_record> episodes() const {
+    return recorder->all<episode_record>();
+  }
+  std::vector<decision_record> decisions() const {
+    return recorder->all<decision_record>();
+  }
+
+  /// @returns whether a service is remote now, as the client has it.
+  bool is_remote(const service_name& kind) const {
+    bool remote = false;
+    for (const auto& change : vehicle->all<source_change>())
+      if (change.kind == kind)
+        remote = change.remote;
+    return remote;
+  }
+  std::vector<service_result> local_results() const {
+    std::vector<service_result> found;
+    for (const auto& r : vehicle->all<service_result>())
+      if (r.running.counter == 0)
+        found.push_back(r);
+    return found;
+  }
+};
+
+} // namespace sofof::test

@@ -1,0 +1,196 @@
+// Tests of the kinds of services: names, options, functions.
+#include "actors/service_kind.hpp"
+#include "actors/services/trajectory_planning.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/option_list.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <caf/binary_deserializer.hpp>
+#include <caf/binary_serializer.hpp>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+streets_ptr one_street() {
+  auto world = std::make_shared<streets>();
+  world->map = road_map{"map", {}, {toy::straight("lane", {0, 0}, {1000, 0})}};
+  world->routes.push_back(
+      world->map.make_route("street", std::vector<std::string>{"lane"}, false));
+  return world;
+}
+
+service_setup on(streets_ptr world) {
+  service_setup setup;
+  setup.world = std::move(world);
+  setup.station = 101;
+  return setup;
+}
+
+/// What becomes of a payload whose bytes break on the way.
+payload broken(const std::string& type, std::size_t size) {
+  caf::byte_buffer wire;
+  caf::binary_serializer sink{nullptr, wire};
+  REQUIRE(sink.apply(type));
+  REQUIRE(sink.apply(std::vector<std::byte>(size, std::byte{0xa5})));
+  payload p;
+  caf::binary_deserializer source{nullptr, wire};
+  REQUIRE(source.apply(p));
+  return p;
+}
+
+plan_request standing_at(double s_m, time_point at) {
+  plan_request ask;
+  ask.way = "street";
+  ask.from.at = at;
+  ask.from.s_m = s_m;
+  return ask;
+}
+
+} // namespace
+
+TEST_CASE("both services are there, under their names") {
+  const auto names = service_kind_names();
+  CHECK(std::ranges::is_sorted(names));
+  for (const auto name : {"cabin_climate", "trajectory_planning"})
+    CHECK(std::ranges::find(names, name) != names.end());
+  for (const auto name : names) {
+    REQUIRE(make_service_kind(name));
+    CHECK(make_service_kind(name)->name() == name);
+    CHECK_NOTHROW(service_name{name});
+  }
+}
+
+TEST_CASE("there is no service of an unknown name") {
+  CHECK(!make_service_kind(""));
+  CHECK(!make_service_kind("trajectory"));
+  CHECK(!make_service_kind("Cabin_climate"));
+}
+
+TEST_CASE("every kind lists its options once, defaults within their ranges, "
+          "the common ones first") {
+  for (const auto name : service_kind_names()) {
+    CAPTURE(name);
+    option_list options;
+    make_service_kind(name)->fields(options);
+    CHECK(options.refused.empty());
+    for (const auto key :
+         {"max_latency", "max_interarrival", "period", "input_period", "demand",
+          "run_time_mean", "run_time_sd", "run_time_max"})
+      CHECK(options.names.contains(key));
+  }
+}
+
+TEST_CASE("trajectory planning promises what the paper chose") {
+  const auto kind = make_service_kind("trajectory_planning");
+  CHECK(kind->common.limits.max_latency == 50ms);
+  CHECK(kind->common.limits.max_interarrival == 100ms);
+  CHECK(kind->common.period == 50ms);
+  CHECK(kind->common.run_time_mean == 5500us);
+  CHECK(kind->common.run_time_sd == 2ms);
+}
+
+TEST_CASE("cabin climate is slow and patient") {
+  const auto kind = make_service_kind("cabin_climate");
+  CHECK(kind->common.limits.max_latency == 2s);
+  CHECK(kind->common.limits.max_interarrival == 5s);
+  CHECK(kind->common.period == 1s);
+}
+
+TEST_CASE("every kind keeps its own limits at home") {
+  for (const auto name : service_kind_names()) {
+    CAPTURE(name);
+    const auto& common = make_service_kind(name)->common;
+    CHECK(common.run_time_max <= common.period);
+    CHECK(common.run_time_mean <= common.run_time_max);
+    CHECK(common.period <= common.limits.max_interarrival);
+  }
+}
+
+TEST_CASE("an unknown planner is refused") {
+  option_list options;
+  options.texts = {{"planner.name", "crystal_ball"}};
+  make_service_kind("trajectory_planning")->fields(options);
+  CHECK(options.refused.contains("planner.name"));
+}
+
+TEST_CASE("a function without proper input gives no result") {
+  for (const auto name : service_kind_names()) {
+    CAPTURE(name);
+    auto function = make_service_kind(name)->make_function(on(one_street()));
+    const auto result_of = [&](payload what) {
+      return function->run(time_point{1s}, {{}, time_point{1s}, what});
+    };
+    CHECK(result_of({}).type().empty());
+    CHECK(result_of(payload::of(echo{1})).type().empty());
+    for (const auto type : {"plan_request", "climate_ask"})
+      for (std::size_t size = 0; size < 200; ++size)
+        if (size != 32) // four numbers are a climate question
+          CHECK(result_of(broken(type, size)).type().empty());
+  }
+}
+
+TEST_CASE("a plan begins when its cycle begins, where the vehicle is") {
+  const auto kind = make_service_kind("trajectory_planning");
+  auto function = kind->make_function(on(one_street()));
+  const time_point t{3s};
+  const auto ask = standing_at(100, t);
+  const auto plan =
+      function->run(t, {{}, t, payload::of(ask)}).as<trajectory>();
+  REQUIRE(plan);
+  REQUIRE(!plan->empty());
+  CHECK(plan->start == t);
+  CHECK(distance_m(plan->points.front().at, {100, 0}) < 0.01);
+  CHECK(plan->points.back().s_m > 110);
+}
+
+TEST_CASE("a plan goes on from the one before") {
+  const auto kind = make_service_kind("trajectory_planning");
+  auto function = kind->make_function(on(one_street()));
+  const auto ask = standing_at(100, time_point{3s});
+  const service_input old_input{{}, time_point{3s}, payload::of(ask)};
+  const auto first = function->run(time_point{3s}, old_input).as<trajectory>();
+  const auto next =
+      function->run(time_point{3050ms}, old_input).as<trajectory>();
+  REQUIRE(first);
+  REQUIRE(next);
+  CHECK(next->start == time_point{3050ms});
+  CHECK(distance_m(next->points.front().at, first->at(time_point{3050ms}).at)
+        < 1e-6);
+}
+
+TEST_CASE("on a way that is not on the map there is no plan") {
+  const auto kind = make_service_kind("trajectory_planning");
+  auto function = kind->make_function(on(one_street()));
+  auto ask = standing_at(100, time_point{3s});
+  ask.way = "lane"; // a lane is no route
+  CHECK(function->run(time_point{3s}, {{}, time_point{3s}, payload::of(ask)})
+            .type()
+            .empty());
+}
+
+TEST_CASE("two functions of one kind know nothing of each other") {
+  const auto kind = make_service_kind("trajectory_planning");
+  auto a = kind->make_function(on(one_street()));
+  auto b = kind->make_function(on(one_street()));
+  const time_point t{3s};
+  a->run(t, {{}, t, payload::of(standing_at(100, t))});
+  const auto plan =
+      b->run(t, {{}, t, payload::of(standing_at(500, t))}).as<trajectory>();
+  REQUIRE(plan);
+  CHECK(plan->points.front().s_m == doctest::Approx(500));
+}
+
+TEST_CASE_FIXTURE(virtual_world, "the vehicle itself uses its plans") {
+  const auto vehicle = listen<vehicle_actor>();
+  const auto kind = make_service_kind("trajectory_planning");
+  CHECK(caf::actor_cast<caf::actor>(
+            kind->spawn_client(system(), {}, vehicle.handle))
+        == caf::actor_cast<caf::actor>(vehicle.handle));
+}

@@ -1,0 +1,234 @@
+// Random contents for every message, and whether two of them are the same.
+// Both walk the members themselves, not `inspect`, so that a member that
+// `inspect` forgets is noticed.
+#pragma once
+
+#include "messages/type_ids.hpp"
+#include "tests/support/dice.hpp"
+#include "tests/support/echo_service.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+namespace sofof::test {
+
+/// Number of members; a wrong one does not compile.
+template <class T>
+inline constexpr std::size_t arity = 0;
+template <>
+inline constexpr std::size_t arity<point> = 2;
+template <>
+inline constexpr std::size_t arity<running_service> = 4;
+template <>
+inline constexpr std::size_t arity<cam> = 6;
+template <>
+inline constexpr std::size_t arity<service_offer> = 3;
+template <>
+inline constexpr std::size_t arity<service_request> = 6;
+template <>
+inline constexpr std::size_t arity<verdict> = 3;
+template <>
+inline constexpr std::size_t arity<service_response> = 4;
+template <>
+inline constexpr std::size_t arity<service_input> = 3;
+template <>
+inline constexpr std::size_t arity<service_result> = 4;
+template <>
+inline constexpr std::size_t arity<service_end> = 3;
+template <>
+inline constexpr std::size_t arity<qos_limits> = 2;
+template <>
+inline constexpr std::size_t arity<arrival> = 3;
+template <>
+inline constexpr std::size_t arity<qos_violation> = 3;
+template <>
+inline constexpr std::size_t arity<vehicle_state> = 5;
+template <>
+inline constexpr std::size_t arity<motion_report> = 3;
+template <>
+inline constexpr std::size_t arity<ego_state> = 2;
+template <>
+inline constexpr std::size_t arity<source_change> = 2;
+template <>
+inline constexpr std::size_t arity<lead_vehicle> = 4;
+template <>
+inline constexpr std::size_t arity<perception> = 3;
+template <>
+inline constexpr std::size_t arity<event_record> = 7;
+template <>
+inline constexpr std::size_t arity<decision_record> = 4;
+template <>
+inline constexpr std::size_t arity<cycle_record> = 6;
+template <>
+inline constexpr std::size_t arity<episode_record> = 8;
+template <>
+inline constexpr std::size_t arity<track_record> = 5;
+template <>
+inline constexpr std::size_t arity<safety_record> = 5;
+template <>
+inline constexpr std::size_t arity<collision_record> = 3;
+
+/// Everything that travels and is not a handle.
+using all_messages =
+    std::tuple<time_point, point, service_name, payload, running_service, cam,
+               service_offer, service_request, service_response, service_input,
+               service_result, service_end, qos_limits, arrival, qos_violation,
+               lifecycle_step, motion_report, ego_state, source_change,
+               perception, event_record, decision_record, cycle_record,
+               episode_record, track_record, safety_record, collision_record>;
+
+/// @returns references to all members.
+template <class T>
+auto members(T& x) {
+  constexpr auto n = arity<std::remove_const_t<T>>;
+  static_assert(n >= 2 && n <= 8);
+  if constexpr (n == 2) {
+    auto& [a, b] = x;
+    return std::tie(a, b);
+  } else if constexpr (n == 3) {
+    auto& [a, b, c] = x;
+    return std::tie(a, b, c);
+  } else if constexpr (n == 4) {
+    auto& [a, b, c, d] = x;
+    return std::tie(a, b, c, d);
+  } else if constexpr (n == 5) {
+    auto& [a, b, c, d, e] = x;
+    return std::tie(a, b, c, d, e);
+  } else if constexpr (n == 6) {
+    auto& [a, b, c, d, e, f] = x;
+    return std::tie(a, b, c, d, e, f);
+  } else if constexpr (n == 7) {
+    auto& [a, b, c, d, e, f, g] = x;
+    return std::tie(a, b, c, d, e, f, g);
+  } else {
+    auto& [a, b, c, d, e, f, g, h] = x;
+    return std::tie(a, b, c, d, e, f, g, h);
+  }
+}
+
+/// Fills a message with random contents.
+class filler {
+public:
+  explicit filler(std::uint64_t seed) : random_{seed} {}
+
+  /// @returns a whole number in [0, n).
+  std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>(random_.between(0, static_cast<double>(n)));
+  }
+
+  template <class T>
+  void fill(T& x) {
+    if constexpr (std::is_same_v<T, bool>) {
+      x = below(2) == 1;
+    } else if constexpr (std::is_floating_point_v<T>) {
+      x = random_.between(-1e6, 1e6);
+    } else if constexpr (std::is_integral_v<T>) {
+      x = static_cast<T>(below(1u << 31) * (1u << 31) + below(1u << 31));
+    } else if constexpr (std::is_enum_v<T>) {
+      fill_enum(x);
+    } else {
+      const auto fill_all = [this](auto&... xs) { (fill(xs), ...); };
+      std::apply(fill_all, members(x));
+    }
+  }
+  void fill(duration& x) {
+    duration::rep count = 0;
+    fill(count);
+    x = duration{count};
+  }
+  void fill(time_point& x) {
+    duration since{};
+    fill(since);
+    x = time_point{since / 8}; // plausible
+  }
+  void fill(std::string& x) {
+    x.resize(below(20));
+    for (auto& c : x)
+      c = static_cast<char>(below(256));
+  }
+  void fill(service_name& x) {
+    std::string text(below(service_name::max_size + 1), ' ');
+    for (auto& c : text)
+      c = static_cast<char>('a' + below(26));
+    x = service_name{text};
+  }
+  void fill(payload& x) {
+    echo inside;
+    fill(inside.number);
+    x = below(4) == 0 ? payload{} : payload::of(inside);
+  }
+  template <class T>
+  void fill(std::optional<T>& x) {
+    x.reset();
+    if (below(2) == 1)
+      fill(x.emplace());
+  }
+  template <class T>
+  void fill(std::vector<T>& xs) {
+    xs.resize(below(6));
+    for (auto& x : xs)
+      fill(x);
+  }
+
+private:
+  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(8)); }
+  void fill_enum(side& x) { x = static_cast<side>(below(2)); }
+  void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(2)); }
+  void fill_enum(lifecycle_step& x) {
+    x = static_cast<lifecycle_step>(below(4));
+  }
+
+  dice random_;
+};
+
+inline bool same(const payload& a, const payload& b);
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b);
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b);
+
+/// @returns whether two messages agree in every member.
+template <class T>
+bool same(const T& a, const T& b) {
+  if constexpr (arity<T> == 0)
+    return a == b;
+  else
+    return std::apply(
+        [&](const auto&... as) {
+          return std::apply(
+              [&](const auto&... bs) { return (same(as, bs) && ...); },
+              members(b));
+        },
+        members(a));
+}
+
+inline bool same(const payload& a, const payload& b) {
+  return a.type() == b.type() && a.encoded() == b.encoded();
+}
+
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b) {
+  return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+  if (a.size() != b.size())
+    return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!same(a[i], b[i]))
+      return false;
+  return true;
+}
+
+/// Calls `f` with a default-made message of every type.
+template <class Function>
+void for_every_message(Function f) {
+  std::apply([&](const auto&... xs) { (f(xs), ...); }, all_messages{});
+}
+
+} // namespace sofof::test

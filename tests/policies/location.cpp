@@ -1,0 +1,252 @@
+// Tests of the paper's decisions: the LODM's disc, the CODM's area and map.
+#include "policies/location.hpp"
+
+#include "tests/support/dice.hpp"
+#include "tests/support/option_list.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using test::dice;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+using line = std::vector<point>;
+
+constexpr auto not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// From `from_m` to `to_m` on the east axis, a waypoint every 5 m.
+line eastward(double from_m, double to_m) {
+  line route;
+  for (auto x_m = from_m; x_m < to_m; x_m += 5)
+    route.push_back({x_m, 0});
+  route.push_back({to_m, 0});
+  return route;
+}
+
+/// The LODM with r_off = 300 m and d_min = 50 m, the provider at the origin.
+bool wants(const line& path, double speed_mps = 10) {
+  location_lodm lodm;
+  return lodm.decide({time_point{}, "any", {0, 0}, path, speed_mps}).request;
+}
+
+/// A street along the east axis, and an area that ends at 100 m.
+struct codm_world {
+  const polygon area{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
+  const road_map map{
+      "street", {}, {{"street", eastward(-500, 500), 1.75, {{0, 14}}, {}, 0}}};
+  location_codm codm;
+
+  std::vector<central_decision> decide(const line& route, double speed_mps,
+                                       std::vector<std::string_view> kinds = {
+                                           "any"}) {
+    return codm.decide(
+        {time_point{}, 101, kinds, route, speed_mps, area, map, {}});
+  }
+  bool accepts(const line& route, double speed_mps) {
+    return decide(route, speed_mps).front().accept;
+  }
+};
+
+} // namespace
+
+// -- LODM --------------------------------------------------------------------
+
+TEST_CASE("a path of more than d_min near the provider is worth a request") {
+  CHECK(wants(eastward(0, 100)));
+}
+
+TEST_CASE("a path of exactly d_min is not enough") {
+  CHECK(!wants({{0, 0}, {50, 0}}));
+  CHECK(wants({{0, 0}, {50.001, 0}}));
+}
+
+TEST_CASE("a path that ends too soon is not worth it") {
+  CHECK(!wants(eastward(0, 45)));
+  CHECK(!wants({{0, 0}}));
+  CHECK(!wants({}));
+}
+
+TEST_CASE("a path that leaves the disc too soon is not worth it") {
+  CHECK(!wants(eastward(250, 600)));
+  CHECK(wants(eastward(245, 600)));
+}
+
+TEST_CASE("a path that begins outside the disc is not worth it, though it "
+          "leads inside") {
+  CHECK(!wants(eastward(-305, 305)));
+  CHECK(wants(eastward(-300, 305))); // the rim counts as inside
+}
+
+TEST_CASE("a path that only touches the disc is not worth it") {
+  CHECK(!wants({{-100, 300}, {0, 300}, {100, 300}}));
+  CHECK(!wants({{0, 300}, {100, 300}, {200, 300}}));
+}
+
+TEST_CASE("a path that touches the rim from inside has not left the disc") {
+  CHECK(wants({{260, 0}, {300, 0}, {280, 0}}));
+}
+
+TEST_CASE("what a path does outside the disc never counts") {
+  // 40 m inside, out, and 40 m inside again
+  CHECK(!wants({{260, 0}, {300, 0}, {310, 0}, {300, 0}, {260, 0}}));
+}
+
+TEST_CASE("the speed does not matter to the LODM") {
+  CHECK(wants(eastward(0, 100), 0));
+  CHECK(!wants(eastward(0, 45), 100));
+}
+
+TEST_CASE("the way in the disc is that of a literal reference") {
+  dice random{11};
+  int yes = 0;
+  for (int k = 0; k < 2000; ++k) {
+    CAPTURE(k);
+    line path{{random.between(-320, 320), random.between(-320, 320)}};
+    const auto heading = random.between(0, 6.28);
+    while (path.size() < 40)
+      path.push_back(path.back()
+                     + 5 * point{std::cos(heading), std::sin(heading)});
+    double passed_m = 0;
+    for (std::size_t i = 0;
+         i < path.size() && std::hypot(path[i].x_m, path[i].y_m) <= 300; ++i)
+      passed_m += i > 0 ? 5 : 0;
+    // Steps of 5 m: exactly 50 m are decided by rounding.
+    if (std::abs(passed_m - 50) < 1)
+      continue;
+    CHECK(wants(path) == (passed_m > 50));
+    yes += passed_m > 50;
+  }
+  CHECK(yes > 200);
+  CHECK(yes < 1800);
+}
+
+TEST_CASE("the disc and the least way are options") {
+  location_lodm lodm;
+  test::option_list options;
+  options.numbers = {{"radius_m", 100}, {"min_distance_m", 10}};
+  lodm.fields(options);
+  const auto decide = [&](const line& path) {
+    return lodm.decide({time_point{}, "any", {0, 0}, path, 10}).request;
+  };
+  CHECK(decide({{0, 0}, {11, 0}}));
+  CHECK(!decide({{0, 0}, {10, 0}}));
+  CHECK(!decide({{95, 0}, {105, 0}, {115, 0}}));
+}
+
+TEST_CASE("a provider that is nowhere is not worth a request") {
+  location_lodm lodm;
+  const auto path = eastward(0, 100);
+  CHECK(
+      !lodm.decide({time_point{}, "any", {not_a_number, 0}, path, 10}).request);
+  CHECK(
+      !lodm.decide({time_point{}, "any", {0, not_a_number}, path, 10}).request);
+}
+
+// -- CODM --------------------------------------------------------------------
+
+TEST_CASE_FIXTURE(codm_world, "a vehicle that leaves the area within t_min is "
+                              "refused") {
+  CHECK(!accepts(eastward(50, 300), 10.001));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a vehicle that stays for exactly t_min is "
+                              "accepted") {
+  CHECK(accepts(eastward(50, 300), 10));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a standing vehicle is accepted") {
+  CHECK(accepts(eastward(95, 300), 0));
+}
+
+TEST_CASE_FIXTURE(codm_world,
+                  "a standing vehicle outside the area is refused") {
+  CHECK(!accepts(eastward(101, 300), 0));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a route that ends inside is accepted when it "
+                              "takes long enough") {
+  CHECK(accepts(eastward(0, 60), 10));
+  CHECK(!accepts(eastward(0, 45), 10));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a vehicle that is not in the area yet is "
+                              "refused") {
+  CHECK(!accepts(eastward(-105, 100), 10));
+  CHECK(accepts(eastward(-100, 100), 10));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a route off the map is refused, be it by one "
+                              "waypoint, be it far away") {
+  auto route = eastward(0, 300);
+  REQUIRE(accepts(route, 10));
+  route[3].y_m = 2.9;
+  CHECK(accepts(route, 10));
+  route[3].y_m = 3.1;
+  CHECK(!accepts(route, 10));
+  route[3].y_m = 0;
+  route.back() = {300, 50};
+  CHECK(!accepts(route, 10));
+}
+
+TEST_CASE_FIXTURE(codm_world, "each reason to refuse has words of its own") {
+  const auto why = [&](const line& route, double speed_mps) {
+    return std::string{decide(route, speed_mps).front().why};
+  };
+  const std::vector<std::string> all{
+      why(eastward(50, 300), 20), why(eastward(101, 300), 10),
+      why({{0, 50}, {50, 50}}, 1), why(eastward(0, 300), 10)};
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    CHECK(!all[a].empty());
+    for (std::size_t b = 0; b < a; ++b)
+      CHECK(all[a] != all[b]);
+  }
+}
+
+TEST_CASE_FIXTURE(codm_world, "there is a decision for each service") {
+  CHECK(decide(eastward(0, 300), 10, {"a", "b", "c"}).size() == 3);
+  CHECK(decide(eastward(0, 300), 10, {}).empty());
+  for (const auto& d : decide(eastward(101, 300), 10, {"a", "b"}))
+    CHECK(!d.accept);
+}
+
+TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
+                              "options") {
+  test::option_list options;
+  options.times = {{"min_time", 10s}};
+  options.numbers = {{"map_tolerance_m", 1}};
+  codm.fields(options);
+  CHECK(!accepts(eastward(50, 300), 10));
+  CHECK(accepts(eastward(0, 300), 10));
+  CHECK(!accepts({{0, 2}, {100, 2}}, 10));
+}
+
+TEST_CASE_FIXTURE(codm_world, "a clone keeps the options") {
+  test::option_list options;
+  options.times = {{"min_time", 10s}};
+  codm.fields(options);
+  const auto copy = codm.clone();
+  const auto route = eastward(50, 300);
+  const std::vector<std::string_view> kinds{"any"};
+  CHECK(!copy->decide({time_point{}, 101, kinds, route, 10, area, map, {}})
+             .front()
+             .accept);
+}
+
+TEST_CASE_FIXTURE(codm_world, "a request full of nonsense is refused") {
+  const auto infinity = std::numeric_limits<double>::infinity();
+  CHECK(!accepts({}, 10));
+  CHECK(!accepts(eastward(0, 300), not_a_number));
+  CHECK(!accepts({{not_a_number, 0}, {5, 0}}, 10));
+  CHECK(!accepts({{0, 0}, {5, not_a_number}}, 1));
+  CHECK(!accepts({{0, 0}, {infinity, 0}}, 1));
+  CHECK(!accepts({{0, 0}, {1e300, -1e300}}, 1));
+}

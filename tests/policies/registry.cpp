@@ -1,0 +1,85 @@
+// Tests of the policies by name, and of those that need no thought.
+#include "policies/registry.hpp"
+
+#include "tests/support/option_list.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace sofof;
+
+namespace {
+
+template <class Names>
+bool has(const Names& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+bool request(local_policy& lodm) {
+  const std::vector<point> path{{1e6, 0}};
+  return lodm.decide({time_point{}, "any", {}, path, 10}).request;
+}
+
+std::vector<central_decision> decide(central_policy& codm) {
+  const std::vector<std::string_view> kinds{"one", "two"};
+  const std::vector<point> route{{1e6, 0}};
+  return codm.decide({time_point{}, 101, kinds, route, 10, {}, {}, {}});
+}
+
+} // namespace
+
+TEST_CASE("every listed policy can be made, and knows its name") {
+  for (const auto name : lodm_names()) {
+    CAPTURE(name);
+    REQUIRE(make_lodm(name));
+    CHECK(make_lodm(name)->name() == name);
+    CHECK(make_lodm(name)->clone()->name() == name);
+  }
+  for (const auto name : codm_names()) {
+    CAPTURE(name);
+    REQUIRE(make_codm(name));
+    CHECK(make_codm(name)->name() == name);
+    CHECK(make_codm(name)->clone()->name() == name);
+  }
+}
+
+TEST_CASE("the paper's policies and the baselines are there") {
+  for (const auto name : {"location", "always", "never"}) {
+    CHECK(has(lodm_names(), name));
+    CHECK(has(codm_names(), name));
+  }
+}
+
+TEST_CASE("there is no policy of an unknown name") {
+  for (const auto name : {"", "Location", "sometimes"}) {
+    CHECK(!make_lodm(name));
+    CHECK(!make_codm(name));
+  }
+}
+
+TEST_CASE("every policy's defaults are within their ranges") {
+  for (const auto name : lodm_names()) {
+    test::option_list options;
+    make_lodm(name)->fields(options);
+    CHECK(options.refused.empty());
+  }
+  for (const auto name : codm_names()) {
+    test::option_list options;
+    make_codm(name)->fields(options);
+    CHECK(options.refused.empty());
+  }
+}
+
+TEST_CASE("always is always yes, never is never yes") {
+  CHECK(request(*make_lodm("always")));
+  CHECK(!request(*make_lodm("never")));
+  const auto yes = decide(*make_codm("always"));
+  const auto no = decide(*make_codm("never"));
+  REQUIRE(yes.size() == 2);
+  REQUIRE(no.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(yes[k].accept);
+    CHECK(!no[k].accept);
+  }
+}

@@ -1,0 +1,82 @@
+// Walks a list of options: notes their names, checks that defaults are within
+// their ranges, and can set some of them.
+#pragma once
+
+#include "world/settings.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace sofof::test {
+
+class option_list final : public settings {
+public:
+  std::map<std::string, double, std::less<>> numbers;    ///< To set, by key.
+  std::map<std::string, duration, std::less<>> times;    ///< Likewise.
+  std::map<std::string, std::string, std::less<>> texts; ///< Likewise.
+  std::set<std::string, std::less<>> names;   ///< Found; nested ones "a.b".
+  std::set<std::string, std::less<>> refused; ///< Keys of refused values.
+
+  void field(std::string_view key, bool&) override { found(key); }
+  void field(std::string_view key, double& value, range r) override {
+    found(key);
+    set(numbers, key, value);
+    CAPTURE(key);
+    CHECK(value >= r.min);
+    CHECK(value <= r.max);
+  }
+  void field(std::string_view key, std::int64_t& value, range r) override {
+    found(key);
+    CHECK(static_cast<double>(value) >= r.min);
+    CHECK(static_cast<double>(value) <= r.max);
+  }
+  void field(std::string_view key, std::string& value) override {
+    found(key);
+    set(texts, key, value);
+  }
+  void field(std::string_view key, duration& value, duration min) override {
+    found(key);
+    set(times, key, value);
+    CAPTURE(key);
+    CHECK(value >= min);
+  }
+  void field(std::string_view key, std::vector<std::string>&) override {
+    found(key);
+  }
+  void field(std::string_view key, point&) override { found(key); }
+  void field(std::string_view key, std::vector<point>&) override { found(key); }
+  void table(std::string_view key,
+             const std::function<void(settings&)>& list) override {
+    const auto outer = prefix_;
+    prefix_ += std::string{key} + ".";
+    list(*this);
+    prefix_ = outer;
+  }
+  void tables(std::string_view key, std::size_t,
+              const std::function<void(std::size_t, settings&)>&) override {
+    found(key);
+  }
+  void refuse(std::string_view key, const std::string& why) override {
+    CHECK(!why.empty());
+    refused.insert(prefix_ + std::string{key});
+  }
+
+private:
+  void found(std::string_view key) {
+    const auto name = prefix_ + std::string{key};
+    CAPTURE(name);
+    CHECK(names.insert(name).second); // listed once
+  }
+  template <class Values, class T>
+  void set(const Values& values, std::string_view key, T& value) {
+    if (auto i = values.find(prefix_ + std::string{key}); i != values.end())
+      value = i->second;
+  }
+
+  std::string prefix_;
+};
+
+} // namespace sofof::test
