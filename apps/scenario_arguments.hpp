@@ -17,7 +17,9 @@ struct scenario_arguments {
   std::string length;
 
   void add_to(CLI::App& command) {
-    command.add_option("FILE", file, "Scenario file (TOML)")->required();
+    command.add_option("FILE", file, "Scenario file (TOML)")
+        ->required()
+        ->type_name(" ");
     command.add_option("--seed", seed, "Seed of all randomness")
         ->type_name("N");
     command.add_option("--duration", length, "Length of the run, with a unit")

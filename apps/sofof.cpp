@@ -23,11 +23,17 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "sofof " SOFOF_VERSION);
   app.require_subcommand(1);
   app.footer("First steps:\n  sofof run config/ulm_lehr.toml\n"
-             "  sofof test        (through ./sofof at the root)");
+             "  sofof test        (through ./sofof at the root)\n\n"
+             "Exit codes: 0 done, 1 the run was unsafe or failed, 2 wrong "
+             "input or usage,\n130 interrupted.");
   int exit_code = 0;
   sofof::add_run(app, exit_code);
   sofof::add_check(app, exit_code);
   sofof::init_messages();
+  if (argc == 1) {
+    std::fputs(app.help().c_str(), stdout);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
