@@ -3,25 +3,27 @@
 #include "scenario/input_error.hpp"
 #include "scenario/runtime.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <malloc.h>
 
 namespace {
 
-constexpr int wrong_input = 2;
 constexpr int failed = 1;
+constexpr int wrong_input = 2;
 
-} // namespace
+int complain(const char* what, int exit_code) {
+  std::fprintf(stderr, "sofof: %s\n", what);
+  return exit_code;
+}
 
-int main(int argc, char** argv) {
-  // One arena for malloc: an actor system hands memory from thread to thread,
-  // and with an arena per thread it spreads out.
-  mallopt(M_ARENA_MAX, 1);
+int obey(int argc, char** argv) {
   CLI::App app{"SOFOF: function offloading for connected automated vehicles",
                "sofof"};
   app.set_version_flag("--version", "sofof " SOFOF_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer("First steps:\n  sofof run config/ulm_lehr.toml\n"
              "  sofof test        (through ./sofof at the root)\n\n"
              "Exit codes: 0 done, 1 the run was unsafe or failed, 2 wrong "
@@ -29,21 +31,33 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   sofof::add_run(app, exit_code);
   sofof::add_check(app, exit_code);
-  sofof::init_messages();
-  if (argc == 1) {
-    std::fputs(app.help().c_str(), stdout);
-    return 0;
-  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : wrong_input;
-  } catch (const sofof::input_error& e) {
-    std::fprintf(stderr, "sofof: %s\n", e.what());
-    return wrong_input;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "sofof: %s\n", e.what());
-    return failed;
   }
+  if (app.get_subcommands().empty())
+    std::cout << app.help();
   return exit_code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a full quota is an error, no death
+  // One arena for malloc: an actor system hands memory from thread to thread,
+  // and with an arena per thread it spreads out.
+  mallopt(M_ARENA_MAX, 1);
+  sofof::init_messages();
+  try {
+    const auto exit_code = obey(argc, argv);
+    if (!std::cout.flush())
+      return complain("the output cannot be written; is the disk full?",
+                      failed);
+    return exit_code;
+  } catch (const sofof::input_error& e) {
+    return complain(e.what(), wrong_input);
+  } catch (const std::exception& e) {
+    return complain(e.what(), failed);
+  }
 }

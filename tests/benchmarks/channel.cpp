@@ -1,0 +1,36 @@
+// What the channel's draws cost.
+#include "world/link_direction.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <string>
+
+using namespace sofof;
+
+namespace {
+
+constexpr duration period = std::chrono::milliseconds{50};
+
+/// Computing time and downlink of one result.
+void result_through(benchmark::State& state, const std::string& profile) {
+  const auto definition =
+      std::make_shared<const channel_profile>(*find_channel_profile(profile));
+  const channel draws{definition, random_stream{1, "benchmark"}, 101, 1};
+  link_direction link{draws, way::down, std::make_shared<fifo_servers>(1)};
+  std::uint64_t cycle = 0;
+  time_point created;
+  for (auto _ : state) {
+    const auto sent = created + draws.service_time(cycle);
+    benchmark::DoNotOptimize(link.arrival(sent, message_class::result, cycle));
+    created += period;
+    ++cycle;
+  }
+}
+BENCHMARK_CAPTURE(result_through, ideal, "ideal");
+BENCHMARK_CAPTURE(result_through, paper_sim, "paper-sim");
+BENCHMARK_CAPTURE(result_through, paper_sim_stalls, "paper-sim-stalls");
+BENCHMARK_CAPTURE(result_through, paper_5g, "paper-5g");
+BENCHMARK_CAPTURE(result_through, cicv5g_n78, "cicv5g-n78");
+
+} // namespace

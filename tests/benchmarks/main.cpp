@@ -1,0 +1,13 @@
+// The entry point of the benchmarks.
+#include "scenario/runtime.hpp"
+
+#include <benchmark/benchmark.h>
+
+int main(int argc, char** argv) {
+  sofof::init_messages();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv))
+    return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,19 @@
+// The scenarios that we measure.
+#pragma once
+
+#include "scenario/load.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sofof::bench {
+
+inline scenario ulm_lehr(const std::vector<std::string>& overrides = {}) {
+  return load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml", overrides);
+}
+
+inline scenario scale(const std::vector<std::string>& overrides = {}) {
+  return load_scenario(SOFOF_SOURCE_DIR "/config/scale.toml", overrides);
+}
+
+} // namespace sofof::bench

@@ -1,0 +1,62 @@
+// Runs from outside: on the wall's clock, side by side, and what they print.
+#include "tests/processes/results_reader.hpp"
+#include "tests/processes/workplace.hpp"
+
+using namespace sofof::test;
+namespace fs = std::filesystem;
+
+TEST_CASE("six vehicles drive and offload on the wall's clock") {
+  const workplace at;
+  const auto out = at.drive("out", {"--realtime", "--duration", "3s"});
+  const auto summary = summary_of(out);
+  CHECK(summary["virtual_s"] == 3.0);
+  CHECK(summary["timing"]["wall_s"] >= 3.0);
+  CHECK(summary["interrupted"] == false);
+  CHECK(summary["safety"]["collisions"] == 0);
+  CHECK(summary["safety"]["without_fresh_plan_s"] == 0.0);
+  CHECK(summary["safety"]["off_road_s"] == 0.0);
+  CHECK(summary["episodes"] >= 1); // 102 starts in the area
+  CHECK(rows_of(out / "cycles.csv").size() > 20);
+}
+
+TEST_CASE("runs without a folder of their own take the first free one") {
+  const workplace at;
+  const std::vector<std::string> words{"run",        scenario_file, "--quiet",
+                                       "--duration", "1s",          "--seed"};
+  for (const std::string seed : {"5", "5", "5", "6"}) {
+    auto all = words;
+    all.push_back(seed);
+    CHECK(at.run_sofof(all).code == 0);
+  }
+  for (const auto* name :
+       {"ulm_lehr-5", "ulm_lehr-5-2", "ulm_lehr-5-3", "ulm_lehr-6"}) {
+    CAPTURE(name);
+    CHECK(fs::exists(at / "results" / name / "summary.json"));
+  }
+  CHECK(summary_of(at / "results/ulm_lehr-6")["seed"] == 6);
+  CHECK_FALSE(fs::exists(at / "results/ulm_lehr-6-2"));
+}
+
+TEST_CASE("a run ends with a table and where its results are") {
+  const workplace at;
+  const auto end =
+      at.run_sofof({"run", scenario_file, "--duration", "60s", "--out", "out"});
+  CHECK(end.code == 0);
+  CHECK(end.err == "");
+  for (const auto* words : {"trajectory_planning", "cabin_climate", "latency",
+                            "collisions", "results in out"}) {
+    CAPTURE(words);
+    CHECK(end.out.find(words) != end.out.npos);
+  }
+  CHECK(end.out.find('\x1b') == end.out.npos); // no terminal, no colours
+}
+
+TEST_CASE("records that are not wanted are not written") {
+  const workplace at;
+  const auto out =
+      at.drive("out", {"--duration", "5s", "--set", "record.cycles=false",
+                       "--set", "record.tracks=false"});
+  CHECK_FALSE(fs::exists(out / "cycles.csv"));
+  CHECK_FALSE(fs::exists(out / "tracks.csv"));
+  CHECK(summary_of(out)["latency_ms"]["count"] > 50);
+}
