@@ -106,7 +106,7 @@ TEST_CASE("cabin climate is slow and patient") {
 TEST_CASE("every kind keeps its own limits at home") {
   for (const auto name : service_kind_names()) {
     CAPTURE(name);
-    const auto& common = make_service_kind(name)->common;
+    const auto common = make_service_kind(name)->common;
     CHECK(common.run_time_max <= common.period);
     CHECK(common.run_time_mean <= common.run_time_max);
     CHECK(common.period <= common.limits.max_interarrival);
