@@ -65,6 +65,8 @@ struct link_state {
   void meet(const requester_actor& requester) {
     if (requester == near)
       return;
+    if (near)
+      self->demonitor(near);
     near = requester;
     self->monitor(near);
   }

@@ -1,6 +1,8 @@
 // Service management at the provider: one accepted service, from data in to
 // results out.
 #include "actors/service_manager.hpp"
+#include "actors/time.hpp"
+#include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -9,9 +11,13 @@ namespace sofof {
 
 namespace {
 
+using manager_impl = provider_manager_actor::extend<
+    // Has the first input come by now?
+    takes<tick_atom>>;
+
 struct manager_state {
   static inline const char* name = "provider_manager";
-  provider_manager_actor::stateful_pointer<manager_state> self = nullptr;
+  manager_impl::stateful_pointer<manager_state> self = nullptr;
   caf::actor_addr provider;
   instance_actor instance;
   requester_actor requester;
@@ -22,10 +28,28 @@ struct manager_state {
     if (self)
       self->demonitor(provider);
   }
+
+  void feed(service_input& input) {
+    self->send(instance, std::move(input));
+    if (!std::exchange(fed, true))
+      self->send(instance, lifecycle_step::activate);
+  }
+
+  // The response was lost on its way, or the vehicle has changed its mind.
+  void check() {
+    if (!fed)
+      self->quit(caf::exit_reason::user_shutdown);
+  }
+
+  void end() {
+    self->send(instance, lifecycle_step::deactivate);
+    self->send(instance, lifecycle_step::shut_down);
+    self->quit();
+  }
 };
 
-provider_manager_actor::behavior_type
-manager(provider_manager_actor::stateful_pointer<manager_state> self,
+manager_impl::behavior_type
+manager(manager_impl::stateful_pointer<manager_state> self,
         instance_setup setup, requester_actor requester,
         const provider_actor& provider) {
   auto& state = self->state;
@@ -39,21 +63,14 @@ manager(provider_manager_actor::stateful_pointer<manager_state> self,
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   self->send(state.instance, lifecycle_step::configure);
+  send_after(self, self, protocol::start_timeout, tick_atom_v);
   return {
       [self](service_result& result) {
         self->send(self->state.requester, std::move(result));
       },
-      [self](service_input& input) {
-        auto& s = self->state;
-        self->send(s.instance, std::move(input));
-        if (!std::exchange(s.fed, true))
-          self->send(s.instance, lifecycle_step::activate);
-      },
-      [self](const service_end&) {
-        self->send(self->state.instance, lifecycle_step::deactivate);
-        self->send(self->state.instance, lifecycle_step::shut_down);
-        self->quit();
-      },
+      [self](service_input& input) { self->state.feed(input); },
+      [self](const service_end&) { self->state.end(); },
+      [self](tick_atom) { self->state.check(); },
   };
 }
 

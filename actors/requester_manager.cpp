@@ -87,12 +87,14 @@ struct manager_state {
     const auto t = now(self);
     const auto usable =
         in_time(result.created, t, setup.options.limits.max_latency);
-    const auto gap =
-        remote->last_received ? t - *remote->last_received : duration{0};
+    std::optional<duration> gap; // only while in use
+    if (remote->last_received)
+      gap = t - *remote->last_received;
     self->send(setup.recorder, cycle_record{result.running, result.cycle,
                                             result.created, t, gap, usable});
     remote->last_cycle = result.cycle;
-    remote->last_received = t;
+    if (remote->in_use || usable)
+      remote->last_received = t;
     if (!remote->in_use && usable)
       be_remote(t);
     else if (remote->in_use)

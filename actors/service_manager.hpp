@@ -28,8 +28,9 @@ requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup);
 
 /// Service management at the provider, for one accepted service: configures
-/// and activates the instance, feeds it, and sends its results to
-/// `requester`. Finalises the instance and quits at service_end.
+/// the instance, activates it at the first input, and sends its results to
+/// `requester`. Finalises the instance and quits at service_end; quits
+/// (user_shutdown) when no input has come within protocol::start_timeout.
 /// `instance.results` is filled in. Does not outlive `provider`.
 provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
                                               instance_setup instance,

@@ -17,8 +17,8 @@ namespace sofof {
 namespace {
 
 using provider_impl = provider_actor::extend<
-    // Has this station fallen silent?
-    takes<tick_atom, station_id>>;
+    // Has the station fallen silent, whose record has this number?
+    takes<tick_atom, station_id, std::uint64_t>>;
 
 // One running service.
 struct session {
@@ -29,6 +29,7 @@ struct session {
 
 // One station in the area, or that was there a moment ago.
 struct station_record {
+  std::uint64_t number = 0; // so that a timer knows its record
   requester_actor requester;
   cam latest;
   time_point heard; // when the latest CAM came
@@ -45,6 +46,7 @@ struct provider_state {
   std::shared_ptr<fifo_servers> workers;
   std::map<station_id, station_record> stations;
   std::uint32_t counter = 0;
+  std::uint64_t records = 0;
 
   // -- CAM, offer, CAM check ----------------------------------------------
 
@@ -61,19 +63,28 @@ struct provider_state {
     auto& station = i->second;
     const auto t = now(self);
     if (is_new) {
+      station.number = ++records;
       station.next_offer = t;
       send_after(self, self, protocol::cam_timeout + duration{1}, tick_atom_v,
-                 c.station);
+                 c.station, station.number);
     }
-    if (station.requester != requester) {
-      station.requester = requester;
-      station.last_request = 0;
-      self->monitor(requester);
-    }
+    if (station.requester != requester)
+      meet(station, requester);
     station.latest = c;
     station.heard = t;
     if (t >= station.next_offer)
       offer(station, t);
+  }
+
+  // A new requester knows nothing of what ran for the one before.
+  void meet(station_record& station, const requester_actor& requester) {
+    if (station.requester) {
+      end_all(station, end_reason::peer_lost);
+      self->demonitor(station.requester);
+    }
+    station.requester = requester;
+    station.last_request = 0;
+    self->monitor(requester);
   }
 
   void offer(station_record& station, time_point t) {
@@ -87,25 +98,28 @@ struct provider_state {
     self->send(station.requester, offered);
   }
 
-  // One timer per station is under way; it moves on with the latest CAM.
-  void check(station_id id) {
+  // One timer per record is under way; it moves on with the latest CAM.
+  void check(station_id id, std::uint64_t number) {
     auto i = stations.find(id);
-    if (i == stations.end())
+    if (i == stations.end() || i->second.number != number)
       return;
     const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
     if (now(self) >= deadline)
       forget(i, end_reason::cam_timeout);
     else
-      send_at(self, self, deadline, tick_atom_v, id);
+      send_at(self, self, deadline, tick_atom_v, id, number);
   }
 
   void forget(std::map<station_id, station_record>::iterator i,
               end_reason reason) {
-    auto& station = i->second;
+    end_all(i->second, reason);
+    self->demonitor(i->second.requester);
+    stations.erase(i);
+  }
+
+  void end_all(station_record& station, end_reason reason) {
     while (!station.sessions.empty())
       end(station, station.sessions.front().running, reason, true);
-    self->demonitor(station.requester);
-    stations.erase(i);
   }
 
   // -- request and response -----------------------------------------------
@@ -232,7 +246,8 @@ struct provider_state {
       end(i->second, e.running, e.reason, false);
   }
 
-  void lost(const caf::actor_addr& who) {
+  void lost(const caf::down_msg& down) {
+    const auto& who = down.source;
     for (auto i = stations.begin(); i != stations.end(); ++i) {
       if (i->second.requester.address() == who) {
         forget(i, end_reason::peer_lost);
@@ -240,7 +255,11 @@ struct provider_state {
       }
       for (const auto& s : i->second.sessions)
         if (s.manager.address() == who) {
-          end(i->second, s.running, end_reason::peer_lost, true);
+          // A manager that was never fed gives up; any other has died.
+          const auto reason = down.reason == caf::exit_reason::user_shutdown
+                                  ? end_reason::no_data
+                                  : end_reason::peer_lost;
+          end(i->second, s.running, reason, true);
           return;
         }
     }
@@ -260,8 +279,9 @@ struct provider_state {
     self->send(setup.recorder,
                episode_record{running, side::provider, i->since, i->since, true,
                               now(self), reason, false});
-    setup.codm->observe(
-        episode_outcome{to_seconds(now(self) - i->since), name_of(reason)});
+    setup.codm->observe(episode_outcome{running.kind.view(), setup.boot,
+                                        to_seconds(now(self) - i->since),
+                                        name_of(reason)});
     station.sessions.erase(i);
     station.next_offer = now(self) + protocol::offer_period;
   }
@@ -280,7 +300,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
   state.setup = std::move(setup);
   state.workers = std::make_shared<fifo_servers>(state.setup.profile->workers);
   self->set_down_handler(
-      [self](const caf::down_msg& down) { self->state.lost(down.source); });
+      [self](const caf::down_msg& down) { self->state.lost(down); });
   self->set_exit_handler([self](const caf::exit_msg& exit) {
     self->state.shut_down();
     self->quit(exit.reason);
@@ -293,7 +313,9 @@ provider(provider_impl::stateful_pointer<provider_state> self,
         self->state.take(request, requester);
       },
       [self](const service_end& e) { self->state.take(e); },
-      [self](tick_atom, station_id station) { self->state.check(station); },
+      [self](tick_atom, station_id station, std::uint64_t number) {
+        self->state.check(station, number);
+      },
   };
 }
 

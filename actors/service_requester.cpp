@@ -201,8 +201,8 @@ struct requester_state {
       i->second.open_request.reset();
     auto manager = managers.begin();
     for (const auto& v : response.verdicts) {
-      if (v.accepted && manager == managers.end())
-        break; // a broken peer: an accepted service without a manager
+      if (v.accepted && (manager == managers.end() || !is_sound(v, response)))
+        break; // a broken peer
       auto* slot = find(v.running.kind.view());
       const auto open = expected && slot && slot->at == phase::requested
                         && slot->provider == response.provider;
@@ -219,6 +219,12 @@ struct requester_state {
       for (auto& slot : slots)
         if (slot.at == phase::requested && slot.provider == response.provider)
           refused(slot, "not answered");
+  }
+
+  // Counter 0 is the local service; nobody else may go by that name.
+  bool is_sound(const verdict& v, const service_response& response) const {
+    return v.running.provider == response.provider
+           && v.running.station == setup.station && v.running.counter != 0;
   }
 
   void accepted(service_slot& slot, const verdict& v,
@@ -254,6 +260,7 @@ struct requester_state {
     }
     const auto latency = now(self) - result.created;
     setup.lodm->observe(cycle_outcome{
+        result.running.kind.view(), result.running.provider,
         to_seconds(latency), latency > slot->kind->common.limits.max_latency});
     self->send(slot->manager, result);
   }
@@ -347,8 +354,9 @@ struct requester_state {
     if (was_remote) {
       note("switch", slot.provider, slot.running.kind, slot.running.counter,
            "local");
-      setup.lodm->observe(
-          episode_outcome{to_seconds(t - slot.first_data), name_of(reason)});
+      setup.lodm->observe(episode_outcome{slot.kind->name(), slot.provider,
+                                          to_seconds(t - slot.first_data),
+                                          name_of(reason)});
     }
     if (fallback)
       slot.cool_until[slot.provider] = t + protocol::cool_down;

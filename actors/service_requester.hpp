@@ -32,7 +32,7 @@ struct requester_setup {
 ///
 /// It spawns a manager and a client for each kind. At a violation, or when
 /// the provider is lost or ends the service, the local service is activated
-/// in the same turn. On exit it closes what still runs (shutdown).
+/// at the same time. On exit it closes what still runs (shutdown).
 onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
                                                 requester_setup setup);
 

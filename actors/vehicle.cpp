@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace sofof {
 
@@ -44,7 +45,8 @@ struct vehicle_actor_state {
   std::shared_ptr<const trajectory> plan;
   time_point plan_created;
   bool remote = false;
-  time_point due; // of the present step; time does not drift
+  std::optional<caf::error> leaving; // why
+  time_point due;                    // of the present step; time does not drift
   std::uint64_t steps = 0;
   safety_record safety;
 
@@ -61,6 +63,28 @@ struct vehicle_actor_state {
     self->monitor(requester); // the car outlives it, and stops safely
     report();
     next_step();
+  }
+
+  // -- ending -------------------------------------------------------------
+
+  // The requester goes first: it has episodes to close.
+  void leave(const caf::error& reason) {
+    flush_safety();
+    leaving = reason;
+    if (requester)
+      self->send_exit(requester, reason);
+    else
+      self->quit(reason);
+  }
+
+  void requester_gone() {
+    requester = nullptr;
+    if (leaving)
+      self->quit(*leaving);
+    else
+      self->send(setup.recorder,
+                 event_record{
+                     now(self), "requester_lost", setup.station, 0, {}, 0, {}});
   }
 
   // -- moving -------------------------------------------------------------
@@ -153,7 +177,7 @@ struct vehicle_actor_state {
   planning_input measured() const {
     const auto& path = setup.way->path();
     const auto place = path.project(car.at, s_m, window_m);
-    return {due,
+    return {due - protocol::control_period, // of the step before
             place.s_m,
             place.d_m,
             wrap_angle(car.heading_rad - path.at(place.s_m).heading_rad),
@@ -169,7 +193,7 @@ struct vehicle_actor_state {
     if (!next || !next->is_sound() || result.created < plan_created)
       return;
     const auto t = now(self);
-    if (next->start > t || next->end() < t)
+    if (result.created > t || next->start > t || next->end() < t)
       return; // of another time
     plan = next;
     plan_created = result.created;
@@ -184,6 +208,8 @@ struct vehicle_actor_state {
   }
 
   void send_cam() {
+    if (!requester)
+      return;
     const auto own = ego();
     self->send(requester, own);
     for (const auto& a : setup.antennas)
@@ -212,21 +238,10 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->state.start();
-  self->set_down_handler([self](const caf::down_msg&) {
-    self->send(self->state.setup.recorder,
-               event_record{now(self),
-                            "requester_lost",
-                            self->state.setup.station,
-                            0,
-                            {},
-                            0,
-                            {}});
-  });
-  self->set_exit_handler([self](const caf::exit_msg& exit) {
-    self->state.flush_safety();
-    self->send_exit(self->state.requester, exit.reason);
-    self->quit(exit.reason);
-  });
+  self->set_down_handler(
+      [self](const caf::down_msg&) { self->state.requester_gone(); });
+  self->set_exit_handler(
+      [self](const caf::exit_msg& exit) { self->state.leave(exit.reason); });
   return {
       [self](const service_result& result) { self->state.take(result); },
       [self](const source_change& change) {

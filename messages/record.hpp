@@ -4,6 +4,7 @@
 #include "messages/motion.hpp"
 #include "messages/service.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,7 @@ namespace sofof {
 /// Something worth a line in events.jsonl.
 struct event_record {
   time_point at;
-  std::string what; ///< offer, request, response, switch, violation, …
+  std::string what; ///< offer, request, switch, …: docs/results.md.
   station_id station = 0;
   boot_id provider = 0;
   service_name kind; ///< Empty when it concerns no single service.
@@ -34,7 +35,7 @@ struct cycle_record {
   std::uint64_t cycle = 0;
   time_point created;
   time_point received;
-  duration interarrival{}; ///< Zero for the first of an episode.
+  std::optional<duration> interarrival; ///< None for the first in use.
   bool used = false;
 };
 

@@ -70,7 +70,6 @@ void lane_follow_params::fields(settings& s) {
   s.field("time_gap_s", time_gap_s, {0.5, 5});
   s.field("standstill_gap_m", standstill_gap_m, {1, 20});
   s.field("centring_length_m", centring_length_m, {5, 100});
-  s.field("front_m", front_m, {0.5, 20});
 }
 
 lane_follow::lane_follow(route_ptr way, lane_follow_params params)

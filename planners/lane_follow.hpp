@@ -7,6 +7,7 @@
 #include "planners/speed_envelope.hpp"
 #include "world/settings.hpp"
 #include "world/trajectory.hpp"
+#include "world/vehicle.hpp"
 
 namespace sofof {
 
@@ -23,7 +24,7 @@ struct lane_follow_params {
   double time_gap_s = 1.5;
   double standstill_gap_m = 3.0;
   double centring_length_m = 15.0; ///< Offsets decay over this length.
-  double front_m = 4.0175;         ///< Rear axle to front bumper.
+  double front_m = vehicle_params{}.front_m; ///< Of the car; no option.
 
   void fields(settings& s);
 };
@@ -49,8 +50,6 @@ public:
   ///                  needs no heap after the first cycle. `out.start == now`.
   void plan(time_point now, const planning_input& input,
             const trajectory* previous, trajectory& out) const;
-
-  const lane_follow_params& params() const { return params_; }
 
 private:
   struct surroundings;

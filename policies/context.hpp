@@ -27,7 +27,7 @@ struct local_decision {
 };
 
 /// What a provider weighs: one request, service by service, with everything
-/// that runs and waits already.
+/// that runs already.
 struct central_context {
   /// One service of one station that runs now.
   struct session {

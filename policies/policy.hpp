@@ -1,6 +1,7 @@
 // What every decision policy has in common.
 #pragma once
 
+#include "world/ids.hpp"
 #include "world/settings.hpp"
 #include "world/time.hpp"
 
@@ -12,12 +13,16 @@ namespace sofof {
 
 /// What one cycle of a running service was like.
 struct cycle_outcome {
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;
   double latency_s = 0;
   bool missed = false; ///< Later than the limit, so not used.
 };
 
 /// What one whole offloading was like.
 struct episode_outcome {
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;
   double remote_s = 0;         ///< Time on the remote source.
   std::string_view end_reason; ///< One of protocol's reasons.
 };

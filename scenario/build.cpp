@@ -114,7 +114,26 @@ named(const world_actors& world, const scenario& s,
   for (std::size_t k = 0; k < world.vehicles.size(); ++k)
     names.emplace_back(caf::actor_cast<caf::actor>(world.vehicles[k]),
                        fmt::format("vehicle {}", placed[k].station));
+  for (std::size_t k = 0; k < world.links.size(); ++k)
+    names.emplace_back(caf::actor_cast<caf::actor>(world.links[k]),
+                       fmt::format("the link of vehicle {} to provider {}",
+                                   placed[k / s.providers.size()].station,
+                                   s.providers[k % s.providers.size()].name));
   return names;
+}
+
+void end(const std::vector<caf::actor>& leaving, runtime& time) {
+  for (const auto& actor : leaving)
+    caf::anon_send_exit(actor, caf::exit_reason::user_shutdown);
+  time.await_end(leaving);
+}
+
+template <class Handle>
+void end(const std::vector<Handle>& leaving, runtime& time) {
+  std::vector<caf::actor> actors;
+  for (const auto& actor : leaving)
+    actors.push_back(caf::actor_cast<caf::actor>(actor));
+  end(actors, time);
 }
 
 } // namespace
@@ -160,20 +179,14 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   return world;
 }
 
-void dismiss(const world_actors& actors) {
-  const auto reason = caf::exit_reason::user_shutdown;
-  caf::anon_send_exit(actors.supervisor, reason);
-  for (const auto& vehicle : actors.vehicles)
-    caf::anon_send_exit(vehicle, reason);
-  for (const auto& provider : actors.providers)
-    caf::anon_send_exit(provider, reason);
-  for (const auto& link : actors.links)
-    caf::anon_send_exit(link, reason);
-  caf::anon_send_exit(actors.road, reason);
-}
-
-void dismiss(const recorder_actor& recorder) {
-  caf::anon_send_exit(recorder, caf::exit_reason::user_shutdown);
+void dismiss(const world_actors& actors, runtime& time) {
+  if (actors.supervisor)
+    end(std::vector{actors.supervisor}, time);
+  end(actors.vehicles, time);
+  end(actors.providers, time);
+  end(actors.links, time);
+  end(std::vector{actors.road}, time);
+  end(std::vector{actors.recorder}, time);
 }
 
 } // namespace sofof

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "messages/type_ids.hpp"
+#include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
 
 #include <caf/actor_system.hpp>
@@ -33,9 +34,9 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    std::shared_ptr<record_sink> sink, bool virtual_time,
                    std::function<void(const std::string&)> on_loss = {});
 
-/// Sends exits so that what still runs is closed on both sides and recorded.
-/// The recorder goes last, in a call of its own.
-void dismiss(const world_actors& actors);
-void dismiss(const recorder_actor& recorder);
+/// Ends all actors, group by group, so that what still runs is closed on both
+/// sides and recorded: the vehicles with their requesters first, the recorder
+/// last.
+void dismiss(const world_actors& actors, runtime& time);
 
 } // namespace sofof

@@ -52,6 +52,10 @@ void check_services(const scenario& all, const toml_file& source) {
           fmt::format("there are two services \"{}\".", kind->name()));
     names.push_back(kind->name());
   }
+  // Nobody else tells a vehicle where to drive.
+  if (std::ranges::find(names, "trajectory_planning") == names.end())
+    source.refuse("service", "there is no service \"trajectory_planning\"; "
+                             "vehicles need it to drive.");
   for (std::size_t p = 0; p < all.providers.size(); ++p) {
     const auto& offered = all.providers[p].services;
     for (std::size_t i = 0; i < offered.size(); ++i)

@@ -41,14 +41,12 @@ void metrics::take(const decision_record& x) {
   ++(x.accepted ? service.accepted : service.rejected);
 }
 
-std::optional<duration> metrics::take(const cycle_record& x) {
+void metrics::take(const cycle_record& x) {
   auto& service = of(x.running.kind);
   service.latency.add(x.received - x.created);
   service.results_used += x.used;
-  if (x.interarrival == duration::zero() && is_first(x.running))
-    return std::nullopt;
-  service.interarrival.add(x.interarrival);
-  return x.interarrival;
+  if (x.interarrival)
+    service.interarrival.add(*x.interarrival);
 }
 
 void metrics::take(const episode_record& x) {
@@ -110,15 +108,6 @@ service_metrics& metrics::of(const service_name& kind) {
   auto& added = services_.emplace_back();
   added.kind = kind;
   return added;
-}
-
-bool metrics::is_first(const running_service& running) {
-  const auto [at, added] = newest_.try_emplace(
-      {running.kind, running.station, running.provider}, running.counter);
-  if (!added && at->second == running.counter)
-    return false;
-  at->second = running.counter;
-  return true;
 }
 
 } // namespace sofof

@@ -68,10 +68,7 @@ public:
 
   void take(const event_record& x);
   void take(const decision_record& x);
-  /// @returns the time since the result before; nullopt for the first one of
-  /// an episode. (Its record says zero, and so does that of a result that
-  /// came together with the one before it.)
-  std::optional<duration> take(const cycle_record& x);
+  void take(const cycle_record& x);
   void take(const episode_record& x);
   void take(const safety_record& x);
   void take(const collision_record& x);
@@ -93,21 +90,12 @@ private:
     time_point since;
   };
 
-  struct source {
-    service_name kind;
-    station_id station;
-    boot_id provider;
-    friend auto operator<=>(const source&, const source&) = default;
-  };
-
   service_metrics& of(const service_name& kind);
-  bool is_first(const running_service& running);
 
   service_name headline_;
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;
   std::map<std::pair<service_name, station_id>, open_episode> open_;
-  std::map<source, std::uint32_t> newest_; ///< Counter of its last episode.
   safety_metrics safety_;
 };
 

@@ -74,15 +74,15 @@ void results::take(const decision_record& x) {
 }
 
 void results::take(const cycle_record& x) {
-  const auto interarrival = metrics_.take(x);
+  metrics_.take(x);
   if (!cycles_)
     return;
   const auto& id = x.running;
   cycles_->row(id.station, name_of(id.provider), id.provider, id.kind.view(),
                id.counter, x.cycle, seconds(x.created - run_.start),
                seconds(x.received - run_.start),
-               milliseconds(x.received - x.created), milliseconds(interarrival),
-               x.used);
+               milliseconds(x.received - x.created),
+               milliseconds(x.interarrival), x.used);
 }
 
 void results::take(const episode_record& x) {

@@ -80,14 +80,6 @@ time_point advance(runtime& time, time_point end, const run_options& options,
   return t;
 }
 
-/// Ends all actors: their system waits for them before it goes.
-void end_all(runtime& time, const world_actors& actors) {
-  dismiss(actors);
-  time.settle(1);
-  dismiss(actors.recorder);
-  time.settle(0);
-}
-
 } // namespace
 
 run_outcome run(const scenario& s, const run_options& options,
@@ -108,10 +100,10 @@ run_outcome run(const scenario& s, const run_options& options,
     ended = advance(*time, info.start + s.length, options, interrupted, *keeper,
                     shown, watch);
   } catch (...) { // the disk is full, say
-    end_all(*time, actors);
+    dismiss(actors, *time);
     throw;
   }
-  end_all(*time, actors);
+  dismiss(actors, *time);
   return keeper->with([&](results& r) {
     const auto end =
         r.finish(ended, watch.elapsed_s(), ended < info.start + s.length);

@@ -4,9 +4,9 @@
 #include "actors/des_scheduler.hpp"
 #include "messages/type_ids.hpp"
 
-#include <caf/actor_registry.hpp>
 #include <caf/actor_system_config.hpp>
 #include <caf/init_global_meta_objects.hpp>
+#include <caf/scoped_actor.hpp>
 
 #include <chrono>
 #include <thread>
@@ -26,7 +26,9 @@ public:
     return time_point{scheduler_.clock().now().time_since_epoch()};
   }
   void run_until(time_point end) override { scheduler_.run_until(end); }
-  void settle(std::size_t) override { scheduler_.run_ready(); }
+  void await_end(const std::vector<caf::actor>&) override {
+    scheduler_.run_ready();
+  }
 
 private:
   virtual_config config_;
@@ -44,8 +46,9 @@ public:
     std::this_thread::sleep_until(
         std::chrono::steady_clock::time_point{end.time_since_epoch()});
   }
-  void settle(std::size_t left) override {
-    system_.registry().await_running_count_equal(left);
+  void await_end(const std::vector<caf::actor>& leaving) override {
+    caf::scoped_actor self{system_};
+    self->wait_for(leaving);
   }
 
 private:

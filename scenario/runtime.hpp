@@ -3,10 +3,11 @@
 
 #include "world/time.hpp"
 
+#include <caf/actor.hpp>
 #include <caf/actor_system.hpp>
 
-#include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace sofof {
 
@@ -23,9 +24,8 @@ public:
   /// Returns when it is `end`: virtual time gets there as fast as it can.
   virtual void run_until(time_point end) = 0;
 
-  /// After exits were sent: lets everything happen that is due, until only so
-  /// many actors are left.
-  virtual void settle(std::size_t left) = 0;
+  /// Returns when these actors, which were sent exits, have ended.
+  virtual void await_end(const std::vector<caf::actor>& leaving) = 0;
 };
 
 /// A discrete-event world; begins at time zero, deterministic.

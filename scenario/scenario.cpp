@@ -4,6 +4,7 @@
 #include "policies/registry.hpp"
 #include "scenario/listing.hpp"
 #include "scenario/settings_printer.hpp"
+#include "world/protocol.hpp"
 
 #include <fmt/format.h>
 
@@ -103,7 +104,10 @@ void policy_options::fields(settings& s) {
 }
 
 void record_options::fields(settings& s) {
-  s.field("tracks_period", tracks_period, 1ms);
+  s.field("tracks_period", tracks_period, protocol::control_period);
+  if (tracks_period % protocol::control_period != 0ns)
+    s.refuse("tracks_period", "must be a multiple of \"10ms\", a vehicle's "
+                              "step.");
   s.field("cycles", cycles);
   s.field("tracks", tracks);
 }

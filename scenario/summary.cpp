@@ -101,6 +101,7 @@ std::string summary_json(const metrics& m, const run_info& run,
       }
     }
     timing_of(top, end);
+    top.member("wall_s", rounded(end.wall_s, wall_places));
   }
   text += '\n';
   return text;

@@ -10,7 +10,7 @@ namespace sofof {
 
 /// @param m  Finished.
 /// @returns the text of summary.json; absent figures are null. All but the
-/// last member, "timing", depends on the records alone.
+/// last two members, "timing" and "wall_s", depends on the records alone.
 std::string summary_json(const metrics& m, const run_info& run,
                          const run_end& end);
 

@@ -11,6 +11,12 @@ namespace {
 constexpr double min_step_s = 1e-3;
 constexpr double max_step_s = 10;
 constexpr double step_tolerance = 1e-6;
+/// No road vehicle gets beyond these; they keep all sums finite.
+constexpr double largest_speed_mps = 200;
+constexpr double largest_length_m = 1e9;
+constexpr double largest_heading_rad = 1e6; // many laps, unwrapped
+constexpr double largest_curvature_1pm = 10;
+constexpr double largest_accel_mps2 = 1000;
 
 /// The cubic with values y0, y1 and slopes m0, m1 (per unit of time) at the
 /// ends of an interval of length h; x in [0, 1].
@@ -57,12 +63,15 @@ bool trajectory::is_sound() const {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& p = points[i];
     const auto due_s = static_cast<double>(i) * step_s;
-    if (!(std::abs(p.t_s - due_s) <= step_tolerance * step_s)
-        || !(p.speed_mps >= 0))
-      return false;
-    // A sum is finite only if everything in it is.
-    if (!std::isfinite(p.s_m + p.at.x_m + p.at.y_m + p.heading_rad
-                       + p.curvature_1pm + p.speed_mps + p.accel_mps2))
+    // Comparisons with NaN are false.
+    if (!(std::abs(p.t_s - due_s) <= step_tolerance * step_s && p.speed_mps >= 0
+          && p.speed_mps <= largest_speed_mps
+          && std::abs(p.s_m) <= largest_length_m
+          && std::abs(p.at.x_m) <= largest_length_m
+          && std::abs(p.at.y_m) <= largest_length_m
+          && std::abs(p.heading_rad) <= largest_heading_rad
+          && std::abs(p.curvature_1pm) <= largest_curvature_1pm
+          && std::abs(p.accel_mps2) <= largest_accel_mps2))
       return false;
   }
   return true;

@@ -26,9 +26,9 @@ struct trajectory {
 
   bool empty() const { return points.empty(); }
 
-  /// @returns whether it can be followed: at least two points, all numbers
-  /// finite, times rising in equal steps from 0, speeds not negative. Ask
-  /// before believing a stranger.
+  /// @returns whether it can be followed: at least two points, times
+  /// rising in equal steps from 0, all numbers within what a road vehicle can
+  /// do, speeds not negative. Ask before believing a stranger.
   bool is_sound() const;
 
   /// @returns the last moment that the plan covers; `start` when empty.

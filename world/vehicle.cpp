@@ -21,18 +21,6 @@ constexpr double holding_brake_mps2 = 0.5;
 
 } // namespace
 
-void vehicle_params::fields(settings& s) {
-  s.field("wheelbase_m", wheelbase_m, {1, 10});
-  s.field("front_m", front_m, {0.5, 20});
-  s.field("rear_m", rear_m, {0.1, 10});
-  s.field("width_m", width_m, {0.5, 4});
-  s.field("steer_lag_s", steer_lag_s, {0.01, 1});
-  s.field("drive_lag_s", drive_lag_s, {0.01, 1});
-  s.field("max_steer_rad", max_steer_rad, {0.1, 1.2});
-  s.field("max_accel_mps2", max_accel_mps2, {0.5, 15});
-  s.field("max_decel_mps2", max_decel_mps2, {1, 15});
-}
-
 vehicle_state step(const vehicle_state& x, const vehicle_command& u,
                    const vehicle_params& car, double dt_s) {
   const auto wheel =

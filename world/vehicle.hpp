@@ -3,7 +3,6 @@
 #pragma once
 
 #include "world/geometry.hpp"
-#include "world/settings.hpp"
 #include "world/trajectory.hpp"
 
 namespace sofof {
@@ -20,8 +19,6 @@ struct vehicle_params {
   double max_steer_rad = 0.6;
   double max_accel_mps2 = 3.0;
   double max_decel_mps2 = 8.0;
-
-  void fields(settings& s);
 };
 
 /// Motion of a car; the reference point is the rear axle's centre.

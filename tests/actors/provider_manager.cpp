@@ -38,8 +38,22 @@ struct provider_manager_world : virtual_world {
 
 TEST_CASE_FIXTURE(provider_manager_world,
                   "an accepted service waits for its first input") {
-  run_for(1s);
+  run_for(999ms);
   CHECK(requester->entries().empty());
+  CHECK(!is_gone(manager));
+}
+
+TEST_CASE_FIXTURE(provider_manager_world,
+                  "an accepted service that nobody feeds is given up after the "
+                  "start time-out") {
+  run_for(1s);
+  CHECK(is_gone(manager));
+}
+
+TEST_CASE_FIXTURE(provider_manager_world,
+                  "a service that was fed once is not given up") {
+  feed(1);
+  run_for(10s);
   CHECK(!is_gone(manager));
 }
 

@@ -41,10 +41,7 @@ void messages(benchmark::State& state, const scenario& s) {
       count / static_cast<double>(state.iterations());
   state.counters["messages_per_s"] =
       benchmark::Counter(count, benchmark::Counter::kIsRate);
-  dismiss(actors);
-  time->settle(1);
-  dismiss(actors.recorder);
-  time->settle(0);
+  dismiss(actors, *time);
 }
 
 void virtual_second_of_six(benchmark::State& state) {

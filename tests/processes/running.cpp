@@ -11,6 +11,7 @@ TEST_CASE("six vehicles drive and offload on the wall's clock") {
   const auto summary = summary_of(out);
   CHECK(summary["virtual_s"] == 3.0);
   CHECK(summary["timing"]["wall_s"] >= 3.0);
+  CHECK(summary["wall_s"] == summary["timing"]["wall_s"]);
   CHECK(summary["interrupted"] == false);
   CHECK(summary["safety"]["collisions"] == 0);
   CHECK(summary["safety"]["without_fresh_plan_s"] == 0.0);

@@ -112,7 +112,7 @@ drive(moving_client::stateful_pointer<client_state> self,
 /// Counts how often each side closed each running service.
 struct ledger final : record_sink {
   std::map<running_service, int> closed_by_requester, closed_by_provider;
-  std::set<running_service> accepted;
+  std::map<running_service, duration> provider_side; // how long it ran
   std::set<end_reason> reasons;
   int remote_episodes = 0;
 
@@ -123,6 +123,8 @@ struct ledger final : record_sink {
     ++(r.of == side::requester ? closed_by_requester
                                : closed_by_provider)[r.running];
     reasons.insert(r.reason);
+    if (r.of == side::provider)
+      provider_side[r.running] = r.ended - r.accepted;
     if (r.of == side::requester)
       remote_episodes += r.got_data;
   }
@@ -302,4 +304,23 @@ TEST_CASE("when a vehicle crashes, its provider closes what it ran for it") {
     for (const auto& [running, times] : w.book->closed_by_provider)
       CHECK(times == 1);
   }
+}
+
+TEST_CASE("a lost message costs seconds of offloading, not a passage") {
+  // What the provider runs and the requester does not know of blocks offers.
+  duration blocked{}, longest{};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const link_fault_options faults{0.1, 0, 0, {}};
+    faulty_world w{seed, faults, 1};
+    w.run_for(200s);
+    caf::anon_send_exit(w.vehicle, caf::exit_reason::user_shutdown);
+    w.settle();
+    for (const auto& [running, lasted] : w.book->provider_side)
+      if (!w.book->closed_by_requester.contains(running)) {
+        blocked += lasted;
+        longest = std::max(longest, lasted);
+      }
+  }
+  CHECK(blocked > 0ns); // responses were lost
+  CHECK(longest <= protocol::start_timeout + 1ms);
 }

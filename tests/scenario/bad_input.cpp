@@ -94,7 +94,8 @@ TEST_CASE("a number out of its range is refused") {
   check_all({
       {"\"600s\"", "@\"0s\"", {"more than \"0s\""}},
       {"\"600s\"", "@\"-5s\"", {"more than \"0s\"", "-5s"}},
-      {"\"250ms\"", "@\"250us\"", {"at least \"1ms\""}},
+      {"\"250ms\"", "@\"250us\"", {"at least \"10ms\""}},
+      {"\"250ms\"", "@\"255ms\"", {"multiple of \"10ms\""}},
       {"count = 6", "count = @0", {"count", "from 1 to", "0"}},
       {"count = 6", "count = @-1", {"count", "from 1 to", "-1"}},
       {"seed = 7", "seed = @-7", {"from 0"}},

@@ -57,7 +57,7 @@ inline decision_record decision(bool accepted, service_name kind = planning) {
 
 inline cycle_record result(const running_service& id, std::uint64_t cycle,
                            duration created, duration latency,
-                           duration interarrival) {
+                           std::optional<duration> interarrival) {
   return {id, cycle, at(created), at(created + latency), interarrival, true};
 }
 

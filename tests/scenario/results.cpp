@@ -157,12 +157,13 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["services"]["environment"]["t_off_s"]["mean"].is_null());
   CHECK(s["services"]["environment"]["latency_ms"]["std"].is_null());
   CHECK(s["timing"]["wall_s"] == 2);
+  CHECK(s["wall_s"] == 2);
   CHECK(s["timing"]["x_real_time"] == 50);
   std::vector<std::string> keys;
   for (const auto& [key, value] : s.items())
     keys.push_back(key);
   CHECK(keys.front() == "version");
-  CHECK(keys.back() == "timing");
+  CHECK(keys.back() == "wall_s");
 }
 
 TEST_CASE("times in files count from the start and are exact to the ns") {
@@ -284,7 +285,9 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
   auto one = summary_in(first.path()), other = summary_in(second.path());
   CHECK(one != other);
   one.erase("timing");
+  one.erase("wall_s");
   other.erase("timing");
+  other.erase("wall_s");
   CHECK(one == other);
 }
 

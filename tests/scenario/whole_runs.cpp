@@ -27,10 +27,7 @@ memory_sink drive(std::vector<std::string> overrides) {
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, true);
   time->run_until(time->now() + s.length);
-  dismiss(actors);
-  time->settle(1);
-  dismiss(actors.recorder);
-  time->settle(0);
+  dismiss(actors, *time);
   return *records;
 }
 

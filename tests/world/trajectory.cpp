@@ -97,4 +97,6 @@ TEST_CASE("a stranger's plan is not sound when it could mislead the car") {
   CHECK(!spoilt([&](auto& p) { p[9].heading_rad = nan; }));
   CHECK(!spoilt([&](auto& p) { p[9].curvature_1pm = nan; }));
   CHECK(!spoilt([&](auto& p) { p[10].accel_mps2 = nan; }));
+  CHECK(!spoilt([](auto& p) { p[4].at.x_m = 1.7e308; }));
+  CHECK(!spoilt([](auto& p) { p[4].speed_mps = 1e9; }));
 }

@@ -1,0 +1,47 @@
+// Tests of the supervisor: it notices when an actor dies.
+#include "actors/supervisor.hpp"
+
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+struct watched_world : virtual_world {
+  probe<road_actor> road = listen<road_actor>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  std::vector<std::string> lost;
+  caf::actor supervisor = own(spawn_supervisor(
+      system(),
+      {{caf::actor_cast<caf::actor>(road.handle), "the road"},
+       {caf::actor_cast<caf::actor>(recorder.handle), "the recorder"}},
+      [this](const std::string& what) { lost.push_back(what); }));
+
+  watched_world() { settle(); }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(watched_world, "the supervisor says who has died") {
+  kill(road.handle);
+  REQUIRE(lost.size() == 1);
+  CHECK(lost.front().find("the road has died") == 0);
+}
+
+TEST_CASE_FIXTURE(watched_world, "actors that are dismissed have not died") {
+  caf::anon_send_exit(road.handle, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(lost.empty());
+}
+
+TEST_CASE_FIXTURE(watched_world, "the supervisor outlives those it watches") {
+  kill(road.handle);
+  kill(recorder.handle);
+  CHECK(lost.size() == 2);
+}
