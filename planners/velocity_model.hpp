@@ -130,7 +130,7 @@ public:
     double time_s = 1e-3;
     double jerk_mps3 = 5e-3;
   };
-  errors model_error;
+  errors model_error{};
 
   void linearise(workspace& w) const noexcept;
   double roll_out(workspace& w) const noexcept;

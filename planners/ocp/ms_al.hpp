@@ -52,8 +52,9 @@ public:
   solve_report solve(const budget& go_on) noexcept;
 
 private:
-  /// `partial`: only as far as the model holds.
-  enum class ended { settled, partial, interrupted, broken };
+  /// `optimal`: the plan was already; `partial`: only as far as the model
+  /// holds.
+  enum class ended { optimal, settled, partial, interrupted, broken };
 
   void begin() noexcept;
   double join() noexcept;
@@ -67,12 +68,14 @@ private:
   bool stick_out() noexcept;
   double update_multipliers() noexcept;
   double publish() noexcept;
-  solve_status verdict(ended how, double left) const noexcept;
+  solve_status verdict(ended how) const noexcept;
+  void adopt() noexcept;
 
   const Problem& problem_;
   workspace<Problem>& w_;
   const solver_options& options_;
   solve_report report_;
+  bool candidate_ = false;   ///< The plan may be optimal.
   bool joined_ = false;      ///< The iterate has no gaps.
   bool same_active_ = false; ///< The factorisation still holds.
   double cost_slope_ = 0;    ///< Of the cost along the direction ...
@@ -82,37 +85,57 @@ private:
 template <class Problem>
 solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
   constexpr auto no_gap = 1e-9;
+  constexpr auto near = 10.; // the linear model's error, in what is allowed
   begin();
   for (;;) {
     problem_.linearise(w_);
     ++report_.linearisations;
     joined_ = join() < no_gap;
     const auto how = newton(go_on);
+    if (how == ended::optimal) {
+      report_.status = solve_status::converged;
+      return report_;
+    }
     const auto last = how == ended::interrupted || how == ended::broken
                       || report_.linearisations >= options_.max_linearisations;
     if (how == ended::partial && !last)
       continue;
     const auto left = publish();
-    report_.status = verdict(how, left);
-    if (last || report_.status == solve_status::converged)
+    if (last) {
+      report_.status = verdict(how);
       return report_;
+    }
+    candidate_ =
+        how == ended::settled && left <= 1 && report_.worst.scaled <= 1;
+    if (left <= near)
+      adopt();
   }
 }
 
+/// What to say about a plan that is not known to be optimal.
 template <class Problem>
-solve_status ms_al<Problem>::verdict(ended how, double left) const noexcept {
+solve_status ms_al<Problem>::verdict(ended how) const noexcept {
   using enum solve_status;
   constexpr auto nearly = 10.; // tolerances
   if (how == ended::broken || !std::isfinite(report_.cost))
     return numerical;
-  const auto worst = report_.worst.scaled;
-  if (how == ended::settled && left <= 1 && worst <= 1)
-    return converged;
-  if (worst <= nearly)
+  if (report_.worst.scaled <= nearly)
     return acceptable;
   const auto spent = report_.iterations >= options_.max_iterations
                      || report_.linearisations >= options_.max_linearisations;
   return spent ? soft_infeasible : budget;
+}
+
+/// Goes on from the plan.
+template <class Problem>
+void ms_al<Problem>::adopt() noexcept {
+  const auto m = w_.padded;
+  for (int k = 0; k < m; ++k) {
+    w_.iterate.x0[k] = w_.plan.x0[k];
+    w_.iterate.x1[k] = w_.plan.x1[k];
+    w_.iterate.x2[k] = w_.plan.x2[k];
+    w_.iterate.u[k] = w_.plan.u[k];
+  }
 }
 
 /// Makes the knots neutral that are none, or have no bounds.
@@ -124,12 +147,7 @@ void ms_al<Problem>::begin() noexcept {
     x.x0[k] = x.x1[k] = x.x2[k] = 0;
   for (int k = n; k < m; ++k)
     x.u[k] = 0;
-  for (int k = 0; k < m; ++k) {
-    w_.iterate.x0[k] = x.x0[k];
-    w_.iterate.x1[k] = x.x1[k];
-    w_.iterate.x2[k] = x.x2[k];
-    w_.iterate.u[k] = x.u[k];
-  }
+  adopt();
   w_.rows.each([m](auto& r, int) {
     for (int k = 0; k < m; ++k)
       r.y[k] = r.lo[k] > -no_bound || r.hi[k] < no_bound ? r.y[k] : 0;
@@ -174,6 +192,9 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     const auto decrement = find_direction(gaps);
     if (!(decrement >= 0))
       return ended::broken;
+    if (candidate_ && inner == 0 && joined_
+        && decrement < options_.optimality * report_.cost)
+      return ended::optimal;
     measure_direction();
     const auto longest = inner == 0 ? problem_.longest_step(w_) : 1.;
     // With gaps to close, the cost's slope does not say where to stop.

@@ -68,7 +68,9 @@ struct solver_options {
   int max_iterations = 60;     ///< Newton steps, all together.
   int max_linearisations = 20; ///< Of the dynamics.
   int max_inner = 30;          ///< Newton steps per linearisation.
-  double decrement = 1e-6;     ///< Slope of the cost that is flat.
+  double decrement = 1e-6;     ///< One of a linear model that is solved.
+  double optimality = 1e-4;    ///< Newton decrement of an optimum, as a
+                               ///< share of the cost.
   double slow = 0.25;          ///< When multipliers change by more than this
                                ///< share of their last change, ...
   double firmer = 5;           ///< ... the penalty grows by this factor, ...
