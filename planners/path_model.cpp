@@ -132,7 +132,7 @@ double path_model::evaluate(workspace& w) const noexcept {
   for (int k = w.n + 1; k < m; ++k)
     sine[k] = 0;
   const auto holds = least > least_q && most <= most_heading_rad;
-  return holds ? twice / 2 : std::numeric_limits<double>::quiet_NaN();
+  return holds ? twice / 2 : std::numeric_limits<double>::infinity();
 }
 
 } // namespace sofof::ocp

@@ -128,7 +128,7 @@ public:
 
   void linearise(workspace& w) const noexcept;
   double roll_out(workspace& w) const noexcept;
-  /// @returns the cost; NaN where the dynamics do not hold.
+  /// @returns the cost; infinity where the dynamics do not hold.
   double evaluate(workspace& w) const noexcept;
   double longest_step(const workspace&) const noexcept { return 1; }
 };

@@ -9,7 +9,8 @@
 //   roll_out(w)   w.plan by the true dynamics from the iterate's first state,
 //                 following the iterate with the feedback; returns how far
 //                 it left, over what the linear model may be wrong by
-//   evaluate(w)   the rows' values c at w.plan; returns the cost
+//   evaluate(w)   the rows' values c at w.plan; returns the cost, infinity
+//                 where the true dynamics do not hold
 //   longest_step(w)  share of w.direction for which the model holds, in (0, 1]
 // Only for the sources that solve a problem: its loops need -fopenmp-simd.
 #pragma once
@@ -105,8 +106,8 @@ solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
       report_.status = verdict(how);
       return report_;
     }
-    candidate_ =
-        how == ended::settled && left <= 1 && report_.worst.scaled <= 1;
+    candidate_ = how == ended::settled && left <= 1
+                 && report_.worst.scaled <= 1 && std::isfinite(report_.cost);
     if (left <= near)
       adopt();
   }
@@ -117,9 +118,9 @@ template <class Problem>
 solve_status ms_al<Problem>::verdict(ended how) const noexcept {
   using enum solve_status;
   constexpr auto nearly = 10.; // tolerances
-  if (how == ended::broken || !std::isfinite(report_.cost))
+  if (how == ended::broken || std::isnan(report_.cost))
     return numerical;
-  if (report_.worst.scaled <= nearly)
+  if (report_.worst.scaled <= nearly && std::isfinite(report_.cost))
     return acceptable;
   const auto spent = report_.iterations >= options_.max_iterations
                      || report_.linearisations >= options_.max_linearisations;
@@ -193,7 +194,8 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     if (!(decrement >= 0))
       return ended::broken;
     if (candidate_ && inner == 0 && joined_
-        && decrement < options_.optimality * report_.cost)
+        && decrement
+               <= options_.decrement + options_.optimality * report_.cost)
       return ended::optimal;
     measure_direction();
     const auto longest = inner == 0 ? problem_.longest_step(w_) : 1.;
