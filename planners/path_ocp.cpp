@@ -138,7 +138,7 @@ ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
   started_ = started_ && problem.steps == w_.n;
   set_up(problem, options, from);
   if (const auto worst = ocp::crossed_bounds(w_); worst.knot >= 0)
-    return {.status = ocp::solve_status::soft_infeasible, .worst = worst};
+    return ocp::refusal(worst);
   if (from == ocp::start::cold)
     guess(problem);
   w_.plan.x0[0] = problem.start.d_m;

@@ -221,7 +221,7 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
   if (worst.knot < 0)
     worst = hopeless(problem);
   if (worst.knot >= 0)
-    return {.status = ocp::solve_status::soft_infeasible, .worst = worst};
+    return ocp::refusal(worst);
   if (from == ocp::start::warm) {
     follow(problem);
     if (misses_s() > options.surprise_s) {

@@ -445,6 +445,7 @@ double ms_al<Problem>::publish() noexcept {
   const auto m = w_.padded;
   const auto left = problem_.roll_out(w_);
   report_.cost = problem_.evaluate(w_);
+  report_.violation = 0;
   report_.worst = {};
   w_.rows.each([&](const auto& r, int index) {
     const auto out = [&r](int k) {
@@ -456,6 +457,7 @@ double ms_al<Problem>::publish() noexcept {
       const double here = out(k);
       most = here > most ? here : most;
     }
+    report_.violation = std::max(report_.violation, most);
     if (most > report_.worst.scaled * r.tolerance)
       for (int k = 0; k < m; ++k)
         report_.worst.see(out(k), r.tolerance, index, k);

@@ -53,10 +53,20 @@ struct violation {
 struct solve_report {
   solve_status status = solve_status::bad_input;
   double cost = std::numeric_limits<double>::quiet_NaN();
-  violation worst;
+  double violation = 0;   ///< The largest, each in its row's unit.
+  ocp::violation worst;   ///< The worst, in tolerances.
   int iterations = 0;     ///< Newton steps, all together.
   int linearisations = 0; ///< Of the dynamics.
 };
+
+/// @returns that bounds contradict each other, before anything was solved.
+inline solve_report refusal(const violation& worst) {
+  solve_report report;
+  report.status = solve_status::soft_infeasible;
+  report.violation = worst.amount;
+  report.worst = worst;
+  return report;
+}
 
 /// @returns whether a plan with this status may be driven without more ado.
 constexpr bool publishable(solve_status s) {
