@@ -2,6 +2,7 @@
 #include "scenario/solve.hpp"
 
 #include "apps/command.hpp"
+#include "scenario/practice_file.hpp"
 
 #include <iostream>
 #include <memory>
@@ -12,7 +13,7 @@ namespace sofof {
 namespace {
 
 struct arguments {
-  std::string file, out;
+  std::string file, out, practice;
   solve_options options;
 };
 
@@ -32,8 +33,15 @@ void add_solve(CLI::App& app, int&) {
       ->check(CLI::PositiveNumber);
   command->add_option("--out", args->out, "Write a JSON object a line")
       ->type_name("FILE");
-  command->footer("Example:\n  sofof solve problems.json --out plans.jsonl");
+  command
+      ->add_option("--practice", args->practice,
+                   "Write problems to practise on into FILE first")
+      ->type_name("path|velocity");
+  command->footer("Example:\n  sofof solve slalom.json --practice path "
+                  "--out plans.jsonl");
   command->callback([args] {
+    if (!args->practice.empty())
+      write_practice(args->file, args->practice);
     if (!args->out.empty())
       args->options.out = args->out;
     solve_problems(args->file, args->options, std::cout);

@@ -26,7 +26,8 @@ constexpr auto never = std::numeric_limits<double>::infinity();
 /// A value and where in which file it stands.
 class node {
 public:
-  node(const json& value, std::string file) : node{value, file, ""} {}
+  node(const json& value, std::string file)
+      : node{value, std::move(file), ""} {}
 
   [[noreturn]] void refuse(std::string_view what) const {
     throw input_error(fmt::format("{}: {}{}{}", file_, place_,

@@ -3,13 +3,13 @@
 
 #include "scenario/output_file.hpp"
 #include "scenario/problem_file.hpp"
+#include "scenario/stopwatch.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -19,14 +19,6 @@
 namespace sofof {
 
 namespace {
-
-/// Of this thread, µs: what others do on the machine does not count.
-double cpu_us() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6
-         + static_cast<double>(now.tv_nsec) * 1e-3;
-}
 
 struct answer {
   ocp::solve_report report;
@@ -73,10 +65,10 @@ public:
     if (warm)
       solver.shift(kind::knots_a_step * std::max(0, info.step - step_));
     answer a;
-    const auto begin = cpu_us();
+    const cpu_stopwatch watch;
     a.report = solver.solve(instance.problem,
                             warm ? ocp::start::warm : ocp::start::cold);
-    a.time_us = cpu_us() - begin;
+    a.time_us = watch.elapsed_us();
     if (a.report.iterations > 0) {
       const auto u = kind::controls(solver);
       a.controls.assign(u.begin(), u.end());

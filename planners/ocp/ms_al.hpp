@@ -106,8 +106,8 @@ solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
       report_.status = verdict(how);
       return report_;
     }
-    candidate_ = how == ended::settled && left <= 1
-                 && report_.worst.scaled <= 1 && std::isfinite(report_.cost);
+    candidate_ = how == ended::settled && left <= 1 && report_.worst.scaled <= 1
+                 && std::isfinite(report_.cost);
     if (left <= near)
       adopt();
   }
@@ -143,11 +143,12 @@ void ms_al<Problem>::adopt() noexcept {
 template <class Problem>
 void ms_al<Problem>::begin() noexcept {
   const auto m = w_.padded, n = w_.n;
-  auto& x = w_.plan;
-  for (int k = n + 1; k < m; ++k)
-    x.x0[k] = x.x1[k] = x.x2[k] = 0;
-  for (int k = n; k < m; ++k)
-    x.u[k] = 0;
+  for (auto* x : {&w_.plan, &w_.direction}) {
+    for (int k = n + 1; k < m; ++k)
+      x->x0[k] = x->x1[k] = x->x2[k] = 0;
+    for (int k = n; k < m; ++k)
+      x->u[k] = 0;
+  }
   adopt();
   w_.rows.each([m](auto& r, int) {
     for (int k = 0; k < m; ++k)
@@ -194,8 +195,7 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     if (!(decrement >= 0))
       return ended::broken;
     if (candidate_ && inner == 0 && joined_
-        && decrement
-               <= options_.decrement + options_.optimality * report_.cost)
+        && decrement <= options_.decrement + options_.optimality * report_.cost)
       return ended::optimal;
     measure_direction();
     const auto longest = inner == 0 ? problem_.longest_step(w_) : 1.;
@@ -266,8 +266,10 @@ void ms_al<Problem>::expand() noexcept {
   w_.rows.each([m, &h](const auto& r, int) {
     for (int k = 0; k < m; ++k) {
       const double rho = r.active[k];
-      const auto r0 = rho * r.g0[k], r1 = rho * r.g1[k];
-      const auto r2 = rho * r.g2[k], ru = rho * r.gu[k];
+      const auto r0 = rho * r.g0[k];
+      const auto r1 = rho * r.g1[k];
+      const auto r2 = rho * r.g2[k];
+      const auto ru = rho * r.gu[k];
       add(h.h00, k, r0 * r.g0[k]);
       add(h.h01, k, r0 * r.g1[k]);
       add(h.h02, k, r0 * r.g2[k]);

@@ -32,10 +32,18 @@ double factorise(Workspace& w) noexcept {
       p1 += p01 * d0 + p11 * d1 + p12 * d2;
       p2 += p02 * d0 + p12 * d1 + p22 * d2;
     }
-    const auto a00 = m.a00[k], a01 = m.a01[k], a02 = m.a02[k];
-    const auto a10 = m.a10[k], a11 = m.a11[k], a12 = m.a12[k];
-    const auto a20 = m.a20[k], a21 = m.a21[k], a22 = m.a22[k];
-    const auto b0 = m.b0[k], b1 = m.b1[k], b2 = m.b2[k];
+    const auto a00 = m.a00[k];
+    const auto a01 = m.a01[k];
+    const auto a02 = m.a02[k];
+    const auto a10 = m.a10[k];
+    const auto a11 = m.a11[k];
+    const auto a12 = m.a12[k];
+    const auto a20 = m.a20[k];
+    const auto a21 = m.a21[k];
+    const auto a22 = m.a22[k];
+    const auto b0 = m.b0[k];
+    const auto b1 = m.b1[k];
+    const auto b2 = m.b2[k];
     // P A and P B, by rows of P.
     const double c00 = p00 * a00 + p01 * a10 + p02 * a20;
     const double c01 = p00 * a01 + p01 * a11 + p02 * a21;

@@ -155,6 +155,30 @@ TEST_CASE("a solver copied byte by byte goes on where the other was") {
   CHECK(first->offset_m().back() == second->offset_m().back());
 }
 
+TEST_CASE("a cold start knows nothing of what was solved before") {
+  test::dice dice{4};
+  const auto used = make_solver();
+  slalom sane;
+  const auto fresh = make_solver();
+  const auto expected = fresh->solve(sane.at(0, {.d_m = 0.1}), start::cold);
+  REQUIRE(expected.status == converged);
+  for (int i = 0; i < 60; ++i) {
+    // Anything: any length, often hopeless, now and then overflowing.
+    slalom wild{static_cast<int>(dice.between(1, ocp::most_steps)),
+                dice.between(0.1, 2), dice.between(1, 8)};
+    auto problem = wild.at(
+        i, {dice.between(-2, 2), dice.between(-1, 1), dice.between(-0.3, 0.3)});
+    if (i % 7 == 0)
+      problem.weights.offset = 1e300;
+    used->solve(problem, i % 2 == 0 ? start::warm : start::cold);
+    const auto report = used->solve(sane.at(0, {.d_m = 0.1}), start::cold);
+    CAPTURE(i);
+    CHECK(report.status == converged);
+    CHECK(report.cost == expected.cost);
+    CHECK(used->rate_1pm2()[40] == fresh->rate_1pm2()[40]);
+  }
+}
+
 TEST_CASE("a warm start is worth its while, and ends at the same plan") {
   slalom road;
   const auto cold = make_solver();

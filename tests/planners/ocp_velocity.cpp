@@ -176,6 +176,30 @@ TEST_CASE("the same speed problem gives the same bytes") {
         == 0);
 }
 
+TEST_CASE("a cold start knows nothing of the speeds before") {
+  test::dice dice{6};
+  const auto used = make_solver(), fresh = make_solver();
+  practice_road sane{event::slow_leader};
+  const velocity_state x{0, 60, 0};
+  const auto expected = fresh->solve(sane.at(0, 0, x), start::cold);
+  REQUIRE(expected.status == converged);
+  for (int i = 0; i < 60; ++i) {
+    practice_road wild{static_cast<event>(i % 4),
+                       static_cast<int>(dice.between(1, ocp::most_steps)),
+                       dice.between(0.1, 2)};
+    auto problem = wild.at(i, dice.between(0, 20),
+                           {0, dice.between(0, 150), dice.between(-3, 3)});
+    if (i % 7 == 0)
+      problem.weights.accel = 1e300;
+    used->solve(problem, i % 2 == 0 ? start::warm : start::cold);
+    const auto report = used->solve(sane.at(0, 0, x), start::cold);
+    CAPTURE(i);
+    CHECK(report.status == converged);
+    CHECK(report.cost == expected.cost);
+    CHECK(used->u_1ps2()[80] == fresh->u_1ps2()[80]);
+  }
+}
+
 TEST_CASE("what no braking and no acceleration can do is found at once") {
   practice_road road{event::free_flow};
   auto problem = road.at(0, 0, {0, 60, 0});
