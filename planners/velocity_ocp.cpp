@@ -106,13 +106,14 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
   const auto n = p.steps;
   ocp::column most;
   ocp::violation worst;
-  double lower = p.start.accel_mps2, upper = lower;
+  double lower = p.start.accel_mps2, upper = lower, change = 0;
   double least = p.start.w_m2ps2, v = ocp::speed_of(least);
   double slowest = p.start.t_s;
   most[0] = least;
   for (int k = 0; k < n; ++k) {
     // The slower, the faster may acceleration change.
-    const double change = h * l.jerk_max_mps3 / v;
+    if (lower > l.accel_min_mps2 || upper < l.accel_max_mps2)
+      change = h * l.jerk_max_mps3 / v;
     const double down = std::max(lower - change, l.accel_min_mps2);
     const double up = std::min(upper + change, l.accel_max_mps2);
     least = std::max(0., least + h * (lower + down) / 2);
@@ -163,21 +164,25 @@ void velocity_ocp::guess(const velocity_problem& p) noexcept {
 // multipliers do not know.
 void velocity_ocp::follow(const velocity_problem& p) noexcept {
   constexpr auto pull = 1 / fading_m;
-  const auto h = p.ds_m;
+  const auto h = p.ds_m, bow = h * h / 2;
+  // u = own − 2 pull a − pull² w, put into the dynamics: short chains.
+  const auto ww = 1 - bow * pull * pull, wa = h - 2 * bow * pull;
+  const auto aw = -h * pull * pull, aa = 1 - 2 * h * pull;
   auto& x = w_.plan;
   double t = p.start.t_s, w = p.start.w_m2ps2, a = p.start.accel_mps2;
   double v = ocp::speed_of(w);
   for (int k = 0; k < p.steps; ++k) {
-    const double u = x.u[k] - pull * (2 * (a - x.x2[k]) + pull * (w - x.x1[k]));
+    const double own = x.u[k] + pull * (2 * x.x2[k] + pull * x.x1[k]);
     x.x0[k] = t;
     x.x1[k] = w;
     x.x2[k] = a;
-    x.u[k] = u;
-    w += h * a + h * h / 2 * u;
-    a += h * u;
-    const double next = ocp::speed_of(w);
-    t += 2 * h / (v + next);
-    v = next;
+    x.u[k] = own - pull * (2 * a + pull * w);
+    const double next = ww * w + (wa * a + bow * own);
+    a = aw * w + (aa * a + h * own);
+    w = next;
+    const double faster = ocp::speed_of(w);
+    t += 2 * h / (v + faster);
+    v = faster;
   }
   x.x0[p.steps] = t;
   x.x1[p.steps] = w;

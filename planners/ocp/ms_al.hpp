@@ -61,7 +61,9 @@ private:
   double join() noexcept;
   ended newton(const budget& go_on) noexcept;
   double find_direction(bool gaps) noexcept;
-  void expand() noexcept;
+  bool is_optimal() noexcept;
+  void expand_slope() noexcept;
+  void expand_bend() noexcept;
   void measure_direction() noexcept;
   double best_step(double longest, double decrement) const noexcept;
   double slope_at(double alpha) const noexcept;
@@ -182,7 +184,9 @@ double ms_al<Problem>::join() noexcept {
 /// Solves the linear-quadratic model with its bounds.
 template <class Problem>
 auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
-  stick_out();
+  same_active_ = stick_out();
+  if (candidate_ && joined_ && same_active_ && is_optimal())
+    return ended::optimal;
   same_active_ = false;
   w_.rows.each([](auto& r, int) { r.last_change = no_bound; });
   for (int inner = 0; inner < options_.max_inner; ++inner) {
@@ -194,9 +198,6 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     const auto decrement = find_direction(gaps);
     if (!(decrement >= 0))
       return ended::broken;
-    if (candidate_ && inner == 0 && joined_
-        && decrement <= options_.decrement + options_.optimality * report_.cost)
-      return ended::optimal;
     measure_direction();
     const auto longest = inner == 0 ? problem_.longest_step(w_) : 1.;
     // With gaps to close, the cost's slope does not say where to stop.
@@ -212,10 +213,20 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
   return ended::settled;
 }
 
+/// The plan is where the model was least, with the same active bounds; is it
+/// where the true problem is? The last feedback is good enough to tell.
+template <class Problem>
+bool ms_al<Problem>::is_optimal() noexcept {
+  expand_slope();
+  return resolve(w_) <= options_.decrement + options_.optimality * report_.cost;
+}
+
 /// @returns the decrement; negative or NaN when there is none.
 template <class Problem>
 double ms_al<Problem>::find_direction(bool gaps) noexcept {
-  expand();
+  expand_slope();
+  if (!same_active_)
+    expand_bend();
   if (gaps) {
     const auto decrement = factorise<true>(w_);
     sweep_forward<true>(w_);
@@ -226,14 +237,12 @@ double ms_al<Problem>::find_direction(bool gaps) noexcept {
   return decrement;
 }
 
-/// Gradient and Hessian of cost and bounds.
+/// Gradient of cost and bounds.
 template <class Problem>
-void ms_al<Problem>::expand() noexcept {
+void ms_al<Problem>::expand_slope() noexcept {
   const auto m = w_.padded;
-  auto& g = w_.g;
-  auto& h = w_.h;
   const auto& slope = w_.slope;
-  const auto& cost = w_.cost;
+  auto& g = w_.g;
   for (int k = 0; k < m; ++k) {
     g.x0[k] = slope.x0[k];
     g.x1[k] = slope.x1[k];
@@ -249,8 +258,14 @@ void ms_al<Problem>::expand() noexcept {
       gather(g.u[k], force * r.gu[k]);
     }
   });
-  if (same_active_)
-    return;
+}
+
+/// Hessian of cost and active bounds.
+template <class Problem>
+void ms_al<Problem>::expand_bend() noexcept {
+  const auto m = w_.padded;
+  const auto& cost = w_.cost;
+  auto& h = w_.h;
   for (int k = 0; k < m; ++k) {
     put(h.h00, k, cost.h00[k]);
     put(h.h01, k, cost.h01[k]);
