@@ -58,7 +58,7 @@ struct velocity_options {
   /// and the iteration starts cold.
   double surprise_s = 0.5;
   ocp::solver_options solver{
-      .max_iterations = 100, .max_linearisations = 40, .max_inner = 8};
+      .max_iterations = 100, .max_linearisations = 60, .max_inner = 8};
 };
 
 /// A solver with its workspace: no heap, no clock, byte-wise copyable.
