@@ -9,5 +9,6 @@ namespace sofof {
 /// what the process shall exit with.
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_solve(CLI::App& app, int& exit_code);
 
 } // namespace sofof

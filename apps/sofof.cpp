@@ -31,6 +31,7 @@ int obey(int argc, char** argv) {
   int exit_code = 0;
   sofof::add_run(app, exit_code);
   sofof::add_check(app, exit_code);
+  sofof::add_solve(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
