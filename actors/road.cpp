@@ -46,6 +46,11 @@ struct road_state {
     users->report(user);
   }
 
+  void forget(station_id station) {
+    if (vehicles.erase(station) > 0)
+      users->remove(station);
+  }
+
   void tick() {
     const auto t = now(self);
     send_at(self, self, t + protocol::sensor_period, tick_atom_v);
@@ -75,6 +80,7 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
       [self](const motion_report& report, const vehicle_actor& vehicle) {
         self->state.take(report, vehicle);
       },
+      [self](station_id station) { self->state.forget(station); },
       [self](tick_atom) { self->state.tick(); },
   };
 }

@@ -30,6 +30,8 @@ constexpr double followed_m = 1.0;
 constexpr double followed_mps = 1.5;
 /// A car is sought on its route only so far from where it should be.
 constexpr double window_m = 2;
+/// A car that stands so near the end of its route has arrived.
+constexpr double at_the_end_m = 1.0;
 /// Safety is summed up so often.
 constexpr duration safety_period = 1s;
 
@@ -45,6 +47,7 @@ struct vehicle_actor_state {
   std::shared_ptr<const trajectory> plan;
   time_point plan_created;
   bool remote = false;
+  bool has_arrived = false;
   std::optional<caf::error> leaving; // why
   time_point due;                    // of the present step; time does not drift
   std::uint64_t steps = 0;
@@ -77,14 +80,33 @@ struct vehicle_actor_state {
       self->quit(reason);
   }
 
+  // At the end of an open route: makes room for others.
+  bool is_at_the_end() const {
+    return !setup.way->closed() && car.speed_mps <= 0
+           && s_m + setup.car.front_m + at_the_end_m >= setup.way->length_m();
+  }
+
+  void arrive() {
+    has_arrived = true;
+    note("arrived");
+    flush_safety();
+    self->send(setup.road, setup.station);
+    if (requester)
+      self->send_exit(requester, caf::exit_reason::user_shutdown);
+  }
+
+  void note(std::string what) {
+    self->send(
+        setup.recorder,
+        event_record{now(self), std::move(what), setup.station, 0, {}, 0, {}});
+  }
+
   void requester_gone() {
     requester = nullptr;
     if (leaving)
       self->quit(*leaving);
-    else
-      self->send(setup.recorder,
-                 event_record{
-                     now(self), "requester_lost", setup.station, 0, {}, 0, {}});
+    else if (!has_arrived)
+      note("requester_lost");
   }
 
   // -- moving -------------------------------------------------------------
@@ -95,6 +117,10 @@ struct vehicle_actor_state {
   }
 
   void tick() {
+    if (is_at_the_end()) {
+      arrive();
+      return;
+    }
     if (plan->end() - due < reserve)
       stop_safely();
     const auto command = follow(car, *plan, due, setup.car);
@@ -151,7 +177,7 @@ struct vehicle_actor_state {
   }
 
   void take(const perception& others) {
-    if (!planning)
+    if (!planning || has_arrived)
       return;
     auto from = anchor();
     from.others = others;

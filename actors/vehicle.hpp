@@ -36,7 +36,8 @@ struct vehicle_setup {
 
 /// Steps the car at protocol::control_period along the newest trajectory. It
 /// begins with a plan to stand, and when a plan is about to end without a
-/// successor it makes a safe stop of its own: it never is without a plan.
+/// successor it makes a safe stop of its own: it never is without a plan. At
+/// the end of an open route it leaves the streets.
 vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup);
 
 } // namespace sofof

@@ -108,7 +108,9 @@ using vehicle_actor = client_actor::extend<
 /// The streets and all that moves on them, as sensors would show it.
 using road_actor = caf::typed_actor<
     // A vehicle is here now; it wants to know what it perceives.
-    takes<motion_report, vehicle_actor>>;
+    takes<motion_report, vehicle_actor>,
+    // A vehicle has arrived and leaves the streets.
+    takes<station_id>>;
 
 /// Keeps what happened.
 using recorder_actor = caf::typed_actor<

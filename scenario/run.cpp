@@ -37,6 +37,10 @@ run_info describe(const scenario& s, const run_options& options) {
   run_info info;
   info.scenario = s.name;
   info.version = options.version;
+  info.clock = options.realtime ? "wall" : "virtual";
+  info.profile = s.network.profile;
+  info.lodm = s.policies.lodm->name();
+  info.codm = s.policies.codm->name();
   info.config_toml =
       "# The effective configuration of this run; `sofof run` takes it.\n"
       + to_toml(with_own_files(s));

@@ -17,6 +17,10 @@ namespace sofof {
 struct run_info {
   std::string scenario;    ///< Its name.
   std::string version;     ///< Of this program.
+  std::string clock;       ///< Whose time passed: "virtual" or "wall".
+  std::string profile;     ///< Of the channel.
+  std::string lodm;        ///< Name of the policy.
+  std::string codm;        ///< Name of the policy.
   std::string config_toml; ///< The effective configuration.
   std::string map_toml;    ///< The map that it names; empty for none.
   std::string trace_text;  ///< The trace that it names; empty for none.

@@ -39,7 +39,7 @@ public:
   /// Quantiles are rounded up to a multiple of this.
   static constexpr duration resolution = std::chrono::microseconds{10};
   /// Beyond it a quantile is only known to be the maximum or less.
-  static constexpr duration span = std::chrono::seconds{1};
+  static constexpr duration span = std::chrono::seconds{10};
 
   void add(duration d);
 

@@ -84,6 +84,10 @@ std::string summary_json(const metrics& m, const run_info& run,
     json_object top{text, json_object::layout::lines};
     top.member("version", run.version);
     top.member("scenario", run.scenario);
+    top.member("clock", run.clock);
+    top.member("profile", run.profile);
+    top.member("lodm", run.lodm);
+    top.member("codm", run.codm);
     top.member("seed", decimal{run.seed});
     top.member("virtual_s", rounded(end.virtual_s, second_places));
     top.member("interrupted", end.interrupted);

@@ -104,6 +104,11 @@ public:
     }
   }
 
+  void running() {
+    if (std::ranges::any_of(services_, &service_metrics::running_at_end))
+      row("  still running", &service_metrics::running_at_end);
+  }
+
 private:
   static std::size_t width(const service_metrics& service) {
     return std::max(least_column_width,
@@ -124,7 +129,7 @@ void offloading(block& to, const run_info& run, const run_end& end) {
   to.row("no data", &service::no_data);
   to.row("episodes", &service::episodes);
   to.endings();
-  to.row("  still running", &service::running_at_end);
+  to.running();
   to.row("fallbacks", &service::fallbacks);
   to.row("t_off mean", [](const service& x) { return in_s(x.t_off_s.mean()); });
   to.row("t_off max", [](const service& x) { return in_s(x.t_off_s.max()); });
@@ -196,7 +201,9 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
                      run.vehicles == 1 ? "" : "s", end.virtual_s, end.wall_s);
   if (const auto speed = end.x_real_time())
     out += fmt::format(", {:.1f} x real time", *speed);
-  out += fmt::format("; {} offers\n", m.offers());
+  out += fmt::format("; {} offer{}\n", m.offers(), m.offers() == 1 ? "" : "s");
+  out += fmt::format("  {} clock, channel {}, LODM {}, CODM {}\n", run.clock,
+                     run.profile, run.lodm, run.codm);
 
   for (auto rest = m.services(); !rest.empty();) {
     block services{out, paint, rest};

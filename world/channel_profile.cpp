@@ -91,6 +91,8 @@ void stall_options::fields(settings& s) {
     s.refuse("longest", "must not be less than shortest");
   if (rate_hz * to_seconds(shortest + longest) / 2 >= 1)
     s.refuse("rate_hz", "leaves no time between two stalls");
+  if (rate_hz > 0 && longest == 0ns)
+    s.refuse("rate_hz", "has no effect while longest is \"0s\"");
 }
 
 void burst_loss_options::fields(settings& s) {
@@ -98,6 +100,9 @@ void burst_loss_options::fields(settings& s) {
   s.field("mean_bad", mean_bad, 0ns);
   s.field("loss_good", loss_good, probability);
   s.field("loss_bad", loss_bad, probability);
+  if ((mean_good > 0ns) != (mean_bad > 0ns))
+    s.refuse(mean_good > 0ns ? "mean_good" : "mean_bad",
+             "has no effect alone; mean_good and mean_bad go together");
 }
 
 void channel_profile::fields(settings& s) {

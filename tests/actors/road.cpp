@@ -117,3 +117,16 @@ TEST_CASE_FIXTURE(road_world, "a collision is recorded once per touch") {
   run_for(1s);
   CHECK(collisions() == 2);
 }
+
+TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
+  report(1, 100, 5, behind);
+  report(2, 130, 7, ahead);
+  run_for(100ms);
+  REQUIRE(behind->all<perception>().back().lead);
+  tell(road, station_id{2});
+  tell(road, station_id{2}); // twice does no harm
+  ahead->clear();
+  run_for(100ms);
+  CHECK(!behind->all<perception>().back().lead);
+  CHECK(ahead->entries().empty());
+}

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 using namespace sofof;
 using namespace sofof::test;
@@ -333,4 +334,18 @@ TEST_CASE_FIXTURE(driving_world,
   CHECK(is_gone(car));
   CHECK(is_gone(requester.handle));
   CHECK(total().driven == 500ms);
+}
+
+TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
+                                 "streets, and its requester goes with it") {
+  drive(120s); // 900 m at 10 m/s
+  REQUIRE(road->count<station_id>() == 1);
+  CHECK(road->all<station_id>().front() == station);
+  CHECK(last_report().s_m > 990);
+  CHECK(is_gone(requester.handle));
+  std::vector<std::string> events;
+  for (const auto& e : recorder->all<event_record>())
+    events.push_back(e.what);
+  CHECK(events == std::vector<std::string>{"arrived"});
+  CHECK(!is_gone(car)); // it waits for the end of the run
 }

@@ -109,6 +109,23 @@ TEST_CASE("a number out of its range is refused") {
   });
 }
 
+TEST_CASE("an option that would have no effect is refused") {
+  const auto with = [](const char* option) {
+    try {
+      example::load(example::text, {option});
+    } catch (const input_error& e) {
+      return std::string{e.what()};
+    }
+    return std::string{"loaded"};
+  };
+  CHECK(with("network.stalls.rate_hz=0.1").find("no effect")
+        != std::string::npos);
+  CHECK(with("network.burst_loss.mean_good=5s").find("no effect")
+        != std::string::npos);
+  CHECK(with("network.burst_loss.mean_bad=5s").find("no effect")
+        != std::string::npos);
+}
+
 TEST_CASE("an area that is no polygon is refused") {
   check_all({
       {"[[0, 0], [50, 0], [50.5, 50], [0, 50]]",

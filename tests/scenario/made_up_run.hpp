@@ -92,7 +92,7 @@ void play(Sink& to) {
   to.take(decision(true, "environment"));
 
   to.take(switched(running(101, 1), true, 10s));
-  auto gap = 0ms;
+  std::optional<duration> gap; // none before the first
   for (int i = 0; i < 400; ++i, gap = 50ms)
     to.take(result(running(101, 1), static_cast<std::uint64_t>(i),
                    10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
@@ -102,7 +102,7 @@ void play(Sink& to) {
                          at(30s), end_reason::left_area, false});
 
   to.take(switched(running(101, 2), true, 60s));
-  to.take(result(running(101, 2), 0, 60s, 12'345'678ns, 0ms));
+  to.take(result(running(101, 2), 0, 60s, 12'345'678ns, std::nullopt));
   to.take(switched(running(101, 2), false, 65s));
   to.take(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
 

@@ -169,7 +169,7 @@ TEST_CASE("the summary says what happened") {
 TEST_CASE("times in files count from the start and are exact to the ns") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.take(result(running(), 3, 60s, 12'345'678ns, 0ms));
+  r.take(result(running(), 3, 60s, 12'345'678ns, std::nullopt));
   auto late = result(running(), 4, 60s + 50ms + 1ns, 9ms, 46'654'323ns);
   late.used = false;
   r.take(late);
