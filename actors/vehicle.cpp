@@ -49,7 +49,7 @@ struct vehicle_actor_state {
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
-  time_point due;                    // of the present step; time does not drift
+  time_point due;                    // of the next step; time does not drift
   std::uint64_t steps = 0;
   safety_record safety;
 

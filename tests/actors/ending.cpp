@@ -223,3 +223,38 @@ TEST_CASE_FIXTURE(provider_world,
   run_for(1s);
   CHECK(requester->entries().empty());
 }
+
+TEST_CASE_FIXTURE(provider_world, "a station that comes back with a new "
+                                  "requester starts afresh") {
+  hear(inside);
+  start({one});
+  run_for(100ms);
+  hear(inside, neighbour); // the same station, another requester
+  const auto closed = recorder->all<episode_record>();
+  REQUIRE(closed.size() == 1);
+  CHECK(closed.front().reason == end_reason::peer_lost);
+  // The old one's end is nobody's business any more.
+  kill(requester.handle);
+  run_for(1s);
+  hear(inside, neighbour);
+  CHECK(neighbour->count<service_offer>() >= 1);
+  CHECK(neighbour->count<service_end>() == 0);
+}
+
+TEST_CASE_FIXTURE(provider_world, "a station that leaves and returns is still "
+                                  "forgotten 2 s after its last CAM") {
+  hear(inside);
+  run_for(500ms);
+  hear({1000, 0});
+  run_for(500ms);
+  hear(inside);
+  start({one});
+  stay(1900ms); // over the moment of the first stay's timer
+  CHECK(recorder->count<episode_record>() == 0);
+  run_for(2s);
+  CHECK(recorder->count<episode_record>() == 0);
+  run_for(1ns);
+  REQUIRE(recorder->count<episode_record>() == 1);
+  CHECK(recorder->all<episode_record>().front().reason
+        == end_reason::cam_timeout);
+}

@@ -339,3 +339,26 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(is_remote(one));
   CHECK(vehicle->times<source_change>().back() == now());
 }
+
+TEST_CASE_FIXTURE(requester_world,
+                  "an acceptance in somebody else's name is not believed") {
+  const running_service lies[] = {
+      {here, station, one, 0}, // the local service goes by this name
+      {elsewhere, station, one, 7},
+      {here, station + 1, one, 7},
+  };
+  for (const auto& lie : lies) {
+    offer({one});
+    tell(requester,
+         service_response{
+             here, station, last_request().number, {{lie, true, ""}}},
+         std::vector{manager.handle});
+    REQUIRE(!decisions().empty());
+    CHECK(!decisions().back().accepted);
+    vehicle->clear();
+    result(lie, 1000, 0ms);
+    CHECK(vehicle->count<source_change>() == 0);
+    run_for(2s);
+  }
+  CHECK(episodes().empty());
+}
