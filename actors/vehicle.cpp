@@ -180,11 +180,12 @@ struct vehicle_actor_state {
     if (!planning || has_arrived)
       return;
     auto from = anchor();
-    from.others = others;
-    self->send(
-        planning,
-        service_input{
-            {}, from.at, payload::of(plan_request{setup.way->name(), from})});
+    const auto at = from.at;
+    self->send(planning,
+               service_input{{},
+                             at,
+                             payload::of(plan_request{
+                                 setup.way->name(), std::move(from), others})});
   }
 
   // Where to plan from: the point of the plan in use if the car is there,
@@ -207,6 +208,7 @@ struct vehicle_actor_state {
             place.s_m,
             place.d_m,
             wrap_angle(car.heading_rad - path.at(place.s_m).heading_rad),
+            std::tan(car.steer_rad) / setup.car.wheelbase_m,
             car.speed_mps,
             car.accel_mps2,
             {}};

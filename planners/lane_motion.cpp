@@ -51,6 +51,7 @@ planning_input seen_from(const route& way, const trajectory_point& p) {
   x.s_m = p.s_m;
   x.d_m = cross(tangent, p.at - centre.at);
   x.heading_error_rad = wrap_angle(p.heading_rad - centre.heading_rad);
+  x.curvature_1pm = p.curvature_1pm;
   x.speed_mps = p.speed_mps;
   x.accel_mps2 = p.accel_mps2;
   return x;

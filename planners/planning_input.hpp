@@ -1,9 +1,9 @@
 // What a trajectory planner starts from: own motion and the others.
 #pragma once
 
+#include "planners/surroundings.hpp"
 #include "world/route.hpp"
 #include "world/time.hpp"
-#include "world/traffic.hpp"
 
 namespace sofof {
 
@@ -15,9 +15,10 @@ struct planning_input {
   double s_m = 0;               ///< Rear axle on the route, laps included.
   double d_m = 0;               ///< Offset from the centre line, left positive.
   double heading_error_rad = 0; ///< Against the centre line's tangent.
+  double curvature_1pm = 0;     ///< Of the way it drives, left positive.
   double speed_mps = 0;
   double accel_mps2 = 0;
-  perception others;
+  surroundings others;
 };
 
 } // namespace sofof

@@ -24,7 +24,10 @@ public:
       return {};
     trajectory next;
     next.points.reserve(plan_ ? plan_->points.size() : 0);
-    planner_->plan(now, request->from, plan_ ? &*plan_ : nullptr, next);
+    auto from = request->from;
+    const auto& seen = request->seen;
+    from.others = {seen.at, seen.lead, seen.stop_at_m, {}, {}};
+    planner_->plan(now, from, plan_ ? &*plan_ : nullptr, next);
     plan_ = next;
     return payload::of(std::move(next));
   }

@@ -11,8 +11,9 @@ namespace sofof {
 
 /// Please plan along this route from this state.
 struct plan_request {
-  std::string way; ///< Name of the route; both sides have the map.
-  planning_input from;
+  std::string way;     ///< Name of the route; both sides have the map.
+  planning_input from; ///< What it knows of others stays here.
+  perception seen;     ///< By the vehicle, and granted to it.
 };
 
 template <>
@@ -29,12 +30,12 @@ void archive(auto& bytes, perception& x) {
 }
 
 void archive(auto& bytes, planning_input& x) {
-  bytes(x.at, x.s_m, x.d_m, x.heading_error_rad, x.speed_mps, x.accel_mps2,
-        x.others);
+  bytes(x.at, x.s_m, x.d_m, x.heading_error_rad, x.curvature_1pm, x.speed_mps,
+        x.accel_mps2);
 }
 
 void archive(auto& bytes, plan_request& x) {
-  bytes(x.way, x.from);
+  bytes(x.way, x.from, x.seen);
 }
 
 void archive(auto& bytes, point& x) {

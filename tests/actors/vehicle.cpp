@@ -217,8 +217,8 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle asks for plans where they are "
   CHECK(request->way == "street");
   CHECK(request->from.s_m == doctest::Approx(100));
   CHECK(request->from.speed_mps == 0);
-  CHECK(request->from.others.lead == seen.lead);
-  CHECK(request->from.others.stop_at_m == seen.stop_at_m);
+  CHECK(request->seen.lead == seen.lead);
+  CHECK(request->seen.stop_at_m == seen.stop_at_m);
 }
 
 // -- being seen --------------------------------------------------------------

@@ -141,7 +141,7 @@ public:
   vehicle_state car;
   trajectory plan;
   time_point now;
-  perception others;
+  surroundings others;
   duration staleness{}; ///< Of the planner's input.
   extremes worst;
 
