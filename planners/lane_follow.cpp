@@ -10,10 +10,6 @@
 namespace sofof {
 namespace {
 
-constexpr double same_place_m = 1.0;
-constexpr double same_speed_mps = 1.0;
-constexpr double max_lead_age_s = 0.5;
-
 // Where to stop before a line, and what must be kept in any case.
 constexpr double line_gap_m = 0.3;
 constexpr double min_line_gap_m = 0.15;
@@ -25,15 +21,13 @@ constexpr double crawling_mps = 1.0;
 constexpr double standing_mps = 0.05;
 constexpr double worth_starting_mps2 = 0.3;
 
-// Wishes get the comfortable braking with a margin for corrections; beyond
-// it, only what must not be touched counts.
-constexpr double correction_margin = 1.25;
+constexpr double rounding = 1e-6;
 // How much more jerk for how much more braking.
 constexpr double jerk_per_braking_1ps = 5.0;
 // On the way to a place, less jerk than allowed: the rest is for corrections.
 constexpr double share_of_jerk = 0.8;
 
-braking_style style_of(const lane_follow_params& params) {
+braking_style style_of(const driving_style& params) {
   return {params.comfort_decel_mps2, share_of_jerk * params.max_jerk_mps3,
           params.time_gap_s};
 }
@@ -41,7 +35,7 @@ braking_style style_of(const lane_follow_params& params) {
 } // namespace
 
 /// What the car has to mind at one moment of the plan.
-struct lane_follow::surroundings {
+struct lane_follow::mind {
   double stop_at_m = std::numeric_limits<double>::infinity(); // front bumper
   bool led = false;
   double lead_rear_m = 0;
@@ -58,74 +52,50 @@ struct lane_follow::surroundings {
   }
 };
 
-void lane_follow_params::fields(settings& s) {
-  s.field("horizon_s", horizon_s, {1, 20});
-  s.field("step_s", step_s, {0.02, 0.5});
-  s.field("max_accel_mps2", max_accel_mps2, {0.3, 5});
-  s.field("comfort_decel_mps2", comfort_decel_mps2, {0.5, 4});
-  s.field("max_decel_mps2", max_decel_mps2, {2, 12});
-  s.field("max_jerk_mps3", max_jerk_mps3, {0.5, 10});
-  s.field("emergency_jerk_mps3", emergency_jerk_mps3, {1, 50});
-  s.field("max_lateral_accel_mps2", max_lateral_accel_mps2, {0.5, 8});
-  s.field("time_gap_s", time_gap_s, {0.5, 5});
-  s.field("standstill_gap_m", standstill_gap_m, {1, 20});
-  s.field("centring_length_m", centring_length_m, {5, 100});
-}
-
-lane_follow::lane_follow(route_ptr way, lane_follow_params params)
+lane_follow::lane_follow(route_ptr way, driving_style params)
     : way_{std::move(way)}, params_{params}, style_{style_of(params)},
       envelope_{*way_, params_} {}
 
-void lane_follow::plan(time_point now, const planning_input& input,
-                       const trajectory* previous, trajectory& out) const {
-  const centring line{*way_, start_of(now, input, previous),
+plan_report lane_follow::plan(time_point now, const planning_input& input,
+                              const trajectory* previous, trajectory& out,
+                              const ocp::budget&) {
+  const centring line{*way_, joined(*way_, now, input, previous),
                       params_.centring_length_m};
-  surroundings others;
+  mind others;
   if (!way_->closed())
     others.stop_at_m = way_->length_m();
   if (input.others.stop_at_m)
     others.stop_at_m = std::min(others.stop_at_m, *input.others.stop_at_m);
-  if (const auto& lead = input.others.lead) {
+  if (input.others.lead) {
+    const auto lead = moved_forward(*input.others.lead, input.others.at, now);
     others.led = true;
-    others.lead_rear_m = lead->rear_s_m;
-    others.lead = {lead->speed_mps, std::min(lead->accel_mps2, 0.0)};
-    others.advance(
-        std::clamp(to_seconds(now - input.others.at), 0.0, max_lead_age_s));
+    others.lead_rear_m = lead.rear_s_m;
+    others.lead = {lead.speed_mps, lead.accel_mps2};
   }
 
   const auto steps = std::lround(params_.horizon_s / params_.step_s);
   out.start = now;
   out.points.resize(static_cast<std::size_t>(steps) + 1);
+  plan_report report;
+  report.input = input.at;
   auto x = line.motion();
   for (long i = 0;; ++i) {
     out.points[i] = line.place(x, static_cast<double>(i) * params_.step_s);
+    report.emergency |= x.accel_mps2 < -params_.firm_decel_mps2() - rounding;
     if (i == steps)
       break;
     others.advance(params_.step_s);
     x = advance(x, next_accel(x, others), params_.step_s);
   }
-}
-
-planning_input lane_follow::start_of(time_point now,
-                                     const planning_input& input,
-                                     const trajectory* previous) const {
-  if (previous && !previous->empty() && previous->start <= now
-      && now <= previous->end()) {
-    const auto seen = moved_forward(input, previous->start);
-    const auto then = previous->at(std::max(input.at, previous->start));
-    if (std::abs(then.s_m - seen.s_m) <= same_place_m
-        && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
-      return seen_from(*way_, previous->at(now));
-  }
-  return moved_forward(input, now);
+  return report;
 }
 
 /// The acceleration that the driver would like at `x`.
 double lane_follow::wanted_accel(const lane_motion& x,
-                                 const surroundings& others) const {
+                                 const mind& others) const {
   const auto v = x.speed_mps;
   const auto front_m = x.s_m + params_.front_m;
-  const auto firm = correction_margin * params_.comfort_decel_mps2;
+  const auto firm = params_.firm_decel_mps2();
   const auto limit = envelope_.at(x.s_m);
 
   auto wanted = std::min(params_.max_accel_mps2,
@@ -156,16 +126,14 @@ double lane_follow::wanted_accel(const lane_motion& x,
 
 /// Comfortable up to firm braking, from there up to what an emergency needs.
 double lane_follow::jerk_limit(double accel_mps2) const {
-  const auto beyond =
-      -accel_mps2 - correction_margin * params_.comfort_decel_mps2;
+  const auto beyond = -accel_mps2 - params_.firm_decel_mps2();
   if (beyond <= 0)
     return params_.max_jerk_mps3;
   return std::min(params_.emergency_jerk_mps3,
                   params_.max_jerk_mps3 + jerk_per_braking_1ps * beyond);
 }
 
-double lane_follow::next_accel(const lane_motion& x,
-                               const surroundings& others) const {
+double lane_follow::next_accel(const lane_motion& x, const mind& others) const {
   const auto dt = params_.step_s;
   const auto ahead = advance(x, x.accel_mps2, dt);
   auto wanted = std::max(wanted_accel(ahead, others), -params_.max_decel_mps2);

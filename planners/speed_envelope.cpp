@@ -31,8 +31,7 @@ struct way_table {
 };
 
 /// v²/2 that limits and bends allow at a place.
-double allowed_at(const route& way, double s_m,
-                  const lane_follow_params& params) {
+double allowed_at(const route& way, double s_m, const driving_style& params) {
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
   const auto limit = std::max(min_speed_mps, way.limit_mps(s_m));
   return std::min(limit * limit, params.max_lateral_accel_mps2
@@ -44,7 +43,7 @@ double allowed_at(const route& way, double s_m,
 /// to the entries beside it, so that the line between two entries stays below
 /// what is allowed between them.
 way_table allowed(const route& way, double step_m, long size,
-                  const lane_follow_params& params) {
+                  const driving_style& params) {
   way_table half{{}, way.closed()}; // in half steps
   for (long i = 0; i < 2 * size; ++i)
     half.values.push_back(
@@ -89,8 +88,7 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 
 } // namespace
 
-speed_envelope::speed_envelope(const route& way,
-                               const lane_follow_params& params)
+speed_envelope::speed_envelope(const route& way, const driving_style& params)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   const auto steps =
       std::max(2L, std::lround(std::ceil(length_m_ / max_step_m)));

@@ -1,13 +1,12 @@
 // How fast a route may be driven where.
 #pragma once
 
+#include "planners/driving_style.hpp"
 #include "world/route.hpp"
 
 #include <vector>
 
 namespace sofof {
-
-struct lane_follow_params;
 
 /// The speed that a route allows where, with bends and the braking before
 /// them, already limited in jerk: computed once per route, then only looked
@@ -21,7 +20,7 @@ public:
   };
 
   /// @param way  Its limits must be positive.
-  speed_envelope(const route& way, const lane_follow_params& params);
+  speed_envelope(const route& way, const driving_style& params);
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.

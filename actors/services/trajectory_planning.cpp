@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 class planning_function final : public service_function {
 public:
-  planning_function(streets_ptr world, const lane_follow_params& params)
+  planning_function(streets_ptr world, const driving_style& params)
       : world_{std::move(world)}, params_{params} {}
 
   payload run(time_point now, const service_input& input) override {
@@ -46,7 +46,7 @@ private:
   }
 
   streets_ptr world_;
-  lane_follow_params params_;
+  driving_style params_;
   std::string way_;
   std::optional<lane_follow> planner_;
   std::optional<trajectory> plan_;
@@ -90,7 +90,7 @@ public:
 
 private:
   std::string planner_ = "lane_follow";
-  lane_follow_params params_;
+  driving_style params_;
 };
 
 } // namespace

@@ -49,6 +49,6 @@ void check_all_listed(std::size_t hidden = 0) {
 } // namespace
 
 TEST_CASE("every option is listed once, its default within its range") {
-  check_all_listed<lane_follow_params>(1); // the car's front
+  check_all_listed<driving_style>(1); // the car's front
   check_all_listed<cabin_params>();
 }

@@ -13,7 +13,7 @@ using doctest::Approx;
 
 namespace {
 
-const lane_follow_params params;
+const driving_style params;
 const std::vector<speed_zone> town{
     {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
 

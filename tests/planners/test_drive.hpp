@@ -93,7 +93,7 @@ struct extremes {
 class test_drive {
 public:
   explicit test_drive(route_ptr way, double s_m = 0, double speed_mps = 0,
-                      lane_follow_params params = {})
+                      driving_style params = {})
       : way_{std::move(way)}, planner_{way_, params}, s_m_{s_m} {
     const auto start = way_->path().at(s_m);
     car.at = start.at;

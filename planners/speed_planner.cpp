@@ -1,0 +1,309 @@
+// Setting up the velocity problem, and motions for when it does not fit.
+#include "planners/speed_planner.hpp"
+
+#include "planners/plain_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+constexpr double never = speed_task::never;
+
+// Where to stop before a line, and what must be kept in any case.
+constexpr double line_gap_m = 0.3;
+constexpr double least_line_gap_m = 0.15;
+constexpr double least_gap_m = 1.0;
+/// What a plan that was made before may come closer still.
+constexpr double slack_m = 0.1;
+
+/// Behind a car that crawls, rather stop than follow: it is taken to brake.
+constexpr double crawling_mps = 2.0;
+constexpr double crawling_decel_mps2 = 1.0;
+/// A time gap that is too short grows again by this share.
+constexpr double opening = 0.1;
+constexpr double least_speed_for_gap_mps = 2.0;
+
+/// Up to here, cars move up rather than set off.
+constexpr double moving_up_m = 5.0;
+constexpr double worth_starting_m = 0.5;
+constexpr double standing_mps = 0.05;
+
+constexpr int fewest_steps = 16;
+/// A plan that began farther back is of another drive.
+constexpr double longest_shift_m = 5;
+/// Plans are left this much more jerk and braking than envelopes use.
+constexpr double share_of_jerk = 0.8;
+/// Braking that cannot wait is planned with some reserve.
+constexpr double reserve = 1.1;
+constexpr double least_emergency_mps2 = 3.0;
+constexpr double emergency_share_of_jerk = 0.7;
+/// After an emergency, back to comfort at this jerk.
+constexpr double recovery_jerk_mps3 = 5.0;
+
+constexpr double lateral_margin = 0.99;
+constexpr double least_curvature_1pm = 1e-4;
+constexpr double least_wanted_m2ps2 = 0.125;
+
+/// Way to rest when braking builds up at a jerk.
+double stopping_m(double v, double a, double decel, double jerk) {
+  const auto t = (a + decel) / jerk;
+  if (t <= 0)
+    return v * v / (2 * std::max(decel, -a));
+  const auto v1 = v + t * (a - jerk * t / 2);
+  const auto x1 = t * (v + t * (a / 2 - jerk * t / 6));
+  return v1 > 0 ? x1 + v1 * v1 / (2 * decel) : std::max(x1, 0.0);
+}
+
+double square(double x) {
+  return x * x;
+}
+
+} // namespace
+
+speed_planner::speed_planner(const reference_line& line,
+                             const driving_style& style, grid horizon)
+    : line_{&line}, style_{style}, grid_{horizon},
+      steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
+  motion_.reserve(static_cast<std::size_t>(steps_) + 1);
+}
+
+speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
+  stop end{task.stop_m - line_gap_m, task.stop_m - least_line_gap_m};
+  if (task.ahead) {
+    const auto& lead = task.ahead->lead;
+    auto left = task.ahead->way_left_m();
+    if (lead.speed_mps < crawling_mps)
+      left = std::min(left, square(lead.speed_mps) / (2 * crawling_decel_mps2));
+    const auto rear = task.ahead->touch_m + left;
+    end.wanted_m = std::min(end.wanted_m, rear - style_.standstill_gap_m);
+    end.last_m = std::min(end.last_m, rear - least_gap_m);
+  }
+  return end;
+}
+
+double speed_planner::needed_decel(const speed_task& task) const {
+  auto needed = 0.0;
+  if (std::isfinite(task.stop_m))
+    needed =
+        sofof::needed_decel(task.speed_mps, task.stop_m - least_line_gap_m, {});
+  if (task.ahead)
+    needed =
+        std::max(needed, sofof::needed_decel(task.speed_mps,
+                                             task.ahead->touch_m - least_gap_m,
+                                             task.ahead->lead));
+  return needed;
+}
+
+speed_planner::result speed_planner::plan(const planned_path& path,
+                                          double way_m, const speed_task& task,
+                                          const ocp::budget& go_on) {
+  const auto end = find_stop(task);
+  result r;
+  if (needed_decel(task) > style_.firm_decel_mps2()) {
+    r = brake_only(task);
+  } else if (task.speed_mps < setting_off::until_mps
+             && end.wanted_m < moving_up_m) {
+    const auto stands =
+        task.speed_mps < standing_mps && end.wanted_m < worth_starting_m;
+    r.how = stands ? speed_mode::stands : speed_mode::moves_up;
+    r.report.status = ocp::solve_status::converged;
+    move_up({0, task.speed_mps, task.accel_mps2}, end.wanted_m, style_, steps_,
+            motion_);
+    solved_ = false;
+  } else if (!drive(path, way_m, task, end, r, go_on)) {
+    motion_.clear();
+    return r;
+  }
+  r.price = price(path, way_m);
+  return r;
+}
+
+speed_planner::result speed_planner::brake_only(const speed_task& task) {
+  const auto decel = std::clamp(reserve * needed_decel(task),
+                                least_emergency_mps2, style_.max_decel_mps2);
+  brake({0, task.speed_mps, task.accel_mps2}, decel,
+        emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
+        steps_, motion_);
+  solved_ = false;
+  result r;
+  r.emergency = true;
+  return r;
+}
+
+bool speed_planner::drive(const planned_path& path, double way_m,
+                          const speed_task& task, const stop& end, result& r,
+                          const ocp::budget& go_on) {
+  lane_motion from{0, task.speed_mps, task.accel_mps2};
+  auto from_s = 0.0;
+  motion_.assign(1, from);
+  if (from.speed_mps < setting_off::until_mps) {
+    const setting_off ramp{from, share_of_jerk * style_.max_jerk_mps3};
+    ramp.drive(style_.step_s, steps_, motion_);
+    from = ramp.end;
+    from_s = ramp.takes_s;
+  }
+  const auto comfortable_m =
+      from.s_m
+      + stopping_m(from.speed_mps, from.accel_mps2, style_.comfort_decel_mps2,
+                   share_of_jerk * style_.max_jerk_mps3);
+  const auto stop_m = std::clamp(comfortable_m, end.wanted_m,
+                                 std::max(end.wanted_m, end.last_m))
+                      - from.s_m;
+  const auto sight_m = path.length_m() - way_m - from.s_m;
+  const auto full_m = std::min(sight_m, grid_.ds_m * grid_.steps);
+  const auto stops = stop_m < full_m;
+  const auto length_m = stops ? stop_m : full_m;
+  if (!(length_m > 0))
+    return false;
+  const auto steps =
+      std::clamp(static_cast<int>(std::ceil(length_m / grid_.ds_m)),
+                 fewest_steps, grid_.steps);
+  const auto ds_m = length_m / steps;
+  set_up(path, way_m, task, from, from_s, ds_m, steps);
+
+  velocity_problem p;
+  p.steps = steps;
+  p.ds_m = ds_m;
+  p.start = {from_s, square(from.speed_mps) / 2, from.accel_mps2};
+  p.w_max_m2ps2 = w_max_;
+  p.wanted_m2ps2 = wanted_;
+  p.curvature_1pm = bends_;
+  p.earliest_s = earliest_;
+  p.latest_s = latest_;
+  if (stops)
+    p.stop_knot = steps;
+  const auto firm = style_.firm_decel_mps2();
+  p.limits.accel_min_mps2 = std::min(-firm, from.accel_mps2);
+  p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
+  p.limits.jerk_max_mps3 =
+      from.accel_mps2 < -firm ? recovery_jerk_mps3 : style_.max_jerk_mps3;
+  p.limits.total_max_mps2 = std::hypot(style_.max_lateral_accel_mps2, firm);
+
+  const auto s = path.s_m(way_m + from.s_m);
+  const auto warm = solved_ && solved_stop_ == stops && s >= solved_s_m_
+                    && s < solved_s_m_ + longest_shift_m;
+  if (warm)
+    solver_.carry_over(s - solved_s_m_, ds_m, steps);
+  r.report =
+      solver_.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
+  if (warm && !ocp::publishable(r.report.status))
+    r.report = solver_.solve(p, ocp::start::cold, {}, go_on);
+  solved_ = ocp::publishable(r.report.status);
+  solved_stop_ = stops;
+  solved_s_m_ = s;
+  if (r.report.iterations == 0 && !solved_)
+    return false;
+  drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
+  r.how = speed_mode::optimal;
+  r.emergency = p.limits.accel_min_mps2 < -firm;
+  return motion_.size() > 1
+         && (solved_ || is_clear(motion_, style_.step_s, task));
+}
+
+void speed_planner::set_up(const planned_path& path, double way_m,
+                           const speed_task& task, const lane_motion& from,
+                           double from_s, double ds_m, int steps) {
+  const auto knots = static_cast<std::size_t>(steps) + 1;
+  for (auto* column : {&w_max_, &wanted_, &bends_, &braking_w_, &braking_s_})
+    column->resize(knots);
+  earliest_.assign(knots, -never);
+  latest_.assign(knots, never);
+  const auto lateral = lateral_margin * style_.max_lateral_accel_mps2;
+  for (std::size_t k = 0; k < knots; ++k) {
+    const auto here =
+        path.at_way(way_m + from.s_m + static_cast<double>(k) * ds_m);
+    bends_[k] = here.x.curvature_1pm;
+    const auto bend = std::max(std::abs(bends_[k]), least_curvature_1pm);
+    w_max_[k] =
+        std::min(square(line_->limit_mps(here.s_m)), lateral / bend) / 2;
+  }
+  // What the car does if it just brakes: no bound may ask for more.
+  const auto decel = style_.comfort_decel_mps2;
+  const auto jerk = share_of_jerk * style_.max_jerk_mps3;
+  auto w = square(from.speed_mps) / 2, a = from.accel_mps2, t = from_s;
+  for (std::size_t k = 0; k < knots; ++k) {
+    braking_w_[k] = w;
+    braking_s_[k] = t;
+    const auto v = std::sqrt(2 * w);
+    const auto next_a =
+        std::max(a - jerk * ds_m / std::max(v, setting_off::until_mps),
+                 std::min(a, -decel));
+    const auto next_w = w + ds_m * (a + next_a) / 2;
+    a = next_a;
+    t = next_w > 0 ? t + 2 * ds_m / (v + std::sqrt(2 * next_w)) : never;
+    w = std::max(0.0, next_w);
+  }
+  for (std::size_t k = 0; k < knots; ++k) {
+    w_max_[k] = std::max(w_max_[k], braking_w_[k]);
+    wanted_[k] = std::max(w_max_[k], least_wanted_m2ps2);
+  }
+  keep_distance(task, from, ds_m);
+}
+
+void speed_planner::keep_distance(const speed_task& task,
+                                  const lane_motion& from, double ds_m) {
+  const auto knots = earliest_.size();
+  for (const auto& window : task.windows) {
+    const auto steps =
+        std::max(0.0, std::ceil((window.at_m - from.s_m) / ds_m));
+    const auto first = static_cast<std::size_t>(steps);
+    for (auto k = first; k < knots; ++k)
+      earliest_[k] = std::max(earliest_[k], window.earliest_s);
+    if (first < knots)
+      latest_[first] = std::min(latest_[first], window.latest_s);
+  }
+  if (task.ahead) {
+    const auto& ahead = *task.ahead;
+    const auto gap_m = style_.standstill_gap_m;
+    // A gap that is too short now opens slowly.
+    const auto now_s = (ahead.touch_m - gap_m)
+                       / std::max(task.speed_mps, least_speed_for_gap_mps);
+    for (std::size_t k = 0; k < knots; ++k) {
+      const auto t =
+          ahead.when_s(from.s_m + static_cast<double>(k) * ds_m + gap_m);
+      if (!std::isfinite(t))
+        break; // behind where it comes to rest, and so does the plan
+      const auto opened = now_s + opening * std::max(0.0, t);
+      earliest_[k] =
+          std::max(earliest_[k], t + std::min(style_.time_gap_s, opened));
+    }
+  }
+  for (std::size_t k = 0; k < knots; ++k)
+    earliest_[k] = std::min(earliest_[k], braking_s_[k]);
+}
+
+// As the velocity problem prices its plans, but over time, so that plans of
+// different length can be compared.
+double speed_planner::price(const planned_path& path, double way_m) const {
+  constexpr velocity_weights weigh;
+  auto sum = 0.0;
+  for (std::size_t i = 1; i < motion_.size(); ++i) {
+    const auto &x = motion_[i], &before = motion_[i - 1];
+    const auto limit = line_->limit_mps(path.s_m(way_m + x.s_m));
+    const auto jerk = (x.accel_mps2 - before.accel_mps2) / style_.step_s;
+    sum += weigh.speed * square(limit - x.speed_mps)
+           + weigh.accel * square(x.accel_mps2) + weigh.jerk * square(jerk);
+  }
+  return sum * style_.step_s;
+}
+
+bool is_clear(const time_motion& motion, double step_s,
+              const speed_task& task) {
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const auto t = static_cast<double>(i) * step_s;
+    const auto& x = motion[i];
+    if (x.s_m > task.stop_m - least_line_gap_m + slack_m)
+      return false;
+    if (task.ahead && x.s_m > task.ahead->at(t) - least_gap_m + slack_m)
+      return false;
+    for (const auto& window : task.windows)
+      if (i > 0 && x.s_m > window.at_m && motion[i - 1].s_m <= window.at_m
+          && (t < window.earliest_s - step_s || t > window.latest_s + step_s))
+        return false;
+  }
+  return true;
+}
+
+} // namespace sofof

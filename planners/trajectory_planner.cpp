@@ -1,0 +1,42 @@
+// Where a new plan begins.
+#include "planners/trajectory_planner.hpp"
+
+#include "planners/lane_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+constexpr double same_place_m = 1.0;
+constexpr double same_speed_mps = 1.0;
+constexpr double max_lead_age_s = 0.5;
+
+} // namespace
+
+planning_input joined(const route& way, time_point now,
+                      const planning_input& input, const trajectory* previous) {
+  if (previous && !previous->empty() && previous->start <= now
+      && now <= previous->end()) {
+    const auto seen = moved_forward(input, previous->start);
+    const auto then = previous->at(std::max(input.at, previous->start));
+    if (std::abs(then.s_m - seen.s_m) <= same_place_m
+        && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
+      return seen_from(way, previous->at(now));
+  }
+  return moved_forward(input, now);
+}
+
+lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
+  const auto age_s = std::clamp(to_seconds(now - seen), 0.0, max_lead_age_s);
+  const auto accel = std::min(lead.accel_mps2, 0.0);
+  const auto then =
+      advance({lead.rear_s_m, lead.speed_mps, accel}, accel, age_s);
+  lead.rear_s_m = then.s_m;
+  lead.speed_mps = then.speed_mps;
+  lead.accel_mps2 = then.accel_mps2;
+  return lead;
+}
+
+} // namespace sofof
