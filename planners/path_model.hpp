@@ -57,11 +57,15 @@ struct path_rows {
   int discs = 0;
 
   /// Calls f(row, number).
-  void each(auto f) {
-    for (int i = 0; i < discs; ++i)
-      f(disc[static_cast<std::size_t>(i)], i);
-    f(curvature, most_discs);
-    f(rate, most_discs + 1);
+  void each(auto f) { each_of(*this, f); }
+  void each(auto f) const { each_of(*this, f); }
+
+private:
+  static void each_of(auto& rows, auto& f) {
+    for (int i = 0; i < rows.discs; ++i)
+      f(rows.disc[static_cast<std::size_t>(i)], i);
+    f(rows.curvature, most_discs);
+    f(rows.rate, most_discs + 1);
   }
 };
 

@@ -118,14 +118,31 @@ void path_ocp::guess(const path_problem& p) noexcept {
   w_.rows.each([](auto& row, int) { row.y.fill(0); });
 }
 
-void path_ocp::shift(int knots) noexcept {
-  const auto n = w_.n;
+void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
+  started_ = started_ && ocp::is_grid(ds_m, steps) && by_m >= 0;
+  if (!started_)
+    return;
+  const auto knots = ocp::regrid::after(by_m, ds_m_, w_.n, ds_m, steps);
   auto& x = w_.plan;
-  ocp::shift(x.x0, n, knots, x.x0[n]);
-  ocp::shift(x.x1, n, knots, x.x1[n]);
-  ocp::shift(x.x2, n, knots, x.x2[n]);
-  ocp::shift(x.u, n, knots, 0);
-  w_.rows.each([=](auto& row, int) { ocp::shift(row.y, n, knots, 0); });
+  for (auto* column : {&x.x0, &x.x1, &x.x2})
+    ocp::resample(*column, knots, 1, (*column)[w_.n]);
+  ocp::resample(x.u, knots.of_steps(), 1, 0);
+  w_.rows.each([&](auto& row, int index) {
+    ocp::resample_multipliers(row.y,
+                              index == rate_row ? knots.of_steps() : knots);
+  });
+  w_.n = steps;
+  ds_m_ = ds_m;
+}
+
+bool path_ocp::adopt(const path_warm_start& other) noexcept {
+  if (!other.usable())
+    return false;
+  w_.rows.discs = ocp::path_rows::most_discs;
+  ocp::recall(w_, other);
+  ds_m_ = other.ds_m;
+  started_ = true;
+  return true;
 }
 
 ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
@@ -133,9 +150,11 @@ ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
                                   const ocp::budget& go_on) noexcept {
   if (!sensible(problem))
     return {};
-  if (!started_ || problem.steps != w_.n)
+  started_ =
+      started_ && ocp::same_grid(ds_m_, w_.n, problem.ds_m, problem.steps);
+  ds_m_ = problem.ds_m;
+  if (!started_)
     from = ocp::start::cold;
-  started_ = started_ && problem.steps == w_.n;
   set_up(problem, options, from);
   if (const auto worst = ocp::crossed_bounds(w_); worst.knot >= 0)
     return ocp::refusal(worst);

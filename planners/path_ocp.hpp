@@ -2,6 +2,7 @@
 // problem over the arc length of a reference line.
 #pragma once
 
+#include "planners/ocp/carry_over.hpp"
 #include "planners/ocp/status.hpp"
 #include "planners/path_model.hpp"
 
@@ -55,6 +56,9 @@ struct path_options {
   ocp::solver_options solver;
 };
 
+/// What a path solver can go on from.
+using path_warm_start = ocp::warm_start<ocp::path_rows::most_discs + 2>;
+
 /// A solver with its workspace: no heap, no clock, byte-wise copyable.
 class path_ocp {
 public:
@@ -62,8 +66,9 @@ public:
   static constexpr int curvature_row = ocp::path_rows::most_discs;
   static constexpr int rate_row = curvature_row + 1;
 
-  /// @param from  warm: from the plan in here, see `shift`; cold when there
-  ///              is none of this length.
+  /// @param from  warm: from the plan in here, see `carry_over`; cold when
+  /// there
+  ///              is none on this grid.
   /// @returns BAD_INPUT for numbers that are not finite (bounds may be
   /// infinite), wrong lengths, ds <= 0, weights or limits < 0, |θ| > 1 at the
   /// start, 1 − d κ_r <= 0.2 at the start or where the plan is wanted;
@@ -72,9 +77,24 @@ public:
                           const path_options& options = {},
                           const ocp::budget& go_on = {}) noexcept;
 
-  /// Moves plan and multipliers towards the vehicle, which has driven on.
-  /// @param knots  >= 0.
-  void shift(int knots) noexcept;
+  /// Carries plan and multipliers over to the grid of the next problem; what
+  /// makes no sense as such leaves nothing to go on from.
+  /// @param by_m   Where it begins on the old one, m, >= 0.
+  /// @param ds_m   Its step, > 0 ...
+  /// @param steps  ... and length, 1..ocp::most_steps.
+  void carry_over(double by_m, double ds_m, int steps) noexcept;
+
+  /// The same by whole knots, on the same grid.
+  void shift(int knots) noexcept { carry_over(knots * ds_m_, ds_m_, w_.n); }
+
+  /// What another solver needs to go on from this plan.
+  path_warm_start warm_start() const noexcept {
+    return ocp::known<path_warm_start::rows>(w_, ds_m_);
+  }
+
+  /// Takes another solver's plan for its own last one; `carry_over` follows.
+  /// @returns false, and changes nothing, where it cannot be gone on from.
+  bool adopt(const path_warm_start& other) noexcept;
 
   int steps() const { return w_.n; }
 
@@ -97,6 +117,7 @@ private:
 
   ocp::path_model::workspace w_{};
   ocp::path_reference reference_{};
+  double ds_m_ = 1;      ///< Of the plan.
   bool started_ = false; ///< There is a plan in the workspace.
 };
 

@@ -61,12 +61,16 @@ struct velocity_rows {
   row<on_w_and_u> jerk;  ///< u v.
 
   /// Calls f(row, number).
-  void each(auto f) {
-    f(time, 0);
-    f(speed, 1);
-    f(accel, 2);
-    f(total, 3);
-    f(jerk, 4);
+  void each(auto f) { each_of(*this, f); }
+  void each(auto f) const { each_of(*this, f); }
+
+private:
+  static void each_of(auto& rows, auto& f) {
+    f(rows.time, 0);
+    f(rows.speed, 1);
+    f(rows.accel, 2);
+    f(rows.total, 3);
+    f(rows.jerk, 4);
   }
 };
 

@@ -202,13 +202,30 @@ double velocity_ocp::misses_s() const noexcept {
   return most;
 }
 
-void velocity_ocp::shift(int knots) noexcept {
-  const auto n = w_.n;
+void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
+  started_ = started_ && ocp::is_grid(ds_m, steps) && by_m >= 0;
+  if (!started_)
+    return;
+  const auto knots = ocp::regrid::after(by_m, ds_m_, w_.n, ds_m, steps);
   auto& x = w_.plan; // times are found anew, see follow
-  ocp::shift(x.x1, n, knots, x.x1[n]);
-  ocp::shift(x.x2, n, knots, 0);
-  ocp::shift(x.u, n, knots, 0);
-  w_.rows.each([=](auto& row, int) { ocp::shift(row.y, n, knots, 0); });
+  ocp::resample(x.x1, knots, 1, x.x1[w_.n]);
+  ocp::resample(x.x2, knots, 1, 0);
+  ocp::resample(x.u, knots.of_steps(), 1, 0);
+  w_.rows.each([&](auto& row, int index) {
+    ocp::resample_multipliers(row.y,
+                              index == jerk_row ? knots.of_steps() : knots);
+  });
+  w_.n = steps;
+  ds_m_ = ds_m;
+}
+
+bool velocity_ocp::adopt(const velocity_warm_start& other) noexcept {
+  if (!other.usable())
+    return false;
+  ocp::recall(w_, other);
+  ds_m_ = other.ds_m;
+  started_ = true;
+  return true;
 }
 
 ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
@@ -217,9 +234,11 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
                                       const ocp::budget& go_on) noexcept {
   if (!sensible(problem))
     return {};
-  if (!started_ || problem.steps != w_.n)
+  started_ =
+      started_ && ocp::same_grid(ds_m_, w_.n, problem.ds_m, problem.steps);
+  ds_m_ = problem.ds_m;
+  if (!started_)
     from = ocp::start::cold;
-  started_ = started_ && problem.steps == w_.n;
   set_up(problem);
   set_bounds(problem, options, from);
   auto worst = ocp::crossed_bounds(w_);

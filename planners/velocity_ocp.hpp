@@ -2,6 +2,7 @@
 // optimal-control problem over its arc length.
 #pragma once
 
+#include "planners/ocp/carry_over.hpp"
 #include "planners/ocp/status.hpp"
 #include "planners/velocity_model.hpp"
 
@@ -61,6 +62,9 @@ struct velocity_options {
       .max_iterations = 100, .max_linearisations = 60, .max_inner = 8};
 };
 
+/// What a velocity solver can go on from.
+using velocity_warm_start = ocp::warm_start<5>;
+
 /// A solver with its workspace: no heap, no clock, byte-wise copyable.
 class velocity_ocp {
 public:
@@ -68,8 +72,9 @@ public:
   static constexpr int time_row = 0, speed_row = 1, accel_row = 2,
                        total_row = 3, jerk_row = 4;
 
-  /// @param from  warm: from the plan in here, see `shift`; cold when there
-  ///              is none of this length.
+  /// @param from  warm: from the plan in here, see `carry_over`; cold when
+  /// there
+  ///              is none on this grid.
   /// @returns BAD_INPUT for numbers that are not finite (bounds on time may
   /// be infinite), wrong lengths, ds <= 0, w < 0, w_ref <= 0, weights < 0,
   /// limits of the wrong sign; SOFT_INFEASIBLE at once where lo > hi, or
@@ -78,9 +83,24 @@ public:
                           const velocity_options& options = {},
                           const ocp::budget& go_on = {}) noexcept;
 
-  /// Moves plan and multipliers towards the vehicle, which has driven on.
-  /// @param knots  >= 0.
-  void shift(int knots) noexcept;
+  /// Carries plan and multipliers over to the grid of the next problem; what
+  /// makes no sense as such leaves nothing to go on from.
+  /// @param by_m   Where it begins on the old one, m, >= 0.
+  /// @param ds_m   Its step, > 0 ...
+  /// @param steps  ... and length, 1..ocp::most_steps.
+  void carry_over(double by_m, double ds_m, int steps) noexcept;
+
+  /// The same by whole knots, on the same grid.
+  void shift(int knots) noexcept { carry_over(knots * ds_m_, ds_m_, w_.n); }
+
+  /// What another solver needs to go on from this plan.
+  velocity_warm_start warm_start() const noexcept {
+    return ocp::known<velocity_warm_start::rows>(w_, ds_m_);
+  }
+
+  /// Takes another solver's plan for its own last one; `carry_over` follows.
+  /// @returns false, and changes nothing, where it cannot be gone on from.
+  bool adopt(const velocity_warm_start& other) noexcept;
 
   int steps() const { return w_.n; }
 
@@ -108,6 +128,7 @@ private:
 
   ocp::velocity_model::workspace w_{};
   ocp::velocity_reference reference_{};
+  double ds_m_ = 1;      ///< Of the plan.
   bool started_ = false; ///< There is a plan in the workspace.
 };
 

@@ -98,13 +98,6 @@ struct row {
   }
 };
 
-/// Moves what is known of knots 0..last towards knot 0.
-/// @param tail  What is assumed of those that come new.
-inline void shift(column& c, int last, int by, double tail) {
-  for (int k = 0; k <= last; ++k)
-    c[k] = k + by <= last ? c[k + by] : tail;
-}
-
 /// Three numbers a knot and one for the control.
 struct stages {
   column x0, x1, x2, u;

@@ -55,8 +55,7 @@ kkt kkt_of(const Workspace& w, double cost, Step step, Lagrangian lagrangian) {
     costate[1] += w.k1[k] * slope[3];
     costate[2] += w.k2[k] * slope[3];
   }
-  auto rows = w.rows; // `each` hands out what may be written to
-  rows.each([&](const auto& r, int) {
+  w.rows.each([&](const auto& r, int) {
     for (int k = 0; k <= w.n; ++k) {
       const auto slack = r.y[k] > 0 ? r.hi[k] - r.c[k] : r.c[k] - r.lo[k];
       const auto idle = std::min(std::abs(slack), std::abs(r.y[k]));
