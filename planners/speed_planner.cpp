@@ -39,6 +39,8 @@ constexpr double share_of_jerk = 0.8;
 constexpr double reserve = 1.1;
 constexpr double least_emergency_mps2 = 3.0;
 constexpr double emergency_share_of_jerk = 0.7;
+/// A plan's own tolerance is no emergency.
+constexpr double beyond_firm_mps2 = 0.05;
 /// After an emergency, back to comfort at this jerk.
 constexpr double recovery_jerk_mps3 = 5.0;
 
@@ -175,10 +177,10 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   if (stops)
     p.stop_knot = steps;
   const auto firm = style_.firm_decel_mps2();
+  const auto recovers = from.accel_mps2 < -firm - beyond_firm_mps2;
   p.limits.accel_min_mps2 = std::min(-firm, from.accel_mps2);
   p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
-  p.limits.jerk_max_mps3 =
-      from.accel_mps2 < -firm ? recovery_jerk_mps3 : style_.max_jerk_mps3;
+  p.limits.jerk_max_mps3 = recovers ? recovery_jerk_mps3 : style_.max_jerk_mps3;
   p.limits.total_max_mps2 = std::hypot(style_.max_lateral_accel_mps2, firm);
 
   const auto s = path.s_m(way_m + from.s_m);
@@ -197,7 +199,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
     return false;
   drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
   r.how = speed_mode::optimal;
-  r.emergency = p.limits.accel_min_mps2 < -firm;
+  r.emergency = recovers;
   return motion_.size() > 1
          && (solved_ || is_clear(motion_, style_.step_s, task));
 }

@@ -1,11 +1,16 @@
-// Trajectory planning as a service: the vehicle is its client, `lane_follow`
-// its planner on both sides.
+// Trajectory planning as a service: the vehicle is its client; the planner at
+// a provider may plan farther and more thoroughly than the vehicle's own.
 #include "actors/services/trajectory_planning.hpp"
 
 #include "actors/service_kind.hpp"
 #include "planners/lane_follow.hpp"
+#include "planners/spatial_planner.hpp"
 
+#include <fmt/format.h>
+
+#include <memory>
 #include <optional>
+#include <string_view>
 
 namespace sofof {
 
@@ -13,10 +18,41 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr std::string_view optimal_planner = "al_ilqr";
+constexpr std::string_view simple_planner = "lane_follow";
+
+/// Which planner, and how it plans.
+struct planner_options {
+  std::string name{optimal_planner};
+  driving_style style;
+  spatial_params onboard;
+  spatial_params mec{
+      .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
+
+  void fields(settings& s) {
+    s.field("name", name);
+    if (name != optimal_planner && name != simple_planner)
+      s.refuse("name", fmt::format("there is no planner '{}'; choose {} or {}",
+                                   name, optimal_planner, simple_planner));
+    style.fields(s);
+    s.table("onboard", [this](settings& t) { onboard.fields(t); });
+    s.table("mec", [this](settings& t) { mec.fields(t); });
+  }
+
+  std::unique_ptr<trajectory_planner> make(const route_ptr& way,
+                                           bool remote) const {
+    if (name == simple_planner)
+      return std::make_unique<lane_follow>(way, style);
+    return std::make_unique<spatial_planner>(way, style,
+                                             remote ? mec : onboard);
+  }
+};
+
 class planning_function final : public service_function {
 public:
-  planning_function(streets_ptr world, const driving_style& params)
-      : world_{std::move(world)}, params_{params} {}
+  planning_function(const service_setup& setup, planner_options options)
+      : world_{setup.world}, remote_{setup.remote}, options_{
+                                                        std::move(options)} {}
 
   payload run(time_point now, const service_input& input) override {
     const auto request = input.what.as<plan_request>();
@@ -39,16 +75,17 @@ private:
     const auto route = world_->find(way);
     if (!route)
       return false;
-    planner_.emplace(route, params_);
+    planner_ = options_.make(route, remote_);
     plan_.reset();
     way_ = way;
     return true;
   }
 
   streets_ptr world_;
-  driving_style params_;
+  bool remote_;
+  planner_options options_;
   std::string way_;
-  std::optional<lane_follow> planner_;
+  std::unique_ptr<trajectory_planner> planner_;
   std::optional<trajectory> plan_;
 };
 
@@ -69,18 +106,12 @@ public:
 
   void fields(settings& s) override {
     service_kind::fields(s);
-    s.table("planner", [this](settings& t) {
-      t.field("name", planner_);
-      if (planner_ != "lane_follow")
-        t.refuse("name",
-                 "there is no planner '" + planner_ + "'; choose lane_follow");
-      params_.fields(t);
-    });
+    s.table("planner", [this](settings& t) { planner_.fields(t); });
   }
 
   std::shared_ptr<service_function>
   make_function(const service_setup& setup) const override {
-    return std::make_shared<planning_function>(setup.world, params_);
+    return std::make_shared<planning_function>(setup, planner_);
   }
 
   client_actor spawn_client(caf::actor_system&, const service_setup&,
@@ -89,8 +120,7 @@ public:
   }
 
 private:
-  std::string planner_ = "lane_follow";
-  driving_style params_;
+  planner_options planner_;
 };
 
 } // namespace

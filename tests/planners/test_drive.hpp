@@ -3,6 +3,7 @@
 #pragma once
 
 #include "planners/lane_follow.hpp"
+#include "planners/spatial_planner.hpp"
 #include "world/vehicle.hpp"
 
 #include <algorithm>
@@ -90,11 +91,25 @@ struct extremes {
   double plan_change_m = 0; ///< One second ahead, against the plan before.
 };
 
+using planner_ptr = std::unique_ptr<trajectory_planner>;
+
+inline planner_ptr follower(route_ptr way, driving_style style = {}) {
+  return std::make_unique<lane_follow>(std::move(way), style);
+}
+
+inline planner_ptr optimiser(route_ptr way, spatial_params params = {},
+                             driving_style style = {}) {
+  return std::make_unique<spatial_planner>(std::move(way), style, params);
+}
+
 class test_drive {
 public:
   explicit test_drive(route_ptr way, double s_m = 0, double speed_mps = 0,
                       driving_style params = {})
-      : way_{std::move(way)}, planner_{way_, params}, s_m_{s_m} {
+      : test_drive{way, s_m, speed_mps, follower(way, params)} {}
+
+  test_drive(route_ptr way, double s_m, double speed_mps, planner_ptr planner)
+      : way_{std::move(way)}, planner_{std::move(planner)}, s_m_{s_m} {
     const auto start = way_->path().at(s_m);
     car.at = start.at;
     car.heading_rad = start.heading_rad;
@@ -115,7 +130,8 @@ public:
       known_.pop_front();
 
     std::swap(plan, before_);
-    planner_.plan(now, known_.front(), planned_ ? &before_ : nullptr, plan);
+    report = planner_->plan(now, known_.front(), planned_ ? &before_ : nullptr,
+                            plan);
     if (planned_)
       compare_plans();
     planned_ = true;
@@ -140,6 +156,7 @@ public:
   vehicle_params ability;
   vehicle_state car;
   trajectory plan;
+  plan_report report;
   time_point now;
   surroundings others;
   duration staleness{}; ///< Of the planner's input.
@@ -179,7 +196,7 @@ private:
   }
 
   route_ptr way_;
-  lane_follow planner_;
+  planner_ptr planner_;
   double s_m_;
   std::deque<planning_input> known_;
   trajectory before_;
