@@ -5,6 +5,7 @@
 #include "planners/driving_style.hpp"
 #include "planners/planned_path.hpp"
 #include "planners/reference_line.hpp"
+#include "planners/speed_envelope.hpp"
 #include "planners/speed_task.hpp"
 #include "planners/time_motion.hpp"
 #include "planners/velocity_ocp.hpp"
@@ -61,14 +62,17 @@ private:
   double needed_decel(const speed_task& task) const;
   bool drive(const planned_path& path, double way_m, const speed_task& task,
              const stop& end, result& r, const ocp::budget& go_on);
-  void set_up(const planned_path& path, double way_m, const speed_task& task,
-              const lane_motion& from, double from_s, double ds_m, int steps);
-  void keep_distance(const speed_task& task, const lane_motion& from,
-                     double ds_m);
+  void set_limits(const planned_path& path, double from_m, double ds_m,
+                  int steps);
+  void set_windows(const speed_task& task, const lane_motion& from,
+                   double ds_m);
+  bool yield_to_braking(const lane_motion& from, double from_s, double ds_m,
+                        double decel_mps2);
   double price(const planned_path& path, double way_m) const;
 
   const reference_line* line_;
   driving_style style_;
+  speed_envelope envelope_; // of the whole route
   grid grid_;
   velocity_ocp solver_;
   bool solved_ = false;      // the solver has a plan that can be carried over
@@ -78,7 +82,6 @@ private:
   int steps_ = 0; // of the motion
   // The velocity problem, knot by knot.
   std::vector<double> w_max_, wanted_, bends_, earliest_, latest_;
-  std::vector<double> braking_w_, braking_s_; // if the car just brakes
 };
 
 /// @returns whether a motion keeps off lines and the car ahead, by less than
