@@ -20,6 +20,8 @@ constexpr std::array<part, ocp::path_rows::most_discs> parts{
      {1.47, disc_radius_m},
      {3.17, disc_radius_m}}};
 
+/// Knots are the same when they are so near, in steps.
+constexpr double same_knot = 1e-6;
 /// The car on the line itself fits by this, whatever the discs say.
 constexpr double least_room_m = 0.05;
 /// Kept between the car and a body it passes.
@@ -35,25 +37,42 @@ constexpr double overshoot_m = 4;
 
 } // namespace
 
+// Most of the lane is the one of the cycle before.
 void corridor::open(const reference_line& line, double s_m, double ds_m,
                     int steps) {
+  const auto moved = (s_m - s_m_) / ds_m;
+  const auto same_grid = line_ == &line && ds_m == ds_m_ && steps == steps_
+                         && std::abs(moved - std::round(moved)) < same_knot;
+  const auto by = same_grid && moved >= 0 && moved <= steps
+                      ? static_cast<int>(std::lround(moved))
+                      : steps + 1;
   line_ = &line;
   s_m_ = s_m;
   ds_m_ = ds_m;
   steps_ = steps;
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (std::size_t j = 0; j < rows; ++j) {
-    const auto& p = parts[j];
-    for (int k = 0; k <= steps; ++k) {
-      const auto s = s_m + k * ds_m;
-      const auto room =
-          j == 0 ? freedom_m : line.half_width_m(s + p.ahead_m) - p.radius_m;
-      const auto bow = j == 0 ? 0 : line.bow_m(s, p.ahead_m);
-      lo_[j][k] = std::min(bow - room, -least_room_m);
-      hi_[j][k] = std::max(bow + room, least_room_m);
-    }
-    discs_[j] = {p.ahead_m, std::span{lo_[j]}.first(knots),
+    if (by <= steps)
+      for (auto* column : {&lane_lo_[j], &lane_hi_[j]})
+        std::copy(column->begin() + by, column->begin() + steps + 1,
+                  column->begin());
+    measure_lane(j, std::max(0, steps + 1 - by), steps);
+    std::copy_n(lane_lo_[j].begin(), knots, lo_[j].begin());
+    std::copy_n(lane_hi_[j].begin(), knots, hi_[j].begin());
+    discs_[j] = {parts[j].ahead_m, std::span{lo_[j]}.first(knots),
                  std::span{hi_[j]}.first(knots)};
+  }
+}
+
+void corridor::measure_lane(std::size_t part, int from, int to) {
+  const auto [ahead_m, radius_m] = parts[part];
+  for (auto k = from; k <= to; ++k) {
+    const auto s = s_m_ + k * ds_m_;
+    const auto room =
+        part == 0 ? freedom_m : line_->half_width_m(s + ahead_m) - radius_m;
+    const auto bow = part == 0 ? 0 : line_->bow_m(s, ahead_m);
+    lane_lo_[part][k] = std::min(bow - room, -least_room_m);
+    lane_hi_[part][k] = std::max(bow + room, least_room_m);
   }
 }
 

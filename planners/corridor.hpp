@@ -43,9 +43,12 @@ public:
 private:
   static constexpr std::size_t rows = ocp::path_rows::most_discs;
 
+  void measure_lane(std::size_t part, int from, int to);
+
   const reference_line* line_ = nullptr;
   double s_m_ = 0, ds_m_ = 1;
-  int steps_ = 0;
+  int steps_ = -1;
+  std::array<ocp::column, rows> lane_lo_, lane_hi_; // with nothing in it
   std::array<ocp::column, rows> lo_, hi_;
   std::array<disc_corridor, rows> discs_;
 };

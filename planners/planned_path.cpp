@@ -33,16 +33,24 @@ double planned_path::way_m(double s_m) const {
   return a.way_m + (steps - static_cast<double>(k)) * (b.way_m - a.way_m);
 }
 
-planned_path::place planned_path::at_s(double s_m) const {
+planned_path::between planned_path::find(double s_m) const {
   const auto steps = (s_m - start_s_m) / ds_m;
   const auto k = static_cast<std::size_t>(
       std::clamp(steps, 0.0, static_cast<double>(size - 2)));
-  const auto &a = knots[k], &b = knots[k + 1];
-  const auto x = std::clamp(steps - static_cast<double>(k), 0.0, 1.0);
+  return {knots[k], knots[k + 1],
+          std::clamp(steps - static_cast<double>(k), 0.0, 1.0)};
+}
+
+double planned_path::curvature_1pm(double s_m) const {
+  const auto [a, b, x] = find(s_m);
+  return std::lerp(a.x.curvature_1pm, b.x.curvature_1pm, x);
+}
+
+planned_path::place planned_path::at_s(double s_m) const {
+  const auto [a, b, x] = find(s_m);
   // Way per reference way times the sine of the heading is the offset's slope.
   const auto stretch = (b.way_m - a.way_m) / ds_m;
-  const auto from = stretch * std::sin(a.x.heading_rad);
-  const auto to = stretch * std::sin(b.x.heading_rad);
+  const auto from = stretch * a.sine, to = stretch * b.sine;
   const auto rise = (b.x.d_m - a.x.d_m) / ds_m;
   const auto rest = 1 - x;
   const auto d = a.x.d_m * rest * rest * (1 + 2 * x)

@@ -18,6 +18,7 @@ public:
   /// knot on (`way`).
   struct knot {
     path_state x;
+    double sine = 0; ///< Of the heading.
     double way_m = 0;
   };
   struct place {
@@ -36,7 +37,7 @@ public:
   double end_s_m() const { return start_s_m + (size - 1) * ds_m; }
   double length_m() const { return knots[last()].way_m; }
 
-  /// Computes `way_m` of all knots from their states.
+  /// Computes the rest of all knots from their states.
   /// @param line  κ of the reference line at an arc length, 1/m.
   template <class Line>
   void measure(const Line& line);
@@ -49,7 +50,15 @@ public:
   place at_s(double s_m) const;
   place at_way(double way_m) const { return at_s(s_m(way_m)); }
 
+  double curvature_1pm(double s_m) const;
+
 private:
+  struct between {
+    const knot& a;
+    const knot& b;
+    double share;
+  };
+  between find(double s_m) const;
   std::size_t last() const { return static_cast<std::size_t>(size - 1); }
   std::size_t knot_before(double way_m) const;
 };
@@ -57,9 +66,10 @@ private:
 template <class Line>
 void planned_path::measure(const Line& line) {
   const auto stretch = [&](std::size_t k) {
-    const auto& x = knots[k].x;
+    auto& here = knots[k];
+    here.sine = std::sin(here.x.heading_rad);
     const auto bend = line(start_s_m + static_cast<double>(k) * ds_m);
-    return (1 - x.d_m * bend) / std::cos(x.heading_rad);
+    return (1 - here.x.d_m * bend) / std::sqrt(1 - here.sine * here.sine);
   };
   knots[0].way_m = 0;
   auto before = stretch(0);

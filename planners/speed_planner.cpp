@@ -231,9 +231,8 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
   const auto lateral = lateral_margin * style_.max_lateral_accel_mps2;
   auto s = 0.0;
   for (std::size_t k = 0; k < knots; ++k) {
-    const auto here = path.at_way(from_m + static_cast<double>(k) * ds_m);
-    s = here.s_m;
-    bends_[k] = here.x.curvature_1pm;
+    s = path.s_m(from_m + static_cast<double>(k) * ds_m);
+    bends_[k] = path.curvature_1pm(s);
     const auto bend = std::max(std::abs(bends_[k]), least_curvature_1pm);
     w_max_[k] = std::min(square(line_->limit_mps(s)), lateral / bend) / 2;
   }

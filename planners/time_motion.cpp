@@ -9,7 +9,7 @@ namespace {
 
 /// Slower than this a braking car comes to rest.
 constexpr double resting_mps = 0.05;
-constexpr int newton_steps = 4;
+constexpr int newton_steps = 2;
 constexpr double short_s = 1e-9;
 
 /// Within one interval: x'' = a + u x from x = 0.
