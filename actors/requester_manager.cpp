@@ -32,6 +32,7 @@ struct manager_state {
   watchdog_actor watchdog;
   std::optional<remote_source> remote;
   service_input newest;
+  payload in_use; // the last result that the client got
 
   void start() {
     setup.local.running = {0, setup.station, setup.kind, 0};
@@ -62,8 +63,10 @@ struct manager_state {
     if (newest.what.type().empty())
       return;
     remote->last_sent = now(self);
-    self->send(remote->manager,
-               service_input{remote->running, newest.at, newest.what});
+    auto input = service_input{remote->running, newest.at, newest.what};
+    if (!remote->in_use)
+      input.in_use = in_use;
+    self->send(remote->manager, std::move(input));
   }
 
   void await(const running_service& running,
@@ -76,7 +79,7 @@ struct manager_state {
   void take(const service_result& result) {
     if (result.running.counter == 0) {
       if (!remote || !remote->in_use)
-        self->send(setup.client, result);
+        use(result);
     } else if (remote && remote->running == result.running
                && result.cycle > remote->last_cycle) {
       take_remote(result);
@@ -100,7 +103,12 @@ struct manager_state {
     else if (remote->in_use)
       self->send(watchdog, arrival{result.running, result.created, t});
     if (usable)
-      self->send(setup.client, result);
+      use(result);
+  }
+
+  void use(const service_result& result) {
+    in_use = result.what;
+    self->send(setup.client, result);
   }
 
   void be_remote(time_point first) {
@@ -113,6 +121,7 @@ struct manager_state {
 
   void be_local() {
     if (remote && remote->in_use) {
+      self->send(local, service_input{{}, newest.at, newest.what, in_use});
       self->send(local, lifecycle_step::activate);
       self->send(setup.client, source_change{setup.kind, false});
     }

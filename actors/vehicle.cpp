@@ -217,9 +217,10 @@ struct vehicle_actor_state {
   // -- plans --------------------------------------------------------------
 
   void take(const service_result& result) {
-    const auto next = result.what.as<trajectory>();
-    if (!next || !next->is_sound() || result.created < plan_created)
+    const auto given = result.what.as<drive_plan>();
+    if (!given || !given->plan.is_sound() || result.created < plan_created)
       return;
+    const std::shared_ptr<const trajectory> next{given, &given->plan};
     const auto t = now(self);
     if (result.created > t || next->start > t || next->end() < t)
       return; // of another time

@@ -71,6 +71,9 @@ struct service_input {
   running_service running;
   time_point at;
   payload what;
+  /// The result in use, for a source that takes over from another one, which
+  /// shall go on from there; else empty.
+  payload in_use{};
 };
 
 /// What one cycle of a running service gave.
@@ -156,7 +159,8 @@ bool inspect(Inspector& f, service_response& x) {
 template <class Inspector>
 bool inspect(Inspector& f, service_input& x) {
   return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
-                            f.field("what", x.what));
+                            f.field("what", x.what),
+                            f.field("in_use", x.in_use));
 }
 
 template <class Inspector>

@@ -80,6 +80,26 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   return report;
 }
 
+bool spatial_planner::remember(planner_memory& memory) const {
+  if (path_->path().empty())
+    return false;
+  memory.path_s_m = path_->solved_s_m();
+  memory.path = path_->warm_start();
+  memory.speed_s_m = speed_->solved_s_m();
+  memory.stops = speed_->stops();
+  memory.speed = speed_->warm_start();
+  memory.sides = sides_;
+  memory.order = order_;
+  return true;
+}
+
+void spatial_planner::adopt(const planner_memory& memory) {
+  path_->adopt(memory.path, memory.path_s_m);
+  speed_->adopt(memory.speed, memory.speed_s_m, memory.stops);
+  sides_ = memory.sides;
+  order_ = memory.order;
+}
+
 // -- path ---------------------------------------------------------------------
 
 bool spatial_planner::plan_path(const scene& at, plan_report& report,

@@ -39,6 +39,9 @@ public:
                    const trajectory* previous, trajectory& out,
                    const ocp::budget& go_on = {}) override;
 
+  bool remember(planner_memory& memory) const override;
+  void adopt(const planner_memory& memory) override;
+
 private:
   /// What a cycle starts from.
   struct scene {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "planners/ocp/status.hpp"
+#include "planners/planner_memory.hpp"
 #include "planners/planning_input.hpp"
 #include "world/trajectory.hpp"
 
@@ -46,6 +47,13 @@ public:
   virtual plan_report plan(time_point now, const planning_input& input,
                            const trajectory* previous, trajectory& out,
                            const ocp::budget& go_on = {}) = 0;
+
+  /// Writes down what another planner needs to go on from the last plan.
+  /// @returns false for planners that remember nothing.
+  virtual bool remember(planner_memory&) const { return false; }
+
+  /// Goes on from another planner's plan, which is `previous` next.
+  virtual void adopt(const planner_memory&) {}
 };
 
 /// Where a new plan begins: where `previous` covers `now` and agrees with the

@@ -58,13 +58,18 @@ public:
     const auto request = input.what.as<plan_request>();
     if (!request || !prepare(request->way))
       return {};
-    trajectory next;
-    next.points.reserve(plan_ ? plan_->points.size() : 0);
+    take_over(input.in_use.as<drive_plan>());
     auto from = request->from;
     const auto& seen = request->seen;
     from.others = {seen.at, seen.lead, seen.stop_at_m, {}, {}};
-    planner_->plan(now, from, plan_ ? &*plan_ : nullptr, next);
-    plan_ = next;
+    drive_plan next;
+    next.plan.points.reserve(plan_.points.size());
+    next.report =
+        planner_->plan(now, from, plan_.empty() ? nullptr : &plan_, next.plan);
+    plan_ = next.plan;
+    if (auto memory = std::make_shared<planner_memory>();
+        planner_->remember(*memory))
+      next.memory = std::move(memory);
     return payload::of(std::move(next));
   }
 
@@ -76,9 +81,19 @@ private:
     if (!route)
       return false;
     planner_ = options_.make(route, remote_);
-    plan_.reset();
+    plan_ = {};
     way_ = way;
     return true;
+  }
+
+  // Another source has planned in the meantime.
+  void take_over(const std::shared_ptr<const drive_plan>& other) {
+    if (!other || !other->plan.is_sound()
+        || (!plan_.empty() && other->plan.start <= plan_.start))
+      return;
+    plan_ = other->plan;
+    if (other->memory)
+      planner_->adopt(*other->memory);
   }
 
   streets_ptr world_;
@@ -86,7 +101,7 @@ private:
   planner_options options_;
   std::string way_;
   std::unique_ptr<trajectory_planner> planner_;
-  std::optional<trajectory> plan_;
+  trajectory plan_; // the last one; empty before the first
 };
 
 class trajectory_planning final : public service_kind {

@@ -74,7 +74,7 @@ struct driving_world : virtual_world {
     tell(car, service_result{{0, station, "trajectory_planning", 0},
                              ++cycle,
                              created,
-                             payload::of(std::move(t))});
+                             payload::of(drive_plan{std::move(t), {}, {}})});
   }
   /// Drives with a new plan every 50 ms.
   void drive(duration d) {

@@ -19,7 +19,7 @@ constexpr duration period = std::chrono::milliseconds{50};
 void plan_a_lap(benchmark::State& state, bool with_lead) {
   const auto s = bench::ulm_lehr();
   const auto way = s.world->find("round_trip");
-  const lane_follow planner{way, {}};
+  lane_follow planner{way, {}};
   trajectory plan, before;
   planning_input input;
   for (auto _ : state) {

@@ -97,8 +97,8 @@ TEST_CASE("between processes a payload is bytes, and the same again") {
 }
 
 TEST_CASE("a payload of another type is none") {
-  CHECK(!payload::of(echo{5}).as<trajectory>());
-  CHECK(!load<payload>(save(payload::of(echo{5})))->as<trajectory>());
+  CHECK(!payload::of(echo{5}).as<drive_plan>());
+  CHECK(!load<payload>(save(payload::of(echo{5})))->as<drive_plan>());
 }
 
 TEST_CASE("no payload has no type and is nothing") {
@@ -119,17 +119,32 @@ TEST_CASE("a payload with too few or too many bytes is none") {
 }
 
 TEST_CASE("a plan and a request for one arrive as they were sent") {
-  trajectory plan{time_point{duration{7}}, {}};
+  drive_plan sent{{time_point{duration{7}}, {}}, {}, {}};
   for (int k = 0; k < 60; ++k)
-    plan.points.push_back({0.1 * k, 1.0 * k, {2.0 * k, 3.0 * k}, 4, 5, 6, 7});
-  const auto there = arrived("trajectory", payload::of(plan).encoded());
-  REQUIRE(there.as<trajectory>());
-  CHECK(there.as<trajectory>()->start == plan.start);
-  REQUIRE(there.as<trajectory>()->points.size() == 60);
-  CHECK(there.encoded() == payload::of(plan).encoded());
-  CHECK(there.as<trajectory>()->points[3].at == point{6, 9});
+    sent.plan.points.push_back(
+        {0.1 * k, 1.0 * k, {2.0 * k, 3.0 * k}, 4, 5, 6, 7});
+  sent.report.emergency = true;
+  planner_memory memory;
+  memory.path.steps = 80;
+  memory.path.u[80] = 2;
+  memory.path.force[5][79] = 3;
+  memory.stops = true;
+  sent.memory = std::make_shared<const planner_memory>(memory);
+  const auto there = arrived("drive_plan", payload::of(sent).encoded());
+  const auto got = there.as<drive_plan>();
+  REQUIRE(got);
+  CHECK(got->plan.start == sent.plan.start);
+  REQUIRE(got->plan.points.size() == 60);
+  CHECK(there.encoded() == payload::of(sent).encoded());
+  CHECK(got->plan.points[3].at == point{6, 9});
+  CHECK(got->report.emergency);
+  REQUIRE(got->memory);
+  CHECK(got->memory->path.u == memory.path.u);
+  CHECK(got->memory->path.force == memory.path.force);
+  CHECK(got->memory->stops);
 
-  plan_request ask{"street", {time_point{duration{9}}, 1, 2, 3, 4, 5, 6, {}}, {}};
+  plan_request ask{
+      "street", {time_point{duration{9}}, 1, 2, 3, 4, 5, 6, {}}, {}};
   ask.seen = {time_point{duration{8}}, lead_vehicle{1, 2, 3, 4}, 5.0};
   const auto asked = arrived("plan_request", payload::of(ask).encoded());
   REQUIRE(asked.as<plan_request>());
@@ -257,16 +272,18 @@ TEST_CASE("whatever bytes come, they read as something or not at all") {
 
 TEST_CASE("whatever bytes come, they are a plan or none") {
   filler random{4};
-  const auto good =
-      payload::of(trajectory{{}, std::vector<trajectory_point>(10)}).encoded();
+  drive_plan plan;
+  plan.plan.points.resize(10);
+  plan.memory = std::make_shared<const planner_memory>();
+  const auto good = payload::of(plan).encoded();
   for (int k = 0; k < 5000; ++k) {
     auto bytes = good;
     bytes.resize(random.below(good.size() + 10));
     for (auto flips = random.below(10); flips > 0 && !bytes.empty(); --flips)
       bytes[random.below(bytes.size())] =
           static_cast<std::byte>(random.below(256));
-    const auto p = arrived("trajectory", bytes);
-    if (const auto plan = p.as<trajectory>())
+    const auto p = arrived("drive_plan", bytes);
+    if (p.as<drive_plan>())
       CHECK(p.encoded().size() == bytes.size());
   }
 }

@@ -34,7 +34,7 @@ inline constexpr std::size_t arity<verdict> = 3;
 template <>
 inline constexpr std::size_t arity<service_response> = 4;
 template <>
-inline constexpr std::size_t arity<service_input> = 3;
+inline constexpr std::size_t arity<service_input> = 4;
 template <>
 inline constexpr std::size_t arity<service_result> = 4;
 template <>

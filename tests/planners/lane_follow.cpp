@@ -26,7 +26,7 @@ planning_input driving(double s_m, double speed_mps) {
 } // namespace
 
 TEST_CASE("a plan has its points in equal steps over its horizon") {
-  const lane_follow planner{test::oval(town), {}};
+  lane_follow planner{test::oval(town), {}};
   trajectory plan;
   planner.plan(now, driving(10, 8), nullptr, plan);
   REQUIRE(plan.points.size() == 61);
@@ -43,7 +43,7 @@ TEST_CASE("a plan has its points in equal steps over its horizon") {
 }
 
 TEST_CASE("a plan's points stay where they are in memory") {
-  const lane_follow planner{test::oval(town), {}};
+  lane_follow planner{test::oval(town), {}};
   trajectory plan;
   planner.plan(now, driving(10, 8), nullptr, plan);
   const auto* points = plan.points.data();
@@ -53,7 +53,7 @@ TEST_CASE("a plan's points stay where they are in memory") {
 
 TEST_CASE("a plan made on the way continues the plan made before") {
   const auto way = test::oval(town);
-  const lane_follow planner{way, {}};
+  lane_follow planner{way, {}};
   auto x = driving(5, 0);
   x.d_m = 0.3;
   x.others.stop_at_m = 650;
@@ -81,7 +81,7 @@ TEST_CASE("a plan made on the way continues the plan made before") {
 
 TEST_CASE("an old input is moved forward along the plan before") {
   const auto way = test::oval(town);
-  const lane_follow planner{way, {}};
+  lane_follow planner{way, {}};
   trajectory before, plan;
   planner.plan(now, driving(80, 13), nullptr, before);
   const auto later = now + from_seconds(0.4);
@@ -101,7 +101,7 @@ TEST_CASE("an old input is moved forward along the plan before") {
 
 TEST_CASE("a plan before that disagrees with the input, or is over, is not "
           "used") {
-  const lane_follow planner{test::oval(town), {}};
+  lane_follow planner{test::oval(town), {}};
   trajectory before, plan;
   planner.plan(now, driving(80, 10), nullptr, before);
   SUBCASE("another place") {
@@ -121,7 +121,7 @@ TEST_CASE("a plan before that disagrees with the input, or is over, is not "
 }
 
 TEST_CASE("a car ahead is moved forward by the age of what is known of it") {
-  const lane_follow planner{test::straight(900, {{0, 13.9}}), {}};
+  lane_follow planner{test::straight(900, {{0, 13.9}}), {}};
   auto x = driving(0, 10);
   x.others.lead = lead_vehicle{1, 20, 10, 0};
   trajectory fresh, old;
@@ -134,7 +134,7 @@ TEST_CASE("a car ahead is moved forward by the age of what is known of it") {
 
 TEST_CASE("a car beside the centre line returns to it") {
   const auto way = test::straight(900, {{0, 27.8}});
-  const lane_follow planner{way, {}};
+  lane_follow planner{way, {}};
   for (const auto speed : {3.0, 13.9, 27.8}) {
     auto x = driving(100, speed);
     x.d_m = 0.5;
@@ -151,7 +151,7 @@ TEST_CASE("a car beside the centre line returns to it") {
 }
 
 TEST_CASE("a line that is too close is braked for as hard as possible") {
-  const lane_follow planner{test::straight(900, {{0, 13.9}}), {}};
+  lane_follow planner{test::straight(900, {{0, 13.9}}), {}};
   auto x = driving(100, 13.9);
   x.others.stop_at_m = 108;
   trajectory plan;
