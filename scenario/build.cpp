@@ -74,6 +74,7 @@ provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
   setup.seed = noise_of(s, "network");
   setup.number = number;
   setup.virtual_time = virtual_time;
+  setup.crossings_granted = s.traffic.grants_crossings();
   return spawn_service_provider(sys, std::move(setup));
 }
 
@@ -94,11 +95,11 @@ auto requester_maker(caf::actor_system& sys, const scenario& s,
                      bool virtual_time) {
   return
       [&sys, v, recorder, virtual_time, world = s.world, kinds = s.services,
-       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station)](
-          const vehicle_actor& vehicle) {
+       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station),
+       granted = s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
         return spawn_service_requester(sys, {v.station, v.way, world, kinds,
                                              lodm->clone(), vehicle, recorder,
-                                             noise, virtual_time});
+                                             noise, virtual_time, granted});
       };
 }
 
@@ -148,7 +149,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   for (const auto& v : placed)
     ways[v.station] = v.way;
   world.recorder = spawn_recorder(sys, std::move(sink));
-  world.road = spawn_road(sys, s.world, ways, car, world.recorder);
+  world.road = spawn_road(sys, s.world, ways, car, world.recorder,
+                          s.traffic.grants_crossings());
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
     world.providers.push_back(

@@ -32,6 +32,18 @@ struct fleet_options {
   void fields(settings& s);
 };
 
+/// How road users deal with each other.
+struct traffic_options {
+  /// "granted": the road grants every crossing; "perceived": nobody is granted
+  /// anything, drivers judge crossings by what they perceive and by the ranks
+  /// of the lanes.
+  std::string crossings = "granted";
+
+  bool grants_crossings() const { return crossings == "granted"; }
+
+  void fields(settings& s);
+};
+
 /// Where a provider is, and what it offers.
 struct provider_options {
   std::string name = "mec";
@@ -86,6 +98,7 @@ struct scenario {
   std::string map_file; ///< `map`; relative to the scenario file.
   bool grid = false;    ///< A generated street grid instead.
   street_grid_params grid_params;
+  traffic_options traffic;
   std::vector<fleet_options> fleets;
   std::vector<provider_options> providers;
   network_options network;

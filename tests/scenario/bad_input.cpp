@@ -159,6 +159,7 @@ TEST_CASE("an unknown name is refused with those that are known") {
       {"placement = \"equal\"", "placement = @\"random\"", {"convoy", "equal"}},
       {"\"round_trip_opposite\"",
        "@\"round_trip_oposite\"",
+      {"\"perceived\"", "@\"seen\"", {"crossings", "granted", "perceived"}},
        {"route", "did you mean \"round_trip_opposite\"?", "straight"}},
       {"[\"cabin_climate\"]",
        "[@\"coffee\"]",

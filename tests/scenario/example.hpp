@@ -17,6 +17,9 @@ duration = "600s"
 seed = 7
 map = "ring.toml"
 
+[traffic]
+crossings = "perceived"
+
 [[fleet]]
 count = 6
 first_station = 101

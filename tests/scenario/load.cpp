@@ -22,6 +22,7 @@ TEST_CASE("a scenario holds what its file says") {
         == std::vector<std::string>{"round_trip", "round_trip_opposite"});
   CHECK(s.fleets[1].placement == "convoy");
   CHECK(s.fleets[1].start_m == 150);
+  CHECK_FALSE(s.traffic.grants_crossings());
   REQUIRE(s.providers.size() == 2);
   CHECK(s.providers[0].area_radius_m == 80);
   CHECK(s.providers[1].area_m.size() == 4);
@@ -65,6 +66,12 @@ TEST_CASE("without a provider there is nothing to offload to, but a scenario") {
   const auto from = text.find("[[provider]]");
   text.erase(from, text.find("[network]") - from);
   CHECK(example::load(text).providers.empty());
+}
+
+TEST_CASE("without a table of traffic the road grants crossings") {
+  const auto text =
+      example::with("[traffic]\ncrossings = \"perceived\"\n\n", "");
+  CHECK(example::load(text).traffic.grants_crossings());
 }
 
 TEST_CASE("without policies the paper's decide") {
