@@ -115,11 +115,13 @@ named(const world_actors& world, const scenario& s,
   for (std::size_t k = 0; k < world.vehicles.size(); ++k)
     names.emplace_back(caf::actor_cast<caf::actor>(world.vehicles[k]),
                        fmt::format("vehicle {}", placed[k].station));
-  for (std::size_t k = 0; k < world.links.size(); ++k)
-    names.emplace_back(caf::actor_cast<caf::actor>(world.links[k]),
-                       fmt::format("the link of vehicle {} to provider {}",
-                                   placed[k / s.providers.size()].station,
-                                   s.providers[k % s.providers.size()].name));
+  auto link = world.links.begin();
+  for (const auto& v : placed)
+    if (s.fleets[v.fleet].connected)
+      for (const auto& p : s.providers)
+        names.emplace_back(caf::actor_cast<caf::actor>(*link++),
+                           fmt::format("the link of vehicle {} to provider {}",
+                                       v.station, p.name));
   return names;
 }
 
@@ -162,11 +164,13 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     setup.station = v.station;
     setup.way = v.way;
     setup.start_s_m = v.start_s_m;
+    setup.start_speed_mps = s.fleets[v.fleet].start_speed_mps;
     setup.car = car;
     setup.fresh_limit = fresh_limit(s);
     setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
-    for (std::uint32_t k = 0; k < sites.size(); ++k)
-      setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
+    if (s.fleets[v.fleet].connected)
+      for (std::uint32_t k = 0; k < sites.size(); ++k)
+        setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
     for (const auto& a : setup.antennas)
       world.links.push_back(a.link);
     setup.road = world.road;

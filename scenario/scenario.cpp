@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
 constexpr std::array<std::string_view, 2> crossing_rules{"granted",
                                                          "perceived"};
 constexpr auto max_vehicles = 1e5;
+constexpr auto max_start_speed_mps = 50.0;
 constexpr double max_station = std::numeric_limits<station_id>::max();
 
 } // namespace
@@ -40,6 +41,8 @@ void fleet_options::fields(settings& s) {
     s.refuse("placement", unknown_word("placement", placement, placements));
   s.field("spacing_m", spacing_m, any_length_m);
   s.field("start_m", start_m, any_length_m);
+  s.field("start_speed_mps", start_speed_mps, {0, max_start_speed_mps});
+  s.field("connected", connected);
 }
 
 void traffic_options::fields(settings& s) {

@@ -26,8 +26,12 @@ struct fleet_options {
   /// "equal": spread evenly over each route from `start_m` on; "convoy": one
   /// behind the other, `spacing_m` apart, the first one at `start_m`.
   std::string placement = "equal";
-  double spacing_m = 60; ///< From rear axle to rear axle.
-  double start_m = 0;    ///< Arc length on the route, of the rear axle.
+  double spacing_m = 60;      ///< From rear axle to rear axle.
+  double start_m = 0;         ///< Arc length on the route, of the rear axle.
+  double start_speed_mps = 0; ///< They start driving, as fast as this.
+  /// Whether they can talk to providers; else they send nothing and never
+  /// offload.
+  bool connected = true;
 
   void fields(settings& s);
 };

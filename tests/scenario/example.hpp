@@ -32,6 +32,8 @@ first_station = 201
 routes = ["straight"]
 placement = "convoy"
 start_m = 150.0
+start_speed_mps = 8.5
+connected = false
 
 [[provider]]
 name = "mec"
