@@ -22,6 +22,8 @@ TEST_CASE("a scenario holds what its file says") {
         == std::vector<std::string>{"round_trip", "round_trip_opposite"});
   CHECK(s.fleets[1].placement == "convoy");
   CHECK(s.fleets[1].start_m == 150);
+  CHECK(s.fleets[1].start_speed_mps == 8.5);
+  CHECK_FALSE(s.fleets[1].connected);
   CHECK_FALSE(s.traffic.grants_crossings());
   REQUIRE(s.providers.size() == 2);
   CHECK(s.providers[0].area_radius_m == 80);
@@ -41,6 +43,8 @@ TEST_CASE("a scenario holds what its file says") {
 TEST_CASE("what a file leaves out keeps its default") {
   const auto s = example::load();
   CHECK(s.fleets[0].spacing_m == fleet_options{}.spacing_m);
+  CHECK(s.fleets[0].start_speed_mps == 0);
+  CHECK(s.fleets[0].connected);
   CHECK(s.providers[0].area_corners == 24);
   CHECK(s.providers[0].services.empty());
   CHECK(s.record.tracks);
@@ -134,6 +138,9 @@ TEST_CASE("the scenarios that come with the project can be loaded") {
   CHECK(ulm_lehr.fleets.front().count == 6);
   CHECK(ulm_lehr.services.size() == 2);
   CHECK(ulm_lehr.world->map.lanes().size() > 2);
+  const auto crossing = load_scenario(config / "occluded_crossing.toml");
+  CHECK(crossing.fleets.size() == 2);
+  CHECK(crossing.world->map.conflicts().size() == 1);
   const auto scale = load_scenario(config / "scale.toml");
   CHECK(scale.providers.size() == 10);
   CHECK(scale.length == 60s);
