@@ -160,13 +160,18 @@ TEST_CASE("from the mast at the crossing both are seen all the time") {
 }
 
 TEST_CASE("who starts driving does not brake before its first plan") {
-  const auto records =
-      drive(load({"duration=1s", "traffic.crossings=granted"}));
-  for (const auto station : {ego, other})
-    for (const auto& t : tracks_of(records, station)) {
-      CHECK(t.ego.own.speed_mps == doctest::Approx(speed_mps).epsilon(0.005));
-      CHECK(std::abs(t.ego.own.accel_mps2) < 0.1);
-    }
+  const auto records = drive(load({"duration=1s"}));
+  for (const auto station : {ego, other}) {
+    auto lowest_mps2 = 0.0;
+    auto steps = 0;
+    for (const auto& t : tracks_of(records, station))
+      if (t.plan_age == t.at - time_point{}) { // no other than the first
+        lowest_mps2 = std::min(lowest_mps2, t.ego.own.accel_mps2);
+        ++steps;
+      }
+    CHECK(steps > 4);
+    CHECK(lowest_mps2 > -0.05);
+  }
 }
 
 TEST_CASE("the ego is offloaded at once, the unconnected other never") {
