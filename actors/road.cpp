@@ -67,14 +67,15 @@ struct road_state {
 
 road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
                               streets_ptr world, station_routes ways,
-                              vehicle_params car, recorder_actor recorder) {
+                              vehicle_params car, recorder_actor recorder,
+                              bool grants_crossings) {
   auto& state = self->state;
   state.self = self;
   state.world = std::move(world);
   state.ways = std::move(ways);
   state.car = car;
   state.recorder = std::move(recorder);
-  state.users.emplace(state.world->map);
+  state.users.emplace(state.world->map, grants_crossings);
   self->send(self, tick_atom_v);
   return {
       [self](const motion_report& report, const vehicle_actor& vehicle) {
@@ -89,9 +90,9 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
 
 road_actor spawn_road(caf::actor_system& sys, streets_ptr world,
                       station_routes ways, vehicle_params car,
-                      recorder_actor recorder) {
+                      recorder_actor recorder, bool grants_crossings) {
   return sys.spawn(road, std::move(world), std::move(ways), car,
-                   std::move(recorder));
+                   std::move(recorder), grants_crossings);
 }
 
 } // namespace sofof

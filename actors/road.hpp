@@ -17,8 +17,9 @@ using station_routes = std::map<station_id, route_ptr>;
 /// Collects where vehicles are, and tells each of them every
 /// protocol::sensor_period what it perceives; records collisions, each pair
 /// once as long as it touches.
+/// @param grants_crossings  As `traffic` takes it.
 road_actor spawn_road(caf::actor_system& sys, streets_ptr world,
                       station_routes ways, vehicle_params car,
-                      recorder_actor recorder);
+                      recorder_actor recorder, bool grants_crossings = true);
 
 } // namespace sofof

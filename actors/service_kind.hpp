@@ -47,6 +47,8 @@ struct service_setup {
   station_id station = 0;
   bool remote = false;
   random_stream noise{0, ""}; ///< A stream of its own.
+  /// Whether the road grants crossings; else drivers judge them.
+  bool crossings_granted = true;
 };
 
 /// A kind of service with its options.

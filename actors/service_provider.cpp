@@ -197,8 +197,8 @@ struct provider_state {
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
-    remote.function =
-        kind.make_function({setup.world, running.station, true, noise});
+    remote.function = kind.make_function(
+        {setup.world, running.station, true, noise, setup.crossings_granted});
     remote.period = kind.common.period;
     remote.phase = duration{static_cast<duration::rep>(
         noise.part("remote phase").uniform(0)

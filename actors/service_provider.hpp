@@ -25,8 +25,9 @@ struct provider_setup {
   recorder_actor recorder;
   std::shared_ptr<const channel_profile> profile; ///< Computing times.
   random_stream seed{0, ""};
-  std::uint32_t number = 0; ///< Of the provider, for its draws.
-  bool virtual_time = true; ///< Model computing times.
+  std::uint32_t number = 0;      ///< Of the provider, for its draws.
+  bool virtual_time = true;      ///< Model computing times.
+  bool crossings_granted = true; ///< As functions are told.
 };
 
 /// Offers its services to stations in its area, asks the CODM about requests,

@@ -69,7 +69,8 @@ struct requester_state {
 
   requester_manager_actor spawn_manager(const service_kind& kind) {
     const service_setup here{setup.world, setup.station, false,
-                             setup.noise.part(kind.name())};
+                             setup.noise.part(kind.name()),
+                             setup.crossings_granted};
     auto client = kind.spawn_client(self->system(), here, setup.vehicle);
     if (client != setup.vehicle)
       self->link_to(client);

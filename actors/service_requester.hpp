@@ -21,8 +21,9 @@ struct requester_setup {
   std::unique_ptr<local_policy> lodm;
   vehicle_actor vehicle;
   recorder_actor recorder;
-  random_stream noise{0, ""}; ///< Of this vehicle.
-  bool virtual_time = true;   ///< Model run times instead of taking time.
+  random_stream noise{0, ""};    ///< Of this vehicle.
+  bool virtual_time = true;      ///< Model run times instead of taking time.
+  bool crossings_granted = true; ///< As functions are told.
 };
 
 /// Weighs offers, requests services, and owns the states of all services of

@@ -3,6 +3,7 @@
 
 #include "actors/services/trajectory_planning.hpp"
 #include "actors/time.hpp"
+#include "planners/keep_speed.hpp"
 #include "planners/lane_motion.hpp"
 #include "planners/safe_stop.hpp"
 #include "world/protocol.hpp"
@@ -57,9 +58,11 @@ struct vehicle_actor_state {
     const auto p = setup.way->path().at(setup.start_s_m);
     car.at = p.at;
     car.heading_rad = p.heading_rad;
+    car.speed_mps = setup.start_speed_mps;
     s_m = setup.start_s_m;
     due = now(self);
-    stop_safely();
+    plan = std::make_shared<const trajectory>(
+        keep_speed(*setup.way, due, s_m, car.speed_mps));
     plan_created = due;
     safety.station = setup.station;
     requester = setup.spawn_requester(vehicle_actor{self});

@@ -23,7 +23,8 @@ struct antenna {
 struct vehicle_setup {
   station_id station = 0;
   route_ptr way;
-  double start_s_m = 0; ///< It starts standing, here on its route.
+  double start_s_m = 0;       ///< Where it starts on its route,
+  double start_speed_mps = 0; ///< and how fast.
   vehicle_params car;
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
@@ -35,9 +36,9 @@ struct vehicle_setup {
 };
 
 /// Steps the car at protocol::control_period along the newest trajectory. It
-/// begins with a plan to stand, and when a plan is about to end without a
-/// successor it makes a safe stop of its own: it never is without a plan. At
-/// the end of an open route it leaves the streets.
+/// begins with a plan to keep its speed, and when a plan is about to end
+/// without a successor it makes a safe stop of its own: it never is without a
+/// plan. At the end of an open route it leaves the streets.
 vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup);
 
 } // namespace sofof

@@ -74,6 +74,7 @@ provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
   setup.seed = noise_of(s, "network");
   setup.number = number;
   setup.virtual_time = virtual_time;
+  setup.crossings_granted = s.traffic.grants_crossings();
   return spawn_service_provider(sys, std::move(setup));
 }
 
@@ -94,11 +95,11 @@ auto requester_maker(caf::actor_system& sys, const scenario& s,
                      bool virtual_time) {
   return
       [&sys, v, recorder, virtual_time, world = s.world, kinds = s.services,
-       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station)](
-          const vehicle_actor& vehicle) {
+       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station),
+       granted = s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
         return spawn_service_requester(sys, {v.station, v.way, world, kinds,
                                              lodm->clone(), vehicle, recorder,
-                                             noise, virtual_time});
+                                             noise, virtual_time, granted});
       };
 }
 
@@ -114,11 +115,13 @@ named(const world_actors& world, const scenario& s,
   for (std::size_t k = 0; k < world.vehicles.size(); ++k)
     names.emplace_back(caf::actor_cast<caf::actor>(world.vehicles[k]),
                        fmt::format("vehicle {}", placed[k].station));
-  for (std::size_t k = 0; k < world.links.size(); ++k)
-    names.emplace_back(caf::actor_cast<caf::actor>(world.links[k]),
-                       fmt::format("the link of vehicle {} to provider {}",
-                                   placed[k / s.providers.size()].station,
-                                   s.providers[k % s.providers.size()].name));
+  auto link = world.links.begin();
+  for (const auto& v : placed)
+    if (s.fleets[v.fleet].connected)
+      for (const auto& p : s.providers)
+        names.emplace_back(caf::actor_cast<caf::actor>(*link++),
+                           fmt::format("the link of vehicle {} to provider {}",
+                                       v.station, p.name));
   return names;
 }
 
@@ -148,7 +151,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   for (const auto& v : placed)
     ways[v.station] = v.way;
   world.recorder = spawn_recorder(sys, std::move(sink));
-  world.road = spawn_road(sys, s.world, ways, car, world.recorder);
+  world.road = spawn_road(sys, s.world, ways, car, world.recorder,
+                          s.traffic.grants_crossings());
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
     world.providers.push_back(
@@ -160,11 +164,13 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     setup.station = v.station;
     setup.way = v.way;
     setup.start_s_m = v.start_s_m;
+    setup.start_speed_mps = s.fleets[v.fleet].start_speed_mps;
     setup.car = car;
     setup.fresh_limit = fresh_limit(s);
     setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
-    for (std::uint32_t k = 0; k < sites.size(); ++k)
-      setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
+    if (s.fleets[v.fleet].connected)
+      for (std::uint32_t k = 0; k < sites.size(); ++k)
+        setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
     for (const auto& a : setup.antennas)
       world.links.push_back(a.link);
     setup.road = world.road;

@@ -20,7 +20,10 @@ namespace {
 
 constexpr settings::range any_length_m{0, 1e6};
 constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
+constexpr std::array<std::string_view, 2> crossing_rules{"granted",
+                                                         "perceived"};
 constexpr auto max_vehicles = 1e5;
+constexpr auto max_start_speed_mps = 50.0;
 constexpr double max_station = std::numeric_limits<station_id>::max();
 
 } // namespace
@@ -38,6 +41,15 @@ void fleet_options::fields(settings& s) {
     s.refuse("placement", unknown_word("placement", placement, placements));
   s.field("spacing_m", spacing_m, any_length_m);
   s.field("start_m", start_m, any_length_m);
+  s.field("start_speed_mps", start_speed_mps, {0, max_start_speed_mps});
+  s.field("connected", connected);
+}
+
+void traffic_options::fields(settings& s) {
+  s.field("crossings", crossings);
+  if (std::ranges::find(crossing_rules, crossings) == crossing_rules.end())
+    s.refuse("crossings",
+             unknown_word("rule for crossings", crossings, crossing_rules));
 }
 
 polygon provider_options::area() const {
@@ -122,6 +134,7 @@ void scenario::fields(settings& s) {
   grid = s.has("street_grid", grid);
   if (grid)
     s.table("street_grid", [this](settings& t) { grid_params.fields(t); });
+  s.table("traffic", [this](settings& t) { traffic.fields(t); });
   list_all(s, "fleet", fleets);
   list_all(s, "provider", providers);
   s.table("network", [this](settings& t) { network.fields(t); });

@@ -26,8 +26,24 @@ struct fleet_options {
   /// "equal": spread evenly over each route from `start_m` on; "convoy": one
   /// behind the other, `spacing_m` apart, the first one at `start_m`.
   std::string placement = "equal";
-  double spacing_m = 60; ///< From rear axle to rear axle.
-  double start_m = 0;    ///< Arc length on the route, of the rear axle.
+  double spacing_m = 60;      ///< From rear axle to rear axle.
+  double start_m = 0;         ///< Arc length on the route, of the rear axle.
+  double start_speed_mps = 0; ///< They start driving, as fast as this.
+  /// Whether they can talk to providers; else they send nothing and never
+  /// offload.
+  bool connected = true;
+
+  void fields(settings& s);
+};
+
+/// How road users deal with each other.
+struct traffic_options {
+  /// "granted": the road grants every crossing; "perceived": nobody is granted
+  /// anything, drivers judge crossings by what they perceive and by the ranks
+  /// of the lanes.
+  std::string crossings = "granted";
+
+  bool grants_crossings() const { return crossings == "granted"; }
 
   void fields(settings& s);
 };
@@ -86,6 +102,7 @@ struct scenario {
   std::string map_file; ///< `map`; relative to the scenario file.
   bool grid = false;    ///< A generated street grid instead.
   street_grid_params grid_params;
+  traffic_options traffic;
   std::vector<fleet_options> fleets;
   std::vector<provider_options> providers;
   network_options network;

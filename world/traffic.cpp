@@ -34,8 +34,9 @@ bool touch(const oriented_box& a, const oriented_box& b) {
 } // namespace
 
 struct traffic::state {
-  explicit state(const road_map& map)
-      : all{list_encounters(map)}, order{all}, crossings{map} {}
+  state(const road_map& map, bool grants_crossings)
+      : all{list_encounters(map)}, grants{grants_crossings}, order{all},
+        crossings{map} {}
 
   auto find(station_id station) {
     return std::ranges::lower_bound(drivers, station, {}, &driver::station);
@@ -53,6 +54,7 @@ struct traffic::state {
   void find_touching();
 
   const encounters all;
+  const bool grants;
   lane_order order;
   right_of_way crossings;
   std::vector<driver> drivers; // in order of station ids
@@ -60,7 +62,8 @@ struct traffic::state {
   std::vector<std::pair<station_id, station_id>> touching;
 };
 
-traffic::traffic(const road_map& map) : state_{std::make_unique<state>(map)} {}
+traffic::traffic(const road_map& map, bool grants_crossings)
+    : state_{std::make_unique<state>(map, grants_crossings)} {}
 
 traffic::traffic(traffic&&) noexcept = default;
 traffic& traffic::operator=(traffic&&) noexcept = default;
@@ -87,7 +90,8 @@ void traffic::update(time_point now) {
   for (auto& d : state_->drivers)
     d.leg = d.way->leg_at(d.known.s_m);
   state_->order.sort(state_->drivers);
-  state_->crossings.decide(state_->drivers, state_->order, now);
+  if (state_->grants)
+    state_->crossings.decide(state_->drivers, state_->order, now);
   state_->perceive(now);
   state_->find_touching();
 }

@@ -40,7 +40,8 @@ struct perception {
   time_point at;
   std::optional<lead_vehicle> lead;
   /// The front bumper must not pass this arc length on the own route: a
-  /// crossing has not been granted yet.
+  /// crossing has not been granted yet. Empty where nobody is granted
+  /// anything.
   std::optional<double> stop_at_m;
 };
 
@@ -49,7 +50,11 @@ struct perception {
 /// reports.
 class traffic {
 public:
-  explicit traffic(const road_map& map);
+  /// @param grants_crossings  Grants every crossing, and so keeps everybody
+  ///                          apart. Else nobody is granted anything: drivers
+  ///                          judge crossings by what they perceive and by
+  ///                          the ranks of the lanes.
+  explicit traffic(const road_map& map, bool grants_crossings = true);
   traffic(traffic&&) noexcept;
   traffic& operator=(traffic&&) noexcept;
   ~traffic();
@@ -60,7 +65,8 @@ public:
 
   void remove(station_id station);
 
-  /// Sorts the road users into their lanes and decides every crossing anew.
+  /// Sorts the road users into their lanes and decides every crossing anew,
+  /// if crossings are granted.
   /// A crossing (zone of a `conflict`) is closed by default and granted in
   /// lane order, to those who find room behind it; who holds it keeps it until
   /// its rear has left. Right of way: lower rank first, then earlier arrival

@@ -27,12 +27,16 @@ struct driving_world : virtual_world {
   probe<link_actor> near = listen<link_actor>();
   probe<link_actor> distant = listen<link_actor>();
   probe<requester_manager_actor> manager = listen<requester_manager_actor>();
+  const double start_speed_mps;
   route_ptr way = street();
   lane_follow planner{way, {}};
   vehicle_actor car = spawn();
   std::uint64_t cycle = 0;
 
-  driving_world() { settle(); }
+  explicit driving_world(double starts_at_mps = 0)
+      : start_speed_mps{starts_at_mps} {
+    settle();
+  }
 
   static route_ptr street() {
     const road_map map{
@@ -45,6 +49,7 @@ struct driving_world : virtual_world {
     setup.station = station;
     setup.way = way;
     setup.start_s_m = 100;
+    setup.start_speed_mps = start_speed_mps;
     setup.fresh_limit = 200ms;
     setup.track_period = 100ms;
     setup.antennas = {{near.handle, {150, 0}, 100},
@@ -115,6 +120,19 @@ struct driving_world : virtual_world {
   }
 };
 
+/// The same, starting at the speed limit.
+struct flying_start_world : driving_world {
+  flying_start_world() : driving_world{10} {}
+
+  /// What a vehicle does before its first plan and after.
+  double slowest_mps() const {
+    auto v = start_speed_mps;
+    for (const auto& r : road->all<motion_report>())
+      v = std::min(v, r.state.speed_mps);
+    return v;
+  }
+};
+
 } // namespace
 
 TEST_CASE_FIXTURE(driving_world, "a vehicle begins standing, with a plan") {
@@ -124,6 +142,29 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle begins standing, with a plan") {
   run_for(60s);
   CHECK(fastest_mps() == 0);
   CHECK(distance_m(last_report().state.at, {100, 0}) < 1e-6);
+}
+
+TEST_CASE_FIXTURE(flying_start_world,
+                  "a vehicle that starts driving keeps its speed until the "
+                  "first plan comes, and then") {
+  CHECK(last_report().state.speed_mps == 10);
+  CHECK(last_report().s_m == 100);
+  run_for(500ms);
+  CHECK(slowest_mps() == doctest::Approx(10).epsilon(0.005));
+  CHECK(last_report().s_m
+        == doctest::Approx(100 + 10 * to_seconds(report_time() - time_point{}))
+               .epsilon(0.001));
+  drive(5s);
+  CHECK(slowest_mps() == doctest::Approx(10).epsilon(0.005));
+  CHECK(fastest_mps() == doctest::Approx(10).epsilon(0.005));
+}
+
+TEST_CASE_FIXTURE(flying_start_world, "a vehicle that starts driving and gets "
+                                      "no plan stops safely") {
+  run_for(20s);
+  CHECK(last_report().state.speed_mps == 0);
+  CHECK(last_report().s_m < 150); // 2 s as before, then 4 m/s2
+  CHECK(total().off_road == 0ms);
 }
 
 TEST_CASE_FIXTURE(driving_world, "the road hears of the vehicle at once, then "

@@ -17,7 +17,8 @@ std::string check(const workplace& at, std::vector<std::string> words) {
 } // namespace
 
 TEST_CASE("what sofof check prints means the same again") {
-  for (const std::string name : {"ulm_lehr.toml", "scale.toml"}) {
+  for (const std::string name :
+       {"ulm_lehr.toml", "scale.toml", "occluded_crossing.toml"}) {
     CAPTURE(name);
     const workplace at;
     const auto once = check(at, {"config/" + name, "--seed", "42", "--set",

@@ -17,6 +17,9 @@ duration = "600s"
 seed = 7
 map = "ring.toml"
 
+[traffic]
+crossings = "perceived"
+
 [[fleet]]
 count = 6
 first_station = 101
@@ -29,6 +32,8 @@ first_station = 201
 routes = ["straight"]
 placement = "convoy"
 start_m = 150.0
+start_speed_mps = 8.5
+connected = false
 
 [[provider]]
 name = "mec"

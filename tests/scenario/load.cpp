@@ -22,6 +22,9 @@ TEST_CASE("a scenario holds what its file says") {
         == std::vector<std::string>{"round_trip", "round_trip_opposite"});
   CHECK(s.fleets[1].placement == "convoy");
   CHECK(s.fleets[1].start_m == 150);
+  CHECK(s.fleets[1].start_speed_mps == 8.5);
+  CHECK_FALSE(s.fleets[1].connected);
+  CHECK_FALSE(s.traffic.grants_crossings());
   REQUIRE(s.providers.size() == 2);
   CHECK(s.providers[0].area_radius_m == 80);
   CHECK(s.providers[1].area_m.size() == 4);
@@ -40,6 +43,8 @@ TEST_CASE("a scenario holds what its file says") {
 TEST_CASE("what a file leaves out keeps its default") {
   const auto s = example::load();
   CHECK(s.fleets[0].spacing_m == fleet_options{}.spacing_m);
+  CHECK(s.fleets[0].start_speed_mps == 0);
+  CHECK(s.fleets[0].connected);
   CHECK(s.providers[0].area_corners == 24);
   CHECK(s.providers[0].services.empty());
   CHECK(s.record.tracks);
@@ -65,6 +70,12 @@ TEST_CASE("without a provider there is nothing to offload to, but a scenario") {
   const auto from = text.find("[[provider]]");
   text.erase(from, text.find("[network]") - from);
   CHECK(example::load(text).providers.empty());
+}
+
+TEST_CASE("without a table of traffic the road grants crossings") {
+  const auto text =
+      example::with("[traffic]\ncrossings = \"perceived\"\n\n", "");
+  CHECK(example::load(text).traffic.grants_crossings());
 }
 
 TEST_CASE("without policies the paper's decide") {
@@ -127,6 +138,9 @@ TEST_CASE("the scenarios that come with the project can be loaded") {
   CHECK(ulm_lehr.fleets.front().count == 6);
   CHECK(ulm_lehr.services.size() == 2);
   CHECK(ulm_lehr.world->map.lanes().size() > 2);
+  const auto crossing = load_scenario(config / "occluded_crossing.toml");
+  CHECK(crossing.fleets.size() == 2);
+  CHECK(crossing.world->map.conflicts().size() == 1);
   const auto scale = load_scenario(config / "scale.toml");
   CHECK(scale.providers.size() == 10);
   CHECK(scale.length == 60s);

@@ -67,6 +67,14 @@ TEST_CASE("equal vehicles share the rest of an open route") {
         == std::vector<double>{40, 80, 120, 160});
 }
 
+TEST_CASE("a vehicle alone on an open route starts where it is told") {
+  for (const auto* placement : {"equal", "convoy"})
+    CHECK(
+        starts_of(
+            {.routes = {"straight"}, .placement = placement, .start_m = 40.25})
+        == std::vector<double>{40.25});
+}
+
 TEST_CASE("a convoy queues up behind its leader") {
   CHECK(starts_of({.count = 3,
                    .routes = {"straight"},

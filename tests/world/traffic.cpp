@@ -198,6 +198,27 @@ TEST_CASE("who has just come must not move before the first update") {
   CHECK(all.perceive(1).stop_at_m.value_or(1e300) > 100);
 }
 
+TEST_CASE("where crossings are not granted nobody is told to wait, but who "
+          "leads is seen") {
+  const auto map = cross_roads();
+  const auto east = make_route(map, {3, 0, 1});
+  const auto north = make_route(map, {4, 0, 2});
+  for (const auto granted : {true, false}) {
+    CAPTURE(granted);
+    traffic all{map, granted};
+    all.report(user(1, east, connector_start_m(*east) - 6));
+    all.report(user(2, north, connector_start_m(*north) - 6));
+    all.report(user(3, north, connector_start_m(*north) - 20));
+    for (auto t = 0; t < 3; ++t)
+      all.update(time_point{std::chrono::seconds{t}});
+    CHECK_FALSE(all.perceive(1).stop_at_m); // goes first
+    CHECK(all.perceive(2).stop_at_m.has_value() == granted);
+    CHECK(all.perceive(3).stop_at_m.has_value() == granted);
+    REQUIRE(all.perceive(3).lead);
+    CHECK(all.perceive(3).lead->station == 2);
+  }
+}
+
 TEST_CASE("who is gone is neither seen nor asked") {
   const auto map = cross_roads();
   const auto east = make_route(map, {3, 0, 1});

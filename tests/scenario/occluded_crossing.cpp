@@ -1,0 +1,224 @@
+// The occluded crossing: who sees whom from where, and what its options do.
+#include "actors/services/trajectory_planning.hpp"
+#include "scenario/build.hpp"
+#include "scenario/load.hpp"
+#include "scenario/placement.hpp"
+#include "scenario/runtime.hpp"
+#include "tests/support/memory_sink.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr station_id ego = 1, other = 2;
+constexpr auto speed_mps = 13.89;
+
+/// If both kept their speed, the other would be at the crossing point so much
+/// later at most for both to be on the conflict's stretch at once, s.
+constexpr auto latest_s = 0.8;
+
+scenario load(std::vector<std::string> overrides = {}) {
+  return load_scenario(SOFOF_SOURCE_DIR "/config/occluded_crossing.toml",
+                       overrides);
+}
+
+/// The option that makes the other come later than the ego, or earlier.
+std::string later_by(double lag_s) {
+  return fmt::format("fleet.1.start_m={:.3f}", 30 - speed_mps * lag_s);
+}
+
+memory_sink drive(const scenario& s) {
+  auto records = std::make_shared<memory_sink>();
+  const auto time = make_virtual_runtime();
+  const auto actors = build(time->system(), s, records, true);
+  time->run_until(time->now() + s.length);
+  dismiss(actors, *time);
+  return *records;
+}
+
+std::vector<track_record> tracks_of(const memory_sink& records,
+                                    station_id station) {
+  std::vector<track_record> found;
+  for (const auto& t : records.tracks)
+    if (t.ego.own.station == station)
+      found.push_back(t);
+  return found;
+}
+
+/// @returns whether a line of sight passes through a building.
+bool is_hidden(point from, point to, const road_map& map) {
+  const auto crosses = [&](point a, point b) {
+    const auto side = [](point p, point q, point r) {
+      return cross(q - p, r - p) > 0;
+    };
+    return side(from, to, a) != side(from, to, b)
+           && side(a, b, from) != side(a, b, to);
+  };
+  return std::ranges::any_of(map.buildings(), [&](const building& house) {
+    const auto& corners = house.corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (crosses(corners[i], corners[(i + 1) % corners.size()]))
+        return true;
+    return false;
+  });
+}
+
+/// Trajectory planning that notes for whom its functions are made.
+class noted_planning final : public service_kind {
+public:
+  noted_planning() { common = real_->common; }
+
+  std::string_view name() const override { return real_->name(); }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    made.push_back(setup);
+    return real_->make_function(setup);
+  }
+
+  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
+                            const vehicle_actor& vehicle) const override {
+    return real_->spawn_client(sys, setup, vehicle);
+  }
+
+  mutable std::vector<service_setup> made;
+
+private:
+  service_kind_ptr real_ = make_service_kind("trajectory_planning");
+};
+
+} // namespace
+
+TEST_CASE("both start 120 m before the crossing point, at the speed limit") {
+  const auto s = load();
+  const auto placed = place_vehicles(s);
+  REQUIRE(placed.size() == 2);
+  const std::array<point, 2> starts{{{-120, 0}, {0, -120}}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& v = placed[i];
+    CHECK(v.way->path().at(v.start_s_m).at.x_m
+          == doctest::Approx(starts[i].x_m));
+    CHECK(v.way->path().at(v.start_s_m).at.y_m
+          == doctest::Approx(starts[i].y_m));
+    CHECK(v.way->limit_mps(v.start_s_m) == speed_mps);
+    CHECK(s.fleets[v.fleet].start_speed_mps == speed_mps);
+  }
+}
+
+TEST_CASE("the ego road gives way to the crossing road") {
+  const auto s = load();
+  const auto& map = s.world->map;
+  REQUIRE(map.conflicts().size() == 1);
+  const auto& c = map.conflicts().front();
+  CHECK(c.how == conflict::kind::crossing);
+  CHECK(map.lanes()[c.lane_a].name == "ego_road");
+  CHECK(map.lanes()[c.lane_a].rank > map.lanes()[c.lane_b].rank);
+  // At `latest_s` one comes onto the stretch as the other leaves it.
+  const vehicle_params car;
+  const auto stretch_m = c.to_a_m - c.from_a_m + car.front_m + car.rear_m;
+  CHECK(stretch_m / speed_mps == doctest::Approx(latest_s).epsilon(0.02));
+}
+
+TEST_CASE("whatever the timing, the house hides the other until the ego is "
+          "31 to 34 m before the crossing point") {
+  const auto s = load();
+  for (auto lag_s = -latest_s; lag_s <= latest_s; lag_s += latest_s / 100) {
+    CAPTURE(lag_s);
+    const auto sees = [&](double d_m) {
+      return !is_hidden({-d_m, 0}, {0, -d_m - speed_mps * lag_s}, s.world->map);
+    };
+    auto d_m = 125.0;
+    while (!sees(d_m))
+      d_m -= 0.01;
+    CHECK(d_m > 30.9);
+    CHECK(d_m < 34.1);
+    if (std::abs(lag_s) < 1e-9)
+      CHECK(d_m == doctest::Approx(32).epsilon(0.001));
+    for (; d_m > 0; d_m -= 0.1)
+      CHECK(sees(d_m)); // and for good
+  }
+}
+
+TEST_CASE("from the mast at the crossing both are seen all the time") {
+  const auto s = load();
+  for (auto d_m = -20.0; d_m < 140; d_m += 0.5) {
+    CHECK_FALSE(is_hidden({4, 4}, {-d_m, 0}, s.world->map));
+    CHECK_FALSE(is_hidden({4, 4}, {0, -d_m}, s.world->map));
+  }
+}
+
+TEST_CASE("who starts driving does not brake before its first plan") {
+  const auto records = drive(load({"duration=1s"}));
+  for (const auto station : {ego, other}) {
+    auto lowest_mps2 = 0.0;
+    auto steps = 0;
+    for (const auto& t : tracks_of(records, station))
+      if (t.plan_age == t.at - time_point{}) { // no other than the first
+        lowest_mps2 = std::min(lowest_mps2, t.ego.own.accel_mps2);
+        ++steps;
+      }
+    CHECK(steps > 4);
+    CHECK(lowest_mps2 > -0.05);
+  }
+}
+
+TEST_CASE("the ego is offloaded at once, the unconnected other never") {
+  const auto records = drive(load({"duration=3s"}));
+  REQUIRE(records.episodes.size() == 2); // one for each side
+  for (const auto& e : records.episodes) {
+    CHECK(e.running.station == ego);
+    CHECK(e.got_data);
+    CHECK(e.first_data < time_point{500ms});
+  }
+  for (const auto& e : records.events)
+    CHECK(e.station != other);
+  CHECK(tracks_of(records, other).size() > 250); // it drives all the same
+}
+
+TEST_CASE("connected, the other is offloaded too") {
+  const auto records = drive(load({"duration=3s", "fleet.1.connected=true"}));
+  CHECK(records.episodes.size() == 4);
+}
+
+TEST_CASE("who never asks plans on board") {
+  const auto records = drive(load({"duration=3s", "policies.lodm=never"}));
+  CHECK(records.episodes.empty());
+}
+
+TEST_CASE("functions know whether crossings are granted") {
+  for (const auto granted : {true, false}) {
+    auto s = load({"duration=2s"});
+    s.traffic.crossings = granted ? "granted" : "perceived";
+    const auto kind = std::make_shared<noted_planning>();
+    s.services = {kind};
+    drive(s);
+    REQUIRE(kind->made.size() == 3);
+    CHECK(std::ranges::count(kind->made, true, &service_setup::remote) == 1);
+    for (const auto& made : kind->made)
+      CHECK(made.crossings_granted == granted);
+  }
+}
+
+TEST_CASE("where crossings are granted nobody collides, whatever the timing") {
+  for (auto lag_s = -latest_s; lag_s <= latest_s; lag_s += latest_s / 4) {
+    CAPTURE(lag_s);
+    const auto records =
+        drive(load({"traffic.crossings=granted", later_by(lag_s)}));
+    CHECK(records.collisions.empty());
+    const auto ends = tracks_of(records, ego);
+    REQUIRE(!ends.empty());
+    CHECK(ends.back().ego.own.position.x_m > 60);
+  }
+}
