@@ -63,7 +63,7 @@ struct driving_world : virtual_world {
   }
 
   /// Plans from where the car is, as a service would do.
-  trajectory plan() const {
+  trajectory plan() {
     const auto report = last_report();
     planning_input from;
     from.at = report_time();
