@@ -1,0 +1,54 @@
+// Counting plans, and noticing where they come from.
+#include "actors/drive_figures.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+/// Planners brake up to 2.5 m/s² in comfort.
+constexpr double beyond_comfort_mps2 = -2.6;
+
+bool is_emergency(const motion_extremes& planned) {
+  return planned.min_accel_mps2 < beyond_comfort_mps2;
+}
+
+bool is_remote(const running_service& x) {
+  return x.counter != 0;
+}
+
+} // namespace
+
+std::optional<plan_switch_record>
+drive_figures::take(const trajectory& in_use, const trajectory& next,
+                    const running_service& running, time_point now) {
+  const auto planned = extremes_of(next);
+  emergency_ = is_emergency(planned);
+  ++plans_.count;
+  if (emergency_)
+    ++plans_.emergency;
+  else
+    plans_.extremes.add(planned);
+
+  const auto before = std::exchange(source_, running);
+  if (!before || *before == running)
+    return std::nullopt;
+  return plan_switch_record{now, is_remote(running) ? running : *before,
+                            is_remote(running),
+                            jump_between(in_use, next, now)};
+}
+
+void drive_figures::stop_safely() {
+  if (!source_)
+    return; // it stands, or stops already
+  source_.reset();
+  emergency_ = true;
+  ++plans_.safe_stops;
+}
+
+drive_record drive_figures::flush() {
+  return {station_, std::exchange(plans_, {}), ride_.flush()};
+}
+
+} // namespace sofof
