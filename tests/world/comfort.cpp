@@ -100,13 +100,13 @@ TEST_CASE("a jump to the side counts, one along the way does not") {
 
 TEST_CASE("a jump is measured when the new plan takes over, not where it "
           "begins") {
-  const auto old = plan_of({{10, 0, 0}, {10, 0, 0}, {10, 0, 0}});
+  const auto old = plan_of({{10, 0, 0}, {10, 0, 0.01}, {10, 0, 0.02}});
   auto next = plan_of({{10, -1, 0.02}, {9, -2, 0.04}, {8, -3, 0.06}});
   next.start = time_point{from_seconds(0.05)};
-  const auto x = jump_between(old, next, time_point{from_seconds(0.15)});
-  CHECK(x.curvature_1pm == near(0.04, 1e-12));
-  CHECK(x.speed_mps == near(1, 1e-12));
-  CHECK(x.accel_mps2 == near(2, 1e-12));
+  const auto x = jump_between(old, next, time_point{from_seconds(0.1)});
+  CHECK(x.curvature_1pm == near(0.02, 1e-12));
+  CHECK(x.speed_mps == near(0.4875, 1e-12)); // at constant jerk
+  CHECK(x.accel_mps2 == near(1.5, 1e-12));
 }
 
 TEST_CASE("the plans of two vehicles are counted together") {
