@@ -18,6 +18,8 @@ recorder(recorder_actor::pointer, const std::shared_ptr<record_sink>& sink) {
       [sink](const track_record& r) { sink->take(r); },
       [sink](const safety_record& r) { sink->take(r); },
       [sink](const collision_record& r) { sink->take(r); },
+      [sink](const drive_record& r) { sink->take(r); },
+      [sink](const plan_switch_record& r) { sink->take(r); },
   };
 }
 

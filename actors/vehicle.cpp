@@ -1,6 +1,7 @@
 // A car: moves, sends CAMs, follows the trajectories it is given.
 #include "actors/vehicle.hpp"
 
+#include "actors/drive_figures.hpp"
 #include "actors/services/trajectory_planning.hpp"
 #include "actors/time.hpp"
 #include "planners/keep_speed.hpp"
@@ -33,8 +34,8 @@ constexpr double followed_mps = 1.5;
 constexpr double window_m = 2;
 /// A car that stands so near the end of its route has arrived.
 constexpr double at_the_end_m = 1.0;
-/// Safety is summed up so often.
-constexpr duration safety_period = 1s;
+/// Safety and comfort are summed up so often.
+constexpr duration figures_period = 1s;
 
 struct vehicle_actor_state {
   static inline const char* name = "vehicle";
@@ -53,6 +54,7 @@ struct vehicle_actor_state {
   time_point due;                    // of the next step; time does not drift
   std::uint64_t steps = 0;
   safety_record safety;
+  std::optional<drive_figures> figures; // from the start on
 
   void start() {
     const auto p = setup.way->path().at(setup.start_s_m);
@@ -61,6 +63,7 @@ struct vehicle_actor_state {
     car.speed_mps = setup.start_speed_mps;
     s_m = setup.start_s_m;
     due = now(self);
+    figures.emplace(setup.station, setup.car);
     plan = std::make_shared<const trajectory>(
         keep_speed(*setup.way, due, s_m, car.speed_mps));
     plan_created = due;
@@ -75,7 +78,7 @@ struct vehicle_actor_state {
 
   // The requester goes first: it has episodes to close.
   void leave(const caf::error& reason) {
-    flush_safety();
+    flush_figures();
     leaving = reason;
     if (requester)
       self->send_exit(requester, reason);
@@ -92,7 +95,7 @@ struct vehicle_actor_state {
   void arrive() {
     has_arrived = true;
     note("arrived");
-    flush_safety();
+    flush_figures();
     self->send(setup.road, setup.station);
     if (requester)
       self->send_exit(requester, caf::exit_reason::user_shutdown);
@@ -134,6 +137,7 @@ struct vehicle_actor_state {
     s_m = place.s_m;
     ++steps;
     keep_safety();
+    figures->take(car);
     if (every(protocol::sensor_period))
       sense(place.d_m);
     if (every(protocol::cam_period))
@@ -141,8 +145,8 @@ struct vehicle_actor_state {
     if (setup.track_period > 0ms && every(setup.track_period))
       self->send(setup.recorder, track_record{due, ego(), place.d_m,
                                               due - plan_created, remote});
-    if (every(safety_period))
-      flush_safety();
+    if (every(figures_period))
+      flush_figures();
     next_step();
   }
 
@@ -155,6 +159,7 @@ struct vehicle_actor_state {
   }
 
   void stop_safely() {
+    figures->stop_safely();
     plan = std::make_shared<const trajectory>(
         safe_stop(*setup.way, due, measured()));
   }
@@ -227,6 +232,9 @@ struct vehicle_actor_state {
     const auto t = now(self);
     if (result.created > t || next->start > t || next->end() < t)
       return; // of another time
+    if (const auto other = figures->take(*plan, *next, given->report.emergency,
+                                         result.running, t))
+      self->send(setup.recorder, *other);
     plan = next;
     plan_created = result.created;
   }
@@ -257,8 +265,9 @@ struct vehicle_actor_state {
       safety.without_fresh_plan += protocol::control_period;
   }
 
-  void flush_safety() {
+  void flush_figures() {
     self->send(setup.recorder, safety);
+    self->send(setup.recorder, figures->flush());
     safety = {};
     safety.station = setup.station;
   }

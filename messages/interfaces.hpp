@@ -127,6 +127,10 @@ using recorder_actor = caf::typed_actor<
     // How safely a vehicle drove.
     takes<safety_record>,
     // Two bodies have touched.
-    takes<collision_record>>;
+    takes<collision_record>,
+    // How smoothly a vehicle drove.
+    takes<drive_record>,
+    // The plans that a vehicle follows come from another source.
+    takes<plan_switch_record>>;
 
 } // namespace sofof

@@ -3,6 +3,8 @@
 
 #include "messages/motion.hpp"
 #include "messages/service.hpp"
+#include "world/comfort.hpp"
+#include "world/ride_meter.hpp"
 
 #include <optional>
 #include <string>
@@ -69,6 +71,21 @@ struct safety_record {
   duration max_plan_age{};
 };
 
+/// How smoothly a vehicle drove since its last such record.
+struct drive_record {
+  station_id station = 0;
+  plan_figures plans;
+  ride_figures ride;
+};
+
+/// A vehicle has taken its first plan from another source into use.
+struct plan_switch_record {
+  time_point at;
+  running_service running; ///< Its remote side, the new or the former one.
+  bool remote = false;     ///< Where the new plan comes from.
+  plan_jump jump;
+};
+
 /// Two bodies have touched.
 struct collision_record {
   time_point at;
@@ -125,6 +142,48 @@ bool inspect(Inspector& f, safety_record& x) {
 }
 
 template <class Inspector>
+bool inspect(Inspector& f, motion_extremes& x) {
+  return f.object(x).fields(f.field("lateral_accel_mps2", x.lateral_accel_mps2),
+                            f.field("jerk_mps3", x.jerk_mps3),
+                            f.field("min_accel_mps2", x.min_accel_mps2));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, plan_figures& x) {
+  return f.object(x).fields(
+      f.field("count", x.count), f.field("emergency", x.emergency),
+      f.field("safe_stops", x.safe_stops), f.field("extremes", x.extremes));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, ride_figures& x) {
+  return f.object(x).fields(
+      f.field("distance_m", x.distance_m), f.field("extremes", x.extremes),
+      f.field("hard_brakes", x.hard_brakes),
+      f.field("comfort_cost_m2ps3", x.comfort_cost_m2ps3));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, plan_jump& x) {
+  return f.object(x).fields(
+      f.field("d_m", x.d_m), f.field("curvature_1pm", x.curvature_1pm),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, drive_record& x) {
+  return f.object(x).fields(f.field("station", x.station),
+                            f.field("plans", x.plans), f.field("ride", x.ride));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, plan_switch_record& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("running", x.running),
+                            f.field("remote", x.remote),
+                            f.field("jump", x.jump));
+}
+
+template <class Inspector>
 bool inspect(Inspector& f, collision_record& x) {
   return f.object(x).fields(f.field("at", x.at), f.field("first", x.first),
                             f.field("second", x.second));
@@ -141,6 +200,8 @@ public:
   virtual void take(const track_record&) = 0;
   virtual void take(const safety_record&) = 0;
   virtual void take(const collision_record&) = 0;
+  virtual void take(const drive_record&) = 0;
+  virtual void take(const plan_switch_record&) = 0;
 };
 
 } // namespace sofof

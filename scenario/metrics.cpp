@@ -19,6 +19,13 @@ std::optional<double> service_metrics::offloaded_share(std::size_t vehicles,
   return t_off_s.sum() / driving_s;
 }
 
+void safety_metrics::add(const safety_record& x) {
+  driven += x.driven;
+  without_fresh_plan += x.without_fresh_plan;
+  off_road += x.off_road;
+  max_plan_age = std::max(max_plan_age, x.max_plan_age);
+}
+
 metrics::metrics(const run_info& run) : headline_{run.headline_kind} {
   for (const auto& kind : run.kinds)
     of(service_name{kind});
@@ -68,14 +75,28 @@ void metrics::take(const episode_record& x) {
 }
 
 void metrics::take(const safety_record& x) {
-  safety_.driven += x.driven;
-  safety_.without_fresh_plan += x.without_fresh_plan;
-  safety_.off_road += x.off_road;
-  safety_.max_plan_age = std::max(safety_.max_plan_age, x.max_plan_age);
+  together_.safety.add(x);
+  vehicles_[x.station].safety.add(x);
 }
 
-void metrics::take(const collision_record&) {
-  ++safety_.collisions;
+void metrics::take(const collision_record& x) {
+  ++together_.safety.collisions;
+  ++vehicles_[x.first].safety.collisions;
+  ++vehicles_[x.second].safety.collisions;
+}
+
+void metrics::take(const drive_record& x) {
+  for (auto* sum : {&together_, &vehicles_[x.station]}) {
+    sum->plans.add(x.plans);
+    sum->ride.add(x.ride);
+  }
+}
+
+void metrics::take(const plan_switch_record& x) {
+  switches_.d_m.add(x.jump.d_m);
+  switches_.curvature_1pm.add(x.jump.curvature_1pm);
+  switches_.speed_mps.add(x.jump.speed_mps);
+  switches_.accel_mps2.add(x.jump.accel_mps2);
 }
 
 void metrics::finish(time_point end) {

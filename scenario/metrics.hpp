@@ -44,7 +44,7 @@ struct service_metrics {
                                         double virtual_s) const;
 };
 
-/// How safely all vehicles drove, together.
+/// How safely vehicles drove.
 struct safety_metrics {
   duration driven{};
   duration without_fresh_plan{};
@@ -52,11 +52,30 @@ struct safety_metrics {
   duration max_plan_age{}; ///< The largest of all.
   std::uint64_t collisions = 0;
 
+  void add(const safety_record& x);
+
   /// @returns whether the safety line held all the time.
   bool ok() const {
     return without_fresh_plan == duration::zero()
            && off_road == duration::zero() && collisions == 0;
   }
+};
+
+/// How one vehicle drove, or all together.
+struct drive_metrics {
+  safety_metrics safety;
+  plan_figures plans;
+  ride_figures ride;
+};
+
+/// How far plans jumped when their source changed, all vehicles together.
+struct switch_metrics {
+  statistics d_m;
+  statistics curvature_1pm;
+  statistics speed_mps;
+  statistics accel_mps2;
+
+  std::uint64_t count() const { return d_m.count(); }
 };
 
 /// All figures of a run. Meanings: docs/results.md.
@@ -72,6 +91,8 @@ public:
   void take(const episode_record& x);
   void take(const safety_record& x);
   void take(const collision_record& x);
+  void take(const drive_record& x);
+  void take(const plan_switch_record& x);
 
   /// The run ends: what is still offloaded counts up to here.
   void finish(time_point end);
@@ -80,7 +101,14 @@ public:
   std::span<const service_metrics> services() const { return services_; }
   /// @returns the figures that stand at the top level of the summary.
   const service_metrics& headline() const;
-  const safety_metrics& safety() const { return safety_; }
+  const safety_metrics& safety() const { return together_.safety; }
+  /// @returns the sums and extremes of all vehicles.
+  const drive_metrics& together() const { return together_; }
+  /// @returns the same of each vehicle, by station.
+  const std::map<station_id, drive_metrics>& vehicles() const {
+    return vehicles_;
+  }
+  const switch_metrics& switches() const { return switches_; }
   /// @returns the vehicles whose headline service is remote just now.
   std::size_t offloaded_now() const;
 
@@ -96,7 +124,9 @@ private:
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;
   std::map<std::pair<service_name, station_id>, open_episode> open_;
-  safety_metrics safety_;
+  drive_metrics together_;
+  std::map<station_id, drive_metrics> vehicles_;
+  switch_metrics switches_;
 };
 
 } // namespace sofof

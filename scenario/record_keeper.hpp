@@ -27,6 +27,8 @@ public:
   void take(const track_record& x) override { keep(x); }
   void take(const safety_record& x) override { keep(x); }
   void take(const collision_record& x) override { keep(x); }
+  void take(const drive_record& x) override { keep(x); }
+  void take(const plan_switch_record& x) override { keep(x); }
 
   /// Calls `use(results&)` while nobody else does.
   /// @throws what went wrong in a `take` before.

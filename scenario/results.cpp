@@ -22,9 +22,14 @@ constexpr std::string_view cycles_header =
 constexpr std::string_view tracks_header =
     "t_s,station,x_m,y_m,heading_rad,speed_mps,accel_mps2,s_m,lateral_m,"
     "plan_age_ms,source";
+constexpr std::string_view vehicles_header =
+    "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,collisions,"
+    "max_plan_age_ms,plans,emergency_plans,safe_stops,min_accel_mps2,"
+    "max_jerk_mps3,max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3";
 
 constexpr int length_places = 3;
 constexpr int angle_places = 6;
+constexpr int comfort_places = 6;
 constexpr int timing_places = 6;
 
 /// Makes room for the files of a run, before the first one is opened.
@@ -125,6 +130,26 @@ void results::take(const collision_record& x) {
                     fmt::format("with {}", x.second)});
 }
 
+void results::take(const drive_record& x) {
+  metrics_.take(x);
+}
+
+void results::take(const plan_switch_record& x) {
+  metrics_.take(x);
+  const auto& id = x.running;
+  std::string detail = x.remote ? "remote" : "local";
+  const auto figure = [&detail](std::string_view name, double value) {
+    detail += name;
+    append(detail, rounded(value, comfort_places));
+  };
+  figure(" d_m=", x.jump.d_m);
+  figure(" kappa_1pm=", x.jump.curvature_1pm);
+  figure(" v_mps=", x.jump.speed_mps);
+  figure(" a_mps2=", x.jump.accel_mps2);
+  take(event_record{x.at, "plan_switch", id.station, id.provider, id.kind,
+                    id.counter, std::move(detail)});
+}
+
 void results::take_timing(std::string name, double value) {
   timings_.push_back({std::move(name), value});
 }
@@ -147,6 +172,7 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
   if (tracks_)
     tracks_->close();
   events_.close();
+  write_vehicles();
   write_timing(outcome);
   write_file(folder_ / "summary.json", summary_json(metrics_, run_, outcome));
   return outcome;
@@ -155,6 +181,22 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
 std::string_view results::name_of(boot_id provider) const {
   const auto found = names_.find(provider);
   return found != names_.end() ? std::string_view{found->second} : "";
+}
+
+void results::write_vehicles() const {
+  csv_file file{folder_ / "vehicles.csv", vehicles_header};
+  for (const auto& [station, x] : metrics_.vehicles())
+    file.row(station, seconds(x.safety.driven),
+             rounded(x.ride.distance_m, length_places),
+             seconds(x.safety.without_fresh_plan), seconds(x.safety.off_road),
+             x.safety.collisions, milliseconds(x.safety.max_plan_age),
+             x.plans.count, x.plans.emergency, x.plans.safe_stops,
+             rounded(x.ride.extremes.min_accel_mps2, comfort_places),
+             rounded(x.ride.extremes.jerk_mps3, comfort_places),
+             rounded(x.ride.extremes.lateral_accel_mps2, comfort_places),
+             x.ride.hard_brakes,
+             rounded(x.ride.comfort_cost_m2ps3, comfort_places));
+  file.close();
 }
 
 void results::write_timing(const run_end& end) const {

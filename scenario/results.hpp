@@ -32,6 +32,8 @@ public:
   void take(const track_record& x) override;
   void take(const safety_record& x) override;
   void take(const collision_record& x) override;
+  void take(const drive_record& x) override;
+  void take(const plan_switch_record& x) override;
 
   /// A figure of the wall's clock, for timing.csv.
   /// @param name  With its unit, e.g. "solve_p99_us".
@@ -55,6 +57,7 @@ private:
   };
 
   std::string_view name_of(boot_id provider) const;
+  void write_vehicles() const;
   void write_timing(const run_end& end) const;
 
   std::filesystem::path folder_;

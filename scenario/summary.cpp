@@ -11,6 +11,7 @@ namespace {
 constexpr int second_places = 6;
 constexpr int millisecond_places = 6;
 constexpr int share_places = 6;
+constexpr int motion_places = 6;
 constexpr int wall_places = 3;
 
 void mean_and_max(json_object& to, std::string_view name,
@@ -69,6 +70,47 @@ void safety_of(json_object& to, const safety_metrics& safety) {
                 recorded ? seconds(safety.max_plan_age) : decimal{});
 }
 
+void switches_of(json_object& to, const switch_metrics& switches) {
+  auto object = to.object("switch");
+  object.member("count", switches.count());
+  const auto jump = [&object](const statistics& x, std::string_view mean,
+                              std::string_view max) {
+    object.member(mean, rounded(x.mean(), motion_places));
+    object.member(max, rounded(x.max(), motion_places));
+  };
+  jump(switches.d_m, "mean_d_m", "max_d_m");
+  jump(switches.curvature_1pm, "mean_kappa_1pm", "max_kappa_1pm");
+  jump(switches.speed_mps, "mean_v_mps", "max_v_mps");
+  jump(switches.accel_mps2, "mean_a_mps2", "max_a_mps2");
+}
+
+void extremes_of(json_object& to, const motion_extremes& x, bool recorded) {
+  const auto member = [&](std::string_view name, double figure) {
+    to.member(name, recorded ? rounded(figure, motion_places) : decimal{});
+  };
+  member("max_lateral_accel_mps2", x.lateral_accel_mps2);
+  member("max_jerk_mps3", x.jerk_mps3);
+  member("min_accel_mps2", x.min_accel_mps2);
+}
+
+void plans_of(json_object& to, const plan_figures& plans) {
+  auto object = to.object("plans");
+  object.member("count", plans.count);
+  object.member("emergency", plans.emergency);
+  object.member("safe_stops", plans.safe_stops);
+  extremes_of(object, plans.extremes, plans.count > plans.emergency);
+}
+
+void driving_of(json_object& to, const drive_metrics& drive) {
+  auto object = to.object("driving");
+  object.member("distance_m", rounded(drive.ride.distance_m, motion_places));
+  extremes_of(object, drive.ride.extremes,
+              drive.safety.driven > duration::zero());
+  object.member("hard_brakes", drive.ride.hard_brakes);
+  object.member("comfort_cost_m2ps3",
+                rounded(drive.ride.comfort_cost_m2ps3, motion_places));
+}
+
 void timing_of(json_object& to, const run_end& end) {
   auto object = to.object("timing");
   object.member("wall_s", rounded(end.wall_s, wall_places));
@@ -95,6 +137,9 @@ std::string summary_json(const metrics& m, const run_info& run,
     top.member("offers", m.offers());
     counts_and_times(top, m.headline(), run, end);
     safety_of(top, m.safety());
+    plans_of(top, m.together().plans);
+    driving_of(top, m.together());
+    switches_of(top, m.switches());
     endings(top, m.headline());
     {
       auto services = top.object("services");

@@ -17,8 +17,8 @@ constexpr std::size_t line_width = 80;
 constexpr std::size_t label_width = 17;
 constexpr std::size_t least_column_width = 18;
 constexpr std::size_t column_gap = 2;
-constexpr std::size_t safety_label_width = 24;
-constexpr std::size_t safety_column_width = 14;
+constexpr std::size_t drive_label_width = 24;
+constexpr std::size_t drive_column_width = 14;
 
 /// What a reader sees of an absent figure.
 constexpr auto absent = "-";
@@ -160,6 +160,12 @@ void remote_results(block& to) {
          [](const service& x) { return in_ms(x.interarrival.ms().max()); });
 }
 
+void drive_line(std::string& out, std::string_view label,
+                const std::string& figure, const std::string& verdict = {}) {
+  out += fmt::format("  {:<{}}{:>{}}{}\n", label, drive_label_width, figure,
+                     drive_column_width, verdict);
+}
+
 void safety_lines(std::string& out, const painter& paint,
                   const safety_metrics& safety) {
   out += '\n' + paint.heading("safety") + '\n';
@@ -168,12 +174,9 @@ void safety_lines(std::string& out, const painter& paint,
     return;
   }
   const auto line = [&](std::string_view label, const std::string& figure,
-                        std::optional<bool> ok) {
-    out += fmt::format("  {:<{}}{:>{}}", label, safety_label_width, figure,
-                       safety_column_width);
-    if (ok)
-      out += "   " + (*ok ? paint.good("ok") : paint.bad("VIOLATED"));
-    out += '\n';
+                        bool ok) {
+    drive_line(out, label, figure,
+               "   " + (ok ? paint.good("ok") : paint.bad("VIOLATED")));
   };
   const auto none = duration::zero();
   const auto time = [&](std::string_view label, duration d) {
@@ -183,11 +186,24 @@ void safety_lines(std::string& out, const painter& paint,
   time("off the road", safety.off_road);
   line("collisions", fmt::format("{}", safety.collisions),
        safety.collisions == 0);
-  line("oldest plan in use", with_unit(to_seconds(safety.max_plan_age), 3, "s"),
-       std::nullopt);
+  drive_line(out, "oldest plan in use",
+             with_unit(to_seconds(safety.max_plan_age), 3, "s"));
 }
 
 } // namespace
+
+void comfort_lines(std::string& out, const painter& paint,
+                   const drive_metrics& drive) {
+  if (drive.safety.driven == duration::zero())
+    return;
+  out += '\n' + paint.heading("comfort") + '\n';
+  const auto& ride = drive.ride;
+  drive_line(out, "lateral acceleration",
+             with_unit(ride.extremes.lateral_accel_mps2, 2, "m/s²"));
+  drive_line(out, "jerk", with_unit(ride.extremes.jerk_mps3, 2, "m/s³"));
+  drive_line(out, "hard brakes", fmt::format("{}", ride.hard_brakes));
+  drive_line(out, "emergency plans", fmt::format("{}", drive.plans.emergency));
+}
 
 std::string table(const metrics& m, const run_info& run, const run_end& end,
                   const std::filesystem::path& folder, bool colour) {
@@ -212,6 +228,7 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
     rest = rest.subspan(services.size());
   }
   safety_lines(out, paint, m.safety());
+  comfort_lines(out, paint, m.together());
   out += fmt::format("\nresults in {}\n", folder.string());
   return out;
 }

@@ -26,6 +26,8 @@ struct letters final : record_sink {
   }
   void take(const safety_record&) override { all += 's'; }
   void take(const collision_record&) override { all += 'c'; }
+  void take(const drive_record&) override { all += 'r'; }
+  void take(const plan_switch_record&) override { all += 'w'; }
 };
 
 } // namespace
@@ -40,7 +42,9 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, track_record{});
   tell(recorder, safety_record{});
   tell(recorder, collision_record{});
-  CHECK(sink->all == "edyptsc");
+  tell(recorder, drive_record{});
+  tell(recorder, plan_switch_record{});
+  CHECK(sink->all == "edyptscrw");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

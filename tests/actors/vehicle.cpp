@@ -31,6 +31,7 @@ struct driving_world : virtual_world {
   route_ptr way = street();
   lane_follow planner{way, {}};
   vehicle_actor car = spawn();
+  running_service source{0, station, "trajectory_planning", 0};
   std::uint64_t cycle = 0;
 
   explicit driving_world(double starts_at_mps = 0)
@@ -76,10 +77,9 @@ struct driving_world : virtual_world {
     return out;
   }
   void give(trajectory t, time_point created) {
-    tell(car, service_result{{0, station, "trajectory_planning", 0},
-                             ++cycle,
-                             created,
-                             payload::of(drive_plan{std::move(t), {}, {}})});
+    drive_plan plan{std::move(t), {}, {}};
+    tell(car, service_result{source, ++cycle, created,
+                             payload::of(std::move(plan))});
   }
   /// Drives with a new plan every 50 ms.
   void drive(duration d) {
@@ -107,6 +107,15 @@ struct driving_world : virtual_world {
     for (const auto& r : road->all<motion_report>())
       v = std::max(v, r.state.speed_mps);
     return v;
+  }
+  drive_record whole_drive() const {
+    drive_record sum;
+    for (const auto& r : recorder->all<drive_record>()) {
+      CHECK(r.station == station);
+      sum.plans.add(r.plans);
+      sum.ride.add(r.ride);
+    }
+    return sum;
   }
   safety_record total() const {
     safety_record sum;
@@ -344,6 +353,83 @@ TEST_CASE_FIXTURE(driving_world, "tracks say which source is in use") {
   CHECK(!recorder->all<track_record>().back().remote);
   CHECK(recorder->count<track_record>() == 30);
   CHECK(recorder->all<track_record>().back().ego.own.station == station);
+}
+
+TEST_CASE_FIXTURE(driving_world, "a smooth drive is recorded as smooth") {
+  drive(30s);
+  const auto x = whole_drive();
+  CHECK(x.plans.count > 550);
+  CHECK(x.plans.emergency == 0);
+  CHECK(x.plans.safe_stops == 0);
+  CHECK(x.plans.extremes.jerk_mps3 == doctest::Approx(1.5).epsilon(0.01));
+  CHECK(x.plans.extremes.lateral_accel_mps2 < 0.01);
+  CHECK(x.ride.distance_m
+        == doctest::Approx(last_report().s_m - 100)
+               .epsilon(0.05)); // the last second is missing
+  CHECK(x.ride.extremes.jerk_mps3 < 1.9);
+  CHECK(x.ride.extremes.jerk_mps3 > 1);
+  CHECK(x.ride.extremes.min_accel_mps2 > -0.1);
+  CHECK(x.ride.hard_brakes == 0);
+  CHECK(x.ride.comfort_cost_m2ps3 > 5);
+  CHECK(recorder->count<plan_switch_record>() == 0);
+}
+
+TEST_CASE_FIXTURE(driving_world, "a vehicle that stops on its own says so "
+                                 "once, and that it braked hard") {
+  drive(10s);
+  run_for(30s);
+  const auto x = whole_drive();
+  CHECK(x.plans.safe_stops == 1);
+  CHECK(x.plans.emergency == 0);
+  CHECK(x.ride.hard_brakes == 1);
+  CHECK(x.ride.extremes.min_accel_mps2 < -3.5);
+  CHECK(x.ride.extremes.jerk_mps3 < 1.9); // of the drive before
+}
+
+TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
+                                 "to it is recorded") {
+  const auto local = source;
+  const running_service remote{7, station, "trajectory_planning", 3};
+  drive(5s);
+  tell(car, source_change{source.kind, true});
+  CHECK(recorder->count<plan_switch_record>() == 0); // no plan has come yet
+
+  auto next = plan();
+  for (auto& p : next.points) {
+    p.at.y_m += 0.3;
+    p.speed_mps += 0.5;
+    p.accel_mps2 = -1;
+    p.curvature_1pm = 0.002;
+  }
+  source = remote;
+  give(next, now());
+  give(next, now());
+  REQUIRE(recorder->count<plan_switch_record>() == 1);
+  const auto to = recorder->all<plan_switch_record>().front();
+  CHECK(to.at == now());
+  CHECK(to.running == remote);
+  CHECK(to.remote);
+  CHECK(to.jump.d_m == doctest::Approx(0.3).epsilon(0.05));
+  CHECK(to.jump.curvature_1pm == doctest::Approx(0.002));
+  CHECK(to.jump.speed_mps == doctest::Approx(0.5).epsilon(0.1));
+  CHECK(to.jump.accel_mps2 > 1);
+
+  source = local;
+  give(next, now());
+  REQUIRE(recorder->count<plan_switch_record>() == 2);
+  const auto back = recorder->all<plan_switch_record>().back();
+  CHECK(back.running == remote);
+  CHECK(!back.remote);
+  CHECK(back.jump.d_m == 0);
+}
+
+TEST_CASE_FIXTURE(driving_world, "a plan that is not taken is no change of "
+                                 "source") {
+  drive(5s);
+  source.counter = 1;
+  give(plan(), now() - 1s);
+  give({}, now());
+  CHECK(recorder->count<plan_switch_record>() == 0);
 }
 
 // -- peers that vanish -------------------------------------------------------

@@ -25,6 +25,8 @@ struct drain final : record_sink {
   void take(const track_record&) override {}
   void take(const safety_record&) override {}
   void take(const collision_record&) override {}
+  void take(const drive_record&) override {}
+  void take(const plan_switch_record&) override {}
 };
 
 /// One virtual second after the other of a run that has settled in.

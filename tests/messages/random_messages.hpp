@@ -71,6 +71,18 @@ template <>
 inline constexpr std::size_t arity<safety_record> = 5;
 template <>
 inline constexpr std::size_t arity<collision_record> = 3;
+template <>
+inline constexpr std::size_t arity<motion_extremes> = 3;
+template <>
+inline constexpr std::size_t arity<plan_figures> = 4;
+template <>
+inline constexpr std::size_t arity<ride_figures> = 4;
+template <>
+inline constexpr std::size_t arity<plan_jump> = 4;
+template <>
+inline constexpr std::size_t arity<drive_record> = 3;
+template <>
+inline constexpr std::size_t arity<plan_switch_record> = 4;
 
 /// Everything that travels and is not a handle.
 using all_messages =
@@ -79,7 +91,8 @@ using all_messages =
                service_result, service_end, qos_limits, arrival, qos_violation,
                lifecycle_step, motion_report, ego_state, source_change,
                perception, event_record, decision_record, cycle_record,
-               episode_record, track_record, safety_record, collision_record>;
+               episode_record, track_record, safety_record, collision_record,
+               drive_record, plan_switch_record>;
 
 /// @returns references to all members.
 template <class T>

@@ -42,7 +42,7 @@ TEST_CASE("the same command twice gives the same bytes") {
   CHECK(names_in(a)
         == std::set<std::string>{"config.toml", "cycles.csv", "episodes.csv",
                                  "events.jsonl", "map.toml", "summary.json",
-                                 "timing.csv", "tracks.csv"});
+                                 "timing.csv", "tracks.csv", "vehicles.csv"});
   CHECK(names_in(b) == names_in(a));
   for (const auto& name : names_in(a))
     if (name != "timing.csv" && name != "summary.json") {

@@ -59,7 +59,8 @@ double largest(const std::vector<row>& rows, const std::string& column) {
 } // namespace
 
 TEST_CASE("the files have the columns that are documented") {
-  for (const std::string file : {"episodes.csv", "cycles.csv", "tracks.csv"}) {
+  for (const std::string file :
+       {"episodes.csv", "cycles.csv", "tracks.csv", "vehicles.csv"}) {
     CAPTURE(file);
     const auto columns = documented_columns(file);
     CHECK(columns.size() > 10);
@@ -77,6 +78,75 @@ TEST_CASE("half an hour in Ulm-Lehr is safe") {
   CHECK(safety["off_road_s"] == 0.0);
   for (const auto& r : rows_of(half_an_hour() / "tracks.csv"))
     REQUIRE(number(r, "plan_age_ms") <= 200);
+}
+
+TEST_CASE("half an hour in Ulm-Lehr is smooth") {
+  const auto summary = summary_of(half_an_hour());
+  const auto& plans = summary["plans"];
+  CHECK(plans["safe_stops"] == 0);
+  CHECK(plans["max_lateral_accel_mps2"] <= 2.5 * 1.02);
+  CHECK(plans["max_jerk_mps3"] <= 1.5 * 1.02);
+  const auto& driving = summary["driving"];
+  CHECK(driving["max_lateral_accel_mps2"] <= 2.5 * 1.1);
+  CHECK(driving["max_jerk_mps3"] <= 1.5 * 1.25);
+  CHECK(driving["hard_brakes"] == 0);
+}
+
+TEST_CASE("every change of source shows in the plans, without a jolt") {
+  std::map<std::string, int> switched;
+  for (const auto& line : lines_of(half_an_hour() / "events.jsonl")) {
+    const auto event = nlohmann::json::parse(line);
+    const std::string detail = event["detail"];
+    if (event["service"] == "trajectory_planning")
+      ++switched[event["what"].get<std::string>() + " "
+                 + detail.substr(0, detail.find(' '))];
+  }
+  CHECK(switched["switch remote"] > 40);
+  CHECK(switched["plan_switch remote"] == switched["switch remote"]);
+  // The run may end before the first local plan.
+  CHECK(switched["plan_switch local"] >= switched["switch local"] - 6);
+  CHECK(switched["plan_switch local"] <= switched["switch local"]);
+  const auto jumps = summary_of(half_an_hour())["switch"];
+  CHECK(jumps["count"]
+        == switched["plan_switch remote"] + switched["plan_switch local"]);
+  CHECK(jumps["max_d_m"] < 0.05);
+  CHECK(jumps["max_v_mps"] < 0.1);
+  CHECK(jumps["max_a_mps2"] < 0.3);
+}
+
+TEST_CASE("the vehicles' lines add up to the summary") {
+  const auto summary = summary_of(half_an_hour());
+  const auto rows = rows_of(half_an_hour() / "vehicles.csv");
+  REQUIRE(rows.size() == 6);
+  const auto sum = [&rows](const std::string& column) {
+    return mean(rows, column) * static_cast<double>(rows.size());
+  };
+  const auto& driving = summary["driving"];
+  CHECK(sum("driven_s") == near(summary["safety"]["driven_s"], rounding));
+  CHECK(sum("distance_m") == near(driving["distance_m"], rounding));
+  CHECK(sum("plans") == near(summary["plans"]["count"], rounding));
+  CHECK(sum("comfort_cost_m2ps3")
+        == near(driving["comfort_cost_m2ps3"], rounding));
+  for (const std::string extreme : {"max_jerk_mps3", "max_lateral_accel_mps2"})
+    CHECK(largest(rows, extreme) == near(driving[extreme], rounding));
+  CHECK(largest(rows, "max_plan_age_ms")
+        == near(1000 * summary["safety"]["max_plan_age_s"].get<double>(),
+                rounding));
+}
+
+TEST_CASE("a vehicle's distance is that of its track") {
+  const auto tracks = rows_of(half_an_hour() / "tracks.csv");
+  for (const auto& v : rows_of(half_an_hour() / "vehicles.csv")) {
+    CAPTURE(v.at("station"));
+    double first_m = -1, last_m = 0;
+    for (const auto& r : tracks)
+      if (r.at("station") == v.at("station")) {
+        last_m = number(r, "s_m");
+        if (first_m < 0)
+          first_m = last_m;
+      }
+    CHECK(number(v, "distance_m") == near(last_m - first_m, 0.001));
+  }
 }
 
 TEST_CASE("every vehicle offloads at least once on each of its laps") {

@@ -131,6 +131,8 @@ struct ledger final : record_sink {
   void take(const track_record&) override {}
   void take(const safety_record&) override {}
   void take(const collision_record&) override {}
+  void take(const drive_record&) override {}
+  void take(const plan_switch_record&) override {}
 };
 
 streets_ptr one_street() {

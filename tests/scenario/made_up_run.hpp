@@ -82,7 +82,8 @@ inline episode_record without_data(const running_service& id, duration from) {
 }
 
 /// Lets two vehicles drive for 100 s; `to` takes the records one by one.
-/// Expect: 101 offloaded twice, 20 s and 5 s, and 102 from 90 s on.
+/// Expect: 101 offloaded twice, 20 s and 5 s, and 102 from 90 s on; 101 stops
+/// on its own and brakes hard twice.
 template <class Sink>
 void play(Sink& to) {
   to.take(event_record{at(9s), "offer", 101, provider, "", 0, ""});
@@ -110,6 +111,14 @@ void play(Sink& to) {
   to.take(switched(running(102, 4), true, 90s));
   to.take(safety_record{101, 100s, 0s, 0s, 150ms});
   to.take(safety_record{102, 100s, 0s, 0s, 180ms});
+  to.take(drive_record{
+      101, {2000, 3, 1, {1.5, 1.25, -2}}, {900, {1.75, 1.5, -4}, 2, 80}});
+  to.take(drive_record{
+      102, {1000, 0, 0, {2, 1, -2.5}}, {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.take(plan_switch_record{
+      at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});
+  to.take(plan_switch_record{
+      at(30s), running(101, 1), false, {0.75, 0.002, 0.25, 0}});
 }
 
 } // namespace sofof::made_up

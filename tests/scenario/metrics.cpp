@@ -136,6 +136,61 @@ TEST_CASE("one touch, one second off the road or with an old plan is unsafe") {
   CHECK_FALSE(m.safety().ok());
 }
 
+TEST_CASE("all vehicles together have the sums and extremes of each") {
+  metrics m{run()};
+  play(m);
+  const auto& all = m.together();
+  CHECK(all.safety.driven == duration{200s});
+  CHECK(all.plans.count == 3000);
+  CHECK(all.plans.emergency == 3);
+  CHECK(all.plans.safe_stops == 1);
+  CHECK(all.plans.extremes.lateral_accel_mps2 == 2);
+  CHECK(all.ride.distance_m == 1700.5);
+  CHECK(all.ride.extremes.jerk_mps3 == 2);
+  CHECK(all.ride.extremes.min_accel_mps2 == -4);
+  CHECK(all.ride.hard_brakes == 2);
+  CHECK(all.ride.comfort_cost_m2ps3 == 100.5);
+  REQUIRE(m.vehicles().size() == 2);
+  const auto& one = m.vehicles().at(102);
+  CHECK(one.safety.max_plan_age == duration{180ms});
+  CHECK(one.plans.count == 1000);
+  CHECK(one.ride.hard_brakes == 0);
+}
+
+TEST_CASE("a vehicle's figures are those of all its records") {
+  metrics m{run()};
+  for (auto i = 0; i < 3; ++i) {
+    m.take(safety_record{101, 1s, 0s, 0s, 100ms});
+    m.take(drive_record{101, {20, 1, 0, {}}, {10, {}, 1, 2}});
+  }
+  const auto& x = m.vehicles().at(101);
+  CHECK(x.safety.driven == duration{3s});
+  CHECK(x.plans.count == 60);
+  CHECK(x.ride.distance_m == 30);
+  CHECK(x.ride.hard_brakes == 3);
+}
+
+TEST_CASE("a touch counts once for the run and once for either vehicle") {
+  metrics m{run()};
+  m.take(collision_record{at(3s), 101, 102});
+  CHECK(m.safety().collisions == 1);
+  CHECK(m.vehicles().at(101).safety.collisions == 1);
+  CHECK(m.vehicles().at(102).safety.collisions == 1);
+}
+
+TEST_CASE("every switch of plans counts with its jumps") {
+  metrics m{run()};
+  CHECK(m.switches().count() == 0);
+  play(m);
+  const auto& x = m.switches();
+  CHECK(x.count() == 2);
+  CHECK(x.d_m.max() == 0.75);
+  CHECK(x.d_m.mean() == doctest::Approx(0.5));
+  CHECK(x.curvature_1pm.max() == 0.002);
+  CHECK(x.speed_mps.max() == 0.5);
+  CHECK(x.accel_mps2.max() == 1);
+}
+
 TEST_CASE("a run without the headline's service has empty headlines") {
   auto info = run();
   info.kinds = {"environment"};

@@ -105,9 +105,9 @@ TEST_CASE("a run leaves all its files, and no temporary one") {
   play(r);
   r.finish(at(100s), 2, false);
   CHECK(names_in(dir.path())
-        == std::vector<std::string>{"config.toml", "cycles.csv", "episodes.csv",
-                                    "events.jsonl", "summary.json",
-                                    "timing.csv", "tracks.csv"});
+        == std::vector<std::string>{
+            "config.toml", "cycles.csv", "episodes.csv", "events.jsonl",
+            "summary.json", "timing.csv", "tracks.csv", "vehicles.csv"});
   CHECK(read(dir / "config.toml") == "seed = 7\n");
 }
 
@@ -150,6 +150,25 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["interarrival_ms"]["mean"] == 50);
   CHECK(s["safety"]["without_fresh_plan_s"] == 0);
   CHECK(s["safety"]["max_plan_age_s"] == 0.18);
+  CHECK(s["plans"]["count"] == 3000);
+  CHECK(s["plans"]["emergency"] == 3);
+  CHECK(s["plans"]["safe_stops"] == 1);
+  CHECK(s["plans"]["max_lateral_accel_mps2"] == 2);
+  CHECK(s["plans"]["max_jerk_mps3"] == 1.25);
+  CHECK(s["plans"]["min_accel_mps2"] == -2.5);
+  CHECK(s["driving"]["distance_m"] == 1700.5);
+  CHECK(s["driving"]["max_lateral_accel_mps2"] == 1.75);
+  CHECK(s["driving"]["max_jerk_mps3"] == 2);
+  CHECK(s["driving"]["min_accel_mps2"] == -4);
+  CHECK(s["driving"]["hard_brakes"] == 2);
+  CHECK(s["driving"]["comfort_cost_m2ps3"] == 100.5);
+  CHECK(s["switch"]["count"] == 2);
+  CHECK(s["switch"]["mean_d_m"] == 0.5);
+  CHECK(s["switch"]["max_d_m"] == 0.75);
+  CHECK(s["switch"]["max_kappa_1pm"] == 0.002);
+  CHECK(s["switch"]["max_v_mps"] == 0.5);
+  CHECK(s["switch"]["mean_a_mps2"] == 0.5);
+  CHECK(s["switch"]["max_a_mps2"] == 1);
   CHECK(s["ended_by"]["left_area"] == 1);
   CHECK(s["ended_by"]["shutdown"] == 0);
   CHECK(s["services"][planning]["requests"] == 5);
@@ -223,6 +242,44 @@ TEST_CASE("tracks have millimetres, and zero has no sign") {
            "12.000,-0.063,73.000000,remote");
 }
 
+TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.take(collision_record{at(2s), 9, 101});
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "vehicles.csv");
+  REQUIRE(all.size() == 4);
+  CHECK(all[0]
+        == "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,"
+           "collisions,max_plan_age_ms,plans,emergency_plans,safe_stops,"
+           "min_accel_mps2,max_jerk_mps3,max_lateral_accel_mps2,hard_brakes,"
+           "comfort_cost_m2ps3");
+  CHECK(all[1].starts_with("9,"));
+  CHECK(all[2]
+        == "101,100.000000000,900.000,0.000000000,0.000000000,1,150.000000,"
+           "2000,3,1,-4.000000,1.500000,1.750000,2,80.000000");
+  CHECK(all[3]
+        == "102,100.000000000,800.500,0.000000000,0.000000000,0,180.000000,"
+           "1000,0,0,-2.500000,2.000000,1.000000,0,20.500000");
+}
+
+TEST_CASE("a switch of plans is an event with its jumps") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  r.take(plan_switch_record{
+      at(10s), running(101, 1), false, {0.25, 0.00015, 0.5, 1.75}});
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "events.jsonl");
+  REQUIRE(all.size() == 1);
+  CHECK(all[0]
+        == "{\"t_s\":10.000000000,\"what\":\"plan_switch\",\"station\":101,"
+           "\"provider\":\"mec\",\"provider_id\":18000000000000000000,"
+           "\"service\":\"trajectory_planning\",\"counter\":1,"
+           "\"detail\":\"local d_m=0.250000 kappa_1pm=0.000150 "
+           "v_mps=0.500000 a_mps2=1.750000\"}");
+}
+
 TEST_CASE("every event is a JSON object, whatever its text") {
   const scratch dir;
   results r{dir.path(), run()};
@@ -280,7 +337,7 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
     r.finish(at(100s), dir == &first ? 2 : 3, false);
   }
   for (const auto* name : {"config.toml", "episodes.csv", "cycles.csv",
-                           "tracks.csv", "events.jsonl"})
+                           "tracks.csv", "vehicles.csv", "events.jsonl"})
     CHECK(read(first / name) == read(second / name));
   auto one = summary_in(first.path()), other = summary_in(second.path());
   CHECK(one != other);
@@ -310,6 +367,12 @@ TEST_CASE("a run without any record has a summary full of nulls") {
   CHECK(s["offloaded_share"].is_null());
   CHECK(s["latency_ms"]["p99"].is_null());
   CHECK(s["safety"]["max_plan_age_s"].is_null());
+  CHECK(s["plans"]["count"] == 0);
+  CHECK(s["plans"]["max_jerk_mps3"].is_null());
+  CHECK(s["driving"]["min_accel_mps2"].is_null());
+  CHECK(s["switch"]["count"] == 0);
+  CHECK(s["switch"]["max_d_m"].is_null());
+  CHECK(lines(dir / "vehicles.csv").size() == 1);
   CHECK(s["timing"]["x_real_time"].is_null());
 }
 

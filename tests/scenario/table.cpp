@@ -104,6 +104,15 @@ TEST_CASE("a violated safety line cannot be overlooked") {
   CHECK(contains(line_of(table_of(m), "off the road"), "ok"));
 }
 
+TEST_CASE("the table says how the ride felt") {
+  const auto text = table_of(played());
+  CHECK(contains(line_of(text, "lateral acceleration"), " 1.75 m/s²"));
+  CHECK(contains(line_of(text, "jerk"), " 2.00 m/s³"));
+  CHECK(contains(line_of(text, "hard brakes"), " 2"));
+  CHECK(contains(line_of(text, "emergency plans"), " 3"));
+  CHECK_FALSE(contains(table_of(metrics{run()}), "comfort"));
+}
+
 TEST_CASE("nobody is called safe whose driving was not recorded") {
   const metrics m{run()};
   CHECK(contains(table_of(m), "not recorded"));

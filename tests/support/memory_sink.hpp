@@ -15,6 +15,8 @@ struct memory_sink final : record_sink {
   std::vector<track_record> tracks;
   std::vector<safety_record> safety;
   std::vector<collision_record> collisions;
+  std::vector<drive_record> drives;
+  std::vector<plan_switch_record> plan_switches;
 
   void take(const event_record& x) override { events.push_back(x); }
   void take(const decision_record& x) override { decisions.push_back(x); }
@@ -23,6 +25,10 @@ struct memory_sink final : record_sink {
   void take(const track_record& x) override { tracks.push_back(x); }
   void take(const safety_record& x) override { safety.push_back(x); }
   void take(const collision_record& x) override { collisions.push_back(x); }
+  void take(const drive_record& x) override { drives.push_back(x); }
+  void take(const plan_switch_record& x) override {
+    plan_switches.push_back(x);
+  }
 };
 
 } // namespace sofof::test

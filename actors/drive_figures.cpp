@@ -1,0 +1,46 @@
+// Counting plans, and noticing where they come from.
+#include "actors/drive_figures.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+bool is_remote(const running_service& x) {
+  return x.counter != 0;
+}
+
+} // namespace
+
+std::optional<plan_switch_record>
+drive_figures::take(const trajectory& in_use, const trajectory& next, bool firm,
+                    const running_service& running, time_point now) {
+  emergency_ = firm;
+  ++plans_.count;
+  if (emergency_)
+    ++plans_.emergency;
+  else
+    plans_.extremes.add(extremes_of(next));
+
+  const auto before = std::exchange(source_, running);
+  if (!before || *before == running)
+    return std::nullopt;
+  return plan_switch_record{now, is_remote(running) ? running : *before,
+                            is_remote(running),
+                            jump_between(in_use, next, now)};
+}
+
+void drive_figures::stop_safely() {
+  if (!source_)
+    return; // it stands, or stops already
+  source_.reset();
+  emergency_ = true;
+  ++plans_.safe_stops;
+}
+
+drive_record drive_figures::flush() {
+  return {station_, std::exchange(plans_, {}), ride_.flush()};
+}
+
+} // namespace sofof
