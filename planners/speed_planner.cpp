@@ -43,7 +43,7 @@ constexpr double least_emergency_mps2 = 3.0;
 constexpr double emergency_share_of_jerk = 0.7;
 /// A plan that misses its bounds by less (s, m²/s², m/s², m/s³) may be driven
 /// all the same if it is clear.
-constexpr double reduced_margin = 0.25;
+constexpr double reduced_margin = 0.025;
 /// A plan's own tolerance is no emergency.
 constexpr double beyond_firm_mps2 = 0.05;
 /// After an emergency, back to comfort at this jerk.

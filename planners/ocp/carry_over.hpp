@@ -52,7 +52,16 @@ inline bool same_grid(double ds_m, int steps, double other_ds_m,
 /// @param tail   What is assumed beyond the old end.
 inline void resample(column& c, const regrid& g, double scale, double tail) {
   const column old = c;
-  for (int k = 0; k <= g.last_of_new; ++k) {
+  const auto whole = static_cast<int>(std::min(g.first, g.last + 1.));
+  const auto inside = std::min(g.last_of_new, g.last - 1 - whole);
+  int from = 0;
+  if (g.step == 1 && inside >= 0) { // most are; no gathering then
+    const auto share = g.first - whole;
+    for (int k = 0; k <= inside; ++k)
+      c[k] = scale * ((1 - share) * old[k + whole] + share * old[k + whole + 1]);
+    from = inside + 1;
+  }
+  for (int k = from; k <= g.last_of_new; ++k) {
     const double at = std::min(g.first + g.step * k, g.last + 1.);
     const int i = std::min(static_cast<int>(at), g.last - 1);
     const double share = at - i;
