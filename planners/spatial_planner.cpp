@@ -224,6 +224,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     // A plan in comfort is better than any other.
     const auto better = !found || (!calm && !result.emergency)
                         || (calm != result.emergency && price < cheapest);
+    if (!found)
+      report.velocity = result.report.status;
     if (!good || !better)
       continue;
     found = true;

@@ -271,7 +271,7 @@ void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
   for (std::size_t k = 0; k < knots; ++k) {
     const auto t =
         ahead.when_s(from.s_m + static_cast<double>(k) * ds_m + gap_m);
-    if (!std::isfinite(t))
+    if (t == never)
       return; // behind where it comes to rest, and so does the plan
     const auto opened = now_s + opening * std::max(0.0, t);
     earliest_[k] =
@@ -296,7 +296,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                  std::min(a, -decel_mps2));
     const auto next_w = w + ds_m * (a + next_a) / 2;
     a = next_a;
-    t = next_w > 0 ? t + 2 * ds_m / (v + std::sqrt(2 * next_w)) : never;
+    t += 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w)); // as there
     w = std::max(0.0, next_w);
   }
   return fits;

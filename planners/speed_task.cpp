@@ -24,7 +24,7 @@ double speed_task::follower::when_s(double way_m) const {
   const auto way = way_m - touch_m;
   const auto v = lead.speed_mps, b = std::max(0.0, -lead.accel_mps2);
   if (b == 0)
-    return v > 0 ? way / v : (way > 0 ? never : 0);
+    return v > 0 ? way / v : (way > 0 ? never : -never);
   const auto rest = v * v - 2 * b * way;
   return rest < 0 ? never : (v - std::sqrt(rest)) / b;
 }

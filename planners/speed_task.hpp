@@ -24,7 +24,8 @@ struct speed_task {
     double way_left_m() const;
     /// @returns where it is after `t_s`.
     double at(double t_s) const;
-    /// @returns when it has come to `way_m`; infinite if never.
+    /// @returns when it comes to `way_m`, or came there, had it always driven
+    /// like this; infinite if never, -infinite if it stands behind.
     double when_s(double way_m) const;
   };
   /// Not to be at a place before, or after, some time.
