@@ -29,6 +29,7 @@ struct provider_setup {
   bool virtual_time = true; ///< Model computing times.
 };
 
+/// Tells the site of each kind of all CAMs and of all that its sensors see.
 /// Offers its services to stations in its area, asks the CODM about requests,
 /// runs each accepted service under a manager of its own, and ends it when
 /// the station has left, has fallen silent, or says so. One state machine per

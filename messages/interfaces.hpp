@@ -90,7 +90,9 @@ using provider_actor = caf::typed_actor<
     // A station asks for offered services.
     takes<service_request, requester_actor>,
     // The requester has ended a running service.
-    takes<service_end>>;
+    takes<service_end>,
+    // One of its sensors at the roadside has looked at the road.
+    takes<site_view>>;
 
 /// All that crosses the air between one vehicle and one provider. It looks
 /// like the far end to both of them: to the provider and its managers like a
@@ -105,7 +107,7 @@ using vehicle_actor = client_actor::extend<
     // What the driver has to know about the others.
     takes<perception>>;
 
-/// The streets and all that moves on them, as sensors would show it.
+/// The streets and all that moves on them, and what sensors see of it.
 using road_actor = caf::typed_actor<
     // A vehicle is here now; it wants to know what it perceives.
     takes<motion_report, vehicle_actor>,

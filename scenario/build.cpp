@@ -77,6 +77,25 @@ provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
   return spawn_service_provider(sys, std::move(setup));
 }
 
+std::vector<roadside_sensor> sensors_beside(const scenario& s,
+                                            const std::vector<site>& sites) {
+  const auto noise = noise_of(s, "roadside sensors");
+  std::vector<roadside_sensor> beside;
+  for (std::size_t p = 0; p < sites.size(); ++p) {
+    const auto& own = sites[p].options->sensors;
+    for (std::size_t k = 0; k < own.size(); ++k)
+      beside.push_back({sites[p].provider, own[k].make(noise.part(p).part(k))});
+  }
+  return beside;
+}
+
+std::vector<oriented_box> obstacles(const scenario& s) {
+  std::vector<oriented_box> boxes;
+  for (const auto& o : s.obstacles)
+    boxes.push_back(o.box());
+  return boxes;
+}
+
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
                 std::uint32_t number, const site& at) {
   const channel draws{s.network.channel, noise_of(s, "network"), station,
@@ -148,13 +167,15 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   for (const auto& v : placed)
     ways[v.station] = v.way;
   world.recorder = spawn_recorder(sys, std::move(sink));
-  world.road = spawn_road(sys, s.world, ways, car, world.recorder);
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
     world.providers.push_back(
         spawn_provider(sys, s, k, world.recorder, virtual_time));
     sites.push_back({world.providers.back(), &s.providers[k]});
   }
+  world.road =
+      spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
+                       sensors_beside(s, sites), obstacles(s), world.recorder});
   for (const auto& v : placed) {
     vehicle_setup setup;
     setup.station = v.station;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "world/ids.hpp"
+#include "world/perception.hpp"
+#include "world/road_body.hpp"
 #include "world/road_map.hpp"
 #include "world/time.hpp"
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,6 +45,9 @@ struct perception {
   /// The front bumper must not pass this arc length on the own route: a
   /// crossing has not been granted yet.
   std::optional<double> stop_at_m;
+  /// What the own sensors see, in the order of `scene::seen_by`. The traffic
+  /// leaves it empty; the road fills it in.
+  std::vector<perceived_object> objects;
 };
 
 /// All road users, in lane order; neighbours are found along the lanes, never
@@ -49,7 +55,10 @@ struct perception {
 /// reports.
 class traffic {
 public:
-  explicit traffic(const road_map& map);
+  /// @param standing  Bodies that never move. They touch others, but the
+  ///                  rules of the road do not know them. Their ids are no
+  ///                  road user's.
+  explicit traffic(const road_map& map, std::vector<road_body> standing = {});
   traffic(traffic&&) noexcept;
   traffic& operator=(traffic&&) noexcept;
   ~traffic();
@@ -75,8 +84,12 @@ public:
   /// @throws std::out_of_range when there is no such road user.
   perception perceive(station_id station) const;
 
-  /// @returns the pairs of road users whose bodies touch, lower id first,
-  /// in rising order, as of the last `update`.
+  /// @returns all road users in the order of their stations, then what stands
+  /// on the road, as of the last `update`; valid until the next one.
+  std::span<const road_body> bodies() const;
+
+  /// @returns the pairs of bodies that touch, lower id first, in rising order,
+  /// as of the last `update`; not those of which neither is a road user.
   std::vector<std::pair<station_id, station_id>> collisions() const;
 
 private:

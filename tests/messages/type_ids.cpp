@@ -56,6 +56,7 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::road_actor",
       "sofof::recorder_actor",
       "sofof::tick_atom",
+      "sofof::site_view",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);
@@ -68,7 +69,7 @@ TEST_CASE("type ids are where they have always been") {
 }
 
 TEST_CASE("every type id is listed above") {
-  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 42);
+  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 43);
 }
 
 TEST_CASE("numbers of some types, written out") {
@@ -77,4 +78,5 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<service_end> == 211);
   CHECK(caf::type_id_v<provider_manager_actor> == 230);
   CHECK(caf::type_id_v<tick_atom> == 241);
+  CHECK(caf::type_id_v<site_view> == 242);
 }
