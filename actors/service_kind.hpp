@@ -66,10 +66,9 @@ struct service_setup {
   station_id station = 0;
   bool remote = false;
   random_stream noise{0, ""}; ///< A stream of its own.
-  /// Whether run times are real, instead of modelled.
-  bool real_time = false;
-  std::shared_ptr<service_site> site =
-      nullptr; ///< The provider's; null in vehicles.
+  bool real_time = false;     ///< Run times are real, instead of modelled.
+  /// The provider's; null in vehicles.
+  std::shared_ptr<service_site> site = nullptr;
 };
 
 /// A kind of service with its options.
