@@ -19,7 +19,7 @@ using station_routes = std::map<station_id, route_ptr>;
 
 /// A provider's sensor at the roadside.
 struct roadside_sensor {
-  provider_actor provider;
+  roadside_provider_actor provider;
   sensor is;
 };
 

@@ -16,7 +16,7 @@ namespace sofof {
 
 namespace {
 
-using provider_impl = provider_actor::extend<
+using provider_impl = roadside_provider_actor::extend<
     // Has the station fallen silent, whose record has this number?
     takes<tick_atom, station_id, std::uint64_t>>;
 
@@ -350,8 +350,8 @@ provider(provider_impl::stateful_pointer<provider_state> self,
 
 } // namespace
 
-provider_actor spawn_service_provider(caf::actor_system& sys,
-                                      provider_setup setup) {
+roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
+                                               provider_setup setup) {
   return sys.spawn(provider, std::move(setup));
 }
 

@@ -38,7 +38,7 @@ struct provider_setup {
 ///   idle → offered → active → idle
 ///
 /// On exit it closes what still runs (shutdown).
-provider_actor spawn_service_provider(caf::actor_system& sys,
-                                      provider_setup setup);
+roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
+                                               provider_setup setup);
 
 } // namespace sofof

@@ -83,15 +83,18 @@ using onboard_requester_actor = requester_actor::extend<
     // The watchdog has barked.
     takes<qos_violation>>;
 
-/// SP, the edge server's side of offloading.
+/// SP, the edge server's side of offloading, as requesters see it.
 using provider_actor = caf::typed_actor<
     // A station moves; its requester can be reached here.
     takes<cam, requester_actor>,
     // A station asks for offered services.
     takes<service_request, requester_actor>,
     // The requester has ended a running service.
-    takes<service_end>,
-    // One of its sensors at the roadside has looked at the road.
+    takes<service_end>>;
+
+/// SP, as its own sensors see it.
+using roadside_provider_actor = provider_actor::extend<
+    // One of them has looked at the road.
     takes<site_view>>;
 
 /// All that crosses the air between one vehicle and one provider. It looks

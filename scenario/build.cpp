@@ -28,7 +28,7 @@ random_stream noise_of(const scenario& s, std::string_view what) {
 
 /// A provider and the radio cell round it.
 struct site {
-  provider_actor provider;
+  roadside_provider_actor provider;
   const provider_options* options;
   std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
   std::shared_ptr<fifo_servers> cell_down = std::make_shared<fifo_servers>(1);
@@ -57,10 +57,10 @@ duration fresh_limit(const scenario& s) {
   return limit;
 }
 
-provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
-                              std::uint32_t number,
-                              const recorder_actor& recorder,
-                              bool virtual_time) {
+roadside_provider_actor spawn_provider(caf::actor_system& sys,
+                                       const scenario& s, std::uint32_t number,
+                                       const recorder_actor& recorder,
+                                       bool virtual_time) {
   const auto& options = s.providers[number];
   provider_setup setup;
   setup.boot = number + 1;
@@ -169,9 +169,9 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   world.recorder = spawn_recorder(sys, std::move(sink));
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    world.providers.push_back(
-        spawn_provider(sys, s, k, world.recorder, virtual_time));
-    sites.push_back({world.providers.back(), &s.providers[k]});
+    sites.push_back({spawn_provider(sys, s, k, world.recorder, virtual_time),
+                     &s.providers[k]});
+    world.providers.push_back(sites.back().provider);
   }
   world.road =
       spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),

@@ -22,7 +22,7 @@ struct road_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<vehicle_actor> behind = listen<vehicle_actor>();
   probe<vehicle_actor> ahead = listen<vehicle_actor>();
-  probe<provider_actor> provider = listen<provider_actor>();
+  probe<roadside_provider_actor> provider = listen<roadside_provider_actor>();
   road_actor road = own(spawn_road(system(), setup()));
 
   road_setup setup() const {

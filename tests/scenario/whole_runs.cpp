@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 const std::string ulm_lehr = SOFOF_SOURCE_DIR "/config/ulm_lehr.toml";
 
-memory_sink drive(const scenario& s) {
+memory_sink play(const scenario& s) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, true);
@@ -32,7 +32,7 @@ memory_sink drive(const scenario& s) {
 }
 
 memory_sink drive(const std::vector<std::string>& overrides) {
-  return drive(load_scenario(ulm_lehr, overrides));
+  return play(load_scenario(ulm_lehr, overrides));
 }
 
 /// Trajectory planning whose providers write down what they get to know.
@@ -165,10 +165,10 @@ TEST_CASE("a smaller area makes shorter offloadings") {
 
 TEST_CASE("an obstacle of a scenario stands on its road") {
   auto s = load_scenario(ulm_lehr, std::vector<std::string>{"duration=1s"});
-  REQUIRE(drive(s).collisions.empty());
+  REQUIRE(play(s).collisions.empty());
   const auto first = place_vehicles(s).front();
   s.obstacles.push_back({first.way->path().at(first.start_s_m).at});
-  const auto records = drive(s);
+  const auto records = play(s);
   REQUIRE(records.collisions.size() == 1);
   CHECK(records.collisions.front().first == first.station);
   CHECK(records.collisions.front().second == obstacle_id(0));
@@ -181,7 +181,7 @@ TEST_CASE("a provider knows of the CAMs and of what its sensors see") {
   s.obstacles.push_back({{20, -30}});
   auto& sensors = s.providers.front().sensors;
   sensors = {{{0, 0}, 0, {.range_m = 40, .occlusion = false}}};
-  drive(s);
+  play(s);
   const auto& notes = *planning->notes;
   CHECK(notes.heard > 6 * 90); // 10 Hz each, less what is under way
   CHECK(notes.seen >= 199);
