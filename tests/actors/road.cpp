@@ -192,7 +192,8 @@ TEST_CASE_FIXTURE(road_world, "two look at the same and err each for itself, "
   report(2, 130, 7, ahead);
   run_for(200ms);
   const auto obstacle = [](const probe<vehicle_actor>& who, std::size_t k) {
-    for (const auto& o : who->all<perception>().at(k).objects)
+    const auto views = who->all<perception>();
+    for (const auto& o : views.at(k).objects)
       if (o.length_m == 4.5)
         return o.centre;
     return point{};

@@ -62,7 +62,10 @@ struct site_world : provider_world {
   std::shared_ptr<knowing_echo> first = std::make_shared<knowing_echo>("one");
   std::shared_ptr<knowing_echo> third = std::make_shared<knowing_echo>("three");
 
-  site_world() { provider = own(spawn_service_provider(system(), knowing())); }
+  site_world() {
+    provider = own(spawn_service_provider(system(), knowing()));
+    settle();
+  }
 
   provider_setup knowing() {
     auto s = setup();
@@ -116,6 +119,7 @@ TEST_CASE_FIXTURE(site_world, "sites see what the provider's sensors see") {
 TEST_CASE_FIXTURE(site_world, "all functions of a kind at a provider share "
                               "its site, and no other") {
   hear(inside);
+  codm->accepted.insert("three");
   start({one, {"three"}});
   hear(inside, neighbour, 102);
   tell(provider, service_request{boot, 102, 1, {one}, {inside}, 10},

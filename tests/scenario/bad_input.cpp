@@ -132,6 +132,9 @@ TEST_CASE("an obstacle that cannot be is refused") {
   const auto obstacle = [](const std::string& options) {
     return "[[obstacle]]\n" + options + "\n[network]";
   };
+  const std::string rest = "\nroutes = [\"straight\"]\nplacement = "
+                           "\"convoy\"\nstart_m = 150.0";
+  const auto second = "first_station = 201" + rest;
   check_all({
       {"[network]", obstacle("length_m = @0"), {"length_m", "from 0.1"}},
       {"[network]", obstacle("width_m = @-1"), {"width_m", "from 0.1"}},
@@ -140,8 +143,8 @@ TEST_CASE("an obstacle that cannot be is refused") {
       {"[network]",
        "@[[obstacle]]\nposition_m = [100.0, 2.0]\n[network]",
        {"vehicle 101", "start on it"}},
-      {"first_station = 201",
-       "first_station = @4294967294\n[[obstacle]]\n[[fleet]]",
+      {second,
+       "first_station = @4294967294" + rest + "\n[[obstacle]]",
        {"above 4294967294", "begin lower"}},
   });
 }

@@ -114,6 +114,13 @@ TEST_CASE("one corner round the house is enough to be seen") {
   CHECK(sees(s, {car(1, {30, 7.7}, pi / 2)}, buildings));
 }
 
+TEST_CASE("a gap that shows only the middle is enough, too") {
+  const auto s = exact();
+  const auto across = car(1, {30, 0}, pi / 2);
+  CHECK(sees(s, {across}, {house({15, 5.5}, 5), house({15, -5.5}, 5)}));
+  CHECK_FALSE(sees(s, {across}, {house({15, 5.5}, 5), house({15, -4.5}, 5)}));
+}
+
 TEST_CASE("a house whose middle is far away hides too") {
   auto s = exact();
   s.can.range_m = 30;
