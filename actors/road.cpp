@@ -1,4 +1,4 @@
-// The streets and all that moves on them, as sensors would show it.
+// The streets and all that moves on them, and what sensors see of it.
 #include "actors/road.hpp"
 
 #include "actors/time.hpp"
@@ -17,21 +17,26 @@ namespace {
 
 using road_impl = road_actor::extend<takes<tick_atom>>;
 
+std::vector<road_body> standing(const std::vector<oriented_box>& obstacles) {
+  std::vector<road_body> bodies;
+  for (std::uint32_t k = 0; k < obstacles.size(); ++k)
+    bodies.push_back({obstacle_id(k), obstacles[k], 0, 0});
+  return bodies;
+}
+
 struct road_state {
   static inline const char* name = "road";
 
   road_impl::stateful_pointer<road_state> self;
-  streets_ptr world;
-  station_routes ways;
-  vehicle_params car;
-  recorder_actor recorder;
+  road_setup setup;
   std::optional<traffic> users;
+  scene visible;
   std::map<station_id, vehicle_actor> vehicles;
   std::vector<std::pair<station_id, station_id>> touching;
 
   void take(const motion_report& report, const vehicle_actor& vehicle) {
-    const auto way = ways.find(report.station);
-    if (way == ways.end())
+    const auto way = setup.ways.find(report.station);
+    if (way == setup.ways.end())
       return;
     vehicles.try_emplace(report.station, vehicle);
     road_user user;
@@ -40,9 +45,9 @@ struct road_state {
     user.s_m = report.s_m;
     user.speed_mps = report.state.speed_mps;
     user.accel_mps2 = report.state.accel_mps2;
-    user.front_m = car.front_m;
-    user.rear_m = car.rear_m;
-    user.body = body(report.state, car);
+    user.front_m = setup.car.front_m;
+    user.rear_m = setup.car.rear_m;
+    user.body = body(report.state, setup.car);
     users->report(user);
   }
 
@@ -55,27 +60,45 @@ struct road_state {
     const auto t = now(self);
     send_at(self, self, t + protocol::sensor_period, tick_atom_v);
     users->update(t);
-    for (const auto& [station, vehicle] : vehicles)
-      self->send(vehicle, users->perceive(station));
+    visible.place(users->bodies());
+    show_vehicles(t);
+    for (const auto& s : setup.beside)
+      self->send(s.provider, site_view{t, visible.seen_by(s.is, t)});
+    record_collisions(t);
+  }
+
+  void show_vehicles(time_point t) {
+    for (const auto& user : users->bodies()) {
+      const auto vehicle = vehicles.find(user.id);
+      if (vehicle == vehicles.end())
+        continue; // stands on the road
+      auto view = users->perceive(user.id);
+      view.objects =
+          visible.seen_by({setup.sensors, setup.noise.part(user.id),
+                           user.box.centre, user.box.heading_rad, user.id},
+                          t);
+      self->send(vehicle->second, std::move(view));
+    }
+  }
+
+  void record_collisions(time_point t) {
     auto touch = users->collisions();
     for (const auto& pair : touch)
       if (!std::ranges::binary_search(touching, pair))
-        self->send(recorder, collision_record{t, pair.first, pair.second});
+        self->send(setup.recorder,
+                   collision_record{t, pair.first, pair.second});
     touching = std::move(touch);
   }
 };
 
 road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
-                              streets_ptr world, station_routes ways,
-                              vehicle_params car, recorder_actor recorder,
-                              bool grants_crossings) {
+                              road_setup setup) {
   auto& state = self->state;
   state.self = self;
-  state.world = std::move(world);
-  state.ways = std::move(ways);
-  state.car = car;
-  state.recorder = std::move(recorder);
-  state.users.emplace(state.world->map, grants_crossings);
+  state.users.emplace(setup.world->map, standing(setup.obstacles),
+                      setup.grants_crossings);
+  state.visible = scene{setup.world->map.buildings()};
+  state.setup = std::move(setup);
   self->send(self, tick_atom_v);
   return {
       [self](const motion_report& report, const vehicle_actor& vehicle) {
@@ -88,11 +111,8 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
 
 } // namespace
 
-road_actor spawn_road(caf::actor_system& sys, streets_ptr world,
-                      station_routes ways, vehicle_params car,
-                      recorder_actor recorder, bool grants_crossings) {
-  return sys.spawn(road, std::move(world), std::move(ways), car,
-                   std::move(recorder), grants_crossings);
+road_actor spawn_road(caf::actor_system& sys, road_setup setup) {
+  return sys.spawn(road, std::move(setup));
 }
 
 } // namespace sofof

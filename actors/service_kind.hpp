@@ -10,6 +10,7 @@
 #include <caf/actor_system.hpp>
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -41,7 +42,25 @@ public:
   virtual payload run(time_point now, const service_input& input) = 0;
 };
 
-/// For whom a function or a client is made.
+/// What a provider knows beyond one vehicle's input; shared by all functions
+/// of a kind there. Where time is real, functions run in threads of their own
+/// while the provider goes on telling: an implementation must lock.
+class service_site {
+public:
+  virtual ~service_site() = default;
+
+  /// A CAM has come, from anybody near enough to be heard: in the area or not,
+  /// perhaps with no service, perhaps overtaken by a later one on its way.
+  virtual void hear(const cam& c) = 0;
+
+  /// One of the provider's sensors at the roadside has looked at the road.
+  /// @param at       When.
+  /// @param objects  Each body at most once.
+  virtual void see(time_point at,
+                   std::span<const perceived_object> objects) = 0;
+};
+
+/// For whom a function, a client or a site is made.
 struct service_setup {
   streets_ptr world;
   station_id station = 0;
@@ -49,6 +68,9 @@ struct service_setup {
   random_stream noise{0, ""}; ///< A stream of its own.
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
+  bool real_time = false; ///< Run times are real, instead of modelled.
+  /// The provider's; null in vehicles.
+  std::shared_ptr<service_site> site = nullptr;
 };
 
 /// A kind of service with its options.
@@ -69,6 +91,13 @@ public:
   virtual client_actor spawn_client(caf::actor_system& sys,
                                     const service_setup& setup,
                                     const vehicle_actor& vehicle) const = 0;
+
+  /// Called once per provider; the setup names no station and no site.
+  /// @returns what all functions of this kind at one provider share; null if
+  /// that is nothing.
+  virtual std::shared_ptr<service_site> make_site(const service_setup&) const {
+    return nullptr;
+  }
 
   service_options common;
 };

@@ -16,7 +16,7 @@ namespace sofof {
 
 namespace {
 
-using provider_impl = provider_actor::extend<
+using provider_impl = roadside_provider_actor::extend<
     // Has the station fallen silent, whose record has this number?
     takes<tick_atom, station_id, std::uint64_t>>;
 
@@ -44,13 +44,33 @@ struct provider_state {
   provider_impl::stateful_pointer<provider_state> self;
   provider_setup setup;
   std::shared_ptr<fifo_servers> workers;
+  std::vector<std::shared_ptr<service_site>> sites; // of each kind, or null
   std::map<station_id, station_record> stations;
   std::uint32_t counter = 0;
   std::uint64_t records = 0;
 
+  // -- what is known beyond a vehicle's input -----------------------------
+
+  void make_sites() {
+    for (const auto& kind : setup.kinds)
+      sites.push_back(
+          kind->make_site({.world = setup.world,
+                           .remote = true,
+                           .noise = setup.seed.part(kind->name()).part("site"),
+                           .real_time = !setup.virtual_time}));
+  }
+
+  template <class Function>
+  void tell_sites(Function tell) {
+    for (const auto& site : sites)
+      if (site)
+        tell(*site);
+  }
+
   // -- CAM, offer, CAM check ----------------------------------------------
 
   void take(const cam& c, const requester_actor& requester) {
+    tell_sites([&](service_site& site) { site.hear(c); });
     const auto known = stations.find(c.station);
     if (known != stations.end() && c.at < known->second.latest.at)
       return; // overtaken on its way
@@ -190,15 +210,16 @@ struct provider_state {
     self->send(requester, response, managers);
   }
 
-  provider_manager_actor start(station_record& station,
-                               const service_kind& kind,
+  provider_manager_actor start(station_record& station, std::size_t number,
                                const running_service& running,
                                const requester_actor& requester) {
+    const auto& kind = *setup.kinds[number];
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
-    remote.function = kind.make_function(
-        {setup.world, running.station, true, noise, setup.crossings_granted});
+    remote.function = kind.make_function({setup.world, running.station, true,
+                                          noise, setup.crossings_granted,
+                                          !setup.virtual_time, sites[number]});
     remote.period = kind.common.period;
     remote.phase = duration{static_cast<duration::rep>(
         noise.part("remote phase").uniform(0)
@@ -223,10 +244,13 @@ struct provider_state {
     };
   }
 
-  const service_kind* find_kind(std::string_view name) const {
+  // The number of an offered kind.
+  std::optional<std::size_t> find_kind(std::string_view name) const {
     auto i = std::ranges::find(setup.kinds, name,
                                [](const auto& kind) { return kind->name(); });
-    return i == setup.kinds.end() ? nullptr : i->get();
+    if (i == setup.kinds.end())
+      return std::nullopt;
+    return static_cast<std::size_t>(i - setup.kinds.begin());
   }
 
   static const session* find(const station_record& station,
@@ -298,6 +322,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
   auto& state = self->state;
   state.self = self;
   state.setup = std::move(setup);
+  state.make_sites();
   state.workers = std::make_shared<fifo_servers>(state.setup.profile->workers);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down); });
@@ -313,6 +338,10 @@ provider(provider_impl::stateful_pointer<provider_state> self,
         self->state.take(request, requester);
       },
       [self](const service_end& e) { self->state.take(e); },
+      [self](const site_view& view) {
+        self->state.tell_sites(
+            [&](service_site& site) { site.see(view.at, view.objects); });
+      },
       [self](tick_atom, station_id station, std::uint64_t number) {
         self->state.check(station, number);
       },
@@ -321,8 +350,8 @@ provider(provider_impl::stateful_pointer<provider_state> self,
 
 } // namespace
 
-provider_actor spawn_service_provider(caf::actor_system& sys,
-                                      provider_setup setup) {
+roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
+                                               provider_setup setup) {
   return sys.spawn(provider, std::move(setup));
 }
 

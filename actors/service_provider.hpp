@@ -30,6 +30,7 @@ struct provider_setup {
   bool crossings_granted = true; ///< As functions are told.
 };
 
+/// Tells the site of each kind of all CAMs and of all that its sensors see.
 /// Offers its services to stations in its area, asks the CODM about requests,
 /// runs each accepted service under a manager of its own, and ends it when
 /// the station has left, has fallen silent, or says so. One state machine per
@@ -38,7 +39,7 @@ struct provider_setup {
 ///   idle → offered → active → idle
 ///
 /// On exit it closes what still runs (shutdown).
-provider_actor spawn_service_provider(caf::actor_system& sys,
-                                      provider_setup setup);
+roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
+                                               provider_setup setup);
 
 } // namespace sofof

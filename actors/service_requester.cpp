@@ -68,9 +68,13 @@ struct requester_state {
   // -- services of this vehicle -------------------------------------------
 
   requester_manager_actor spawn_manager(const service_kind& kind) {
-    const service_setup here{setup.world, setup.station, false,
+    const service_setup here{setup.world,
+                             setup.station,
+                             false,
                              setup.noise.part(kind.name()),
-                             setup.crossings_granted};
+                             setup.crossings_granted,
+                             !setup.virtual_time,
+                             nullptr};
     auto client = kind.spawn_client(self->system(), here, setup.vehicle);
     if (client != setup.vehicle)
       self->link_to(client);

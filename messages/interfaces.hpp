@@ -83,7 +83,7 @@ using onboard_requester_actor = requester_actor::extend<
     // The watchdog has barked.
     takes<qos_violation>>;
 
-/// SP, the edge server's side of offloading.
+/// SP, the edge server's side of offloading, as requesters see it.
 using provider_actor = caf::typed_actor<
     // A station moves; its requester can be reached here.
     takes<cam, requester_actor>,
@@ -91,6 +91,11 @@ using provider_actor = caf::typed_actor<
     takes<service_request, requester_actor>,
     // The requester has ended a running service.
     takes<service_end>>;
+
+/// SP, as its own sensors see it.
+using roadside_provider_actor = provider_actor::extend<
+    // One of them has looked at the road.
+    takes<site_view>>;
 
 /// All that crosses the air between one vehicle and one provider. It looks
 /// like the far end to both of them: to the provider and its managers like a
@@ -105,7 +110,7 @@ using vehicle_actor = client_actor::extend<
     // What the driver has to know about the others.
     takes<perception>>;
 
-/// The streets and all that moves on them, as sensors would show it.
+/// The streets and all that moves on them, and what sensors see of it.
 using road_actor = caf::typed_actor<
     // A vehicle is here now; it wants to know what it perceives.
     takes<motion_report, vehicle_actor>,

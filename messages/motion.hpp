@@ -1,10 +1,12 @@
-// Inside one vehicle and its world: how it moves, and what it perceives.
+// Inside one vehicle and its world: how it moves, and what sensors see of it.
 #pragma once
 
 #include "messages/inspect.hpp"
 #include "messages/service.hpp"
 #include "world/traffic.hpp"
 #include "world/vehicle.hpp"
+
+#include <vector>
 
 namespace sofof {
 
@@ -19,6 +21,12 @@ struct motion_report {
 struct ego_state {
   cam own;
   double s_m = 0; ///< Rear axle on its route, laps included.
+};
+
+/// What a sensor at the roadside sees, for the provider that it belongs to.
+struct site_view {
+  time_point at;
+  std::vector<perceived_object> objects; ///< As `scene::seen_by` gives them.
 };
 
 /// Which source the results of a service come from, from now on.
@@ -60,9 +68,23 @@ bool inspect(Inspector& f, lead_vehicle& x) {
 }
 
 template <class Inspector>
+bool inspect(Inspector& f, perceived_object& x) {
+  return f.object(x).fields(
+      f.field("centre", x.centre), f.field("heading_rad", x.heading_rad),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
+      f.field("length_m", x.length_m), f.field("width_m", x.width_m));
+}
+
+template <class Inspector>
 bool inspect(Inspector& f, perception& x) {
   return f.object(x).fields(f.field("at", x.at), f.field("lead", x.lead),
-                            f.field("stop_at_m", x.stop_at_m));
+                            f.field("stop_at_m", x.stop_at_m),
+                            f.field("objects", x.objects));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, site_view& x) {
+  return f.object(x).fields(f.field("at", x.at), f.field("objects", x.objects));
 }
 
 } // namespace sofof

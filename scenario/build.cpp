@@ -28,7 +28,7 @@ random_stream noise_of(const scenario& s, std::string_view what) {
 
 /// A provider and the radio cell round it.
 struct site {
-  provider_actor provider;
+  roadside_provider_actor provider;
   const provider_options* options;
   std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
   std::shared_ptr<fifo_servers> cell_down = std::make_shared<fifo_servers>(1);
@@ -57,10 +57,10 @@ duration fresh_limit(const scenario& s) {
   return limit;
 }
 
-provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
-                              std::uint32_t number,
-                              const recorder_actor& recorder,
-                              bool virtual_time) {
+roadside_provider_actor spawn_provider(caf::actor_system& sys,
+                                       const scenario& s, std::uint32_t number,
+                                       const recorder_actor& recorder,
+                                       bool virtual_time) {
   const auto& options = s.providers[number];
   provider_setup setup;
   setup.boot = number + 1;
@@ -76,6 +76,25 @@ provider_actor spawn_provider(caf::actor_system& sys, const scenario& s,
   setup.virtual_time = virtual_time;
   setup.crossings_granted = s.traffic.grants_crossings();
   return spawn_service_provider(sys, std::move(setup));
+}
+
+std::vector<roadside_sensor> sensors_beside(const scenario& s,
+                                            const std::vector<site>& sites) {
+  const auto noise = noise_of(s, "roadside sensors");
+  std::vector<roadside_sensor> beside;
+  for (std::size_t p = 0; p < sites.size(); ++p) {
+    const auto& own = sites[p].options->sensors;
+    for (std::size_t k = 0; k < own.size(); ++k)
+      beside.push_back({sites[p].provider, own[k].make(noise.part(p).part(k))});
+  }
+  return beside;
+}
+
+std::vector<oriented_box> obstacles(const scenario& s) {
+  std::vector<oriented_box> boxes;
+  for (const auto& o : s.obstacles)
+    boxes.push_back(o.box());
+  return boxes;
 }
 
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
@@ -151,14 +170,16 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   for (const auto& v : placed)
     ways[v.station] = v.way;
   world.recorder = spawn_recorder(sys, std::move(sink));
-  world.road = spawn_road(sys, s.world, ways, car, world.recorder,
-                          s.traffic.grants_crossings());
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    world.providers.push_back(
-        spawn_provider(sys, s, k, world.recorder, virtual_time));
-    sites.push_back({world.providers.back(), &s.providers[k]});
+    sites.push_back({spawn_provider(sys, s, k, world.recorder, virtual_time),
+                     &s.providers[k]});
+    world.providers.push_back(sites.back().provider);
   }
+  world.road =
+      spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
+                       sensors_beside(s, sites), obstacles(s), world.recorder,
+                       s.traffic.grants_crossings()});
   for (const auto& v : placed) {
     vehicle_setup setup;
     setup.station = v.station;

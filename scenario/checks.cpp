@@ -43,6 +43,24 @@ void check_stations(const scenario& all, const toml_file& source) {
   }
 }
 
+void check_obstacles(const scenario& all, const toml_file& source) {
+  const auto highest =
+      obstacle_id(static_cast<std::uint32_t>(all.obstacles.size()));
+  for (std::size_t f = 0; f < all.fleets.size(); ++f)
+    if (all.fleets[f].first_station + all.fleets[f].count - 1 > highest)
+      source.refuse(fmt::format("fleet.{}.first_station", f),
+                    fmt::format("stations above {} are obstacles; begin lower.",
+                                highest));
+  for (const auto& v : place_vehicles(all)) {
+    const auto pose = v.way->path().at(v.start_s_m);
+    const auto box = body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
+    for (std::size_t k = 0; k < all.obstacles.size(); ++k)
+      if (overlap(box, all.obstacles[k].box()))
+        source.refuse(fmt::format("obstacle.{}", k),
+                      fmt::format("vehicle {} would start on it.", v.station));
+  }
+}
+
 void check_services(const scenario& all, const toml_file& source) {
   std::vector<std::string_view> names;
   for (const auto& kind : all.services) {
@@ -114,6 +132,7 @@ void check_whole(const scenario& all, const toml_file& source) {
   check_services(all, source);
   check_providers(all, source);
   check_placement(all, source);
+  check_obstacles(all, source);
 }
 
 } // namespace sofof

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 
 namespace sofof {
 
@@ -19,12 +20,18 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr settings::range any_length_m{0, 1e6};
+constexpr settings::range any_heading_deg{-360, 360};
+constexpr settings::range body_size_m{0.1, 50};
 constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
 constexpr std::array<std::string_view, 2> crossing_rules{"granted",
                                                          "perceived"};
 constexpr auto max_vehicles = 1e5;
 constexpr auto max_start_speed_mps = 50.0;
 constexpr double max_station = std::numeric_limits<station_id>::max();
+
+double to_rad(double angle_deg) {
+  return angle_deg * std::numbers::pi / 180;
+}
 
 } // namespace
 
@@ -50,6 +57,27 @@ void traffic_options::fields(settings& s) {
   if (std::ranges::find(crossing_rules, crossings) == crossing_rules.end())
     s.refuse("crossings",
              unknown_word("rule for crossings", crossings, crossing_rules));
+}
+
+oriented_box obstacle_options::box() const {
+  return {position_m, to_rad(heading_deg), length_m, width_m};
+}
+
+void obstacle_options::fields(settings& s) {
+  s.field("position_m", position_m);
+  s.field("heading_deg", heading_deg, any_heading_deg);
+  s.field("length_m", length_m, body_size_m);
+  s.field("width_m", width_m, body_size_m);
+}
+
+sensor roadside_options::make(random_stream noise) const {
+  return {can, noise, position_m, to_rad(heading_deg), std::nullopt};
+}
+
+void roadside_options::fields(settings& s) {
+  s.field("position_m", position_m);
+  s.field("heading_deg", heading_deg, any_heading_deg);
+  can.fields(s);
 }
 
 polygon provider_options::area() const {
@@ -81,6 +109,7 @@ void provider_options::fields(settings& s) {
       s.refuse("services", "must name at least one service; leave it out to "
                            "offer all.");
   }
+  list_all(s, "sensor", sensors);
 }
 
 void network_options::fields(settings& s) {
@@ -136,6 +165,8 @@ void scenario::fields(settings& s) {
     s.table("street_grid", [this](settings& t) { grid_params.fields(t); });
   s.table("traffic", [this](settings& t) { traffic.fields(t); });
   list_all(s, "fleet", fleets);
+  s.table("sensors", [this](settings& t) { sensors.fields(t); });
+  list_all(s, "obstacle", obstacles);
   list_all(s, "provider", providers);
   s.table("network", [this](settings& t) { network.fields(t); });
   s.tables("service", services.size(), [this](std::size_t i, settings& t) {

@@ -4,6 +4,7 @@
 #include "actors/service_kind.hpp"
 #include "policies/context.hpp"
 #include "world/channel.hpp"
+#include "world/sensors.hpp"
 #include "world/settings.hpp"
 #include "world/street_grid.hpp"
 #include "world/streets.hpp"
@@ -48,6 +49,30 @@ struct traffic_options {
   void fields(settings& s);
 };
 
+/// A body that stands on the road, as a parked car does.
+struct obstacle_options {
+  point position_m;       ///< Of its middle.
+  double heading_deg = 0; ///< Of its long axis, counter-clockwise from east.
+  double length_m = 4.5;
+  double width_m = 1.8;
+
+  oriented_box box() const;
+
+  void fields(settings& s);
+};
+
+/// A sensor at the roadside.
+struct roadside_options {
+  point position_m;
+  double heading_deg = 0; ///< Of the middle of its field of view.
+  sensor_params can{.range_m = 120};
+
+  /// @param noise  A stream of its own.
+  sensor make(random_stream noise) const;
+
+  void fields(settings& s);
+};
+
 /// Where a provider is, and what it offers.
 struct provider_options {
   std::string name = "mec";
@@ -57,6 +82,7 @@ struct provider_options {
   std::vector<point> area_m;         ///< Polygon instead of the regular area.
   double range_m = 2000;             ///< CAMs from farther away are not heard.
   std::vector<std::string> services; ///< Offered kinds; empty: all.
+  std::vector<roadside_options> sensors; ///< `sensor` in the file.
 
   /// A loaded scenario's provider has one.
   /// @throws std::invalid_argument for a bad polygon.
@@ -104,6 +130,8 @@ struct scenario {
   street_grid_params grid_params;
   traffic_options traffic;
   std::vector<fleet_options> fleets;
+  std::vector<obstacle_options> obstacles; ///< `obstacle` in the file.
+  sensor_params sensors;                   ///< Of every vehicle.
   std::vector<provider_options> providers;
   network_options network;
   std::vector<service_kind_ptr> services;

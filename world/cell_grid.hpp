@@ -29,6 +29,24 @@ public:
     });
   }
 
+  /// Forgets all items, but keeps their memory for the next ones.
+  void clear() {
+    for (auto& [key, items] : cells_)
+      items.clear();
+  }
+
+  /// Calls `visit(item)` for everything in the cells within `radius_m` of `p`,
+  /// cell by cell from west to east and south to north, in each in the order
+  /// of filing; an item may come twice.
+  template <class Visitor>
+  void for_each_near(point p, double radius_m, Visitor visit) const {
+    for_cells(p, p, radius_m, [&](std::uint64_t key) {
+      if (const auto cell = cells_.find(key); cell != cells_.end())
+        for (const auto it : cell->second)
+          visit(it);
+    });
+  }
+
   /// @returns whether `holds(item)` is true for something in the cells within
   /// `radius_m` of `p`; an item may be asked twice.
   template <class Predicate>

@@ -8,6 +8,12 @@ namespace sofof {
 /// A connected vehicle, as in ETSI ITS (StationID).
 using station_id = std::uint32_t;
 
+/// @returns the number of the k-th obstacle, counting from 0. They count down
+/// from the highest there is.
+constexpr station_id obstacle_id(std::uint32_t k) {
+  return ~station_id{0} - k;
+}
+
 /// A provider process since its start; a restarted one has a new id.
 using boot_id = std::uint64_t;
 

@@ -18,7 +18,7 @@ namespace {
 /// From where to where a body reaches at most.
 struct extent {
   double west_m, east_m;
-  const road_user* who;
+  std::size_t who; // number of the body
 };
 
 /// @returns half the diagonal of a box: no corner is farther from its centre.
@@ -34,9 +34,10 @@ bool touch(const oriented_box& a, const oriented_box& b) {
 } // namespace
 
 struct traffic::state {
-  state(const road_map& map, bool grants_crossings)
+  state(const road_map& map, std::vector<road_body> obstacles,
+        bool grants_crossings)
       : all{list_encounters(map)}, grants{grants_crossings}, order{all},
-        crossings{map} {}
+        crossings{map}, standing{std::move(obstacles)} {}
 
   auto find(station_id station) {
     return std::ranges::lower_bound(drivers, station, {}, &driver::station);
@@ -51,6 +52,7 @@ struct traffic::state {
   }
 
   void perceive(time_point now);
+  void list_bodies();
   void find_touching();
 
   const encounters all;
@@ -58,12 +60,16 @@ struct traffic::state {
   lane_order order;
   right_of_way crossings;
   std::vector<driver> drivers; // in order of station ids
+  const std::vector<road_body> standing;
+  std::vector<road_body> bodies; // the drivers', then those that stand
   std::vector<extent> from_west;
   std::vector<std::pair<station_id, station_id>> touching;
 };
 
-traffic::traffic(const road_map& map, bool grants_crossings)
-    : state_{std::make_unique<state>(map, grants_crossings)} {}
+traffic::traffic(const road_map& map, std::vector<road_body> standing,
+                 bool grants_crossings)
+    : state_{
+        std::make_unique<state>(map, std::move(standing), grants_crossings)} {}
 
 traffic::traffic(traffic&&) noexcept = default;
 traffic& traffic::operator=(traffic&&) noexcept = default;
@@ -93,13 +99,14 @@ void traffic::update(time_point now) {
   if (state_->grants)
     state_->crossings.decide(state_->drivers, state_->order, now);
   state_->perceive(now);
+  state_->list_bodies();
   state_->find_touching();
 }
 
 void traffic::state::perceive(time_point now) {
   for (std::size_t i = 0; i < drivers.size(); ++i) {
     auto& d = drivers[i];
-    d.seen = {now, {}, {}};
+    d.seen = {now, {}, {}, {}};
     if (const auto ahead = order.ahead_of(i)) {
       const auto& other = drivers[ahead->who].known;
       d.seen.lead = {other.station, ahead->rear_m, other.speed_mps,
@@ -110,19 +117,31 @@ void traffic::state::perceive(time_point now) {
   }
 }
 
+void traffic::state::list_bodies() {
+  bodies.clear();
+  for (const auto& d : drivers)
+    bodies.push_back(
+        {d.known.station, d.known.body, d.known.speed_mps, d.known.accel_mps2});
+  bodies.insert(bodies.end(), standing.begin(), standing.end());
+}
+
 /// Sweeps from west to east: only bodies at the same easting can touch.
 void traffic::state::find_touching() {
   touching.clear();
   from_west.clear();
-  for (const auto& d : drivers) {
-    const auto x_m = d.known.body.centre.x_m, r_m = radius_m(d.known.body);
-    from_west.push_back({x_m - r_m, x_m + r_m, &d.known});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto& box = bodies[i].box;
+    const auto x_m = box.centre.x_m, r_m = radius_m(box);
+    from_west.push_back({x_m - r_m, x_m + r_m, i});
   }
   std::ranges::sort(from_west, {}, &extent::west_m);
+  const auto moves = [this](std::size_t i) { return i < drivers.size(); };
   for (auto a = from_west.begin(); a != from_west.end(); ++a)
-    for (auto b = a + 1; b != from_west.end() && b->west_m <= a->east_m; ++b)
-      if (touch(a->who->body, b->who->body))
-        touching.push_back(std::minmax(a->who->station, b->who->station));
+    for (auto b = a + 1; b != from_west.end() && b->west_m <= a->east_m; ++b) {
+      const auto &one = bodies[a->who], &other = bodies[b->who];
+      if ((moves(a->who) || moves(b->who)) && touch(one.box, other.box))
+        touching.push_back(std::minmax(one.id, other.id));
+    }
   std::ranges::sort(touching);
 }
 
@@ -132,6 +151,10 @@ perception traffic::perceive(station_id station) const {
     throw std::out_of_range{
         fmt::format("There is no road user {} in the traffic.", station)};
   return d->seen;
+}
+
+std::span<const road_body> traffic::bodies() const {
+  return state_->bodies;
 }
 
 std::vector<std::pair<station_id, station_id>> traffic::collisions() const {

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "world/ids.hpp"
+#include "world/perception.hpp"
+#include "world/road_body.hpp"
 #include "world/road_map.hpp"
 #include "world/time.hpp"
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -43,6 +46,9 @@ struct perception {
   /// crossing has not been granted yet. Empty where nobody is granted
   /// anything.
   std::optional<double> stop_at_m;
+  /// What the own sensors see, in the order of `scene::seen_by`. The traffic
+  /// leaves it empty; the road fills it in.
+  std::vector<perceived_object> objects;
 };
 
 /// All road users, in lane order; neighbours are found along the lanes, never
@@ -50,11 +56,15 @@ struct perception {
 /// reports.
 class traffic {
 public:
+  /// @param standing  Bodies that never move. They touch others, but the
+  ///                  rules of the road do not know them. Their ids are no
+  ///                  road user's.
   /// @param grants_crossings  Grants every crossing, and so keeps everybody
   ///                          apart. Else nobody is granted anything: drivers
   ///                          judge crossings by what they perceive and by
   ///                          the ranks of the lanes.
-  explicit traffic(const road_map& map, bool grants_crossings = true);
+  explicit traffic(const road_map& map, std::vector<road_body> standing = {},
+                   bool grants_crossings = true);
   traffic(traffic&&) noexcept;
   traffic& operator=(traffic&&) noexcept;
   ~traffic();
@@ -81,8 +91,12 @@ public:
   /// @throws std::out_of_range when there is no such road user.
   perception perceive(station_id station) const;
 
-  /// @returns the pairs of road users whose bodies touch, lower id first,
-  /// in rising order, as of the last `update`.
+  /// @returns all road users in the order of their stations, then what stands
+  /// on the road, as of the last `update`; valid until the next one.
+  std::span<const road_body> bodies() const;
+
+  /// @returns the pairs of bodies that touch, lower id first, in rising order,
+  /// as of the last `update`; not those of which neither is a road user.
   std::vector<std::pair<station_id, station_id>> collisions() const;
 
 private:

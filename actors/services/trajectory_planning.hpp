@@ -34,8 +34,13 @@ void archive(auto& bytes, lead_vehicle& x) {
   bytes(x.station, x.rear_s_m, x.speed_mps, x.accel_mps2);
 }
 
+void archive(auto& bytes, perceived_object& x) {
+  bytes(x.centre, x.heading_rad, x.speed_mps, x.accel_mps2, x.length_m,
+        x.width_m);
+}
+
 void archive(auto& bytes, perception& x) {
-  bytes(x.at, x.lead, x.stop_at_m);
+  bytes(x.at, x.lead, x.stop_at_m, x.objects);
 }
 
 void archive(auto& bytes, planning_input& x) {

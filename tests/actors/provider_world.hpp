@@ -23,7 +23,8 @@ struct provider_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<requester_actor> requester = listen<requester_actor>();
   probe<requester_actor> neighbour = listen<requester_actor>();
-  provider_actor provider = own(spawn_service_provider(system(), setup()));
+  roadside_provider_actor provider =
+      own(spawn_service_provider(system(), setup()));
   std::uint32_t last_number = 0;
 
   provider_world() { run_for(10s); } // the clock's zero is no special time

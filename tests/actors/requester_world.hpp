@@ -50,7 +50,7 @@ struct requester_world : virtual_world {
     return world;
   }
 
-  onboard_requester_actor spawn() {
+  requester_setup setup() const {
     requester_setup setup;
     setup.station = station;
     setup.way = world->routes.front();
@@ -61,7 +61,11 @@ struct requester_world : virtual_world {
     setup.vehicle = vehicle.handle;
     setup.recorder = recorder.handle;
     setup.noise = random_stream{1, "vehicle"};
-    return own(spawn_service_requester(system(), std::move(setup)));
+    return setup;
+  }
+
+  onboard_requester_actor spawn() {
+    return own(spawn_service_requester(system(), setup()));
   }
 
   // -- what happens to the requester --------------------------------------

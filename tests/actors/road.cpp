@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 using namespace sofof;
@@ -21,14 +22,35 @@ struct road_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<vehicle_actor> behind = listen<vehicle_actor>();
   probe<vehicle_actor> ahead = listen<vehicle_actor>();
-  road_actor road = own(spawn_road(
-      system(), world, {{1, world->routes.front()}, {2, world->routes.front()}},
-      size, recorder.handle));
+  probe<roadside_provider_actor> provider = listen<roadside_provider_actor>();
+  road_actor road = own(spawn_road(system(), setup()));
 
+  road_setup setup() const {
+    road_setup s;
+    s.world = world;
+    s.ways = {{1, world->routes.front()}, {2, world->routes.front()}};
+    s.car = size;
+    s.noise = random_stream{1, "sensors"};
+    s.recorder = recorder.handle;
+    return s;
+  }
+
+  /// A sensor without errors.
+  static sensor exact_sensor(point at) {
+    sensor s;
+    s.can.position_noise_m = s.can.speed_noise_mps = s.can.heading_noise_rad =
+        0;
+    s.at = at;
+    return s;
+  }
+
+  /// A street from west to east, with a house beside it.
   static streets_ptr one_street() {
     auto world = std::make_shared<streets>();
-    world->map =
-        road_map{"street", {}, {toy::straight("street", {0, 0}, {500, 0})}};
+    world->map = road_map{"street",
+                          {},
+                          {toy::straight("street", {0, 0}, {500, 0})},
+                          {{{{200, 5}, {220, 5}, {220, 25}, {200, 25}}}}};
     world->routes.push_back(world->map.make_route(
         "street", std::vector<std::string>{"street"}, false));
     return world;
@@ -129,4 +151,111 @@ TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
   run_for(100ms);
   CHECK(!behind->all<perception>().back().lead);
   CHECK(ahead->entries().empty());
+}
+
+TEST_CASE_FIXTURE(road_world, "everybody sees the others from the middle of "
+                              "the own body, not quite where they are") {
+  report(1, 100, 5, behind);
+  report(2, 130, 7, ahead);
+  run_for(100ms);
+  const auto view = behind->all<perception>().back();
+  REQUIRE(view.objects.size() == 1); // not oneself
+  const auto& seen = view.objects.front();
+  const point truth{130 + (size.front_m - size.rear_m) / 2, 0};
+  CHECK(distance_m(seen.centre, truth) < 0.5);
+  CHECK(distance_m(seen.centre, truth) > 0);
+  CHECK(std::abs(seen.speed_mps - 7) < 0.5);
+  CHECK(seen.length_m == size.front_m + size.rear_m);
+  CHECK(seen.width_m == size.width_m);
+
+  const auto back = ahead->all<perception>().back();
+  REQUIRE(back.objects.size() == 1);
+  CHECK(std::abs(back.objects.front().speed_mps - 5) < 0.5);
+}
+
+TEST_CASE_FIXTURE(road_world, "a vehicle's sensor reaches a hundred metres") {
+  report(1, 100, 5, behind);
+  report(2, 199.9, 7, ahead);
+  run_for(100ms);
+  CHECK(behind->all<perception>().back().objects.size() == 1);
+  report(2, 200.1, 7, ahead);
+  run_for(100ms);
+  CHECK(behind->all<perception>().back().objects.empty());
+}
+
+TEST_CASE_FIXTURE(road_world, "two look at the same and err each for itself, "
+                              "anew every time") {
+  auto s = setup();
+  s.obstacles = {{{115, 5}, 0, 4.5, 1.8}};
+  road = own(spawn_road(system(), s));
+  report(1, 100, 5, behind);
+  report(2, 130, 7, ahead);
+  run_for(200ms);
+  const auto obstacle = [](const probe<vehicle_actor>& who, std::size_t k) {
+    const auto views = who->all<perception>();
+    for (const auto& o : views.at(k).objects)
+      if (o.length_m == 4.5)
+        return o.centre;
+    return point{};
+  };
+  CHECK(distance_m(obstacle(behind, 1), {115, 5}) < 0.5);
+  CHECK(distance_m(obstacle(ahead, 1), {115, 5}) < 0.5);
+  CHECK_FALSE(obstacle(behind, 1) == obstacle(ahead, 1));
+  CHECK_FALSE(obstacle(behind, 1) == obstacle(behind, 2));
+}
+
+TEST_CASE_FIXTURE(road_world, "an obstacle is seen and hides who is behind "
+                              "it, but leads nobody") {
+  auto s = setup();
+  s.obstacles = {{{120, 0}, 0, 4.5, 2.5}};
+  road = own(spawn_road(system(), s));
+  report(1, 100, 5, behind);
+  report(2, 140, 7, ahead);
+  run_for(100ms);
+  const auto view = behind->all<perception>().back();
+  REQUIRE(view.objects.size() == 1);
+  CHECK(view.objects.front().length_m == 4.5);
+  CHECK(view.objects.front().width_m == 2.5);
+  REQUIRE(view.lead);
+  CHECK(view.lead->station == 2);
+}
+
+TEST_CASE_FIXTURE(road_world, "to touch an obstacle is a collision, once") {
+  auto s = setup();
+  s.obstacles = {{{300, 0}, 0, 4, 2}, {{200, 0}, 0, 4, 2}, {{199, 0}, 0, 4, 2}};
+  road = own(spawn_road(system(), s));
+  report(1, 196.9 - size.front_m, 5, behind);
+  run_for(1s);
+  CHECK(collisions() == 0); // obstacles may touch each other
+  report(1, 197.1 - size.front_m, 5, behind);
+  run_for(1s);
+  REQUIRE(collisions() == 1);
+  const auto touch = recorder->all<collision_record>().front();
+  CHECK(touch.first == 1);
+  CHECK(touch.second == obstacle_id(2));
+}
+
+TEST_CASE_FIXTURE(road_world, "a provider is told what each of its sensors "
+                              "sees, every 50 ms") {
+  auto s = setup();
+  s.beside = {{provider.handle, exact_sensor({150, 0})},
+              {provider.handle, exact_sensor({210, 30})}};
+  road = own(spawn_road(system(), s));
+  run_for(100ms);
+  for (const auto& view : provider->all<site_view>())
+    CHECK(view.objects.empty());
+  report(1, 206, 5, behind); // behind the house, seen from the second one
+  provider->clear();
+  run_for(1s);
+  const auto views = provider->all<site_view>();
+  REQUIRE(views.size() == 40);
+  const auto times = provider->times<site_view>();
+  for (std::size_t k = 0; k < views.size(); k += 2) {
+    CHECK(views[k].at == times[k]);
+    CHECK(times[k + 1] == times[k]);
+    REQUIRE(views[k].objects.size() == 1);
+    CHECK(views[k].objects.front().speed_mps == 5);
+    CHECK(views[k + 1].objects.empty());
+  }
+  CHECK(times[2] - times[0] == 50ms);
 }

@@ -257,7 +257,7 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle asks for plans where they are "
   CHECK(manager->entries().empty());
   tell(car, manager.handle);
   run_for(1s);
-  perception seen{now(), lead_vehicle{7, 150, 3, 0}, 170.0};
+  perception seen{now(), lead_vehicle{7, 150, 3, 0}, 170.0, {}};
   tell(car, seen);
   REQUIRE(manager->count<service_input>() == 1);
   const auto input = manager->all<service_input>().front();

@@ -56,7 +56,11 @@ inline constexpr std::size_t arity<source_change> = 2;
 template <>
 inline constexpr std::size_t arity<lead_vehicle> = 4;
 template <>
-inline constexpr std::size_t arity<perception> = 3;
+inline constexpr std::size_t arity<perceived_object> = 6;
+template <>
+inline constexpr std::size_t arity<perception> = 4;
+template <>
+inline constexpr std::size_t arity<site_view> = 2;
 template <>
 inline constexpr std::size_t arity<event_record> = 7;
 template <>
@@ -92,7 +96,7 @@ using all_messages =
                lifecycle_step, motion_report, ego_state, source_change,
                perception, event_record, decision_record, cycle_record,
                episode_record, track_record, safety_record, collision_record,
-               drive_record, plan_switch_record>;
+               drive_record, plan_switch_record, site_view>;
 
 /// @returns references to all members.
 template <class T>

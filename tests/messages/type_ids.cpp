@@ -58,6 +58,7 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::tick_atom",
       "sofof::drive_record",
       "sofof::plan_switch_record",
+      "sofof::site_view",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);
@@ -70,7 +71,7 @@ TEST_CASE("type ids are where they have always been") {
 }
 
 TEST_CASE("every type id is listed above") {
-  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 44);
+  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 45);
 }
 
 TEST_CASE("numbers of some types, written out") {
@@ -79,4 +80,5 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<service_end> == 211);
   CHECK(caf::type_id_v<provider_manager_actor> == 230);
   CHECK(caf::type_id_v<tick_atom> == 241);
+  CHECK(caf::type_id_v<site_view> == 244);
 }

@@ -111,6 +111,46 @@ TEST_CASE("a number out of its range is refused") {
   });
 }
 
+TEST_CASE("a sensor that cannot be is refused") {
+  const auto sensors = [](const std::string& option) {
+    return "[sensors]\n" + option + "\n[network]";
+  };
+  const auto roadside = sensors("[[provider.sensor]]\nrange_m = @-1");
+  check_all({
+      {"[network]", sensors("range_m = @-1"), {"range_m", "from 0", "-1"}},
+      {"[network]", sensors("range_m = @1001"), {"to 1000"}},
+      {"[network]", sensors("field_of_view_deg = @361"), {"to 360"}},
+      {"[network]", sensors("position_noise_m = @-0.1"), {"from 0"}},
+      {"[network]", sensors("speed_noise_mps = @nan"), {"nan"}},
+      {"[network]", sensors("heading_noise_rad = @4"), {"heading_noise_rad"}},
+      {"[network]", sensors("occlusion = @1"), {"true or false"}},
+      {"[network]", sensors("@range = 1"), {"did you mean \"range_m\"?"}},
+      {"[network]", roadside, {"range_m", "from 0"}},
+      {"[network]", "[sensors]\n[[provider.sensor]]\n@at = 1\n[network]", {}},
+  });
+}
+
+TEST_CASE("an obstacle that cannot be is refused") {
+  const auto obstacle = [](const std::string& options) {
+    return "[[obstacle]]\n" + options + "\n[network]";
+  };
+  const std::string rest = "\nroutes = [\"straight\"]\nplacement = "
+                           "\"convoy\"\nstart_m = 150.0";
+  const auto second = "first_station = 201" + rest;
+  check_all({
+      {"[network]", obstacle("length_m = @0"), {"length_m", "from 0.1"}},
+      {"[network]", obstacle("width_m = @-1"), {"width_m", "from 0.1"}},
+      {"[network]", obstacle("heading_deg = @720"), {"heading_deg", "360"}},
+      {"[network]", obstacle("@speed_mps = 1"), {"speed_mps"}},
+      {"[network]",
+       "@[[obstacle]]\nposition_m = [100.0, 2.0]\n[network]",
+       {"vehicle 101", "start on it"}},
+      {second,
+       "first_station = @4294967294" + rest + "\n[[obstacle]]",
+       {"above 4294967294", "begin lower"}},
+  });
+}
+
 TEST_CASE("an option that would have no effect is refused") {
   const auto with = [](const char* option) {
     try {

@@ -50,6 +50,44 @@ TEST_CASE("what a file leaves out keeps its default") {
   CHECK(s.record.tracks);
 }
 
+TEST_CASE("sensors and obstacles are what the file says") {
+  const auto s = example::load(example::with(
+      "[network]", "[[provider.sensor]]\nposition_m = [1.0, 2.0]\n"
+                   "heading_deg = 90\nocclusion = false\n"
+                   "[[provider.sensor]]\nspeed_noise_mps = 0.5\n"
+                   "[sensors]\nrange_m = 60.0\nfield_of_view_deg = 120\n"
+                   "[[obstacle]]\nposition_m = [5.0, 6.0]\n"
+                   "heading_deg = -90\nlength_m = 8\n[network]"));
+  CHECK(s.sensors.range_m == 60);
+  CHECK(s.sensors.field_of_view_deg == 120);
+  CHECK(s.sensors.position_noise_m == 0.1);
+  CHECK(s.sensors.occlusion);
+  CHECK(s.providers[0].sensors.empty());
+  REQUIRE(s.providers[1].sensors.size() == 2);
+  const random_stream noise{1, "test"};
+  const auto first = s.providers[1].sensors[0].make(noise);
+  CHECK(first.at == point{1, 2});
+  CHECK(first.heading_rad == doctest::Approx(1.5707963));
+  CHECK(first.can.range_m == 120);
+  CHECK_FALSE(first.can.occlusion);
+  CHECK_FALSE(first.carrier);
+  CHECK(first.noise.bits(0) == noise.bits(0));
+  CHECK(s.providers[1].sensors[1].can.speed_noise_mps == 0.5);
+  REQUIRE(s.obstacles.size() == 1);
+  const auto box = s.obstacles[0].box();
+  CHECK(box.centre == point{5, 6});
+  CHECK(box.heading_rad == doctest::Approx(-1.5707963));
+  CHECK(box.length_m == 8);
+  CHECK(box.width_m == 1.8);
+}
+
+TEST_CASE("a scenario that says nothing of sensors has them") {
+  const auto s = example::load();
+  CHECK(s.sensors.range_m == 100);
+  CHECK(s.sensors.field_of_view_deg == 360);
+  CHECK(s.obstacles.empty());
+}
+
 TEST_CASE("the streets come with the scenario") {
   const auto s = example::load();
   REQUIRE(s.world);
@@ -137,6 +175,7 @@ TEST_CASE("the scenarios that come with the project can be loaded") {
   const auto ulm_lehr = load_scenario(config / "ulm_lehr.toml");
   CHECK(ulm_lehr.fleets.front().count == 6);
   CHECK(ulm_lehr.services.size() == 2);
+  CHECK(ulm_lehr.providers.front().sensors.size() == 1);
   CHECK(ulm_lehr.world->map.lanes().size() > 2);
   const auto crossing = load_scenario(config / "occluded_crossing.toml");
   CHECK(crossing.fleets.size() == 2);

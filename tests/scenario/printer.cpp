@@ -114,7 +114,10 @@ TEST_CASE("a whole number of a quantity is printed as a quantity") {
 }
 
 TEST_CASE("the effective configuration loads again to itself") {
-  const auto text = to_toml(example::load());
+  auto all = example::load();
+  all.obstacles.push_back({{1, 2}, 3, 4, 5});
+  all.providers.front().sensors.push_back({{1, 2}, 3, {.range_m = 7}});
+  const auto text = to_toml(all);
   const auto again = example::load(text);
   CHECK(to_toml(again) == text);
   CHECK(again.providers[1].area_m == example::load().providers[1].area_m);
@@ -126,7 +129,8 @@ TEST_CASE("the effective configuration names the defaults too") {
   for (const auto line :
        {"area_corners = 24\n", "range_m = 2000.0\n", "map = \"ring.toml\"\n",
         "duration = \"10min\"\n", "min_distance_m = 50.0\n", "tracks = true\n",
-        "workers = 1\n", "[policies.lodm]\n", "[[service]]\n"}) {
+        "workers = 1\n", "[sensors]\n", "occlusion = true\n",
+        "[policies.lodm]\n", "[[service]]\n"}) {
     CAPTURE(line);
     CHECK(text.find(line) != text.npos);
   }
@@ -137,6 +141,8 @@ TEST_CASE("every option stands in the documentation") {
   REQUIRE(docs);
   auto all = example::load();
   all.grid = true;
+  all.obstacles.emplace_back();
+  all.providers.front().sensors.emplace_back();
   std::istringstream lines{to_toml(all)};
   auto options = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -1,6 +1,7 @@
 // Whole runs in virtual time, judged by their records.
 #include "scenario/build.hpp"
 #include "scenario/load.hpp"
+#include "scenario/placement.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/support/memory_sink.hpp"
 
@@ -21,8 +22,7 @@ using namespace std::chrono_literals;
 
 const std::string ulm_lehr = SOFOF_SOURCE_DIR "/config/ulm_lehr.toml";
 
-memory_sink drive(std::vector<std::string> overrides) {
-  const auto s = load_scenario(ulm_lehr, overrides);
+memory_sink play(const scenario& s) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, true);
@@ -30,6 +30,45 @@ memory_sink drive(std::vector<std::string> overrides) {
   dismiss(actors, *time);
   return *records;
 }
+
+memory_sink drive(const std::vector<std::string>& overrides) {
+  return play(load_scenario(ulm_lehr, overrides));
+}
+
+/// Trajectory planning whose providers write down what they get to know.
+class watched_planning final : public service_kind {
+public:
+  struct notebook final : service_site {
+    std::size_t heard = 0, seen = 0;
+    std::vector<point> where;
+    void hear(const cam&) override { ++heard; }
+    void see(time_point, std::span<const perceived_object> objects) override {
+      ++seen;
+      for (const auto& o : objects)
+        where.push_back(o.centre);
+    }
+  };
+
+  watched_planning() { common = inner_->common; }
+
+  std::string_view name() const override { return inner_->name(); }
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    return inner_->make_function(setup);
+  }
+  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
+                            const vehicle_actor& vehicle) const override {
+    return inner_->spawn_client(sys, setup, vehicle);
+  }
+  std::shared_ptr<service_site> make_site(const service_setup&) const override {
+    return notes;
+  }
+
+  std::shared_ptr<notebook> notes = std::make_shared<notebook>();
+
+private:
+  service_kind_ptr inner_ = make_service_kind("trajectory_planning");
+};
 
 /// Latency of each remote trajectory of one station, by cycle.
 std::map<std::uint64_t, duration> latencies(const memory_sink& records,
@@ -122,4 +161,32 @@ TEST_CASE("a smaller area makes shorter offloadings") {
       longest = std::max(longest, e.ended - e.first_data);
   CHECK(longest > 15s);
   CHECK(longest < 40s); // of about 220 m; 300 m round it take about 70 s
+}
+
+TEST_CASE("an obstacle of a scenario stands on its road") {
+  auto s = load_scenario(ulm_lehr, std::vector<std::string>{"duration=1s"});
+  REQUIRE(play(s).collisions.empty());
+  const auto first = place_vehicles(s).front();
+  s.obstacles.push_back({first.way->path().at(first.start_s_m).at});
+  const auto records = play(s);
+  REQUIRE(records.collisions.size() == 1);
+  CHECK(records.collisions.front().first == first.station);
+  CHECK(records.collisions.front().second == obstacle_id(0));
+}
+
+TEST_CASE("a provider knows of the CAMs and of what its sensors see") {
+  auto s = load_scenario(ulm_lehr, std::vector<std::string>{"duration=10s"});
+  const auto planning = std::make_shared<watched_planning>();
+  s.services = {planning};
+  s.obstacles.push_back({{20, -30}});
+  auto& sensors = s.providers.front().sensors;
+  sensors = {{{0, 0}, 0, {.range_m = 40, .occlusion = false}}};
+  play(s);
+  const auto& notes = *planning->notes;
+  CHECK(notes.heard > 6 * 90); // 10 Hz each, less what is under way
+  CHECK(notes.seen >= 199);
+  CHECK(notes.where.size() >= 199);
+  for (const auto p : notes.where)
+    CHECK(distance_m(p, {}) < 41);
+  CHECK(distance_m(notes.where.front(), {20, -30}) < 1);
 }

@@ -205,7 +205,7 @@ TEST_CASE("where crossings are not granted nobody is told to wait, but who "
   const auto north = make_route(map, {4, 0, 2});
   for (const auto granted : {true, false}) {
     CAPTURE(granted);
-    traffic all{map, granted};
+    traffic all{map, {}, granted};
     all.report(user(1, east, connector_start_m(*east) - 6));
     all.report(user(2, north, connector_start_m(*north) - 6));
     all.report(user(3, north, connector_start_m(*north) - 20));
@@ -279,4 +279,37 @@ TEST_CASE("touching bodies are those that a comparison of all pairs finds") {
         expected.emplace_back(users[a].station, users[b].station);
   CHECK(expected.size() > 20);
   CHECK(all.collisions() == expected);
+}
+
+TEST_CASE("bodies are listed by their stations, then what stands there") {
+  const auto map = cross_roads();
+  const auto east = make_route(map, {3, 0, 1});
+  traffic all{map, {{900, {{50, 50}, 0, 4, 2}}}};
+  all.report(user(7, east, 20));
+  all.report(user(3, east, 60));
+  all.update({});
+  const auto bodies = all.bodies();
+  REQUIRE(bodies.size() == 3);
+  CHECK(bodies[0].id == 3);
+  CHECK(bodies[1].id == 7);
+  CHECK(bodies[1].box.centre == user(7, east, 20).body.centre);
+  CHECK(bodies[2].id == 900);
+  CHECK(bodies[2].box.centre == point{50, 50});
+}
+
+TEST_CASE("what stands on the road can be hit, but is no road user") {
+  const auto map = cross_roads();
+  const auto east = make_route(map, {3, 0, 1});
+  const auto box = user(1, east, 20).body;
+  traffic all{map, {{900, box}, {901, box}}};
+  all.update({});
+  CHECK(all.collisions().empty()); // they stand on each other
+  CHECK_THROWS_AS(all.perceive(900), std::out_of_range);
+  all.report(user(1, east, 20));
+  all.update({});
+  CHECK(all.collisions()
+        == std::vector<std::pair<station_id, station_id>>{{1, 900}, {1, 901}});
+  all.remove(1);
+  all.update({});
+  CHECK(all.collisions().empty());
 }

@@ -1,0 +1,164 @@
+// What a provider knows beyond one vehicle's input: its services' sites.
+#include "tests/actors/provider_world.hpp"
+#include "tests/actors/requester_world.hpp"
+
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+/// Remembers what it was told.
+struct notebook final : service_site {
+  std::vector<cam> heard;
+  std::vector<site_view> seen;
+
+  void hear(const cam& c) override { heard.push_back(c); }
+  void see(time_point at, std::span<const perceived_object> objects) override {
+    seen.push_back({at, {objects.begin(), objects.end()}});
+  }
+};
+
+/// An echo with a site, that remembers for whom what was made.
+class knowing_echo final : public service_kind {
+public:
+  explicit knowing_echo(std::string name) : echo_{std::move(name)} {
+    common = echo_.common;
+  }
+
+  std::string_view name() const override { return echo_.name(); }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    functions->push_back(setup);
+    return echo_.make_function(setup);
+  }
+  client_actor spawn_client(caf::actor_system&, const service_setup& setup,
+                            const vehicle_actor& vehicle) const override {
+    clients->push_back(setup);
+    return vehicle;
+  }
+  std::shared_ptr<service_site>
+  make_site(const service_setup& setup) const override {
+    made->push_back(setup);
+    sites->push_back(std::make_shared<notebook>());
+    return sites->back();
+  }
+
+  using setups = std::shared_ptr<std::vector<service_setup>>;
+  setups functions = std::make_shared<std::vector<service_setup>>();
+  setups clients = std::make_shared<std::vector<service_setup>>();
+  setups made = std::make_shared<std::vector<service_setup>>();
+  std::shared_ptr<std::vector<std::shared_ptr<notebook>>> sites =
+      std::make_shared<std::vector<std::shared_ptr<notebook>>>();
+
+private:
+  echo_service echo_;
+};
+
+/// A provider of three kinds, the second of which has no site.
+struct site_world : provider_world {
+  std::shared_ptr<knowing_echo> first = std::make_shared<knowing_echo>("one");
+  std::shared_ptr<knowing_echo> third = std::make_shared<knowing_echo>("three");
+
+  site_world() {
+    provider = own(spawn_service_provider(system(), knowing()));
+    settle();
+  }
+
+  provider_setup knowing() {
+    auto s = setup();
+    s.kinds = {first, std::make_shared<echo_service>("two"), third};
+    return s;
+  }
+  const notebook& site() const {
+    REQUIRE(first->sites->size() == 1);
+    return *first->sites->front();
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(site_world, "a provider makes one site per kind it offers") {
+  CHECK(first->made->size() == 1);
+  CHECK(third->made->size() == 1);
+  const auto& made = first->made->front();
+  CHECK(made.remote);
+  CHECK(made.world);
+  CHECK_FALSE(made.real_time);
+  CHECK_FALSE(made.site);
+  CHECK_FALSE(echo_service{"two"}.make_site({}));
+}
+
+TEST_CASE_FIXTURE(site_world, "sites hear every CAM, also from outside and of "
+                              "those that use another service") {
+  hear(inside);
+  hear(outside, neighbour, 102);
+  start({two});
+  hear(inside);
+  auto late = cam{station, now() - 1s, inside, 0, 10, 0};
+  tell(provider, late, requester.handle); // overtaken on its way
+  REQUIRE(site().heard.size() == 4);
+  CHECK(site().heard[1].station == 102);
+  CHECK(site().heard[1].position == outside);
+  CHECK(site().heard[3].at == late.at);
+  CHECK(third->sites->front()->heard.size() == 4);
+}
+
+TEST_CASE_FIXTURE(site_world, "sites see what the provider's sensors see") {
+  const site_view view{now(), {{{1, 2}, 0.5, 3, 4, 5, 6}}};
+  tell(provider, view);
+  REQUIRE(site().seen.size() == 1);
+  CHECK(site().seen[0].at == view.at);
+  REQUIRE(site().seen[0].objects.size() == 1);
+  CHECK(site().seen[0].objects[0].centre == point{1, 2});
+  CHECK(third->sites->front()->seen.size() == 1);
+}
+
+TEST_CASE_FIXTURE(site_world, "all functions of a kind at a provider share "
+                              "its site, and no other") {
+  hear(inside);
+  codm->accepted.insert("three");
+  start({one, {"three"}});
+  hear(inside, neighbour, 102);
+  tell(provider, service_request{boot, 102, 1, {one}, {inside}, 10},
+       neighbour.handle);
+  REQUIRE(first->functions->size() == 2);
+  REQUIRE(third->functions->size() == 1);
+  CHECK((*first->functions)[0].site == first->sites->front());
+  CHECK((*first->functions)[1].site == first->sites->front());
+  CHECK((*third->functions)[0].site == third->sites->front());
+  CHECK((*first->functions)[0].remote);
+  CHECK_FALSE((*first->functions)[0].real_time);
+}
+
+TEST_CASE_FIXTURE(site_world, "where time is real, services are told") {
+  auto s = knowing();
+  s.virtual_time = false;
+  provider = own(spawn_service_provider(system(), std::move(s)));
+  hear(inside);
+  start({one});
+  CHECK(first->made->back().real_time);
+  CHECK(first->functions->back().real_time);
+}
+
+TEST_CASE_FIXTURE(requester_world, "in a vehicle there are no sites") {
+  for (const auto virtual_time : {true, false}) {
+    const auto kind = std::make_shared<knowing_echo>("one");
+    auto s = setup();
+    s.kinds = {kind};
+    s.virtual_time = virtual_time;
+    own(spawn_service_requester(system(), std::move(s)));
+    settle();
+    CHECK(kind->made->empty());
+    REQUIRE(kind->functions->size() == 1);
+    REQUIRE(kind->clients->size() == 1);
+    for (const auto& made :
+         {kind->functions->front(), kind->clients->front()}) {
+      CHECK_FALSE(made.site);
+      CHECK_FALSE(made.remote);
+      CHECK(made.real_time != virtual_time);
+    }
+  }
+}
