@@ -17,8 +17,8 @@ namespace sofof {
 struct spatial_params {
   double horizon_m = 80;
   double step_m = 1;
-  double candidates = 2;   ///< Ways past the others that are weighed.
-  double alternations = 1; ///< Path, speed, path for these speeds, …
+  std::int64_t candidates = 2;   ///< Ways past the others that are weighed.
+  std::int64_t alternations = 1; ///< Path, speed, path for these speeds, …
   /// Before crossings where others go first it reckons with seeing no
   /// farther than this; 0: it does not.
   double cautious_sight_m = 0;

@@ -135,7 +135,8 @@ TEST_CASE("an obstacle that cannot be is refused") {
     return "[[obstacle]]\n" + options + "\n[network]";
   };
   const std::string rest = "\nroutes = [\"straight\"]\nplacement = "
-                           "\"convoy\"\nstart_m = 150.0";
+                           "\"convoy\"\nstart_m = 150.0\nstart_speed_mps = "
+                           "8.5\nconnected = false";
   const auto second = "first_station = 201" + rest;
   check_all({
       {"[network]", obstacle("length_m = @0"), {"length_m", "from 0.1"}},
