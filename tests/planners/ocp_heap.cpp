@@ -1,10 +1,12 @@
-// A solve takes nothing from the heap.
+// A planning cycle takes nothing from the heap.
+#include "planners/environment_model.hpp"
 #include "planners/practice.hpp"
 #include "tests/support/allocations.hpp"
 
 #include <doctest/doctest.h>
 
 #include <memory>
+#include <vector>
 
 using namespace sofof;
 
@@ -32,4 +34,20 @@ TEST_CASE("planning takes nothing from the heap") {
     CHECK(publishable(a.status));
     CHECK(publishable(b.status));
   }
+}
+
+TEST_CASE("following bodies takes nothing from the heap") {
+  using namespace std::chrono_literals;
+  environment_model model;
+  std::vector<perceived_object> queue;
+  for (auto i = 0; i < 40; ++i)
+    queue.push_back({{8.0 * i, 0}, 0, 0, 0, 5.1, 1.89});
+  const auto before = test::allocations;
+  for (time_point t{1s}; t < time_point{3s}; t += 100ms) {
+    model.update(t, queue);
+    model.hear(t, 3, queue[2]);
+    model.update(t - 200ms, queue);
+  }
+  CHECK(test::allocations == before);
+  CHECK(model.tracks().size() == 40);
 }

@@ -1,0 +1,437 @@
+// What many observers see becomes one track of each body.
+#include "planners/environment_model.hpp"
+
+#include "tests/support/near.hpp"
+#include "world/random.hpp"
+#include "world/vehicle.hpp"
+
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <set>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr time_point start{100s};
+
+perceived_object car(point centre, double speed_mps = 0,
+                     double heading_rad = 0) {
+  return {centre, heading_rad, speed_mps, 0, 5.1, 1.89};
+}
+
+/// An observer that sees with noise.
+struct observer {
+  explicit observer(std::uint64_t number)
+      : dice{random_stream{42, "eyes"}.part(number)} {}
+
+  perceived_object look(perceived_object o) {
+    ++draws;
+    o.centre.x_m += dice.normal(0, 0.1, draws, 0);
+    o.centre.y_m += dice.normal(0, 0.1, draws, 1);
+    o.speed_mps += dice.normal(0, 0.1, draws, 2);
+    o.heading_rad += dice.normal(0, 0.01, draws, 3);
+    return o;
+  }
+
+  std::vector<perceived_object> look(std::vector<perceived_object> all) {
+    for (auto& o : all)
+      o = look(o);
+    return all;
+  }
+
+  random_stream dice;
+  std::uint64_t draws = 0;
+};
+
+/// Cars bumper to bumper that pull away and stop in waves.
+struct queue {
+  std::vector<perceived_object> at(time_point t) const {
+    std::vector<perceived_object> cars;
+    const auto phase = 0.5 * to_seconds(t - start);
+    for (auto i = 0; i < 8; ++i)
+      cars.push_back(car({-8.0 * i + 10 * (phase - std::sin(phase)), 0},
+                         5 * (1 - std::cos(phase))));
+    return cars;
+  }
+};
+
+std::set<std::uint32_t> ids(const environment_model& model) {
+  std::set<std::uint32_t> all;
+  for (const auto& x : model.tracks())
+    all.insert(x.id);
+  return all;
+}
+
+double miss_m(const track& x, point truth) {
+  return distance_m(x.centre(), truth);
+}
+
+void see(environment_model& model, time_point at, const perceived_object& o) {
+  model.update(at, {&o, 1});
+}
+
+} // namespace
+
+TEST_CASE("a body is known from its first sighting on") {
+  environment_model model;
+  see(model, start, car({3, 4}, 10, 1.2));
+  REQUIRE(model.tracks().size() == 1);
+  const auto& x = model.tracks()[0];
+  CHECK(x.at == start);
+  CHECK(x.centre() == point{3, 4});
+  CHECK(x.speed_along_mps(1.2) == test::near(10, 1e-12));
+  CHECK(x.heading_rad == 1.2);
+  CHECK(x.length_m == 5.1);
+  CHECK(x.width_m == 1.89);
+  CHECK_FALSE(x.station);
+}
+
+TEST_CASE("a standing body has a heading") {
+  environment_model model;
+  for (auto i = 0; i < 20; ++i)
+    see(model, start + i * 100ms, car({}, 0, 2));
+  CHECK(model.tracks()[0].body().heading_rad == test::near(2, 1e-9));
+}
+
+TEST_CASE("a body that turns across west keeps its heading") {
+  environment_model model;
+  constexpr auto pi = std::numbers::pi;
+  see(model, start, car({}, 0, pi - 0.01));
+  see(model, start + 100ms, car({}, 0, -pi + 0.01));
+  CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - pi)) < 0.011);
+}
+
+TEST_CASE("a prediction is straight ahead, and less certain the longer") {
+  environment_model model;
+  see(model, start, car({}, 10, std::numbers::pi / 2));
+  const auto& now = model.tracks()[0];
+  const auto then = predict(now, start + 1s);
+  CHECK(distance_m(then.centre(), {0, 10}) < 1e-9);
+  CHECK(then.at == start + 1s);
+  CHECK(then.motion.covariance(0, 0) > 10 * now.motion.covariance(0, 0));
+  CHECK(predict(now, start - 1s).centre() == now.centre());
+}
+
+TEST_CASE("predicting at once or in steps comes to the same") {
+  motion_estimate once{Eigen::Matrix2d{{1, 2}, {3, 4}},
+                       Eigen::Matrix2d{{0.2, 0.1}, {0.1, 0.3}}};
+  auto often = once;
+  once.advance(1);
+  for (auto i = 0; i < 10; ++i)
+    often.advance(0.1);
+  CHECK(often.mean.isApprox(once.mean, 1e-12));
+  CHECK(often.covariance.isApprox(once.covariance, 1e-12));
+}
+
+TEST_CASE("a filter of all four states comes to the same") {
+  Eigen::Matrix2d p{{0.2, 0.1}, {0.1, 0.3}}, r{{0.1, 0}, {0, 0.2}};
+  motion_estimate known{Eigen::Matrix2d{{1, 2}, {3, 4}}, p};
+  const motion_estimate seen{Eigen::Matrix2d{{1.3, 2.1}, {2.8, 4.4}}, r};
+  Eigen::Matrix4d p4 = Eigen::Matrix4d::Zero(), r4 = p4;
+  for (auto axis = 0; axis < 2; ++axis)
+    for (auto i = 0; i < 2; ++i)
+      for (auto k = 0; k < 2; ++k) {
+        p4(2 * i + axis, 2 * k + axis) = p(i, k);
+        r4(2 * i + axis, 2 * k + axis) = r(i, k);
+      }
+  const Eigen::Vector4d x = known.mean.reshaped(), z = seen.mean.reshaped();
+  const Eigen::Matrix4d gain = p4 * (p4 + r4).inverse();
+  const Eigen::Vector4d expected = x + gain * (z - x);
+  const auto distance2 = (z - x).dot((p4 + r4).inverse() * (z - x));
+  CHECK(known.compare(seen).distance2 == test::near(distance2, 1e-12));
+  known.fuse(seen);
+  CHECK(known.mean.reshaped().isApprox(expected, 1e-12));
+  const Eigen::Matrix4d left = p4 - gain * p4;
+  CHECK(known.covariance(0, 1) == test::near(left(0, 2), 1e-12));
+  CHECK(known.covariance(1, 1) == test::near(left(3, 3), 1e-12));
+}
+
+TEST_CASE("tracks are better than sightings, and know how good they are") {
+  environment_model model;
+  observer eyes{1};
+  auto sum2_m2 = 0.0, nees = 0.0;
+  constexpr auto n = 1000;
+  for (auto i = 0; i < n; ++i) {
+    const auto t = i * 50ms;
+    const point truth{15 * to_seconds(t), 0};
+    see(model, start + t, eyes.look(car(truth, 15)));
+    const auto& x = model.tracks()[0];
+    sum2_m2 += miss_m(x, truth) * miss_m(x, truth);
+    const Eigen::Matrix2d off =
+        x.motion.mean - Eigen::Matrix2d{{truth.x_m, 15}, {0, 0}};
+    nees += (off * x.motion.covariance.inverse()).cwiseProduct(off).sum();
+  }
+  CHECK(model.tracks()[0].id == 1);
+  CHECK(std::sqrt(sum2_m2 / n / 2) < 0.07); // each sighting: 0.1 m an axis
+  CHECK(nees / n < 4); // 4 were exact; a car that never brakes is less
+  CHECK(nees / n > 1);
+}
+
+TEST_CASE("two observers of a queue see each car once, and no two as one") {
+  environment_model model;
+  observer a{1}, b{2};
+  const queue street;
+  for (auto t = start; t < start + 120s; t += 50ms) {
+    model.update(t, a.look(street.at(t)));
+    auto late = street.at(t - 20ms);
+    std::ranges::reverse(late);
+    model.update(t - 20ms, b.look(late));
+    REQUIRE(model.tracks().size() == 8);
+  }
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8});
+  const auto truth = street.at(start + 120s - 50ms);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    CHECK(miss_m(model.tracks()[i], truth[i].centre) < 0.3);
+}
+
+TEST_CASE("occlusions in a queue neither merge nor split cars") {
+  environment_model model;
+  observer eyes[]{observer{1}, observer{2}};
+  const queue street;
+  const random_stream dice{7, "occlusions"};
+  for (auto i = 0; i < 2400; ++i) {
+    const auto t = start + i * 50ms;
+    for (auto who = 0U; who < 2; ++who) {
+      const auto all = street.at(t);
+      std::vector<perceived_object> seen;
+      for (auto k = 0U; k < all.size(); ++k)
+        // For 0.4 s at a time.
+        if (dice.uniform(static_cast<unsigned>(i) / 8, 8 * who + k) < 0.7)
+          seen.push_back(eyes[who].look(all[k]));
+      model.update(t, seen);
+    }
+    if (i > 40)
+      REQUIRE(model.tracks().size() == 8);
+    for (const auto& x : model.tracks())
+      REQUIRE(std::ranges::any_of(street.at(t), [&](const auto& o) {
+        return miss_m(x, o.centre) < 2.5;
+      }));
+  }
+}
+
+TEST_CASE("a car that brakes as hard as it can stays one track") {
+  environment_model model;
+  observer eyes{1};
+  for (auto t = 0.0; t < 4; t += 0.1) {
+    const auto braked_s = std::clamp(t - 1, 0.0, 2.0);
+    const point at{16 * std::min(t, 1.0) + braked_s * (16 - 4 * braked_s), 0};
+    see(model, start + from_seconds(t), eyes.look(car(at, 16 - 8 * braked_s)));
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(miss_m(model.tracks()[0], at) < 0.6);
+  }
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a car in a tight bend stays one track") {
+  environment_model model;
+  observer eyes{1};
+  const vehicle_params ability;
+  vehicle_state x;
+  x.speed_mps = 6;
+  x.steer_rad = std::atan(ability.wheelbase_m / 10);
+  for (auto i = 0; i < 300; ++i) {
+    x = step(x, {0, x.steer_rad}, ability, 0.05);
+    const auto box = body(x, ability);
+    see(model, start + i * 50ms,
+        eyes.look(car(box.centre, x.speed_mps, x.heading_rad)));
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(miss_m(model.tracks()[0], box.centre) < 0.5);
+    CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - x.heading_rad))
+          < 0.1);
+  }
+}
+
+TEST_CASE("cars that pass each other in a narrow street keep their tracks") {
+  environment_model model;
+  observer eyes{1};
+  for (auto t = 0.0; t < 4; t += 0.1) {
+    std::vector seen{car({-30 + 15 * t, 0}, 15),
+                     car({30 - 15 * t, 2.3}, 15, std::numbers::pi)};
+    model.update(start + from_seconds(t), eyes.look(seen));
+  }
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[0].centre().x_m > 28);
+  CHECK(model.tracks()[1].centre().x_m < -28);
+}
+
+TEST_CASE("sightings that arrive in the wrong order are of the same car") {
+  environment_model orderly, late;
+  observer a{1}, b{2}, again_a{1}, again_b{2};
+  auto truth = [](time_point t) {
+    return car({12 * to_seconds(t - start), 0}, 12);
+  };
+  auto t = start;
+  for (auto i = 0; i < 100; ++i, t += 100ms) {
+    see(orderly, t - 300ms, b.look(truth(t - 300ms)));
+    see(orderly, t, a.look(truth(t)));
+    see(late, t, again_a.look(truth(t)));
+    see(late, t - 300ms, again_b.look(truth(t - 300ms)));
+    CHECK(late.tracks().size() == 1);
+    CHECK(late.tracks()[0].at == t);
+  }
+  t -= 100ms;
+  CHECK(miss_m(late.tracks()[0], truth(t).centre) < 0.2);
+  CHECK(miss_m(orderly.tracks()[0], truth(t).centre) < 0.2);
+}
+
+TEST_CASE("an old sighting tells little, and nothing about heading") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  const auto before = model.tracks()[0];
+  see(model, start - 300ms, car({-2.7, 0}, 10, 0.03)); // 0.3 m ahead
+  const auto& after = model.tracks()[0];
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(after.heading_rad == before.heading_rad);
+  CHECK(after.centre().x_m > 0.01);
+  CHECK(after.centre().x_m < 0.15);
+  CHECK(after.seen == start);
+}
+
+TEST_CASE("a new body may be told of late") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  see(model, start - 300ms, car({50, 0}, 10));
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[1].at == start);
+  CHECK(model.tracks()[1].centre().x_m == test::near(53, 1e-9));
+  CHECK(model.tracks()[1].seen == start - 300ms);
+}
+
+TEST_CASE("ancient sightings are dropped") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  see(model, start - 600ms, car({50, 0}, 10));
+  CHECK(model.tracks().size() == 1);
+  model.hear(start - 600ms, 5, car({80, 0}));
+  CHECK(model.tracks().size() == 1);
+}
+
+TEST_CASE("a body is remembered for a second without sightings") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  model.update(start + 1s, {});
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].centre().x_m == test::near(10, 1e-9));
+  model.update(start + 1001ms, {});
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("a body that comes back from an occlusion is the same") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  see(model, start + 900ms, car({8.5, 0.3}, 9));
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a body is where it is, however fast it was said to be") {
+  environment_model model;
+  see(model, start, car({}, 10));
+  see(model, start + 50ms, car({1, 0}, 0, 1));
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].centre() == point{1, 0});
+  CHECK(model.tracks()[0].speed_along_mps(0) == 0);
+}
+
+TEST_CASE("two bodies side by side are two from the first sight on") {
+  environment_model model;
+  const std::vector seen{car({}), car({0, 2}), car({5.2, 0})};
+  model.update(start, seen);
+  CHECK(model.tracks().size() == 3);
+  model.update(start + 100ms, seen);
+  CHECK(model.tracks().size() == 3);
+}
+
+TEST_CASE("whoever stands a length ahead of an occluded car is another") {
+  environment_model model;
+  see(model, start, car({}));
+  see(model, start + 900ms, car({8, 0}));
+  CHECK(model.tracks().size() == 2);
+}
+
+TEST_CASE("a vague idea of one body does not claim the sighting of another") {
+  environment_model model;
+  auto bicycle = [](double x_m, double speed_mps) {
+    return perceived_object{{x_m, 0}, 0, speed_mps, 0, 1.8, 0.6};
+  };
+  const std::vector both{bicycle(0, 5), bicycle(3, 0)}; // the second vanishes
+  model.update(start, both);
+  for (auto t = 0.1; t < 0.85; t += 0.1)
+    see(model, start + from_seconds(t), bicycle(5 * t, 5));
+  see(model, start + 900ms, bicycle(4.75, 4.5)); // 0.25 m farther than expected
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[0].seen == start + 900ms);
+  CHECK(model.tracks()[1].seen == start);
+}
+
+TEST_CASE("a vehicle that is heard gives its track its name") {
+  environment_model model;
+  const std::vector seen{car({}, 10), car({8, 0}, 10)};
+  model.update(start, seen);
+  model.hear(start + 20ms, 77, car({8.2, 0}, 10));
+  REQUIRE(model.tracks().size() == 2);
+  CHECK_FALSE(model.tracks()[0].station);
+  CHECK(model.tracks()[1].station == 77U);
+  model.hear(start + 40ms, 78, car({-20, 0}, 10)); // nobody has seen it
+  REQUIRE(model.tracks().size() == 3);
+  CHECK(model.tracks()[2].station == 78U);
+}
+
+TEST_CASE("a name is nobody else's") {
+  environment_model model;
+  model.hear(start, 1, car({}, 10));
+  model.hear(start, 2, car({0.5, 0}, 10)); // the inscribed circles overlap
+  CHECK(model.tracks().size() == 2);
+  model.hear(start + 100ms, 1, car({60, 0}, 10)); // was mistaken for another
+  REQUIRE(model.tracks().size() == 3);
+  CHECK_FALSE(model.tracks()[0].station);
+  CHECK(model.tracks()[1].station == 2U);
+  CHECK(model.tracks()[2].station == 1U);
+}
+
+TEST_CASE("what no body can be is left out") {
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  environment_model model;
+  std::vector wrong(6, car({}));
+  wrong[0].centre.x_m = nan;
+  wrong[1].heading_rad = std::numeric_limits<double>::infinity();
+  wrong[2].speed_mps = nan;
+  wrong[3].speed_mps = 1e300;
+  wrong[4].width_m = 0;
+  wrong[5].length_m = 1e9;
+  model.update(start, wrong);
+  model.hear(start, 1, wrong[0]);
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("who was not seen for longest makes room when there are too many") {
+  environment_model model;
+  see(model, start, car({-50, 0}));
+  for (auto i = 0; i < 200; ++i)
+    see(model, start + 10ms, car({10.0 * i, 0}));
+  CHECK(model.tracks().size() == 128);
+  CHECK(model.tracks().front().id != 1);
+  CHECK(model.tracks().back().id == 201);
+}
+
+TEST_CASE("the order in which an observer lists bodies does not matter") {
+  environment_model a, b;
+  observer eyes{1};
+  const queue street;
+  a.update(start, street.at(start));
+  b.update(start, street.at(start));
+  for (auto i = 1; i < 100; ++i) {
+    auto seen = eyes.look(street.at(start + i * 50ms));
+    a.update(start + i * 50ms, seen);
+    std::ranges::reverse(seen);
+    b.update(start + i * 50ms, seen);
+  }
+  for (std::size_t i = 0; i < 8; ++i)
+    CHECK(a.tracks()[i].motion.mean == b.tracks()[i].motion.mean);
+}

@@ -1,0 +1,275 @@
+// What tracks mean to one vehicle: who leads, who stands in the lane, and who
+// crosses.
+#include "planners/scene.hpp"
+
+#include "tests/support/map_file.hpp"
+#include "tests/support/near.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "world/random.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr time_point now{50s};
+constexpr auto pi = std::numbers::pi;
+const vehicle_params car_params;
+
+track make_track(point centre, double heading_rad = 0, double speed_mps = 0) {
+  track x;
+  x.at = x.seen = now;
+  x.motion.mean << centre.x_m, speed_mps * std::cos(heading_rad), centre.y_m,
+      speed_mps * std::sin(heading_rad);
+  x.heading_rad = heading_rad;
+  x.length_m = 5.1;
+  x.width_m = 1.89;
+  return x;
+}
+
+/// A car whose rear axle is on a way.
+track on_way(const route& way, double s_m, double speed_mps = 0) {
+  const auto here = way.path().at(s_m);
+  vehicle_state x;
+  x.at = here.at;
+  x.heading_rad = here.heading_rad;
+  return make_track(body(x, car_params).centre, x.heading_rad, speed_mps);
+}
+
+/// A vehicle that looks round.
+struct onlooker {
+  onlooker(const road_map& map, route_ptr route, scene_params params = {})
+      : way{route}, eyes{std::make_shared<const lane_network>(map), route,
+                         params} {}
+
+  const surroundings& look(const std::vector<track>& tracks) {
+    eyes.describe(now, me, tracks, seen);
+    return seen;
+  }
+
+  route_ptr way;
+  scene eyes;
+  own_place me;
+  surroundings seen;
+};
+
+/// A lane due east, 3.5 m wide.
+const road_map& street() {
+  static const road_map map{
+      "street", {}, {toy::straight("lane", {0, 0}, {400, 0})}};
+  return map;
+}
+
+onlooker on_street(scene_params params = {}) {
+  const std::vector<std::string> lanes{"lane"};
+  return {street(), street().make_route("lane", lanes, false), params};
+}
+
+/// Own rear axle at 10 m, so the front at 14.0175 m.
+onlooker ten_metres_down_the_street() {
+  auto o = on_street();
+  o.me.s_m = 10;
+  return o;
+}
+
+const auto& lehr() {
+  static const auto file =
+      test::read_map(SOFOF_SOURCE_DIR "/config/maps/ulm_lehr.toml");
+  return file;
+}
+
+const std::string round_trips[]{"round_trip", "round_trip_opposite"};
+
+} // namespace
+
+TEST_CASE("an empty road means nothing to a driver") {
+  auto o = on_street();
+  o.seen.stop_at_m = 77;
+  o.seen.lead = lead_vehicle{};
+  o.seen.crossings.resize(3);
+  o.seen.beside.resize(3);
+  o.look({});
+  CHECK(o.seen.at == now);
+  CHECK_FALSE(o.seen.lead);
+  CHECK(o.seen.crossings.empty());
+  CHECK(o.seen.beside.empty());
+  CHECK(o.seen.stop_at_m == 77); // nobody's business here
+}
+
+TEST_CASE("the nearest car ahead leads, seen at its rear") {
+  auto o = ten_metres_down_the_street();
+  auto slow = make_track({80, 0}, 0, 5);
+  slow.accel_mps2 = -2;
+  slow.station = 12;
+  const auto& seen =
+      o.look({make_track({120, 0}), slow, make_track({5, 0}, 0, 10)});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(80 - 2.55, 1e-6));
+  CHECK(seen.lead->speed_mps == test::near(5, 1e-9));
+  CHECK(seen.lead->accel_mps2 == -2);
+  CHECK(seen.lead->station == 12);
+  CHECK(seen.beside.empty());
+}
+
+TEST_CASE("tracks are brought to the present") {
+  auto o = ten_metres_down_the_street();
+  auto x = make_track({80, 0}, 0, 10);
+  x.at = now - 200ms;
+  CHECK(o.look({x}).lead->rear_s_m == test::near(82 - 2.55, 1e-6));
+}
+
+TEST_CASE("a lead that speeds up is not expected to go on") {
+  auto o = ten_metres_down_the_street();
+  auto x = make_track({80, 0}, 0, 10);
+  x.accel_mps2 = 2;
+  CHECK(o.look({x}).lead->accel_mps2 == 0);
+}
+
+TEST_CASE("who comes towards one counts as standing") {
+  auto o = ten_metres_down_the_street();
+  auto x = make_track({80, 0.2}, pi, 10);
+  x.accel_mps2 = -3;
+  const auto& seen = o.look({x});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->speed_mps == 0);
+  CHECK(seen.lead->accel_mps2 == 0);
+}
+
+TEST_CASE("a body across the lane leads with its near side") {
+  auto o = ten_metres_down_the_street();
+  const auto& seen = o.look({make_track({80, 0}, pi / 2, 4)});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(80 - 0.945, 1e-6));
+  CHECK(seen.lead->speed_mps < 1e-9);
+}
+
+TEST_CASE("whoever is behind, or farther than one looks, does not lead") {
+  auto o = ten_metres_down_the_street();
+  CHECK_FALSE(o.look({make_track({5, 0}, 0, 30)}).lead);
+  CHECK_FALSE(o.look({make_track({219, 0})}).lead);
+  CHECK(o.look({make_track({216, 0})}).lead);
+}
+
+TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
+  auto o = ten_metres_down_the_street();
+  CHECK_FALSE(o.look({make_track({11.2, 2}, -0.4)}).lead);
+  CHECK(o.look({make_track({13, 2}, -0.4)}).lead);
+}
+
+TEST_CASE("who leaves room in the lane is beside, who does not leads") {
+  auto o = ten_metres_down_the_street();
+  // Of 3.5 m the own car needs 1.89 m + 2 * 0.3 m: 1.01 m are free.
+  for (const auto side : {-1.0, 1.0}) {
+    o.look({make_track({60, side * (0.75 + 0.945)}, 0, 2)});
+    CHECK_FALSE(o.seen.lead);
+    REQUIRE(o.seen.beside.size() == 1);
+    const auto& b = o.seen.beside[0];
+    CHECK(b.from_m == test::near(60 - 2.55, 1e-6));
+    CHECK(b.to_m == test::near(60 + 2.55, 1e-6));
+    CHECK(std::min(std::abs(b.low_m), std::abs(b.high_m))
+          == test::near(0.75, 1e-6));
+    CHECK(b.low_m * side > 0);
+    CHECK(b.speed_mps == test::near(2, 1e-9));
+    o.look({make_track({60, side * (0.73 + 0.945)})});
+    CHECK(o.seen.lead);
+    CHECK(o.seen.beside.empty());
+    o.look({make_track({60, side * (1.76 + 0.945)})});
+    CHECK_FALSE(o.seen.lead);
+    CHECK(o.seen.beside.empty());
+  }
+}
+
+TEST_CASE("those beside come in order, as far as the lead") {
+  auto o = ten_metres_down_the_street();
+  o.look({make_track({90, 1.9}, pi, 7), make_track({60, -1.9}),
+          make_track({110, 0}), make_track({130, 1.9})});
+  REQUIRE(o.seen.beside.size() == 2);
+  CHECK(o.seen.beside[0].from_m < o.seen.beside[1].from_m);
+  CHECK(o.seen.beside[1].speed_mps == test::near(-7, 1e-9));
+  CHECK(o.seen.lead->rear_s_m == test::near(110 - 2.55, 1e-6));
+}
+
+TEST_CASE("one is not in one's own way") {
+  auto o = ten_metres_down_the_street();
+  o.me.d_m = 0.3;
+  const auto self = make_track({10 + 1.4675, 0.3}, 0, 10);
+  CHECK_FALSE(o.look({self}).lead);
+  auto late = self; // and its place is not well known
+  late.motion.mean(0, 0) += 6;
+  CHECK(o.look({late}).lead);
+  late.station = 5;
+  CHECK(o.look({late}).lead);
+  o.me.station = 5;
+  CHECK_FALSE(o.look({late}).lead);
+}
+
+TEST_CASE("a cyclist on the centre line leads, one at the kerb is beside") {
+  auto o = ten_metres_down_the_street();
+  auto x = make_track({50, 0}, 0, 5);
+  x.length_m = 1.8;
+  x.width_m = 0.6;
+  CHECK(o.look({x}).lead);
+  x.motion.mean(1, 0) = -1.3;
+  CHECK_FALSE(o.look({x}).lead);
+  CHECK(o.look({x}).beside.size() == 1);
+}
+
+TEST_CASE("Lehr: the car ahead leads, everywhere and in every lap") {
+  for (const auto& name : round_trips) {
+    CAPTURE(name);
+    onlooker o{lehr().map, lehr().route(name)};
+    for (const auto lap : {0, 3})
+      for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 7) {
+        o.me.s_m = s_m + lap * o.way->length_m();
+        const auto axle_m = o.me.s_m + 30;
+        const auto& seen = o.look({on_way(*o.way, axle_m, 8)});
+        REQUIRE(seen.lead);
+        CHECK(std::abs(seen.lead->rear_s_m - (axle_m - car_params.rear_m))
+              < 0.1); // corners, in bends
+        CHECK(std::abs(seen.lead->speed_mps - 8) < 0.4);
+      }
+  }
+}
+
+TEST_CASE("Lehr: oncoming traffic in its lane is nobody's business") {
+  for (auto i = 0; i < 2; ++i) {
+    onlooker o{lehr().map, lehr().route(round_trips[i])};
+    const auto back = lehr().route(round_trips[1 - i]);
+    std::vector<track> oncoming;
+    for (auto s_m = 0.0; s_m < back->length_m(); s_m += 3)
+      oncoming.push_back(on_way(*back, s_m, 8));
+    for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 20) {
+      o.me.s_m = s_m;
+      const auto& seen = o.look(oncoming);
+      CHECK_FALSE(seen.lead);
+      CHECK(seen.beside.empty());
+    }
+  }
+}
+
+TEST_CASE("Lehr: nor when it is seen with noise") {
+  const random_stream dice{3, "noise"};
+  onlooker o{lehr().map, lehr().route(round_trips[0])};
+  const auto back = lehr().route(round_trips[1]);
+  std::vector<track> oncoming;
+  for (auto s_m = 0.0; s_m < back->length_m(); s_m += 3) {
+    auto x = on_way(*back, s_m, 8);
+    const auto n = oncoming.size();
+    x.motion.mean(0, 0) += dice.normal(0, 0.1, n, 0);
+    x.motion.mean(1, 0) += dice.normal(0, 0.1, n, 1);
+    x.heading_rad += dice.normal(0, 0.01, n, 2);
+    oncoming.push_back(x);
+  }
+  for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 20) {
+    o.me.s_m = s_m;
+    CHECK_FALSE(o.look(oncoming).lead);
+  }
+}
