@@ -9,6 +9,7 @@
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -69,6 +70,8 @@ struct service_setup {
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
   bool real_time = false; ///< Run times are real, instead of modelled.
+  /// The time; it stands still during a cycle unless run times are real.
+  std::function<time_point()> clock = [] { return time_point{}; };
   /// The provider's; null in vehicles.
   std::shared_ptr<service_site> site = nullptr;
 };

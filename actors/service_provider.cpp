@@ -217,9 +217,9 @@ struct provider_state {
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
-    remote.function = kind.make_function({setup.world, running.station, true,
-                                          noise, setup.crossings_granted,
-                                          !setup.virtual_time, sites[number]});
+    remote.function = kind.make_function(
+        {setup.world, running.station, true, noise, setup.crossings_granted,
+         !setup.virtual_time, clock_of(self), sites[number]});
     remote.period = kind.common.period;
     remote.phase = duration{static_cast<duration::rep>(
         noise.part("remote phase").uniform(0)

@@ -74,6 +74,7 @@ struct requester_state {
                              setup.noise.part(kind.name()),
                              setup.crossings_granted,
                              !setup.virtual_time,
+                             clock_of(self),
                              nullptr};
     auto client = kind.spawn_client(self->system(), here, setup.vehicle);
     if (client != setup.vehicle)

@@ -6,6 +6,7 @@
 
 #include <caf/actor_clock.hpp>
 
+#include <functional>
 #include <utility>
 
 namespace sofof {
@@ -14,6 +15,15 @@ namespace sofof {
 template <class Self>
 time_point now(const Self* self) {
   return time_point{self->clock().now().time_since_epoch()};
+}
+
+/// @returns the same as a function, for those that are no actors. It must not
+/// outlive the actor system.
+template <class Self>
+std::function<time_point()> clock_of(const Self* self) {
+  return [clock = &self->clock()] {
+    return time_point{clock->now().time_since_epoch()};
+  };
 }
 
 /// Delivers a message at `t`, or at once if that has passed. Messages for the

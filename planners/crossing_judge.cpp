@@ -18,7 +18,7 @@ double speed_mps(const track& x) {
   return std::max(0.0, x.speed_along_mps(x.heading_rad));
 }
 
-bool gives_way(const track& x, const arrival& when, int own_rank) {
+bool gives_way(const track& x, const conflict_visit& when, int own_rank) {
   const auto v = speed_mps(x);
   return when.way_m > 0 && when.rank > own_rank
          && v * v <= 2 * yielding_decel_mps2 * when.way_m;

@@ -50,7 +50,7 @@ private:
   };
   struct foreseen {
     std::size_t who;
-    arrival when;
+    conflict_visit when;
   };
   void find_zones(double from_m, double to_m);
   void foresee(std::span<const other_body> others);
@@ -60,7 +60,7 @@ private:
   itinerary way_;
   double corridor_m_, foresight_s_;
   std::vector<own_zone> zones_;
-  std::vector<arrival> arrivals_; // of one of the others
+  std::vector<conflict_visit> arrivals_; // of one of the others
   std::vector<foreseen> foreseen_;
 };
 

@@ -25,7 +25,7 @@ constexpr auto standing_mps = 0.3;
 struct lane_network::driver {
   double half_length_m, speed_mps, within_m;
   std::size_t first; // of its arrivals in `out`
-  std::vector<arrival>& out;
+  std::vector<conflict_visit>& out;
 };
 
 lane_network::lane_network(const road_map& map)
@@ -92,7 +92,7 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
 }
 
 void lane_network::foresee(const track& x, double within_m,
-                           std::vector<arrival>& out) const {
+                           std::vector<conflict_visit>& out) const {
   const driver who{x.length_m / 2, x.speed_along_mps(x.heading_rad), within_m,
                    out.size(), out};
   for (const auto& [lane, s_m] : find(x.body())) {
@@ -113,13 +113,13 @@ void lane_network::meet(const driver& who, std::size_t lane,
     if (e.how == conflict::kind::diverge || left_m <= 0 || way_m > who.within_m
         || (stands && way_m > 0))
       continue;
-    const arrival here{e.side, e.rank, way_m,
-                       way_m > 0 ? way_m / who.speed_mps : 0.0,
-                       stands ? std::numeric_limits<double>::infinity()
-                              : left_m / who.speed_mps};
+    const conflict_visit here{e.side, e.rank, way_m,
+                              way_m > 0 ? way_m / who.speed_mps : 0.0,
+                              stands ? std::numeric_limits<double>::infinity()
+                                     : left_m / who.speed_mps};
     const auto known = std::find_if(
         who.out.begin() + static_cast<std::ptrdiff_t>(who.first), who.out.end(),
-        [&](const arrival& a) { return a.side == e.side; });
+        [&](const conflict_visit& a) { return a.side == e.side; });
     if (known == who.out.end()) {
       who.out.push_back(here);
     } else {

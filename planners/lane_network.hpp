@@ -17,7 +17,7 @@
 namespace sofof {
 
 /// When a body is on one side of a conflict, if its speed stays as it is.
-struct arrival {
+struct conflict_visit {
   std::uint32_t side = 0; ///< As in `encounter`.
   int rank = 0;           ///< Of its lane.
   double way_m = 0;       ///< From its front to the stretch; 0: on it.
@@ -59,7 +59,7 @@ public:
   /// exit of all ways. Who stands drives towards none.
   /// @param within_m  How far its front looks, m, at most 300.
   void foresee(const track& x, double within_m,
-               std::vector<arrival>& out) const;
+               std::vector<conflict_visit>& out) const;
 
 private:
   struct piece {

@@ -3,12 +3,15 @@
 #include "actors/services/trajectory_planning.hpp"
 
 #include "actors/service_kind.hpp"
+#include "actors/services/planning_site.hpp"
 #include "planners/lane_follow.hpp"
+#include "planners/outlook.hpp"
 #include "planners/spatial_planner.hpp"
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string_view>
 
@@ -48,24 +51,32 @@ struct planner_options {
   }
 };
 
+/// Trying harder than this helps nobody who waits; only where time is real.
+constexpr duration deadline = 2ms;
+
 class planning_function final : public service_function {
 public:
-  planning_function(const service_setup& setup, planner_options options)
-      : world_{setup.world}, remote_{setup.remote}, options_{
-                                                        std::move(options)} {}
+  planning_function(service_setup setup, planner_options options,
+                    std::shared_ptr<const lane_network> lanes)
+      : setup_{std::move(setup)}, options_{std::move(options)},
+        lanes_{std::move(lanes)}, site_{
+                                      std::dynamic_pointer_cast<planning_site>(
+                                          setup_.site)} {}
 
   payload run(time_point now, const service_input& input) override {
     const auto request = input.what.as<plan_request>();
     if (!request || !prepare(request->way))
       return {};
     take_over(input.in_use.as<drive_plan>());
+    take_in(request->seen);
     auto from = request->from;
-    const auto& seen = request->seen;
-    from.others = {seen.at, seen.lead, seen.stop_at_m, {}, {}};
+    describe(now, *request, from.others);
+    const auto start = setup_.clock();
+    const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
     drive_plan next;
     next.plan.points.reserve(plan_.points.size());
-    next.report =
-        planner_->plan(now, from, plan_.empty() ? nullptr : &plan_, next.plan);
+    next.report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
+                                 next.plan, ocp::budget{in_time});
     plan_ = next.plan;
     if (auto memory = std::make_shared<planner_memory>();
         planner_->remember(*memory))
@@ -77,10 +88,13 @@ private:
   bool prepare(const std::string& way) {
     if (planner_ && way == way_)
       return true;
-    const auto route = world_->find(way);
+    const auto route = setup_.world->find(way);
     if (!route)
       return false;
-    planner_ = options_.make(route, remote_);
+    planner_ = options_.make(route, setup_.remote);
+    outlook_.emplace(
+        lanes_, route,
+        outlook_params{.judges_crossings = !setup_.crossings_granted});
     plan_ = {};
     way_ = way;
     return true;
@@ -96,11 +110,38 @@ private:
       planner_->adopt(*other->memory);
   }
 
-  streets_ptr world_;
-  bool remote_;
+  // What the vehicle sees; every sight counts once.
+  void take_in(const perception& seen) {
+    if (seen.at == taken_in_)
+      return;
+    taken_in_ = seen.at;
+    if (site_)
+      site_->see(seen.at, seen.objects);
+    else
+      model_.update(seen.at, seen.objects);
+  }
+
+  void describe(time_point now, const plan_request& request,
+                surroundings& others) {
+    if (site_)
+      site_->tracks(tracks_);
+    else
+      tracks_.assign(model_.tracks().begin(), model_.tracks().end());
+    const own_place me{setup_.station, request.from.s_m, request.from.d_m};
+    outlook_->describe(now, me, tracks_, others);
+    others.stop_at_m = request.seen.stop_at_m;
+  }
+
+  service_setup setup_;
   planner_options options_;
+  std::shared_ptr<const lane_network> lanes_;
+  std::shared_ptr<planning_site> site_; // null in the vehicle, ...
+  environment_model model_;             // which has its own
+  std::optional<time_point> taken_in_;
+  std::vector<track> tracks_;
   std::string way_;
   std::unique_ptr<trajectory_planner> planner_;
+  std::optional<outlook> outlook_;
   trajectory plan_; // the last one; empty before the first
 };
 
@@ -126,7 +167,12 @@ public:
 
   std::shared_ptr<service_function>
   make_function(const service_setup& setup) const override {
-    return std::make_shared<planning_function>(setup, planner_);
+    return std::make_shared<planning_function>(setup, planner_,
+                                               lanes(setup.world->map));
+  }
+
+  std::shared_ptr<service_site> make_site(const service_setup&) const override {
+    return std::make_shared<planning_site>();
   }
 
   client_actor spawn_client(caf::actor_system&, const service_setup&,
@@ -135,7 +181,17 @@ public:
   }
 
 private:
+  // Found once for all functions, which vehicles make in their own threads.
+  std::shared_ptr<const lane_network> lanes(const road_map& map) const {
+    const std::lock_guard lock{mutex_};
+    if (!lanes_)
+      lanes_ = std::make_shared<const lane_network>(map);
+    return lanes_;
+  }
+
   planner_options planner_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const lane_network> lanes_;
 };
 
 } // namespace

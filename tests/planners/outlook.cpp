@@ -1,6 +1,6 @@
 // What tracks mean to one vehicle: who leads, who stands in the lane, and who
 // crosses.
-#include "planners/scene.hpp"
+#include "planners/outlook.hpp"
 
 #include "tests/support/map_file.hpp"
 #include "tests/support/near.hpp"
@@ -46,7 +46,7 @@ track on_way(const route& way, double s_m, double speed_mps = 0) {
 
 /// A vehicle that looks round.
 struct onlooker {
-  onlooker(const road_map& map, route_ptr route, scene_params params = {})
+  onlooker(const road_map& map, route_ptr route, outlook_params params = {})
       : way{route}, eyes{std::make_shared<const lane_network>(map), route,
                          params} {}
 
@@ -56,7 +56,7 @@ struct onlooker {
   }
 
   route_ptr way;
-  scene eyes;
+  outlook eyes;
   own_place me;
   surroundings seen;
 };
@@ -68,7 +68,7 @@ const road_map& street() {
   return map;
 }
 
-onlooker on_street(scene_params params = {}) {
+onlooker on_street(outlook_params params = {}) {
   const std::vector<std::string> lanes{"lane"};
   return {street(), street().make_route("lane", lanes, false), params};
 }

@@ -1,5 +1,5 @@
 // What the tracks on the road mean to one vehicle on its route.
-#include "planners/scene.hpp"
+#include "planners/outlook.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ point offset(const path_point& p, double along_m, double left_m) {
 
 } // namespace
 
-scene::scene(std::shared_ptr<const lane_network> lanes, route_ptr way,
-             scene_params params)
+outlook::outlook(std::shared_ptr<const lane_network> lanes, route_ptr way,
+                 outlook_params params)
     : way_{way}, params_{params}, crossings_{std::move(lanes), way,
                                              params.car.width_m / 2
                                                  + params.margin_m,
@@ -58,8 +58,8 @@ scene::scene(std::shared_ptr<const lane_network> lanes, route_ptr way,
   near_.reserve(many);
 }
 
-void scene::describe(time_point now, const own_place& me,
-                     std::span<const track> tracks, surroundings& out) {
+void outlook::describe(time_point now, const own_place& me,
+                       std::span<const track> tracks, surroundings& out) {
   out.at = now;
   out.lead.reset();
   out.crossings.clear();
@@ -76,8 +76,8 @@ void scene::describe(time_point now, const own_place& me,
 }
 
 /// Brings the others, without the own vehicle, to the present.
-void scene::gather(time_point now, const own_place& me,
-                   std::span<const track> tracks) {
+void outlook::gather(time_point now, const own_place& me,
+                     std::span<const track> tracks) {
   const auto& car = params_.car;
   const auto own_centre =
       offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
@@ -96,7 +96,7 @@ void scene::gather(time_point now, const own_place& me,
 
 /// Finds, by the beads, the places on the way ahead where bodies may reach
 /// into the lane; several of one body where the way returns to it.
-void scene::find_near(const own_place& me) {
+void outlook::find_near(const own_place& me) {
   const auto count = static_cast<std::int64_t>(beads_.size());
   const auto front_m = me.s_m + params_.car.front_m;
   auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
@@ -139,7 +139,7 @@ void scene::find_near(const own_place& me) {
 
 /// Measures a body from the way.
 /// @returns nothing when it stays out of the lane and the way of the car.
-std::optional<scene::footprint> scene::measure(const near& where) const {
+std::optional<outlook::footprint> outlook::measure(const near& where) const {
   const auto& x = others_[where.who].x;
   const auto& line = way_->path();
   const auto on = line.project(x.centre(), where.guess_m, 2 * bead_m_);
@@ -183,7 +183,7 @@ std::optional<scene::footprint> scene::measure(const near& where) const {
   return print;
 }
 
-void scene::find_bodies(const own_place& me, surroundings& out) {
+void outlook::find_bodies(const own_place& me, surroundings& out) {
   const auto front_m = me.s_m + params_.car.front_m;
   const auto need_m = 2 * corridor_m();
   for (const auto& where : near_) {

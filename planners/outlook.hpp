@@ -15,12 +15,12 @@
 namespace sofof {
 
 /// How a vehicle looks at the others.
-struct scene_params {
+struct outlook_params {
   double horizon_m = 200;        ///< Ahead of the own front.
   double margin_m = 0.3;         ///< To keep on either side of the own body.
   bool judges_crossings = false; ///< Else they are granted by somebody else.
   double foresight_s = 10;       ///< Others get so far at their present speed.
-  vehicle_params car;
+  vehicle_params car{};
 };
 
 /// The vehicle that looks.
@@ -41,11 +41,11 @@ struct own_place {
 /// * crossing, when crossings are judged and it is on, or drives towards, the
 ///   other side of a zone ahead. Who drives across the own way there is
 ///   not a lead besides, and who drives along it is not crossing.
-class scene {
+class outlook {
 public:
   /// @param lanes  Of the map that the route is on; not null.
-  scene(std::shared_ptr<const lane_network> lanes, route_ptr way,
-        scene_params params);
+  outlook(std::shared_ptr<const lane_network> lanes, route_ptr way,
+          outlook_params params);
 
   /// Describes all but `stop_at_m`, which it leaves as it is: what is granted
   /// is not seen.
@@ -79,7 +79,7 @@ private:
   }
 
   route_ptr way_;
-  scene_params params_;
+  outlook_params params_;
   crossing_judge crossings_;
   std::vector<point> beads_; // along the way, equidistant
   double bead_m_ = 0;
