@@ -23,7 +23,7 @@ constexpr std::array<part, ocp::path_rows::most_discs> parts{
 /// Knots are the same when they are so near, in steps.
 constexpr double same_knot = 1e-6;
 /// The car on the line itself fits by this, whatever the discs say.
-constexpr double least_room_m = 0.05;
+constexpr double least_room_m = 0.12;
 /// Kept between the car and a body it passes.
 constexpr double passing_gap_m = 0.3;
 /// Discs are wider than the car by this at their middle.
