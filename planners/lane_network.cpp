@@ -14,6 +14,10 @@ namespace {
 
 constexpr auto piece_m = 2.0;
 
+/// Of a piece: outside a bend, whoever is beside the gap between two pieces is
+/// beside both. No lane goes on for longer beyond its end.
+constexpr auto wedge = 0.25;
+
 /// Cosine of the largest angle between a body and its lane, 45°.
 constexpr auto same_way = std::numbers::sqrt2 / 2;
 
@@ -77,6 +81,10 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
     const auto ahead = p.to - p.from;
     const auto c = dot(ahead, along);
     if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
+      return false;
+    const auto to = body.centre - p.from;
+    const auto share = dot(ahead, to) / dot(ahead, ahead);
+    if (share < -wedge || share > 1 + wedge)
       return false;
     const auto away_m = distance_to_segment_m(body.centre, p.from, p.to);
     if (away_m > half_widths_m_[p.lane])

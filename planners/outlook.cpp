@@ -107,14 +107,17 @@ void outlook::find_near(const own_place& me) {
     first = std::clamp<std::int64_t>(first, 0, count - 1);
     last = std::clamp<std::int64_t>(last, 0, count - 1);
   }
+  const auto start = (first % count + count) % count; // on the lap
   near_.clear();
   for (std::size_t who = 0; who < others_.size(); ++who) {
     const auto& x = others_[who].x;
     const auto reach_m =
         radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
     auto away_m = [&](std::int64_t i) {
-      const auto on_lap = static_cast<std::size_t>((i % count + count) % count);
-      return distance_m(x.centre(), beads_[on_lap]);
+      const auto on_lap = start + (i - first);
+      return distance_m(x.centre(),
+                        beads_[static_cast<std::size_t>(
+                            on_lap < count ? on_lap : on_lap % count)]);
     };
     auto before_m = infinity;
     for (auto i = first; i <= last;) {
@@ -142,7 +145,7 @@ void outlook::find_near(const own_place& me) {
 std::optional<outlook::footprint> outlook::measure(const near& where) const {
   const auto& x = others_[where.who].x;
   const auto& line = way_->path();
-  const auto on = line.project(x.centre(), where.guess_m, 2 * bead_m_);
+  const auto on = line.project(x.centre(), where.guess_m, bead_m_);
   const auto here = line.at(on.s_m);
   const auto turned_rad = x.heading_rad - here.heading_rad;
   const auto c = std::cos(turned_rad), s = std::sin(turned_rad);
@@ -164,15 +167,16 @@ std::optional<outlook::footprint> outlook::measure(const near& where) const {
     return {};
 
   const auto pieces = std::ceil(x.length_m / outline_m);
+  const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
   for (auto i = 0.0; i <= pieces; ++i)
     for (const auto side : {-0.5, 0.5}) {
       const auto along_m = (i / pieces - 0.5) * x.length_m;
       const auto across_m = side * x.width_m;
-      const auto guess_m = on.s_m + c * along_m - s * across_m;
+      const auto guess_m = on.s_m + stretch * (c * along_m - s * across_m);
       const auto p = line.project(
-          x.centre() + along_m * ahead + across_m * left, guess_m, 2 * bead_m_);
+          x.centre() + along_m * ahead + across_m * left, guess_m, bead_m_);
       print.from_m = std::min(print.from_m, p.s_m);
       print.to_m = std::max(print.to_m, p.s_m);
       print.low_m = std::min(print.low_m, p.d_m);

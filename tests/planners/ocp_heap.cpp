@@ -1,7 +1,9 @@
 // A planning cycle takes nothing from the heap.
 #include "planners/environment_model.hpp"
 #include "planners/practice.hpp"
+#include "planners/scene.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/toy_streets.hpp"
 
 #include <doctest/doctest.h>
 
@@ -50,4 +52,26 @@ TEST_CASE("following bodies takes nothing from the heap") {
   }
   CHECK(test::allocations == before);
   CHECK(model.tracks().size() == 40);
+}
+
+TEST_CASE("looking round takes nothing from the heap but the first time") {
+  const auto map = toy::cross_roads();
+  scene_params params;
+  params.judges_crossings = true;
+  scene eyes{std::make_shared<const lane_network>(map),
+             toy::make_route(map, {4, 0, 2}), params};
+  environment_model model;
+  std::vector<perceived_object> all;
+  for (auto i = 0; i < 12; ++i) {
+    all.push_back({{-8.0 * i, -1.75}, 0, 10, 0, 5.1, 1.89});
+    all.push_back({{1.75, -90 + 8.0 * i}, 1.57, 10, 0, 5.1, 1.89});
+  }
+  model.update(time_point{}, all);
+  surroundings seen;
+  eyes.describe(time_point{}, {{}, 80}, model.tracks(), seen);
+  const auto before = test::allocations;
+  for (auto s_m = 20.0; s_m < 100; s_m += 5)
+    eyes.describe(time_point{}, {{}, s_m}, model.tracks(), seen);
+  CHECK(test::allocations == before);
+  CHECK(seen.crossings.size() > 10);
 }

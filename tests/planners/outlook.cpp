@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -272,4 +273,174 @@ TEST_CASE("Lehr: nor when it is seen with noise") {
     o.me.s_m = s_m;
     CHECK_FALSE(o.look(oncoming).lead);
   }
+}
+
+// Four arms around a junction; 3 west, 1 east: a road with the right of way;
+// 4 south, 2 north.
+
+namespace {
+
+/// Who comes from there and judges the crossing.
+onlooker at_cross_roads(std::vector<std::size_t> junctions, double s_m,
+                        bool equal = false, bool judges = true) {
+  const auto map = toy::cross_roads(equal);
+  scene_params params;
+  params.judges_crossings = judges;
+  onlooker o{map, toy::make_route(map, junctions), params};
+  o.me.s_m = s_m;
+  return o;
+}
+
+/// @returns whoever is on the stretch that holds a place of the own way.
+const crossing_user* find_crossing(const onlooker& o, point place) {
+  const auto at_m = o.way->path().project(place).s_m;
+  for (const auto& c : o.seen.crossings)
+    if (c.from_m < at_m && at_m < c.to_m)
+      return &c;
+  return nullptr;
+}
+
+constexpr point from_south_meets_from_west{1.75, -1.75};
+
+} // namespace
+
+TEST_CASE("who comes across is foreseen, and when") {
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  o.look({make_track({-50, -1.75}, 0, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  // Bodies touch from 2.4 m on, and there is a metre of margin.
+  CHECK(c->enter_s == doctest::Approx(4.58).epsilon(0.01));
+  CHECK(c->leave_s == doctest::Approx(5.77).epsilon(0.01));
+  CHECK(c->from_m == doctest::Approx(138 - 1.75 - 3.4).epsilon(0.005));
+  CHECK(c->to_m == doctest::Approx(138 - 1.75 + 3.4).epsilon(0.005));
+  CHECK(c->goes_first);
+  CHECK_FALSE(o.seen.lead);
+  for (std::size_t i = 1; i < o.seen.crossings.size(); ++i)
+    CHECK(o.seen.crossings[i - 1].from_m <= o.seen.crossings[i].from_m);
+}
+
+TEST_CASE("crossings that others grant are not judged") {
+  auto o = at_cross_roads({4, 0, 2}, 100, false, false);
+  o.look({make_track({-50, -1.75}, 0, 10)});
+  CHECK(o.seen.crossings.empty());
+}
+
+TEST_CASE("who has to give way does so, unless it cannot stop any more") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({make_track({1.75, -60}, pi / 2, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+  o.look({make_track({1.75, -18}, pi / 2, 10)}); // 10 m: 5 m/s^2
+  c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("of equals the other goes first") {
+  auto o = at_cross_roads({3, 0, 1}, 100, true);
+  o.look({make_track({1.75, -60}, pi / 2, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("who comes towards one may turn across, but gives way then") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({make_track({60, 1.75}, pi, 10)});
+  REQUIRE_FALSE(o.seen.crossings.empty());
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
+  CHECK_FALSE(o.seen.lead);
+}
+
+TEST_CASE("who has crossed, or is too far away, is not crossing") {
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  CHECK(o.look({make_track({20, -1.75}, 0, 10)}).crossings.empty());
+  CHECK(o.look({make_track({-140, -1.75}, 0, 10)}).crossings.empty());
+  o.me.s_m = 170; // oneself has crossed
+  CHECK(o.look({make_track({-50, -1.75}, 0, 10)}).crossings.empty());
+}
+
+TEST_CASE(
+    "who drives across is no lead besides, unless crossings are granted") {
+  const auto across = make_track({0, -1.75}, 0, 5);
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  o.look({across});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->enter_s == 0);
+  CHECK(c->goes_first);
+  CHECK_FALSE(o.seen.lead);
+  o = at_cross_roads({4, 0, 2}, 100, false, false);
+  CHECK(o.look({across}).lead);
+}
+
+TEST_CASE("who stands on a crossing blocks it, and leads") {
+  auto o = at_cross_roads({3, 0, 1}, 100); // one's own right of way or not
+  o.look({make_track({1.75, -1.75}, pi / 2)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->enter_s == 0);
+  CHECK(std::isinf(c->leave_s));
+  CHECK(c->goes_first);
+  CHECK(o.seen.lead);
+}
+
+TEST_CASE("who goes ahead on the own way leads over a crossing") {
+  for (const auto& way :
+       {std::vector<std::size_t>{3, 0, 1}, {4, 0, 1}, {4, 0, 2}, {1, 0, 4}}) {
+    auto o = at_cross_roads(way, 0);
+    for (; o.me.s_m < 240; o.me.s_m += 0.5) {
+      o.look({on_way(*o.way, o.me.s_m + 12, 6)});
+      CHECK(o.seen.lead);
+      CHECK(o.seen.crossings.empty());
+    }
+  }
+}
+
+TEST_CASE("who merges is crossing first, and then the lead") {
+  auto o = at_cross_roads({4, 0, 1}, 110);
+  const auto map = toy::cross_roads();
+  const auto other = toy::make_route(map, {3, 0, 1});
+  auto was_crossing = false, was_lead = false;
+  for (auto s_m = 100.0; s_m < 170; s_m += 0.5) {
+    o.look({on_way(*other, s_m, 8)});
+    CHECK((o.seen.lead || !o.seen.crossings.empty()));
+    was_crossing = was_crossing || !o.seen.crossings.empty();
+    was_lead = was_lead || o.seen.lead;
+    if (was_lead)
+      CHECK(o.seen.lead);
+  }
+  CHECK(was_crossing);
+  CHECK(o.seen.crossings.empty());
+}
+
+TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
+  scene_params params;
+  params.judges_crossings = true;
+  onlooker o{lehr().map, lehr().route("west_to_east"), params};
+  o.me.s_m = 200;
+  const auto side = lehr().route("north_to_east");
+  auto foreseen = false;
+  for (auto s_m = 60.0; s_m < 160; s_m += 2) { // the arm is 163 m long
+    o.look({on_way(*side, s_m, 8)});
+    CHECK_FALSE(o.seen.lead);
+    for (const auto& c : o.seen.crossings) {
+      CHECK_FALSE(c.goes_first);
+      foreseen = true;
+    }
+  }
+  CHECK(foreseen);
+}
+
+TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
+  scene_params params;
+  params.judges_crossings = true;
+  onlooker o{lehr().map, lehr().route("west_to_north"), params};
+  o.me.s_m = 200;
+  const auto through = lehr().route("east_to_west");
+  const auto& seen = o.look({on_way(*through, 270, 8)});
+  CHECK(std::ranges::any_of(seen.crossings, &crossing_user::goes_first));
 }
