@@ -31,6 +31,12 @@ crossing_judge::crossing_judge(std::shared_ptr<const lane_network> lanes,
                                double foresight_s)
     : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
       corridor_m_{corridor_m}, foresight_s_{foresight_s} {
+  for (const auto& lane : lanes_->meetings())
+    for (const auto& e : lane) {
+      if (e.side >= ranks_.size())
+        ranks_.resize(e.side + 1);
+      ranks_[e.side] = e.rank;
+    }
   zones_.reserve(many);
   arrivals_.reserve(many);
   foreseen_.reserve(many);
@@ -38,8 +44,12 @@ crossing_judge::crossing_judge(std::shared_ptr<const lane_network> lanes,
 
 void crossing_judge::judge(double from_m, double to_m,
                            std::span<other_body> others,
-                           std::vector<crossing_user>& found) {
+                           std::vector<crossing_user>& found,
+                           std::vector<double>& yields) {
   find_zones(from_m, to_m);
+  for (const auto& [own, middle] : zones_)
+    if (ranks_[own.other_side()] < own.rank)
+      yields.push_back(own.from_m);
   foresee(others);
   for (const auto& [own, middle] : zones_)
     for (const auto& [who, when] : foreseen_) {

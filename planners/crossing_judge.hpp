@@ -39,9 +39,10 @@ public:
   /// Finds the zones of the own way that end after `from_m` and begin before
   /// `to_m`, and for each of them everybody on its other side or on the way
   /// there. Marks those who cross.
-  /// @param found  In the order of zones.
+  /// @param found   In the order of zones.
+  /// @param yields  Where zones begin whose other side goes first by rank.
   void judge(double from_m, double to_m, std::span<other_body> others,
-             std::vector<crossing_user>& found);
+             std::vector<crossing_user>& found, std::vector<double>& yields);
 
 private:
   struct own_zone {
@@ -58,6 +59,7 @@ private:
 
   std::shared_ptr<const lane_network> lanes_;
   itinerary way_;
+  std::vector<int> ranks_; // of all sides
   double corridor_m_, foresight_s_;
   std::vector<own_zone> zones_;
   std::vector<conflict_visit> arrivals_; // of one of the others

@@ -64,12 +64,13 @@ void outlook::describe(time_point now, const own_place& me,
   out.lead.reset();
   out.crossings.clear();
   out.beside.clear();
+  out.yields_m.clear();
   gather(now, me, tracks);
   if (params_.judges_crossings) {
     const auto rear_m = me.s_m - params_.car.rear_m;
     const auto front_m = me.s_m + params_.car.front_m;
     crossings_.judge(rear_m, front_m + params_.horizon_m, others_,
-                     out.crossings);
+                     out.crossings, out.yields_m);
   }
   find_near(me);
   find_bodies(me, out);

@@ -46,6 +46,13 @@ double planned_path::curvature_1pm(double s_m) const {
   return std::lerp(a.x.curvature_1pm, b.x.curvature_1pm, x);
 }
 
+double planned_path::sharpest_1pm(double s_m) const {
+  const auto [a, b, x] = find(s_m);
+  const auto& nearest = x < 0.5 ? a : b;
+  return std::max(std::abs(nearest.x.curvature_1pm),
+                  std::abs(std::lerp(a.x.curvature_1pm, b.x.curvature_1pm, x)));
+}
+
 planned_path::place planned_path::at_s(double s_m) const {
   const auto [a, b, x] = find(s_m);
   // Way per reference way times the sine of the heading is the offset's slope.

@@ -52,6 +52,9 @@ public:
 
   double curvature_1pm(double s_m) const;
 
+  /// @returns the largest |curvature| between here and the nearest knot.
+  double sharpest_1pm(double s_m) const;
+
 private:
   struct between {
     const knot& a;

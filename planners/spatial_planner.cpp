@@ -180,6 +180,12 @@ speed_task spatial_planner::task(const scene& at) const {
   if (!path_->settled())
     t.stop_m =
         std::min(t.stop_m, path_->path().length_m() - way_m_ - path_end_gap_m);
+  if (params_.cautious_sight_m > 0) {
+    t.caution_mps =
+        std::sqrt(2 * style_.firm_decel_mps2() * params_.cautious_sight_m);
+    for (const auto from_m : at.others.yields_m)
+      t.caution_to_m = way_from_car(from_m - style_.front_m);
+  }
   if (at.others.lead) {
     const auto lead = moved_forward(*at.others.lead, at.others.at, at.now);
     t.ahead = {way_from_car(lead.rear_s_m - style_.front_m),

@@ -179,6 +179,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   const auto firm = style_.firm_decel_mps2();
   const auto pose = [&] {
     set_limits(path, way_m + from.s_m, ds_m, steps);
+    be_cautious(task, from.s_m, ds_m);
     w_max_.back() = std::min(w_max_.back(), comfort * (stop_m - length_m));
     set_windows(task, from, ds_m);
   };
@@ -240,11 +241,19 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
   for (std::size_t k = 0; k < knots; ++k) {
     s = path.s_m(from_m + static_cast<double>(k) * ds_m);
     bends_[k] = path.curvature_1pm(s);
-    const auto bend = std::max(std::abs(bends_[k]), least_curvature_1pm);
+    const auto bend = std::max(path.sharpest_1pm(s), least_curvature_1pm);
     w_max_[k] = std::min(square(line_->limit_mps(s)), lateral / bend) / 2;
   }
   // What comes behind the horizon must not find the car too fast.
   w_max_.back() = std::min(w_max_.back(), square(envelope_.limit_mps(s)) / 2);
+}
+
+void speed_planner::be_cautious(const speed_task& task, double from_m,
+                                double ds_m) {
+  const auto w = square(task.caution_mps) / 2;
+  for (std::size_t k = 0; k < w_max_.size(); ++k)
+    if (from_m + static_cast<double>(k) * ds_m <= task.caution_to_m)
+      w_max_[k] = std::min(w_max_[k], w);
 }
 
 void speed_planner::set_windows(const speed_task& task, const lane_motion& from,

@@ -73,6 +73,7 @@ private:
              const stop& end, result& r, const ocp::budget& go_on);
   void set_limits(const planned_path& path, double from_m, double ds_m,
                   int steps);
+  void be_cautious(const speed_task& task, double from_m, double ds_m);
   void set_windows(const speed_task& task, const lane_motion& from,
                    double ds_m);
   bool yield_to_braking(const lane_motion& from, double from_s, double ds_m,

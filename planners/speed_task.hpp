@@ -40,6 +40,8 @@ struct speed_task {
   double stop_m = never; ///< Must not be passed: a line, the route's end.
   std::optional<follower> ahead;
   std::span<const window> windows;
+  /// Slower than this up to there: it may have to stop for somebody unseen.
+  double caution_mps = never, caution_to_m = 0;
 };
 
 } // namespace sofof

@@ -35,6 +35,9 @@ struct surroundings {
   std::optional<double> stop_at_m;
   std::vector<crossing_user> crossings; ///< In order of `from_m`.
   std::vector<lane_obstacle> beside;    ///< In order of `from_m`.
+  /// Where crossings begin at which others would go first, whether anybody is
+  /// seen or not: arc length on the own route, rising.
+  std::vector<double> yields_m;
 };
 
 } // namespace sofof

@@ -48,8 +48,8 @@ track make_track(point centre, double heading_rad, double speed_mps) {
   return x;
 }
 
-std::vector<arrival> foresee(const track& x, double within_m) {
-  std::vector<arrival> found;
+std::vector<conflict_visit> foresee(const track& x, double within_m) {
+  std::vector<conflict_visit> found;
   lanes().foresee(x, within_m, found);
   return found;
 }
@@ -92,7 +92,7 @@ TEST_CASE("who drives towards a junction meets conflicts on all its ways") {
   const auto found = foresee(make_track({-50, -1.75}, 0, 10), 100);
   auto expect = [&](const std::string& lane, const std::string& other) {
     const auto e = find_encounter(lane, other);
-    const auto a = std::ranges::find(found, e.side, &arrival::side);
+    const auto a = std::ranges::find(found, e.side, &conflict_visit::side);
     REQUIRE(a != found.end());
     // The lane begins 38 m from the centre, 35.5 m from the front.
     CHECK(a->way_m == test::near(35.5 + e.from_m, 1e-6));
@@ -118,7 +118,7 @@ TEST_CASE("who stands drives towards nothing, but may stand on a conflict") {
   CHECK(foresee(make_track({-20, -1.75}, 0, 0), 100).empty());
   const auto found = foresee(make_track({1.75, -1.75}, 0, 0), 100);
   const auto e = find_encounter("3>0>1", "4>0>2");
-  const auto a = std::ranges::find(found, e.side, &arrival::side);
+  const auto a = std::ranges::find(found, e.side, &conflict_visit::side);
   REQUIRE(a != found.end());
   CHECK(a->enter_s == 0);
   CHECK(std::isinf(a->leave_s));
@@ -128,7 +128,7 @@ TEST_CASE("a conflict is left with the rear, even from the next lane") {
   const auto e = find_encounter("3>0>1", "4>0>1"); // to the lane's end, 12 m
   auto rest_s = [&](double x_m) {
     const auto found = foresee(make_track({x_m, -1.75}, 0, 5), 100);
-    const auto a = std::ranges::find(found, e.side, &arrival::side);
+    const auto a = std::ranges::find(found, e.side, &conflict_visit::side);
     return a == found.end() ? 0 : a->leave_s;
   };
   CHECK(rest_s(11) == test::near(3.5 / 5, 1e-6));

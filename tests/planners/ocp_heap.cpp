@@ -1,7 +1,7 @@
 // A planning cycle takes nothing from the heap.
 #include "planners/environment_model.hpp"
+#include "planners/outlook.hpp"
 #include "planners/practice.hpp"
-#include "planners/scene.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/toy_streets.hpp"
 
@@ -56,10 +56,10 @@ TEST_CASE("following bodies takes nothing from the heap") {
 
 TEST_CASE("looking round takes nothing from the heap but the first time") {
   const auto map = toy::cross_roads();
-  scene_params params;
+  outlook_params params;
   params.judges_crossings = true;
-  scene eyes{std::make_shared<const lane_network>(map),
-             toy::make_route(map, {4, 0, 2}), params};
+  outlook eyes{std::make_shared<const lane_network>(map),
+               toy::make_route(map, {4, 0, 2}), params};
   environment_model model;
   std::vector<perceived_object> all;
   for (auto i = 0; i < 12; ++i) {

@@ -284,7 +284,7 @@ namespace {
 onlooker at_cross_roads(std::vector<std::size_t> junctions, double s_m,
                         bool equal = false, bool judges = true) {
   const auto map = toy::cross_roads(equal);
-  scene_params params;
+  outlook_params params;
   params.judges_crossings = judges;
   onlooker o{map, toy::make_route(map, junctions), params};
   o.me.s_m = s_m;
@@ -418,7 +418,7 @@ TEST_CASE("who merges is crossing first, and then the lead") {
 }
 
 TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
-  scene_params params;
+  outlook_params params;
   params.judges_crossings = true;
   onlooker o{lehr().map, lehr().route("west_to_east"), params};
   o.me.s_m = 200;
@@ -436,7 +436,7 @@ TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
 }
 
 TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
-  scene_params params;
+  outlook_params params;
   params.judges_crossings = true;
   onlooker o{lehr().map, lehr().route("west_to_north"), params};
   o.me.s_m = 200;
