@@ -15,6 +15,9 @@ constexpr double never = speed_task::never;
 constexpr double line_gap_m = 0.3;
 constexpr double least_line_gap_m = 0.15;
 constexpr double least_gap_m = 1.0;
+/// Comfort keeps off a window by so much more than an emergency does.
+constexpr double window_slack_s = 0.4;
+constexpr double least_way_m = 0.1;
 /// What a plan that was made before may come closer still.
 constexpr double slack_m = 0.1;
 
@@ -67,6 +70,15 @@ double square(double x) {
   return x * x;
 }
 
+/// The constant braking with which a car is not at a place before some time.
+double decel_to_be_late(double v, double way_m, double time_s) {
+  if (!(time_s > 0) || v * time_s <= way_m)
+    return 0;
+  const auto way = std::max(way_m, least_way_m);
+  const auto decel = 2 * (v * time_s - way) / square(time_s);
+  return v < decel * time_s ? square(v) / (2 * way) : decel; // or at rest
+}
+
 } // namespace
 
 speed_planner::speed_planner(const reference_line& line,
@@ -107,6 +119,10 @@ double speed_planner::needed_decel(const speed_task& task) const {
         std::max(needed, sofof::needed_decel(task.speed_mps,
                                              task.ahead->touch_m - least_gap_m,
                                              task.ahead->lead));
+  for (const auto& window : task.windows)
+    needed =
+        std::max(needed, decel_to_be_late(task.speed_mps, window.at_m,
+                                          window.earliest_s - window_slack_s));
   return needed;
 }
 
@@ -225,10 +241,10 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
   r.how = speed_mode::optimal;
   r.emergency = recovers;
-  return motion_.size() > 1
-         && (solved_
-             || (r.report.violation < reduced_margin
-                 && is_clear(motion_, style_.step_s, task)));
+  if (motion_.size() < 2 || (!solved_ && r.report.violation > reduced_margin))
+    return false;
+  return (solved_ && task.windows.empty())
+         || is_clear(motion_, style_.step_s, task);
 }
 
 void speed_planner::set_limits(const planned_path& path, double from_m,
@@ -337,7 +353,8 @@ bool is_clear(const time_motion& motion, double step_s,
       return false;
     for (const auto& window : task.windows)
       if (i > 0 && x.s_m > window.at_m && motion[i - 1].s_m <= window.at_m
-          && (t < window.earliest_s - step_s || t > window.latest_s + step_s))
+          && (t < window.earliest_s - window_slack_s
+              || t > window.latest_s + window_slack_s))
         return false;
   }
   return true;
