@@ -9,7 +9,7 @@ namespace sofof {
 namespace {
 
 /// Who would have to brake harder than this to give way does not, m/s².
-constexpr auto yielding_decel_mps2 = 4.0;
+constexpr auto yielding_decel_mps2 = 6.0;
 
 /// To be expected at once; more take more memory, once.
 constexpr std::size_t many = 128;
