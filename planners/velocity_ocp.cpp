@@ -189,6 +189,18 @@ void velocity_ocp::follow(const velocity_problem& p) noexcept {
   x.x2[p.steps] = a;
 }
 
+// Whether the last plan comes to rest where it now should not, or the reverse.
+// It would mislead: at rest, time hardly has a slope.
+bool velocity_ocp::rests_elsewhere(const velocity_problem& p) const noexcept {
+  constexpr auto rest_m2ps2 = 1e-2, far_m = 1.;
+  const auto end = p.steps + 1;
+  int rest = end;
+  while (rest > 0 && w_.plan.x1[rest - 1] < rest_m2ps2)
+    --rest;
+  const auto stop = std::min(p.stop_knot.value_or(end), end);
+  return (rest < end) != (stop < end) || std::abs(rest - stop) * p.ds_m > far_m;
+}
+
 // By how much the plan is too early or too late, at worst.
 double velocity_ocp::misses_s() const noexcept {
   const auto& row = w_.rows.time;
@@ -247,8 +259,9 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
   if (worst.knot >= 0)
     return ocp::refusal(worst);
   if (from == ocp::start::warm) {
+    const auto elsewhere = rests_elsewhere(problem);
     follow(problem);
-    if (misses_s() > options.surprise_s) {
+    if (elsewhere || misses_s() > options.surprise_s) {
       from = ocp::start::cold;
       set_bounds(problem, options, from);
     }
