@@ -104,6 +104,14 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
   const auto& speed = w_.rows.speed;
   const auto h = p.ds_m;
   const auto n = p.steps;
+  const auto bounded = [n](const ocp::column& times) {
+    double count = 0;
+#pragma omp simd reduction(+ : count)
+    for (int k = 1; k <= n; ++k)
+      count += std::abs(times[k]) < ocp::no_bound ? 1. : 0.;
+    return count > 0;
+  };
+  const auto early = bounded(time.lo), late = bounded(time.hi);
   ocp::column most;
   ocp::violation worst;
   double lower = p.start.accel_mps2, upper = lower, change = 0;
@@ -119,12 +127,16 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
     least = std::max(0., least + h * (lower + down) / 2);
     most[k + 1] = std::min(speed.hi[k + 1], most[k] + h * (upper + up) / 2);
     lower = down, upper = up;
-    const double next = ocp::speed_of(least);
-    slowest = std::min(slowest + 2 * h / (v + next), time.hi[k + 1]);
-    v = next;
     worst.see(least - speed.hi[k + 1], speed.tolerance, speed_row, k + 1);
-    worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
+    const double next = ocp::speed_of(least);
+    if (early) {
+      slowest = std::min(slowest + 2 * h / (v + next), time.hi[k + 1]);
+      worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
+    }
+    v = next;
   }
+  if (!late)
+    return worst;
   for (int k = n - 1; k > 0; --k)
     most[k] = std::min(most[k], most[k + 1] - h * l.accel_min_mps2);
   double fastest = p.start.t_s;
