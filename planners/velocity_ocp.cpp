@@ -77,6 +77,9 @@ void velocity_ocp::set_bounds(const velocity_problem& p,
   std::copy_n(p.earliest_s.data() + 1, n, rows.time.lo.data() + 1);
   std::copy_n(p.latest_s.data() + 1, n, rows.time.hi.data() + 1);
   std::copy_n(p.w_max_m2ps2.data() + 1, n, rows.speed.hi.data() + 1);
+  rows.timed = ocp::any_finite(p.earliest_s) || ocp::any_finite(p.latest_s);
+  if (!rows.timed)
+    rows.time.y.fill(0);
   const auto stop = p.stop_knot.value_or(n + 1);
   for (int k = 1; k <= n; ++k) {
     const auto rests = k >= stop;
@@ -104,14 +107,8 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
   const auto& speed = w_.rows.speed;
   const auto h = p.ds_m;
   const auto n = p.steps;
-  const auto bounded = [n](const ocp::column& times) {
-    double count = 0;
-#pragma omp simd reduction(+ : count)
-    for (int k = 1; k <= n; ++k)
-      count += std::abs(times[k]) < ocp::no_bound ? 1. : 0.;
-    return count > 0;
-  };
-  const auto early = bounded(time.lo), late = bounded(time.hi);
+  const auto early = ocp::any_finite(p.earliest_s);
+  const auto late = ocp::any_finite(p.latest_s);
   ocp::column most;
   ocp::violation worst;
   double lower = p.start.accel_mps2, upper = lower, change = 0;
@@ -134,6 +131,8 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
       worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
     }
     v = next;
+    if (least == 0 && !w_.rows.timed)
+      return worst;
   }
   if (!late)
     return worst;
@@ -246,6 +245,7 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
 bool velocity_ocp::adopt(const velocity_warm_start& other) noexcept {
   if (!other.usable())
     return false;
+  w_.rows.timed = true;
   ocp::recall(w_, other);
   ds_m_ = other.ds_m;
   started_ = true;
