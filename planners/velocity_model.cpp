@@ -77,7 +77,7 @@ double velocity_model::roll_out(workspace& w) const noexcept {
   const double most = w.rows.jerk.hi[0];
   double t = aim.x0[0], at = aim.x1[0], acc = aim.x2[0];
   const auto& modelled = w.rows.jerk.c;
-  double v = speed(at), late = 0, jerky = 0;
+  double v = speed(at), late = 0, jerky = 0, before = 0;
   for (int k = 0; k < w.n; ++k) {
     plan.x0[k] = t;
     plan.x1[k] = at;
@@ -85,7 +85,9 @@ double velocity_model::roll_out(workspace& w) const noexcept {
     const double e0 = t - aim.x0[k], e1 = at - aim.x1[k];
     const double e2 = acc - aim.x2[k];
     late = std::max(late, std::abs(e0));
-    double u = aim.u[k] + (w.k0[k] * e0 + w.k1[k] * e1 + w.k2[k] * e2);
+    // Lateness a step ago is as good, and no step waits for its own time.
+    double u = aim.u[k] + (w.k0[k] * before + (w.k1[k] * e1 + w.k2[k] * e2));
+    before = e0;
     if (std::abs(u) * v > most)
       u = std::copysign(most / v, u);
     plan.u[k] = u;

@@ -59,14 +59,16 @@ struct velocity_rows {
   row<on_a> accel;
   row<on_w_and_a> total; ///< Length of (a, v² κ).
   row<on_w_and_u> jerk;  ///< u v.
+  bool timed = true;     ///< Some time is bounded.
 
-  /// Calls f(row, number).
+  /// Calls f(row, number); leaves out times when none is bounded.
   void each(auto f) { each_of(*this, f); }
   void each(auto f) const { each_of(*this, f); }
 
 private:
   static void each_of(auto& rows, auto& f) {
-    f(rows.time, 0);
+    if (rows.timed)
+      f(rows.time, 0);
     f(rows.speed, 1);
     f(rows.accel, 2);
     f(rows.total, 3);

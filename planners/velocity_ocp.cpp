@@ -77,6 +77,9 @@ void velocity_ocp::set_bounds(const velocity_problem& p,
   std::copy_n(p.earliest_s.data() + 1, n, rows.time.lo.data() + 1);
   std::copy_n(p.latest_s.data() + 1, n, rows.time.hi.data() + 1);
   std::copy_n(p.w_max_m2ps2.data() + 1, n, rows.speed.hi.data() + 1);
+  rows.timed = ocp::any_finite(p.earliest_s) || ocp::any_finite(p.latest_s);
+  if (!rows.timed)
+    rows.time.y.fill(0);
   const auto stop = p.stop_knot.value_or(n + 1);
   for (int k = 1; k <= n; ++k) {
     const auto rests = k >= stop;
@@ -104,6 +107,8 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
   const auto& speed = w_.rows.speed;
   const auto h = p.ds_m;
   const auto n = p.steps;
+  const auto early = ocp::any_finite(p.earliest_s);
+  const auto late = ocp::any_finite(p.latest_s);
   ocp::column most;
   ocp::violation worst;
   double lower = p.start.accel_mps2, upper = lower, change = 0;
@@ -119,12 +124,18 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
     least = std::max(0., least + h * (lower + down) / 2);
     most[k + 1] = std::min(speed.hi[k + 1], most[k] + h * (upper + up) / 2);
     lower = down, upper = up;
-    const double next = ocp::speed_of(least);
-    slowest = std::min(slowest + 2 * h / (v + next), time.hi[k + 1]);
-    v = next;
     worst.see(least - speed.hi[k + 1], speed.tolerance, speed_row, k + 1);
-    worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
+    const double next = ocp::speed_of(least);
+    if (early) {
+      slowest = std::min(slowest + 2 * h / (v + next), time.hi[k + 1]);
+      worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
+    }
+    v = next;
+    if (least == 0 && !w_.rows.timed)
+      return worst;
   }
+  if (!late)
+    return worst;
   for (int k = n - 1; k > 0; --k)
     most[k] = std::min(most[k], most[k + 1] - h * l.accel_min_mps2);
   double fastest = p.start.t_s;
@@ -189,6 +200,18 @@ void velocity_ocp::follow(const velocity_problem& p) noexcept {
   x.x2[p.steps] = a;
 }
 
+// Whether the last plan comes to rest where it now should not, or the reverse.
+// It would mislead: at rest, time hardly has a slope.
+bool velocity_ocp::rests_elsewhere(const velocity_problem& p) const noexcept {
+  constexpr auto rest_m2ps2 = 1e-2, far_m = 1.;
+  const auto end = p.steps + 1;
+  int rest = end;
+  while (rest > 0 && w_.plan.x1[rest - 1] < rest_m2ps2)
+    --rest;
+  const auto stop = std::min(p.stop_knot.value_or(end), end);
+  return (rest < end) != (stop < end) || std::abs(rest - stop) * p.ds_m > far_m;
+}
+
 // By how much the plan is too early or too late, at worst.
 double velocity_ocp::misses_s() const noexcept {
   const auto& row = w_.rows.time;
@@ -222,6 +245,7 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
 bool velocity_ocp::adopt(const velocity_warm_start& other) noexcept {
   if (!other.usable())
     return false;
+  w_.rows.timed = true;
   ocp::recall(w_, other);
   ds_m_ = other.ds_m;
   started_ = true;
@@ -247,8 +271,9 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
   if (worst.knot >= 0)
     return ocp::refusal(worst);
   if (from == ocp::start::warm) {
+    const auto elsewhere = rests_elsewhere(problem);
     follow(problem);
-    if (misses_s() > options.surprise_s) {
+    if (elsewhere || misses_s() > options.surprise_s) {
       from = ocp::start::cold;
       set_bounds(problem, options, from);
     }

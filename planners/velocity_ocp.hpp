@@ -124,6 +124,7 @@ private:
   ocp::violation hopeless(const velocity_problem&) const noexcept;
   void guess(const velocity_problem&) noexcept;
   void follow(const velocity_problem&) noexcept;
+  bool rests_elsewhere(const velocity_problem&) const noexcept;
   double misses_s() const noexcept;
 
   ocp::velocity_model::workspace w_{};

@@ -52,22 +52,23 @@ inline bool same_grid(double ds_m, int steps, double other_ds_m,
 /// @param tail   What is assumed beyond the old end.
 inline void resample(column& c, const regrid& g, double scale, double tail) {
   const column old = c;
-  const auto whole = static_cast<int>(std::min(g.first, g.last + 1.));
-  const auto inside = std::min(g.last_of_new, g.last - 1 - whole);
-  int from = 0;
-  if (g.step == 1 && inside >= 0) { // most are; no gathering then
-    const auto share = g.first - whole;
-    for (int k = 0; k <= inside; ++k)
-      c[k] = scale * ((1 - share) * old[k + whole] + share * old[k + whole + 1]);
-    from = inside + 1;
-  }
-  for (int k = from; k <= g.last_of_new; ++k) {
-    const double at = std::min(g.first + g.step * k, g.last + 1.);
+  // Knots as far apart as before: all are off by the same share.
+  const auto even = g.step == 1;
+  const auto known =
+      std::clamp((g.last - g.first) / g.step + 1, 0., g.last_of_new + 1.);
+  const auto end = static_cast<int>(known);
+  const auto whole = static_cast<int>(std::min<double>(g.first, g.last));
+  const double share = g.first - whole;
+  int k = 0;
+  for (; even && k < end - 1; ++k)
+    c[k] = scale * ((1 - share) * old[k + whole] + share * old[k + whole + 1]);
+  for (; k < end; ++k) {
+    const double at = g.first + g.step * k;
     const int i = std::min(static_cast<int>(at), g.last - 1);
-    const double share = at - i;
-    const double known = (1 - share) * old[i] + share * old[i + 1];
-    c[k] = at > g.last ? tail : scale * known;
+    c[k] = scale * ((1 - (at - i)) * old[i] + (at - i) * old[i + 1]);
   }
+  for (; k <= g.last_of_new; ++k)
+    c[k] = tail;
 }
 
 /// Multipliers grow with the length of their stage.

@@ -17,6 +17,17 @@ inline bool all_finite(std::span<const double> values) {
   return sum == 0;
 }
 
+/// @returns whether any number is finite; none may be NaN.
+inline bool any_finite(std::span<const double> values) {
+  const auto* x = values.data();
+  const auto n = values.size();
+  double count = 0;
+#pragma omp simd reduction(+ : count)
+  for (std::size_t i = 0; i < n; ++i)
+    count += x[i] - x[i] == 0 ? 1. : 0.;
+  return count > 0;
+}
+
 /// @returns whether all numbers are at least `least`; NaN is not.
 inline bool all_at_least(std::span<const double> values, double least) {
   const auto* x = values.data();

@@ -53,9 +53,11 @@ public:
   solve_report solve(const budget& go_on) noexcept;
 
 private:
-  /// `optimal`: the plan was already; `partial`: only as far as the model
-  /// holds.
-  enum class ended { optimal, settled, partial, interrupted, broken };
+  static constexpr auto nearly = 10.; ///< Tolerances that are acceptable.
+
+  /// `optimal`: the plan was already; `stuck`: the model has no plan within
+  /// its bounds; `partial`: only as far as the model holds.
+  enum class ended { optimal, settled, stuck, partial, interrupted, broken };
 
   void begin() noexcept;
   double join() noexcept;
@@ -79,6 +81,7 @@ private:
   const solver_options& options_;
   solve_report report_;
   bool candidate_ = false;   ///< The plan may be optimal.
+  bool stuck_ = false;       ///< The last model had no plan.
   bool joined_ = false;      ///< The iterate has no gaps.
   bool same_active_ = false; ///< The factorisation still holds.
   double cost_slope_ = 0;    ///< Of the cost along the direction ...
@@ -99,8 +102,12 @@ solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
       report_.status = solve_status::converged;
       return report_;
     }
+    // Linearised where it is stuck, the model is to confirm it.
+    const auto hopeless = how == ended::stuck && stuck_;
     const auto last = how == ended::interrupted || how == ended::broken
+                      || hopeless
                       || report_.linearisations >= options_.max_linearisations;
+    stuck_ = how == ended::stuck;
     if (how == ended::partial && !last)
       continue;
     const auto left = publish();
@@ -119,12 +126,12 @@ solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
 template <class Problem>
 solve_status ms_al<Problem>::verdict(ended how) const noexcept {
   using enum solve_status;
-  constexpr auto nearly = 10.; // tolerances
   if (how == ended::broken || std::isnan(report_.cost))
     return numerical;
   if (report_.worst.scaled <= nearly && std::isfinite(report_.cost))
     return acceptable;
-  const auto spent = report_.iterations >= options_.max_iterations
+  const auto spent = how == ended::stuck
+                     || report_.iterations >= options_.max_iterations
                      || report_.linearisations >= options_.max_linearisations;
   return spent ? soft_infeasible : budget;
 }
@@ -189,6 +196,8 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     return ended::optimal;
   same_active_ = false;
   w_.rows.each([](auto& r, int) { r.last_change = no_bound; });
+  double last_change = no_bound;
+  int standstill = 0;
   for (int inner = 0; inner < options_.max_inner; ++inner) {
     if (report_.iterations >= options_.max_iterations
         || !go_on(report_.iterations))
@@ -207,8 +216,18 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
       return ended::partial;
     const auto flat = !gaps && decrement < options_.decrement;
     const auto minimal = flat || (same_active_ && alpha == 1);
-    if (minimal && update_multipliers() <= 1)
+    if (!minimal)
+      continue;
+    const auto change = update_multipliers();
+    if (change <= 1)
       return ended::settled;
+    // Multipliers that grow and grow: what is left is the least violation.
+    const auto stands =
+        change > nearly && change > options_.standstill * last_change;
+    standstill = stands ? standstill + 1 : 0;
+    last_change = change;
+    if (standstill >= options_.patience)
+      return ended::stuck;
   }
   return ended::settled;
 }

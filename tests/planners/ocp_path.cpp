@@ -234,6 +234,36 @@ TEST_CASE("a wall that cannot be avoided is infeasible, not a crash") {
   }
 }
 
+TEST_CASE("a car that cannot steer enough gets no plan, soon") {
+  constexpr auto roads = 120;
+  test::dice dice{7};
+  auto refused = 0, early = 0;
+  for (int i = 0; i < roads; ++i) {
+    CAPTURE(i);
+    slalom road{80, 1, dice.between(2.5, 6)};
+    auto problem = road.at(i, {dice.between(-0.1, 0.1), 0, 0});
+    const auto solver = make_solver();
+    const auto how = i % 2 == 0 ? start::cold : start::warm;
+    if (how == start::warm)
+      solver->solve(problem, start::cold);
+    problem.curvature_max_1pm = dice.between(0.004, 0.05);
+    problem.rate_max_1pm2 = dice.between(5e-4, 0.01);
+    const auto report = solver->solve(problem, how);
+    if (publishable(report.status)) {
+      CHECK(driven_violation(problem, solver->rate_1pm2()) <= 1.001e-3);
+      continue;
+    }
+    CHECK(report.status == soft_infeasible);
+    CHECK(report.worst.scaled > 10);
+    CHECK(report.worst.knot > 0);
+    ++refused;
+    early += report.iterations < ocp::solver_options{}.max_iterations ? 1 : 0;
+  }
+  CHECK(refused > roads / 3);
+  CHECK(refused < roads * 2 / 3);
+  CHECK(early > refused / 2); // it is known before all steps are spent
+}
+
 TEST_CASE("a wall across the road is infeasible, and nothing overflows") {
   slalom road;
   auto problem = road.at(0, {});

@@ -332,7 +332,7 @@ TEST_CASE("who has to give way does so, unless it cannot stop any more") {
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK_FALSE(c->goes_first);
-  o.look({make_track({1.75, -18}, pi / 2, 10)}); // 10 m: 5 m/s^2
+  o.look({make_track({1.75, -15}, pi / 2, 10)}); // 7 m: 7 m/s^2
   c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->goes_first);
