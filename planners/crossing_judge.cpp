@@ -14,12 +14,12 @@ constexpr auto yielding_decel_mps2 = 6.0;
 /// To be expected at once; more take more memory, once.
 constexpr std::size_t many = 128;
 
-double speed_mps(const track& x) {
-  return std::max(0.0, x.speed_along_mps(x.heading_rad));
+double forward_mps(const track& x) {
+  return std::max(0.0, x.speed_mps());
 }
 
 bool gives_way(const track& x, const conflict_visit& when, int own_rank) {
-  const auto v = speed_mps(x);
+  const auto v = forward_mps(x);
   return when.way_m > 0 && when.rank > own_rank
          && v * v <= 2 * yielding_decel_mps2 * when.way_m;
 }
@@ -78,7 +78,7 @@ void crossing_judge::foresee(std::span<const other_body> others) {
   foreseen_.clear();
   for (std::size_t who = 0; who < others.size(); ++who) {
     const auto& x = others[who].x;
-    const auto within_m = foresight_s_ * speed_mps(x);
+    const auto within_m = foresight_s_ * forward_mps(x);
     const auto gets_there = [&](const own_zone& z) {
       const auto reach_m = within_m + x.length_m + z.on.to_m - z.on.from_m;
       const auto apart = z.middle - x.centre();

@@ -101,8 +101,7 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
 
 void lane_network::foresee(const track& x, double within_m,
                            std::vector<conflict_visit>& out) const {
-  const driver who{x.length_m / 2, x.speed_along_mps(x.heading_rad), within_m,
-                   out.size(), out};
+  const driver who{x.length_m / 2, x.speed_mps(), within_m, out.size(), out};
   for (const auto& [lane, s_m] : find(x.body())) {
     drive(who, lane, -s_m);
     if (s_m < who.half_length_m) // its rear is still there

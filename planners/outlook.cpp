@@ -38,8 +38,8 @@ point offset(const path_point& p, double along_m, double left_m) {
 
 } // namespace
 
-outlook::outlook(std::shared_ptr<const lane_network> lanes, route_ptr way,
-                 outlook_params params)
+outlook::outlook(std::shared_ptr<const lane_network> lanes,
+                 const route_ptr& way, outlook_params params)
     : way_{way}, params_{params}, crossings_{std::move(lanes), way,
                                              params.car.width_m / 2
                                                  + params.margin_m,
@@ -174,10 +174,10 @@ std::optional<outlook::footprint> outlook::measure(const near& where) const {
   for (auto i = 0.0; i <= pieces; ++i)
     for (const auto side : {-0.5, 0.5}) {
       const auto along_m = (i / pieces - 0.5) * x.length_m;
-      const auto across_m = side * x.width_m;
-      const auto guess_m = on.s_m + stretch * (c * along_m - s * across_m);
-      const auto p = line.project(
-          x.centre() + along_m * ahead + across_m * left, guess_m, bead_m_);
+      const auto left_m = side * x.width_m;
+      const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
+      const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
+                                  guess_m, bead_m_);
       print.from_m = std::min(print.from_m, p.s_m);
       print.to_m = std::max(print.to_m, p.s_m);
       print.low_m = std::min(print.low_m, p.d_m);

@@ -44,7 +44,7 @@ struct own_place {
 class outlook {
 public:
   /// @param lanes  Of the map that the route is on; not null.
-  outlook(std::shared_ptr<const lane_network> lanes, route_ptr way,
+  outlook(std::shared_ptr<const lane_network> lanes, const route_ptr& way,
           outlook_params params);
 
   /// Describes all but `stop_at_m`, which it leaves as it is: what is granted

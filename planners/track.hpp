@@ -53,11 +53,13 @@ struct track {
 
   point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
 
-  /// @returns velocity along an axis, m/s.
-  double speed_along_mps(double heading_rad) const {
-    return motion.mean(0, 1) * std::cos(heading_rad)
-           + motion.mean(1, 1) * std::sin(heading_rad);
+  /// @returns the velocity along an axis.
+  double speed_along_mps(double axis_rad) const {
+    return motion.mean(0, 1) * std::cos(axis_rad)
+           + motion.mean(1, 1) * std::sin(axis_rad);
   }
+
+  double speed_mps() const { return speed_along_mps(heading_rad); }
 
   oriented_box body() const {
     return {centre(), heading_rad, length_m, width_m};

@@ -275,6 +275,51 @@ TEST_CASE("Lehr: nor when it is seen with noise") {
   }
 }
 
+TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
+  const random_stream dice{11, "bodies"};
+  auto reaching = 0;
+  for (const auto& name : round_trips) {
+    onlooker o{lehr().map, lehr().route(name)};
+    const auto& line = o.way->path();
+    const auto bend_m = line.project({-420, -132}).s_m; // the roundabout
+    o.me.s_m = bend_m - 80;
+    for (auto n = 0U; n < 1000; ++n) {
+      const auto here = line.at(bend_m + dice.uniform(-40, 40, n, 0));
+      const auto left_m = dice.uniform(-6, 6, n, 1);
+      auto x = make_track(here.at
+                              + left_m
+                                    * point{-std::sin(here.heading_rad),
+                                            std::cos(here.heading_rad)},
+                          here.heading_rad + dice.uniform(-pi, pi, n, 2));
+      x.length_m = dice.uniform(2, 12, n, 3);
+      auto nearest_m = 1e9; // of its outline
+      const auto box = x.body();
+      const point ahead{std::cos(box.heading_rad), std::sin(box.heading_rad)};
+      const point left{-ahead.y_m, ahead.x_m};
+      for (auto i = -40; i <= 40; ++i)
+        for (auto k = -8; k <= 8; ++k)
+          nearest_m = std::min(
+              nearest_m,
+              std::abs(line.project(box.centre
+                                        + (i / 80.0) * box.length_m * ahead
+                                        + (k / 16.0) * box.width_m * left,
+                                    bend_m, 70)
+                           .d_m));
+      const auto& seen = o.look({x});
+      const auto is_found = seen.lead || !seen.beside.empty();
+      if (nearest_m > 1.76)
+        CHECK_FALSE(is_found);
+      if (nearest_m < 1.65) // between measured points, sides bulge
+        CHECK(is_found);
+      if (nearest_m < 0.7)
+        CHECK(seen.lead);
+      reaching += is_found ? 1 : 0;
+    }
+  }
+  CHECK(reaching > 600);
+  CHECK(reaching < 1900);
+}
+
 // Four arms around a junction; 3 west, 1 east: a road with the right of way;
 // 4 south, 2 north.
 
