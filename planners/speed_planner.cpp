@@ -289,7 +289,9 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                  std::min(a, -decel_mps2));
     const auto next_w = w + ds_m * (a + next_a) / 2;
     a = next_a;
-    t = next_w > 0 ? t + 2 * ds_m / (v + std::sqrt(2 * next_w)) : never;
+    // As the velocity problem counts time, or it would miss what is left.
+    t = next_w > 0 ? t + 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w))
+                   : never;
     w = std::max(0.0, next_w);
   }
   return fits;
