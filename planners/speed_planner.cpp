@@ -308,6 +308,16 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                    : never;
     w = std::max(0.0, next_w);
   }
+  // Waiting costs little over way: without this, cars crawl until what holds
+  // them up is far off, rather than drive as fast as it lets them.
+  auto mean = never;
+  for (auto k = wanted_.size() - 1; k > 0; --k) {
+    if (earliest_[k] > from_s)
+      mean = std::min(mean,
+                      static_cast<double>(k) * ds_m / (earliest_[k] - from_s));
+    wanted_[k] =
+        std::max(std::min(wanted_[k], square(mean) / 2), least_wanted_m2ps2);
+  }
   return fits;
 }
 
