@@ -77,6 +77,11 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
       publish(now, out);
     }
   }
+  if (!out.is_sound()) { // for what was no number
+    report.origin = plan_origin::stop;
+    report.emergency = true;
+    out = safe_stop(*route_, now, at.start);
+  }
   return report;
 }
 

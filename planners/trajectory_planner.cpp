@@ -13,6 +13,28 @@ constexpr double same_place_m = 1.0;
 constexpr double same_speed_mps = 1.0;
 constexpr double max_lead_age_s = 0.5;
 
+/// What is beyond is no car's motion.
+constexpr double farthest_m = 1e7;
+constexpr double farthest_off_m = 100;
+constexpr double most_turned_rad = 1;
+constexpr double most_curvature_1pm = 1;
+constexpr double fastest_mps = 100;
+constexpr double most_accel_mps2 = 20;
+
+/// @returns `x` with what no car can do cut off; what is no number is 0.
+planning_input made_possible(planning_input x) {
+  const auto cut = [](double& number, double least, double most) {
+    number = std::isnan(number) ? 0 : std::clamp(number, least, most);
+  };
+  cut(x.s_m, -farthest_m, farthest_m);
+  cut(x.d_m, -farthest_off_m, farthest_off_m);
+  cut(x.heading_error_rad, -most_turned_rad, most_turned_rad);
+  cut(x.curvature_1pm, -most_curvature_1pm, most_curvature_1pm);
+  cut(x.speed_mps, 0, fastest_mps);
+  cut(x.accel_mps2, -most_accel_mps2, most_accel_mps2);
+  return x;
+}
+
 } // namespace
 
 planning_input joined(const route& way, time_point now,
@@ -25,7 +47,7 @@ planning_input joined(const route& way, time_point now,
         && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
       return seen_from(way, previous->at(now));
   }
-  return moved_forward(input, now);
+  return moved_forward(made_possible(input), now);
 }
 
 lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
