@@ -15,7 +15,7 @@ constexpr double max_lead_age_s = 0.5;
 
 /// What is beyond is no car's motion.
 constexpr double farthest_m = 1e7;
-constexpr double farthest_off_m = 100;
+constexpr double farthest_off_m = 5;
 constexpr double most_turned_rad = 1;
 constexpr double most_curvature_1pm = 1;
 constexpr double fastest_mps = 100;
