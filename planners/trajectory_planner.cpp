@@ -60,7 +60,7 @@ planning_input joined(const route& way, time_point now,
         && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
       return seen_from(way, previous->at(now));
   }
-  return moved_forward(made_possible(own(input)), now);
+  return made_possible(moved_forward(made_possible(own(input)), now));
 }
 
 lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
