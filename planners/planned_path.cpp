@@ -5,12 +5,19 @@
 #include <cmath>
 
 namespace sofof {
+namespace {
+
+/// The knot that so many steps lead to, at most `last`; 0 for what is no
+/// number.
+std::size_t knot_at(double steps, double last) {
+  return steps > 0 ? static_cast<std::size_t>(std::min(steps, last)) : 0;
+}
+
+} // namespace
 
 std::size_t planned_path::knot_before(double way_m) const {
   // Knots are about ds apart: begin with that guess.
-  const auto guess =
-      std::clamp(way_m / ds_m, 0.0, static_cast<double>(size - 2));
-  auto k = static_cast<std::size_t>(guess);
+  auto k = knot_at(way_m / ds_m, size - 2);
   while (k > 0 && knots[k].way_m > way_m)
     --k;
   while (k + 2 < static_cast<std::size_t>(size) && knots[k + 1].way_m <= way_m)
@@ -27,16 +34,14 @@ double planned_path::s_m(double way_m) const {
 
 double planned_path::way_m(double s_m) const {
   const auto steps = (s_m - start_s_m) / ds_m;
-  const auto k = static_cast<std::size_t>(
-      std::clamp(steps, 0.0, static_cast<double>(size - 2)));
+  const auto k = knot_at(steps, size - 2);
   const auto &a = knots[k], &b = knots[k + 1];
   return a.way_m + (steps - static_cast<double>(k)) * (b.way_m - a.way_m);
 }
 
 planned_path::between planned_path::find(double s_m) const {
   const auto steps = (s_m - start_s_m) / ds_m;
-  const auto k = static_cast<std::size_t>(
-      std::clamp(steps, 0.0, static_cast<double>(size - 2)));
+  const auto k = knot_at(steps, size - 2);
   return {knots[k], knots[k + 1],
           std::clamp(steps - static_cast<double>(k), 0.0, 1.0)};
 }

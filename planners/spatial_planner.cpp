@@ -64,10 +64,12 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
       break;
   }
   if (done) {
+    kept_from_.reset();
     publish(now, out);
   } else if (previous && keep(*previous, at, out)) {
     report.origin = plan_origin::kept;
   } else {
+    kept_from_.reset();
     report.origin = plan_origin::stop;
     report.emergency = true;
     if (path_->path().empty()) {
@@ -76,6 +78,11 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
       speed_->brake_only(task(at));
       publish(now, out);
     }
+  }
+  if (!out.is_sound()) { // for what was no number
+    report.origin = plan_origin::stop;
+    report.emergency = true;
+    out = safe_stop(*route_, now, at.start);
   }
   return report;
 }
@@ -255,7 +262,8 @@ bool spatial_planner::keep(const trajectory& previous, const scene& at,
                            trajectory& out) {
   const auto left_s = to_seconds(previous.end() - at.now);
   if (path_->path().empty() || previous.start > at.now || left_s < least_left_s
-      || to_seconds(at.now - previous.start) > longest_kept_s)
+      || to_seconds(at.now - kept_from_.value_or(previous.start))
+             > longest_kept_s)
     return false;
   const auto steps = static_cast<std::size_t>(left_s / style_.step_s);
   kept_.clear();
@@ -267,6 +275,7 @@ bool spatial_planner::keep(const trajectory& previous, const scene& at,
     p.t_s = t_s;
     kept_.push_back({way_from_car(p.s_m), p.speed_mps, p.accel_mps2});
   }
+  kept_from_ = kept_from_.value_or(previous.start);
   return is_clear(kept_, style_.step_s, task(at));
 }
 

@@ -9,6 +9,7 @@
 #include "world/settings.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sofof {
@@ -79,6 +80,7 @@ private:
   std::vector<passing_order> all_sides_;
   std::vector<crossing_order> all_orders_;
   time_motion kept_;
+  std::optional<time_point> kept_from_; // start of the plan that is kept
 };
 
 } // namespace sofof

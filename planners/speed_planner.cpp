@@ -79,6 +79,19 @@ double decel_to_be_late(double v, double way_m, double time_s) {
   return v < decel * time_s ? square(v) / (2 * way) : decel; // or at rest
 }
 
+bool keeps_windows(const time_motion& motion, double step_s,
+                   const speed_task& task) {
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    const auto t = static_cast<double>(i) * step_s;
+    for (const auto& window : task.windows)
+      if (motion[i].s_m > window.at_m && motion[i - 1].s_m <= window.at_m
+          && (t < window.earliest_s - window_slack_s
+              || t > window.latest_s + window_slack_s))
+        return false;
+  }
+  return true;
+}
+
 } // namespace
 
 speed_planner::speed_planner(const reference_line& line,
@@ -241,10 +254,11 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
   r.how = speed_mode::optimal;
   r.emergency = recovers;
-  if (motion_.size() < 2 || (!solved_ && r.report.violation > reduced_margin))
-    return false;
-  return (solved_ && task.windows.empty())
-         || is_clear(motion_, style_.step_s, task);
+  // Where braking is too weak, even a solved plan comes too early.
+  return motion_.size() > 1
+         && (solved_ ? keeps_windows(motion_, style_.step_s, task)
+                     : r.report.violation < reduced_margin
+                           && is_clear(motion_, style_.step_s, task));
 }
 
 void speed_planner::set_limits(const planned_path& path, double from_m,
@@ -278,13 +292,14 @@ void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
   earliest_.assign(knots, -never);
   latest_.assign(knots, never);
   for (const auto& window : task.windows) {
-    const auto steps =
-        std::max(0.0, std::ceil((window.at_m - from.s_m) / ds_m));
-    const auto first = static_cast<std::size_t>(steps);
-    for (auto k = first; k < knots; ++k)
+    // The knot before the place opens late, the knot behind it closes early.
+    const auto steps = std::max(0.0, (window.at_m - from.s_m) / ds_m);
+    const auto before = static_cast<std::size_t>(steps);
+    const auto behind = static_cast<std::size_t>(std::ceil(steps));
+    for (auto k = before; k < knots; ++k)
       earliest_[k] = std::max(earliest_[k], window.earliest_s);
-    if (first < knots)
-      latest_[first] = std::min(latest_[first], window.latest_s);
+    if (behind < knots)
+      latest_[behind] = std::min(latest_[behind], window.latest_s);
   }
   if (!task.ahead)
     return;
@@ -324,6 +339,16 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
     t += 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w)); // as there
     w = std::max(0.0, next_w);
   }
+  // Waiting costs little over way: without this, cars crawl until what holds
+  // them up is far off, rather than drive as fast as it lets them.
+  auto mean = never;
+  for (auto k = wanted_.size() - 1; k > 0; --k) {
+    if (earliest_[k] > from_s)
+      mean = std::min(mean,
+                      static_cast<double>(k) * ds_m / (earliest_[k] - from_s));
+    wanted_[k] =
+        std::max(std::min(wanted_[k], square(mean) / 2), least_wanted_m2ps2);
+  }
   return fits;
 }
 
@@ -351,13 +376,8 @@ bool is_clear(const time_motion& motion, double step_s,
       return false;
     if (task.ahead && x.s_m > task.ahead->at(t) - least_gap_m + slack_m)
       return false;
-    for (const auto& window : task.windows)
-      if (i > 0 && x.s_m > window.at_m && motion[i - 1].s_m <= window.at_m
-          && (t < window.earliest_s - window_slack_s
-              || t > window.latest_s + window_slack_s))
-        return false;
   }
-  return true;
+  return keeps_windows(motion, step_s, task);
 }
 
 } // namespace sofof

@@ -13,19 +13,54 @@ constexpr double same_place_m = 1.0;
 constexpr double same_speed_mps = 1.0;
 constexpr double max_lead_age_s = 0.5;
 
+/// What is beyond is no car's motion.
+constexpr double farthest_m = 1e7;
+constexpr double farthest_off_m = 5;
+constexpr double most_turned_rad = 1;
+constexpr double most_curvature_1pm = 1;
+constexpr double fastest_mps = 100;
+constexpr double most_accel_mps2 = 20;
+
+/// @returns the own motion, without the others: they would take memory.
+planning_input own(const planning_input& x) {
+  planning_input alone;
+  alone.at = x.at;
+  alone.s_m = x.s_m;
+  alone.d_m = x.d_m;
+  alone.heading_error_rad = x.heading_error_rad;
+  alone.curvature_1pm = x.curvature_1pm;
+  alone.speed_mps = x.speed_mps;
+  alone.accel_mps2 = x.accel_mps2;
+  return alone;
+}
+
+/// @returns `x` with what no car can do cut off; what is no number is 0.
+planning_input made_possible(planning_input x) {
+  const auto cut = [](double& number, double least, double most) {
+    number = std::isnan(number) ? 0 : std::clamp(number, least, most);
+  };
+  cut(x.s_m, -farthest_m, farthest_m);
+  cut(x.d_m, -farthest_off_m, farthest_off_m);
+  cut(x.heading_error_rad, -most_turned_rad, most_turned_rad);
+  cut(x.curvature_1pm, -most_curvature_1pm, most_curvature_1pm);
+  cut(x.speed_mps, 0, fastest_mps);
+  cut(x.accel_mps2, -most_accel_mps2, most_accel_mps2);
+  return x;
+}
+
 } // namespace
 
 planning_input joined(const route& way, time_point now,
                       const planning_input& input, const trajectory* previous) {
   if (previous && !previous->empty() && previous->start <= now
       && now <= previous->end()) {
-    const auto seen = moved_forward(input, previous->start);
+    const auto seen = moved_forward(own(input), previous->start);
     const auto then = previous->at(std::max(input.at, previous->start));
     if (std::abs(then.s_m - seen.s_m) <= same_place_m
         && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
       return seen_from(way, previous->at(now));
   }
-  return moved_forward(input, now);
+  return made_possible(moved_forward(made_possible(own(input)), now));
 }
 
 lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
