@@ -51,15 +51,21 @@ void move_up(const lane_motion& from, double room_m, const driving_style& style,
   }
 }
 
+bool setting_off::is_needed(const lane_motion& from, double way_m) {
+  const auto later = from.speed_mps * from.speed_mps / 2
+                     + std::min(from.accel_mps2, 0.0) * way_m;
+  return later < until_mps * until_mps / 2;
+}
+
 setting_off::setting_off(const lane_motion& from, double jerk_mps3)
     : from_{from}, jerk_mps3_{jerk_mps3} {
   // Never backwards: it lets go of the brake in time.
   from_.accel_mps2 =
       std::max(from.accel_mps2, -std::sqrt(1.9 * jerk_mps3 * from.speed_mps));
   const auto a = from_.accel_mps2;
-  takes_s =
-      (std::sqrt(a * a + 2 * jerk_mps3 * (until_mps - from.speed_mps)) - a)
-      / jerk_mps3;
+  // Its lowest speed is at a = 0; if that is too low, on to `until_mps`.
+  const auto left = a * a + 2 * jerk_mps3 * (until_mps - from.speed_mps);
+  takes_s = (std::sqrt(std::max(left, 0.0)) - a) / jerk_mps3;
   end = at(takes_s);
 }
 

@@ -19,16 +19,20 @@ void brake(const lane_motion& from, double decel_mps2, double jerk_mps3,
 void move_up(const lane_motion& from, double room_m, const driving_style& style,
              int steps, time_motion& out);
 
-/// A car that sets off speeds up at constant jerk until it is fast enough for
-/// the velocity problem, whose dynamics over way cannot leave standstill.
+/// A car that sets off, or lets go of the brake at walking pace, at constant
+/// jerk until it is fast enough for the velocity problem, whose dynamics over
+/// way cannot leave standstill.
 struct setting_off {
-  static constexpr double until_mps = 0.5;
+  static constexpr double until_mps = 0.9;
 
-  /// @param from  Slower than `until_mps`.
+  /// @returns whether the velocity problem cannot begin like this, because
+  /// the car would stand within `way_m` if it kept its braking.
+  static bool is_needed(const lane_motion& from, double way_m);
+
   setting_off(const lane_motion& from, double jerk_mps3);
 
   double takes_s = 0;
-  lane_motion end; ///< At `until_mps`.
+  lane_motion end; ///< At `until_mps` or faster, not braking.
 
   /// Fills the entries before its end.
   void drive(double step_s, int steps, time_motion& out) const;

@@ -17,6 +17,8 @@ constexpr double hysteresis = 0.15;
 /// A plan before is kept no longer than this, and while this is left of it.
 constexpr double longest_kept_s = 1.0;
 constexpr double least_left_s = 1.5;
+/// A car ahead that slows down less than this keeps its speed.
+constexpr double least_braking_mps2 = 0.3;
 /// A path that could not be planned on ends here, before its end.
 constexpr double path_end_gap_m = 2.0;
 
@@ -195,8 +197,9 @@ speed_task spatial_planner::task(const scene& at) const {
   }
   if (at.others.lead) {
     const auto lead = moved_forward(*at.others.lead, at.others.at, at.now);
+    const auto brakes = lead.accel_mps2 < -least_braking_mps2;
     t.ahead = {way_from_car(lead.rear_s_m - style_.front_m),
-               {lead.speed_mps, lead.accel_mps2}};
+               {lead.speed_mps, brakes ? lead.accel_mps2 : 0}};
   }
   return t;
 }

@@ -24,6 +24,8 @@ constexpr double slack_m = 0.1;
 /// Behind a car that crawls, rather stop than follow: it is taken to brake.
 constexpr double crawling_mps = 2.0;
 constexpr double crawling_decel_mps2 = 1.0;
+/// How long a car ahead is taken to go on as it does.
+constexpr double foresight_s = 8.0;
 /// A time gap that is too short grows again by this share.
 constexpr double opening = 0.1;
 constexpr double least_speed_for_gap_mps = 2.0;
@@ -42,7 +44,7 @@ constexpr double share_of_braking = 0.95;
 constexpr double small = 1e-3;
 /// Braking that cannot wait is planned with some reserve.
 constexpr double reserve = 1.1;
-constexpr double least_emergency_mps2 = 3.0;
+constexpr double least_emergency_mps2 = 2.5;
 constexpr double emergency_share_of_jerk = 0.7;
 /// A plan that misses its bounds by less (s, m²/s², m/s², m/s³) may be driven
 /// all the same if it is clear.
@@ -116,7 +118,9 @@ speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
     if (lead.speed_mps < crawling_mps)
       left = std::min(left, square(lead.speed_mps) / (2 * crawling_decel_mps2));
     const auto rear = task.ahead->touch_m + left;
-    end.wanted_m = std::min(end.wanted_m, rear - style_.standstill_gap_m);
+    // Nobody knows more of it than for a while: the plan ends behind it then.
+    const auto seen = std::min(rear, task.ahead->at(foresight_s));
+    end.wanted_m = std::min(end.wanted_m, seen - style_.standstill_gap_m);
     end.last_m = std::min(end.last_m, rear - least_gap_m);
   }
   return end;
@@ -144,7 +148,10 @@ speed_planner::result speed_planner::plan(const planned_path& path,
                                           const ocp::budget& go_on) {
   const auto end = find_stop(task);
   result r;
-  if (needed_decel(task) > style_.firm_decel_mps2()) {
+  if (needed_decel(task) > style_.firm_decel_mps2()
+      || stopping_m(task.speed_mps, task.accel_mps2, style_.firm_decel_mps2(),
+                    share_of_jerk * style_.max_jerk_mps3)
+             > end.last_m) {
     r = brake_only(task);
   } else if (task.speed_mps < setting_off::until_mps
              && end.wanted_m < moving_up_m) {
@@ -181,7 +188,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   lane_motion from{0, task.speed_mps, task.accel_mps2};
   auto from_s = 0.0;
   motion_.assign(1, from);
-  if (from.speed_mps < setting_off::until_mps) {
+  if (setting_off::is_needed(from, grid_.ds_m)) {
     const setting_off ramp{from, share_of_jerk * style_.max_jerk_mps3};
     ramp.drive(style_.step_s, steps_, motion_);
     from = ramp.end;
