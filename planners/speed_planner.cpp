@@ -36,6 +36,8 @@ constexpr double worth_starting_m = 0.5;
 constexpr double standing_mps = 0.05;
 
 constexpr int fewest_steps = 16;
+constexpr double low_speed_mps = 2.0;
+constexpr double share_at_low_speed = 0.65;
 /// A plan that began farther back is of another drive.
 constexpr double longest_shift_m = 5;
 /// Envelopes use this much of jerk and braking; the rest is for plans.
@@ -241,7 +243,11 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   const auto recovers = from.accel_mps2 < -firm - beyond_firm_mps2;
   p.limits.accel_min_mps2 = std::min(-decel, from.accel_mps2);
   p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
-  p.limits.jerk_max_mps3 = recovers ? recovery_jerk_mps3 : style_.max_jerk_mps3;
+  // From low speeds jerk grows between knots, with speed.
+  const auto slow = from.speed_mps < low_speed_mps;
+  p.limits.jerk_max_mps3 =
+      recovers ? recovery_jerk_mps3
+               : (slow ? share_at_low_speed : 1) * style_.max_jerk_mps3;
   p.limits.total_max_mps2 = std::hypot(style_.max_lateral_accel_mps2, firm);
 
   const auto s = path.s_m(way_m + from.s_m);
@@ -329,7 +335,9 @@ void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
 // No bound may ask for more than braking can do.
 bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                                      double ds_m, double decel_mps2) {
-  const auto jerk = share_of_jerk * style_.max_jerk_mps3;
+  const auto slow = from.speed_mps < low_speed_mps;
+  const auto jerk =
+      (slow ? share_at_low_speed : share_of_jerk) * style_.max_jerk_mps3;
   auto w = square(from.speed_mps) / 2, a = from.accel_mps2, t = from_s;
   auto fits = true;
   for (std::size_t k = 0; k < w_max_.size(); ++k) {
