@@ -11,8 +11,8 @@ namespace {
 constexpr double gap_after_s = 0.8;
 /// Whoever goes first shall not notice that the own car went before.
 constexpr double gap_before_s = 1.5;
-/// A car needs so much room beside a body: its width and a gap on both sides.
-constexpr double car_room_m = 1.89 + 2 * 0.3;
+/// Beside a body the discs of the corridor need so much room, and a gap.
+constexpr double car_room_m = 2.52;
 
 constexpr std::size_t most_bodies = 4;
 
@@ -69,22 +69,19 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
     if (possible)
       out.push_back(order);
   }
-  if (n > 0) {
-    crossing_order order;
-    order.choice = crossing_order::waits;
-    order.stop_m = minded[0].line_m;
-    for (std::size_t i = 0; i < n; ++i)
-      if (minded[i].line_m <= order.stop_m)
-        order.opens_s = std::max(order.opens_s, minded[i].user->leave_s);
-    out.push_back(order);
-  }
   put_first(out, first);
-  // Waiting is always possible: it stays among the few.
-  if (out.size() > most) {
-    if (out.front().choice != crossing_order::waits)
-      std::swap(out[std::max<std::size_t>(most, 1) - 1], out.back());
+  if (out.size() > most)
     out.resize(std::max<std::size_t>(most, 1));
-  }
+  if (n == 0)
+    return;
+  crossing_order order;
+  order.choice = crossing_order::waits;
+  order.stop_m = minded[0].line_m;
+  for (std::size_t i = 0; i < n; ++i)
+    if (minded[i].line_m <= order.stop_m)
+      order.opens_s = std::max(order.opens_s, minded[i].user->leave_s);
+  out.push_back(order);
+  put_first(out, first);
 }
 
 void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,

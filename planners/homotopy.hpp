@@ -35,9 +35,9 @@ struct crossing_car {
   double max_accel_mps2 = 0;
 };
 
-/// Lists the orders that are possible at all, at most `most`; `first`, if it
-/// still is one, comes first. Without anybody to mind there is one, free of
-/// windows.
+/// Lists the orders that are possible at all, at most `most`, and to wait,
+/// which always is; `first`, if it still is one, comes first. Without anybody
+/// to mind there is one, free of windows.
 /// @param users  Times from now on.
 /// @param way    From arc length on the route to way from the car on.
 /// @param out    Reused.

@@ -58,6 +58,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   report.input = input.at;
   const scene at{now, joined(*route_, now, input, previous), input.others,
                  to_seconds(now - input.others.at)};
+  s_m_ = at.start.s_m;
   auto done = false;
   for (auto round = 0; round < params_.alternations; ++round) {
     done = plan_path(at, report, go_on) && plan_speed(at, report, go_on);
@@ -118,8 +119,19 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
       {at.start.d_m, at.start.heading_error_rad, at.start.curvature_1pm}};
   bodies_.clear();
   for (const auto& body : at.others.beside)
-    bodies_.push_back(met(body, at.age_s));
-  list_sides(bodies_, line_.half_width_m(car.s_m), sides_, most(), all_sides_);
+    if (const auto where = met(body, at.age_s); where.from_m <= where.to_m)
+      bodies_.push_back(where);
+  const auto list = [&] {
+    const auto s = bodies_.empty() ? car.s_m : bodies_.front().from_m;
+    list_sides(bodies_, line_.half_width_m(s), sides_, most(), all_sides_);
+  };
+  list();
+  blocked_s_m_ = speed_task::never;
+  if (all_sides_.empty()) { // no room beside them: it stops before
+    blocked_s_m_ = bodies_.front().from_m;
+    bodies_.clear();
+    list();
+  }
   auto cheapest = std::numeric_limits<double>::infinity();
   for (const auto& sides : all_sides_) {
     // All begin with the knot that the car is coming to, as in the path that
@@ -172,21 +184,21 @@ lane_obstacle spatial_planner::met(const lane_obstacle& body,
 // -- speed --------------------------------------------------------------------
 
 double spatial_planner::way_from_car(double s_m) const {
-  return path_->path().way_m(s_m) - way_m_;
+  return path_->path().empty() ? s_m - s_m_ : path_->path().way_m(s_m) - way_m_;
 }
 
 speed_task spatial_planner::task(const scene& at) const {
   speed_task t;
   t.speed_mps = at.start.speed_mps;
   t.accel_mps2 = at.start.accel_mps2;
-  auto stop_s = speed_task::never;
+  auto stop_s = blocked_s_m_;
   if (!route_->closed())
     stop_s = route_->length_m();
   if (at.others.stop_at_m)
     stop_s = std::min(stop_s, *at.others.stop_at_m);
   if (std::isfinite(stop_s))
     t.stop_m = way_from_car(stop_s - style_.front_m);
-  if (!path_->settled())
+  if (!path_->settled() && !path_->path().empty())
     t.stop_m =
         std::min(t.stop_m, path_->path().length_m() - way_m_ - path_end_gap_m);
   if (params_.cautious_sight_m > 0) {
@@ -225,6 +237,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       static_cast<std::int32_t>(all_sides_.size() * all_orders_.size());
   const auto last = order_;
   for (const auto& order : all_orders_) {
+    if (order.choice == crossing_order::waits && calm && last != order.choice)
+      continue; // only when nothing else is left
     const auto first = &order == &all_orders_.front();
     auto& trial = first ? speed_ : other_speed_;
     if (!first)
@@ -264,7 +278,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
 bool spatial_planner::keep(const trajectory& previous, const scene& at,
                            trajectory& out) {
   const auto left_s = to_seconds(previous.end() - at.now);
-  if (path_->path().empty() || previous.start > at.now || left_s < least_left_s
+  if (previous.start > at.now || left_s < least_left_s
       || to_seconds(at.now - kept_from_.value_or(previous.start))
              > longest_kept_s)
     return false;

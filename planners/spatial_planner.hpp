@@ -73,7 +73,9 @@ private:
   // The plan in use and one to try others with.
   std::unique_ptr<path_planner> path_, other_path_;
   std::unique_ptr<speed_planner> speed_, other_speed_;
-  double way_m_ = 0;                    // of the car on its path
+  double way_m_ = 0;       // of the car on its path, ...
+  double s_m_ = 0;         // ... and on its route
+  double blocked_s_m_ = 0; // where a body begins that leaves no room
   std::uint32_t sides_ = 0, order_ = 0; // chosen last
   std::vector<lane_obstacle> bodies_;
   std::vector<crossing_user> users_;
