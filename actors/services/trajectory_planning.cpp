@@ -51,6 +51,8 @@ struct planner_options {
   }
 };
 
+/// What a planner knows is written down for others so often.
+constexpr std::uint64_t cycles_remembered = 5;
 /// Trying harder than this helps nobody who waits; only where time is real.
 constexpr duration deadline = 2ms;
 
@@ -78,9 +80,7 @@ public:
     next.report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
                                  next.plan, ocp::budget{in_time});
     plan_ = next.plan;
-    if (auto memory = std::make_shared<planner_memory>();
-        planner_->remember(*memory))
-      next.memory = std::move(memory);
+    next.memory = remembered();
     return payload::of(std::move(next));
   }
 
@@ -96,6 +96,8 @@ private:
         lanes_, route,
         outlook_params{.judges_crossings = !setup_.crossings_granted});
     plan_ = {};
+    memory_ = {};
+    cycle_ = 0;
     way_ = way;
     return true;
   }
@@ -108,6 +110,15 @@ private:
     plan_ = other->plan;
     if (other->memory)
       planner_->adopt(*other->memory);
+  }
+
+  // It is about places, so it stays good for some cycles.
+  std::shared_ptr<const planner_memory> remembered() {
+    if (cycle_++ % cycles_remembered == 0) {
+      auto memory = std::make_shared<planner_memory>();
+      memory_ = planner_->remember(*memory) ? std::move(memory) : nullptr;
+    }
+    return memory_;
   }
 
   // What the vehicle sees; every sight counts once.
@@ -142,6 +153,8 @@ private:
   std::string way_;
   std::unique_ptr<trajectory_planner> planner_;
   std::optional<outlook> outlook_;
+  std::shared_ptr<const planner_memory> memory_;
+  std::uint64_t cycle_ = 0;
   trajectory plan_; // the last one; empty before the first
 };
 
