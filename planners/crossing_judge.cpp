@@ -78,7 +78,8 @@ void crossing_judge::foresee(std::span<const other_body> others) {
   foreseen_.clear();
   for (std::size_t who = 0; who < others.size(); ++who) {
     const auto& x = others[who].x;
-    const auto within_m = foresight_s_ * forward_mps(x);
+    const auto within_m =
+        std::min(foresight_s_ * forward_mps(x), lane_network::farthest_m);
     const auto gets_there = [&](const own_zone& z) {
       const auto reach_m = within_m + x.length_m + z.on.to_m - z.on.from_m;
       const auto apart = z.middle - x.centre();

@@ -29,6 +29,8 @@ struct conflict_visit {
 /// all vehicles on a map.
 class lane_network {
 public:
+  static constexpr double farthest_m = 300;
+
   explicit lane_network(const road_map& map);
 
   const encounters& meetings() const { return meetings_; }
@@ -57,7 +59,7 @@ public:
   /// Appends the conflicts that a body is on or drives towards, on whatever
   /// lanes it may take; each side once, with the earliest entry and the latest
   /// exit of all ways. Who stands drives towards none.
-  /// @param within_m  How far its front looks, m, at most 300.
+  /// @param within_m  How far its front looks, m, at most `farthest_m`.
   void foresee(const track& x, double within_m,
                std::vector<conflict_visit>& out) const;
 

@@ -39,8 +39,9 @@ public:
 
   /// Plans on; nothing happens while the car stays between two knots and
   /// nothing stands in the lane.
-  /// @returns the status of the last solve. One that is not publishable
-  /// leaves the path as it was: it ends earlier then.
+  /// @returns the status of the last solve. A plan that is not publishable is
+  /// taken if it misses the corridor by 0.1 m at most. Else the path stays as
+  /// it was and ends earlier; a car that was off it has none.
   ocp::solve_report plan(const path_start& car, std::span<const passing> others,
                          const ocp::budget& go_on = {});
 

@@ -25,8 +25,8 @@ void move_up(const lane_motion& from, double room_m, const driving_style& style,
 struct setting_off {
   static constexpr double until_mps = 0.9;
 
-  /// @returns whether the velocity problem cannot begin like this, because
-  /// the car would stand within `way_m` if it kept its braking.
+  /// @returns whether the velocity problem cannot begin like this: the car is
+  /// slower than `until_mps`, or would be within `way_m` at this braking.
   static bool is_needed(const lane_motion& from, double way_m);
 
   setting_off(const lane_motion& from, double jerk_mps3);

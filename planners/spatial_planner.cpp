@@ -17,6 +17,7 @@ constexpr double hysteresis = 0.15;
 /// A plan before is kept no longer than this, and while this is left of it.
 constexpr double longest_kept_s = 1.0;
 constexpr double least_left_s = 1.5;
+constexpr double rounding_mps2 = 1e-6;
 /// A car ahead that slows down less than this keeps its speed.
 constexpr double least_braking_mps2 = 0.3;
 /// A path that could not be planned on ends here, before its end.
@@ -71,6 +72,9 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
     publish(now, out);
   } else if (previous && keep(*previous, at, out)) {
     report.origin = plan_origin::kept;
+    report.emergency = std::ranges::any_of(out.points, [this](const auto& p) {
+      return p.accel_mps2 < -style_.firm_decel_mps2() - rounding_mps2;
+    });
   } else {
     kept_from_.reset();
     report.origin = plan_origin::stop;
@@ -193,7 +197,7 @@ speed_task spatial_planner::task(const scene& at) const {
   t.accel_mps2 = at.start.accel_mps2;
   auto stop_s = blocked_s_m_;
   if (!route_->closed())
-    stop_s = route_->length_m();
+    stop_s = std::min(stop_s, route_->length_m());
   if (at.others.stop_at_m)
     stop_s = std::min(stop_s, *at.others.stop_at_m);
   if (std::isfinite(stop_s))
@@ -205,7 +209,8 @@ speed_task spatial_planner::task(const scene& at) const {
     t.caution_mps =
         std::sqrt(2 * style_.firm_decel_mps2() * params_.cautious_sight_m);
     for (const auto from_m : at.others.yields_m)
-      t.caution_to_m = way_from_car(from_m - style_.front_m);
+      if (t.caution_to_m <= 0) // the next that its front has not reached
+        t.caution_to_m = way_from_car(from_m - style_.front_m);
   }
   if (at.others.lead) {
     const auto lead = moved_forward(*at.others.lead, at.others.at, at.now);
@@ -293,7 +298,37 @@ bool spatial_planner::keep(const trajectory& previous, const scene& at,
     kept_.push_back({way_from_car(p.s_m), p.speed_mps, p.accel_mps2});
   }
   kept_from_ = kept_from_.value_or(previous.start);
-  return is_clear(kept_, style_.step_s, task(at));
+  return is_clear(kept_, style_.step_s, task(at)) && avoids_crossings()
+         && passes(out, at.others.beside);
+}
+
+// Nobody who goes first is met where both cross.
+bool spatial_planner::avoids_crossings() const {
+  return std::ranges::none_of(users_, [this](const crossing_user& user) {
+    const auto from = way_from_car(user.from_m - style_.front_m);
+    const auto to = way_from_car(user.to_m + car_.rear_m);
+    for (std::size_t i = 1; i < kept_.size(); ++i) {
+      const auto t = static_cast<double>(i) * style_.step_s;
+      if (user.goes_first && t > user.enter_s && t < user.leave_s
+          && kept_[0].s_m < from && kept_[i].s_m > from && kept_[i].s_m < to)
+        return true;
+    }
+    return false;
+  });
+}
+
+bool spatial_planner::passes(const trajectory& plan,
+                             std::span<const lane_obstacle> bodies) const {
+  const auto half_m = car_.width_m / 2;
+  return std::ranges::none_of(bodies, [&](const lane_obstacle& body) {
+    return std::ranges::any_of(plan.points, [&](const trajectory_point& p) {
+      if (p.s_m < body.from_m - style_.front_m
+          || p.s_m > body.to_m + car_.rear_m)
+        return false;
+      const auto d = seen_from(*route_, p).d_m;
+      return d - half_m < body.high_m && d + half_m > body.low_m;
+    });
+  });
 }
 
 void spatial_planner::publish(time_point now, trajectory& out) const {

@@ -58,6 +58,9 @@ private:
                   const ocp::budget& go_on);
   speed_task task(const scene& at) const;
   bool keep(const trajectory& previous, const scene& at, trajectory& out);
+  bool avoids_crossings() const;
+  bool passes(const trajectory& plan,
+              std::span<const lane_obstacle> bodies) const;
   void publish(time_point now, trajectory& out) const;
   double way_from_car(double s_m) const;
   std::size_t most() const {

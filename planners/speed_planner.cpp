@@ -39,7 +39,7 @@ constexpr int fewest_steps = 16;
 constexpr double low_speed_mps = 2.0;
 constexpr double share_at_low_speed = 0.65;
 /// A plan that began farther back is of another drive.
-constexpr double longest_shift_m = 5;
+constexpr double longest_shift_m = 10;
 /// Envelopes use this much of jerk and braking; the rest is for plans.
 constexpr double share_of_jerk = 0.8;
 constexpr double share_of_braking = 0.95;
@@ -181,6 +181,7 @@ speed_planner::result speed_planner::brake_only(const speed_task& task) {
   solved_ = false;
   result r;
   r.emergency = true;
+  r.report.status = ocp::solve_status::soft_infeasible;
   return r;
 }
 

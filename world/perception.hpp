@@ -1,4 +1,4 @@
-// What sensors tell of the road: bodies that move, without names.
+// What sensors tell of the road: bodies without names.
 #pragma once
 
 #include "world/geometry.hpp"
