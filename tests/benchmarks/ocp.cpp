@@ -1,14 +1,12 @@
 // What a path, a velocity and both together cost to plan, warm and cold: the
 // mean, and as counters p50 and p99. Carrying the last plan over is part of it.
 #include "planners/practice.hpp"
+#include "tests/benchmarks/stopwatch.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstddef>
 #include <memory>
-#include <vector>
 
 using namespace sofof;
 
@@ -93,24 +91,13 @@ private:
 
 template <class... Driver>
 void plan(benchmark::State& state, bool warm, Driver&&... drivers) {
-  using clock = std::chrono::steady_clock;
-  std::vector<double> times_s;
+  bench::stopwatch watch{state};
   for (auto _ : state) {
     (drivers.drive_on(warm), ...);
-    const auto begin = clock::now();
-    (drivers.solve(), ...);
-    const std::chrono::duration<double> taken = clock::now() - begin;
+    watch.time([&] { (drivers.solve(), ...); });
     (drivers.arrive(), ...);
-    state.SetIterationTime(taken.count());
-    times_s.push_back(taken.count());
   }
-  std::ranges::sort(times_s);
-  const auto us = [&](double share) {
-    const auto at = share * static_cast<double>(times_s.size() - 1);
-    return 1e6 * times_s[static_cast<std::size_t>(at)];
-  };
-  state.counters["p50_us"] = us(0.5);
-  state.counters["p99_us"] = us(0.99);
+  watch.report();
 }
 
 constexpr auto free_flow = practice_road::event::free_flow;

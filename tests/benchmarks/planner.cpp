@@ -1,11 +1,13 @@
 // What a planning cycle costs.
 #include "planners/lane_follow.hpp"
 #include "planners/safe_stop.hpp"
+#include "planners/spatial_planner.hpp"
 #include "tests/benchmarks/scenarios.hpp"
+#include "tests/benchmarks/stopwatch.hpp"
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
+#include <chrono>
 #include <utility>
 
 using namespace sofof;
@@ -14,18 +16,28 @@ namespace {
 
 constexpr duration period = std::chrono::milliseconds{50};
 
+/// The car ahead takes 300 s for the 2.4 km.
+constexpr auto lead_mps = 8.0;
+constexpr auto lap_cycles = 6000;
+
+void a_lap(benchmark::internal::Benchmark* b) {
+  b->Iterations(lap_cycles)->UseManualTime()->Unit(benchmark::kMicrosecond);
+}
+
 /// One vehicle round Ulm-Lehr, perfectly controlled: each cycle begins where
-/// the plan before has led it.
-void plan_a_lap(benchmark::State& state, bool with_lead) {
-  const auto s = bench::ulm_lehr();
-  const auto way = s.world->find("round_trip");
-  lane_follow planner{way, {}};
+/// the plan before has led it. Another may drive ahead, at constant speed.
+void drive_round(benchmark::State& state, trajectory_planner& planner,
+                 bool with_lead) {
+  bench::stopwatch watch{state};
   trajectory plan, before;
   planning_input input;
+  if (with_lead)
+    input.others.lead = lead_vehicle{1, 25, lead_mps, 0};
   for (auto _ : state) {
     std::swap(plan, before);
-    planner.plan(input.at, input, before.empty() ? nullptr : &before, plan);
-    benchmark::DoNotOptimize(plan.points.data());
+    watch.time([&] {
+      planner.plan(input.at, input, before.empty() ? nullptr : &before, plan);
+    });
     input.at += period;
     const auto p = plan.at(input.at);
     input.s_m = p.s_m;
@@ -33,19 +45,58 @@ void plan_a_lap(benchmark::State& state, bool with_lead) {
     input.accel_mps2 = p.accel_mps2;
     input.others.at = input.at;
     if (with_lead)
-      input.others.lead = lead_vehicle{1, p.s_m + 25, 8, 0};
+      input.others.lead->rear_s_m += lead_mps * to_seconds(period);
   }
+  watch.report();
 }
+
+void follow_lane(benchmark::State& state, bool with_lead) {
+  const auto s = bench::ulm_lehr();
+  lane_follow planner{s.world->find("round_trip"), {}};
+  drive_round(state, planner, with_lead);
+}
+
+void optimise(benchmark::State& state, const spatial_params& params,
+              bool with_lead) {
+  const auto s = bench::ulm_lehr();
+  spatial_planner planner{s.world->find("round_trip"), {}, params};
+  drive_round(state, planner, with_lead);
+}
+
+/// The parameters of config/ulm_lehr.toml.
+const spatial_params onboard;
+const spatial_params mec{
+    .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
 
 void lane_follow_alone(benchmark::State& state) {
-  plan_a_lap(state, false);
+  follow_lane(state, false);
 }
-BENCHMARK(lane_follow_alone)->Unit(benchmark::kMicrosecond);
+BENCHMARK(lane_follow_alone)->Apply(a_lap);
 
 void lane_follow_behind_another(benchmark::State& state) {
-  plan_a_lap(state, true);
+  follow_lane(state, true);
 }
-BENCHMARK(lane_follow_behind_another)->Unit(benchmark::kMicrosecond);
+BENCHMARK(lane_follow_behind_another)->Apply(a_lap);
+
+void onboard_alone(benchmark::State& state) {
+  optimise(state, onboard, false);
+}
+BENCHMARK(onboard_alone)->Apply(a_lap);
+
+void onboard_behind_another(benchmark::State& state) {
+  optimise(state, onboard, true);
+}
+BENCHMARK(onboard_behind_another)->Apply(a_lap);
+
+void mec_alone(benchmark::State& state) {
+  optimise(state, mec, false);
+}
+BENCHMARK(mec_alone)->Apply(a_lap);
+
+void mec_behind_another(benchmark::State& state) {
+  optimise(state, mec, true);
+}
+BENCHMARK(mec_behind_another)->Apply(a_lap);
 
 void safe_stop(benchmark::State& state) {
   const auto s = bench::ulm_lehr();

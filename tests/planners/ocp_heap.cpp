@@ -2,12 +2,16 @@
 #include "planners/environment_model.hpp"
 #include "planners/outlook.hpp"
 #include "planners/practice.hpp"
+#include "planners/spatial_planner.hpp"
+#include "tests/planners/test_drive.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/toy_streets.hpp"
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <memory>
+#include <utility>
 #include <vector>
 
 using namespace sofof;
@@ -36,6 +40,46 @@ TEST_CASE("planning takes nothing from the heap") {
     CHECK(publishable(a.status));
     CHECK(publishable(b.status));
   }
+}
+
+TEST_CASE("a round in traffic takes nothing from the heap but at its start") {
+  using namespace std::chrono_literals;
+  const auto way = test::oval({{0, 13.9}});
+  spatial_planner planner{way, {}, {.candidates = 16, .alternations = 2}};
+  trajectory plan, before;
+  planning_input x;
+  auto replaced = 0;
+  long taken = 0;
+  for (auto cycle = 0; cycle < 1200; ++cycle) {
+    // In turns: alone, behind another, past one that stands, and after one
+    // that crosses.
+    auto& seen = x.others;
+    seen.at = x.at;
+    seen.lead.reset();
+    seen.beside.clear();
+    seen.crossings.clear();
+    const auto scene = cycle / 50 % 4;
+    if (scene == 1)
+      seen.lead = lead_vehicle{2, x.s_m + 25, 9, 0};
+    if (scene == 2)
+      seen.beside.push_back({x.s_m + 40, x.s_m + 45, -2.5, -1.2, 0});
+    if (scene == 3)
+      seen.crossings.push_back({x.s_m + 60, x.s_m + 66, 2, 7});
+    std::swap(plan, before);
+    const auto had = test::allocations;
+    const auto report =
+        planner.plan(x.at, x, before.empty() ? nullptr : &before, plan);
+    taken = cycle < 200 ? 0 : taken + test::allocations - had;
+    replaced += report.origin != plan_origin::planned;
+    x.at += 50ms;
+    const auto p = plan.at(x.at);
+    x.s_m = p.s_m;
+    x.speed_mps = p.speed_mps;
+    x.accel_mps2 = p.accel_mps2;
+  }
+  CHECK(taken == 0);
+  CHECK(replaced == 0);
+  CHECK(x.s_m > 300);
 }
 
 TEST_CASE("following bodies takes nothing from the heap") {
