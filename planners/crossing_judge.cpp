@@ -31,12 +31,6 @@ crossing_judge::crossing_judge(std::shared_ptr<const lane_network> lanes,
                                double foresight_s)
     : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
       corridor_m_{corridor_m}, foresight_s_{foresight_s} {
-  for (const auto& lane : lanes_->meetings())
-    for (const auto& e : lane) {
-      if (e.side >= ranks_.size())
-        ranks_.resize(e.side + 1);
-      ranks_[e.side] = e.rank;
-    }
   zones_.reserve(many);
   arrivals_.reserve(many);
   foreseen_.reserve(many);
@@ -48,7 +42,7 @@ void crossing_judge::judge(double from_m, double to_m,
                            std::vector<double>& yields) {
   find_zones(from_m, to_m);
   for (const auto& [own, middle] : zones_)
-    if (ranks_[own.other_side()] < own.rank)
+    if (lanes_->rank(own.other_side()) < own.rank)
       yields.push_back(own.from_m);
   foresee(others);
   for (const auto& [own, middle] : zones_)

@@ -59,7 +59,6 @@ private:
 
   std::shared_ptr<const lane_network> lanes_;
   itinerary way_;
-  std::vector<int> ranks_; // of all sides
   double corridor_m_, foresight_s_;
   std::vector<own_zone> zones_;
   std::vector<conflict_visit> arrivals_; // of one of the others

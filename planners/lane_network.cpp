@@ -33,8 +33,11 @@ struct lane_network::driver {
 };
 
 lane_network::lane_network(const road_map& map)
-    : meetings_{list_encounters(map)}, next_(map.lanes().size()),
-      previous_(map.lanes().size()) {
+    : meetings_{list_encounters(map)}, ranks_(2 * map.conflicts().size()),
+      next_(map.lanes().size()), previous_(map.lanes().size()) {
+  for (const auto& lane : meetings_)
+    for (const auto& e : lane)
+      ranks_[e.side] = e.rank;
   std::unordered_map<std::string_view, std::size_t> index;
   for (const auto& l : map.lanes()) {
     index.emplace(l.name, paths_.size());

@@ -35,6 +35,9 @@ public:
 
   const encounters& meetings() const { return meetings_; }
 
+  /// @returns the right of way of a conflict's side.
+  int rank(std::uint32_t side) const { return ranks_[side]; }
+
   /// Where a body is on a lane that it drives along.
   struct placement {
     std::size_t lane = 0; ///< Index into the map's lanes.
@@ -75,6 +78,7 @@ private:
   void drive(const driver& who, std::size_t lane, double start_m) const;
 
   encounters meetings_;
+  std::vector<int> ranks_; // of all sides
   std::vector<path> paths_;
   std::vector<double> half_widths_m_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
