@@ -1,5 +1,6 @@
 // The options of driving, as a scenario file lists them.
 #include "planners/lane_follow.hpp"
+#include "planners/spatial_planner.hpp"
 #include "world/cabin.hpp"
 
 #include <doctest/doctest.h>
@@ -51,4 +52,5 @@ void check_all_listed(std::size_t hidden = 0) {
 TEST_CASE("every option is listed once, its default within its range") {
   check_all_listed<driving_style>(1); // the car's front
   check_all_listed<cabin_params>();
+  check_all_listed<spatial_params>();
 }

@@ -87,8 +87,9 @@ struct extremes {
   double min_accel_mps2 = 0;
   double jerk_mps3 = 0; ///< Of the car.
   double plan_jerk_mps3 = 0;
-  double plan_gap_m = 0;    ///< Where a plan joins the one before.
-  double plan_change_m = 0; ///< One second ahead, against the plan before.
+  double plan_lateral_mps2 = 0; ///< Lateral acceleration.
+  double plan_gap_m = 0;        ///< Where a plan joins the one before.
+  double plan_change_m = 0;     ///< One second ahead, against the plan before.
 };
 
 using planner_ptr = std::unique_ptr<trajectory_planner>;
@@ -135,6 +136,7 @@ public:
     if (planned_)
       compare_plans();
     planned_ = true;
+    judge_plan();
     for (auto i = 0; i < 5; ++i)
       control();
   }
@@ -161,8 +163,17 @@ public:
   surroundings others;
   duration staleness{}; ///< Of the planner's input.
   extremes worst;
+  int emergencies = 0; ///< Plans that were.
 
 private:
+  void judge_plan() {
+    for (const auto& p : plan.points)
+      worst.plan_lateral_mps2 =
+          std::max(worst.plan_lateral_mps2,
+                   p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm));
+    emergencies += report.emergency ? 1 : 0;
+  }
+
   void compare_plans() {
     const auto change_m = [&](double ahead_s) {
       const auto t = now + from_seconds(ahead_s);
