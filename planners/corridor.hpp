@@ -23,6 +23,9 @@ public:
   /// two bodies (world/conflict.hpp).
   static constexpr double freedom_m = 0.25;
 
+  /// A car needs so much room beside a body: the discs, and a gap.
+  static constexpr double room_beside_m = 2.52;
+
   /// The free lane along the knots s_m + k · ds_m, k = 0..steps. The line
   /// itself always fits.
   void open(const reference_line& line, double s_m, double ds_m, int steps);

@@ -11,11 +11,6 @@ namespace {
 constexpr double gap_after_s = 0.8;
 /// Whoever goes first shall not notice that the own car went before.
 constexpr double gap_before_s = 1.5;
-/// Beside a body the discs of the corridor need so much room, and a gap.
-constexpr double car_room_m = 2.52;
-
-constexpr std::size_t most_bodies = 4;
-
 /// When a way is made at the soonest.
 double soonest_s(double way_m, const crossing_car& car) {
   const auto v = car.speed_mps, a = car.max_accel_mps2;
@@ -84,19 +79,25 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
   put_first(out, first);
 }
 
+bool leaves_room(const lane_obstacle& body, side_of_road side,
+                 double half_width_m) {
+  const auto room = side == side_of_road::right ? body.low_m + half_width_m
+                                                : half_width_m - body.high_m;
+  return room >= corridor::room_beside_m;
+}
+
 void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
                 std::uint32_t first, std::size_t most,
                 std::vector<passing_order>& out) {
   const auto n = std::min(bodies.size(), most_bodies);
+  const auto side_in = [](std::uint32_t choice, std::size_t i) {
+    return (choice >> i & 1U) != 0 ? side_of_road::right : side_of_road::left;
+  };
   std::size_t used = 0;
   for (std::uint32_t choice = 0; choice < (1U << n); ++choice) {
     auto possible = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto right = (choice >> i & 1U) != 0;
-      const auto room = right ? bodies[i].low_m + half_width_m
-                              : half_width_m - bodies[i].high_m;
-      possible &= room >= car_room_m;
-    }
+    for (std::size_t i = 0; i < n; ++i)
+      possible &= leaves_room(bodies[i], side_in(choice, i), half_width_m);
     if (!possible)
       continue;
     if (used == out.size())
@@ -105,9 +106,7 @@ void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
     order.choice = choice;
     order.bodies.clear();
     for (std::size_t i = 0; i < n; ++i)
-      order.bodies.push_back({bodies[i], (choice >> i & 1U) != 0
-                                             ? side_of_road::right
-                                             : side_of_road::left});
+      order.bodies.push_back({bodies[i], side_in(choice, i)});
   }
   out.resize(used);
   put_first(out, first);

@@ -45,6 +45,13 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
                  const std::function<double(double)>& way, std::uint32_t first,
                  std::size_t most, std::vector<crossing_order>& out);
 
+/// More bodies than this are not passed at once.
+inline constexpr std::size_t most_bodies = 4;
+
+/// @returns whether the car fits between a body and the lane's edge.
+bool leaves_room(const lane_obstacle& body, side_of_road side,
+                 double half_width_m);
+
 /// Sides to pass bodies on; bit i: right of the i-th.
 struct passing_order {
   std::uint32_t choice = 0;

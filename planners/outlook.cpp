@@ -190,12 +190,13 @@ std::optional<outlook::footprint> outlook::measure(const near& where) const {
 
 void outlook::find_bodies(const own_place& me, surroundings& out) {
   const auto front_m = me.s_m + params_.car.front_m;
+  const auto rear_m = me.s_m - params_.car.rear_m;
   const auto need_m = 2 * corridor_m();
   for (const auto& where : near_) {
     if (out.lead && where.low_m > out.lead->rear_s_m)
       break;
     const auto print = measure(where);
-    if (!print || print->to_m <= front_m
+    if (!print || print->to_m <= rear_m
         || print->from_m > front_m + params_.horizon_m)
       continue;
     const auto& b = *print;
@@ -208,7 +209,7 @@ void outlook::find_bodies(const own_place& me, surroundings& out) {
         b.low_m < corridor_m() && b.high_m > -corridor_m();
     if (!is_in_the_way || room_m >= need_m)
       out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps});
-    else if (!out.lead || b.from_m < out.lead->rear_s_m)
+    else if (b.to_m > front_m && (!out.lead || b.from_m < out.lead->rear_s_m))
       out.lead = {x.station.value_or(0), b.from_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
   }

@@ -1,6 +1,7 @@
 // What the tracks on the road mean to one vehicle on its route.
 #pragma once
 
+#include "planners/corridor.hpp"
 #include "planners/crossing_judge.hpp"
 #include "planners/lane_network.hpp"
 #include "planners/surroundings.hpp"
@@ -16,8 +17,9 @@ namespace sofof {
 
 /// How a vehicle looks at the others.
 struct outlook_params {
-  double horizon_m = 200;        ///< Ahead of the own front.
-  double margin_m = 0.3;         ///< To keep on either side of the own body.
+  double horizon_m = 200; ///< Ahead of the own front.
+  /// To keep on either side of the own body.
+  double margin_m = (corridor::room_beside_m - vehicle_params{}.width_m) / 2;
   bool judges_crossings = false; ///< Else they are granted by somebody else.
   double foresight_s = 10;       ///< Others get so far at their present speed.
   vehicle_params car{};

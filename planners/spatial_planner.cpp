@@ -31,6 +31,13 @@ constexpr speed_planner::grid speed_grid(const spatial_params& p) {
   return {p.step_m, static_cast<int>(p.horizon_m / p.step_m)};
 }
 
+/// Slower bodies stand: sensors are not that good.
+constexpr double standing_mps = 0.3;
+
+bool is_moving(const lane_obstacle& body) {
+  return std::abs(body.speed_mps) > standing_mps;
+}
+
 } // namespace
 
 void spatial_params::fields(settings& s) {
@@ -62,14 +69,17 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   s_m_ = at.start.s_m;
   auto done = false;
   for (auto round = 0; round < params_.alternations; ++round) {
-    done = plan_path(at, report, go_on) && plan_speed(at, report, go_on);
-    const auto moving = [](const lane_obstacle& b) { return b.speed_mps != 0; };
-    if (!done || std::ranges::none_of(input.others.beside, moving))
+    auto better = report;
+    if (!plan_path(at, better, go_on) || !plan_speed(at, better, go_on))
+      break; // what was found before stays good
+    publish(now, out);
+    report = better;
+    done = true;
+    if (std::ranges::none_of(bodies_, &is_moving))
       break;
   }
   if (done) {
     kept_from_.reset();
-    publish(now, out);
   } else if (previous && keep(*previous, at, out)) {
     report.origin = plan_origin::kept;
     report.emergency = std::ranges::any_of(out.points, [this](const auto& p) {
@@ -121,21 +131,8 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   const path_start car{
       at.start.s_m,
       {at.start.d_m, at.start.heading_error_rad, at.start.curvature_1pm}};
-  bodies_.clear();
-  for (const auto& body : at.others.beside)
-    if (const auto where = met(body, at.age_s); where.from_m <= where.to_m)
-      bodies_.push_back(where);
-  const auto list = [&] {
-    const auto s = bodies_.empty() ? car.s_m : bodies_.front().from_m;
-    list_sides(bodies_, line_.half_width_m(s), sides_, most(), all_sides_);
-  };
-  list();
-  blocked_s_m_ = speed_task::never;
-  if (all_sides_.empty()) { // no room beside them: it stops before
-    blocked_s_m_ = bodies_.front().from_m;
-    bodies_.clear();
-    list();
-  }
+  list_bodies(at);
+  list_sides(bodies_, lane_m(car.s_m), sides_, most(), all_sides_);
   auto cheapest = std::numeric_limits<double>::infinity();
   for (const auto& sides : all_sides_) {
     // All begin with the knot that the car is coming to, as in the path that
@@ -159,13 +156,54 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   if (path_->path().empty())
     return false;
   way_m_ = path_->path().way_m(car.s_m);
+  if (!path_->settled()) // it knows nothing of what is new
+    for (const auto& body : bodies_)
+      if (meets(body))
+        blocked_s_m_ = std::min(blocked_s_m_, body.from_m);
   return true;
+}
+
+// Those ahead that the car can pass, up to the first that it cannot.
+void spatial_planner::list_bodies(const scene& at) {
+  const auto front_s = at.start.s_m + style_.front_m;
+  bodies_.clear();
+  blocked_s_m_ = speed_task::never;
+  for (const auto& body : at.others.beside) {
+    const auto where = met(body, at.age_s);
+    if (where.from_m > where.to_m)
+      continue; // never beside it
+    const auto half_m = lane_m(where.from_m);
+    const auto passable = leaves_room(where, side_of_road::left, half_m)
+                          || leaves_room(where, side_of_road::right, half_m);
+    if (passable && bodies_.size() < most_bodies) {
+      bodies_.push_back(where);
+    } else if (where.from_m > front_s) {
+      blocked_s_m_ = where.from_m;
+      return;
+    }
+  }
+}
+
+double spatial_planner::lane_m(double s_m) const {
+  return line_.half_width_m(bodies_.empty() ? s_m : bodies_.front().from_m);
+}
+
+bool spatial_planner::meets(const lane_obstacle& body) const {
+  constexpr auto step_m = 0.5;
+  const auto half_m = car_.width_m / 2;
+  for (auto s = body.from_m - style_.front_m; s < body.to_m + car_.rear_m;
+       s += step_m) {
+    const auto d = path_->path().at_s(s).x.d_m;
+    if (d - half_m < body.high_m && d + half_m > body.low_m)
+      return true;
+  }
+  return false;
 }
 
 // A body that moves narrows the lane where the car will be beside it.
 lane_obstacle spatial_planner::met(const lane_obstacle& body,
                                    double age_s) const {
-  if (body.speed_mps == 0 || path_->path().empty())
+  if (!is_moving(body) || path_->path().empty() || speed_->motion().empty())
     return body;
   auto where = body;
   where.from_m = speed_task::never;
@@ -230,6 +268,9 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
+  std::ranges::sort(users_, {}, [](const crossing_user& user) {
+    return std::pair{user.enter_s, user.from_m}; // the soonest count
+  });
   const crossing_car car{style_.front_m, car_.rear_m, at.start.speed_mps,
                          line_.limit_mps(at.start.s_m), style_.max_accel_mps2};
   list_orders(

@@ -62,6 +62,9 @@ private:
   bool passes(const trajectory& plan,
               std::span<const lane_obstacle> bodies) const;
   void publish(time_point now, trajectory& out) const;
+  void list_bodies(const scene& at);
+  double lane_m(double s_m) const;
+  bool meets(const lane_obstacle& body) const;
   double way_from_car(double s_m) const;
   std::size_t most() const {
     return static_cast<std::size_t>(params_.candidates);

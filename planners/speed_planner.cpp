@@ -228,6 +228,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
     decel = firm;
     pose();
     yield_to_braking(from, from_s, ds_m, share_of_braking * firm);
+    r.emergency = too_fast_for_bends();
   }
 
   velocity_problem p;
@@ -267,7 +268,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
     return false;
   drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
   r.how = speed_mode::optimal;
-  r.emergency = recovers;
+  r.emergency |= recovers;
   // Where braking is too weak, even a solved plan comes too early.
   return motion_.size() > 1
          && (solved_ ? keeps_windows(motion_, style_.step_s, task)
@@ -331,6 +332,16 @@ void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
     earliest_[k] =
         std::max(earliest_[k], t + std::min(style_.time_gap_s, opened));
   }
+}
+
+// Even firm braking comes too late for them.
+bool speed_planner::too_fast_for_bends() const {
+  constexpr auto tolerance = 1.02;
+  for (std::size_t k = 0; k < w_max_.size(); ++k)
+    if (2 * w_max_[k] * std::abs(bends_[k])
+        > tolerance * style_.max_lateral_accel_mps2)
+      return true;
+  return false;
 }
 
 // No bound may ask for more than braking can do.
