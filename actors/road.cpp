@@ -3,6 +3,7 @@
 
 #include "actors/time.hpp"
 #include "world/protocol.hpp"
+#include "world/traffic.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

@@ -69,8 +69,8 @@ struct service_setup {
   random_stream noise{0, ""}; ///< A stream of its own.
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
-  bool real_time = false; ///< Run times are real, instead of modelled.
-  /// The time; it stands still during a cycle unless run times are real.
+  /// The time of the run; it stands still during a cycle unless run times are
+  /// real.
   std::function<time_point()> clock = [] { return time_point{}; };
   /// The provider's; null in vehicles.
   std::shared_ptr<service_site> site = nullptr;

@@ -53,11 +53,10 @@ struct provider_state {
 
   void make_sites() {
     for (const auto& kind : setup.kinds)
-      sites.push_back(
-          kind->make_site({.world = setup.world,
-                           .remote = true,
-                           .noise = setup.seed.part(kind->name()).part("site"),
-                           .real_time = !setup.virtual_time}));
+      sites.push_back(kind->make_site(
+          {.world = setup.world,
+           .remote = true,
+           .noise = setup.seed.part(kind->name()).part("site")}));
   }
 
   template <class Function>
@@ -217,9 +216,9 @@ struct provider_state {
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
-    remote.function = kind.make_function(
-        {setup.world, running.station, true, noise, setup.crossings_granted,
-         !setup.virtual_time, clock_of(self), sites[number]});
+    remote.function = kind.make_function({setup.world, running.station, true,
+                                          noise, setup.crossings_granted,
+                                          clock_of(self), sites[number]});
     remote.period = kind.common.period;
     remote.phase = duration{static_cast<duration::rep>(
         noise.part("remote phase").uniform(0)

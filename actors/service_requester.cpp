@@ -73,7 +73,6 @@ struct requester_state {
                              false,
                              setup.noise.part(kind.name()),
                              setup.crossings_granted,
-                             !setup.virtual_time,
                              clock_of(self),
                              nullptr};
     auto client = kind.spawn_client(self->system(), here, setup.vehicle);

@@ -3,7 +3,7 @@
 
 #include "messages/inspect.hpp"
 #include "messages/service.hpp"
-#include "world/traffic.hpp"
+#include "world/perception.hpp"
 #include "world/vehicle.hpp"
 
 #include <vector>
@@ -61,13 +61,6 @@ bool inspect(Inspector& f, source_change& x) {
 }
 
 template <class Inspector>
-bool inspect(Inspector& f, lead_vehicle& x) {
-  return f.object(x).fields(
-      f.field("station", x.station), f.field("rear_s_m", x.rear_s_m),
-      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2));
-}
-
-template <class Inspector>
 bool inspect(Inspector& f, perceived_object& x) {
   return f.object(x).fields(
       f.field("centre", x.centre), f.field("heading_rad", x.heading_rad),
@@ -77,7 +70,7 @@ bool inspect(Inspector& f, perceived_object& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, perception& x) {
-  return f.object(x).fields(f.field("at", x.at), f.field("lead", x.lead),
+  return f.object(x).fields(f.field("at", x.at),
                             f.field("stop_at_m", x.stop_at_m),
                             f.field("objects", x.objects));
 }

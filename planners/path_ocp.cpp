@@ -127,10 +127,7 @@ void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   for (auto* column : {&x.x0, &x.x1, &x.x2})
     ocp::resample(*column, knots, 1, (*column)[w_.n]);
   ocp::resample(x.u, knots.of_steps(), 1, 0);
-  w_.rows.each([&](auto& row, int index) {
-    ocp::resample_multipliers(row.y,
-                              index == rate_row ? knots.of_steps() : knots);
-  });
+  ocp::resample_multipliers(w_.rows, knots, rate_row);
   w_.n = steps;
   ds_m_ = ds_m;
 }

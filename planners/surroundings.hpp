@@ -1,13 +1,22 @@
 // What the others mean on the own way: the world as a planner needs it.
 #pragma once
 
+#include "world/ids.hpp"
 #include "world/time.hpp"
-#include "world/traffic.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace sofof {
+
+/// The nearest road user ahead on one's own way.
+struct lead_vehicle {
+  station_id station = 0;
+  double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
+                       ///< route, laps counted as the follower counts.
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+};
 
 /// A stretch of the own way that another road user is going to cross, and
 /// when. Times are seconds after `surroundings::at`.

@@ -234,10 +234,7 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   ocp::resample(x.x1, knots, 1, x.x1[w_.n]);
   ocp::resample(x.x2, knots, 1, 0);
   ocp::resample(x.u, knots.of_steps(), 1, 0);
-  w_.rows.each([&](auto& row, int index) {
-    ocp::resample_multipliers(row.y,
-                              index == jerk_row ? knots.of_steps() : knots);
-  });
+  ocp::resample_multipliers(w_.rows, knots, jerk_row);
   w_.n = steps;
   ds_m_ = ds_m;
 }

@@ -1,8 +1,11 @@
-// What sensors tell of the road: bodies without names.
+// What a driver is told of the road: bodies without names, and where to wait.
 #pragma once
 
 #include "world/geometry.hpp"
 #include "world/time.hpp"
+
+#include <optional>
+#include <vector>
 
 namespace sofof {
 
@@ -14,6 +17,18 @@ struct perceived_object {
   double accel_mps2 = 0;  ///< Along its heading.
   double length_m = 0;
   double width_m = 0;
+};
+
+/// What a driver has to know about the others.
+struct perception {
+  time_point at;
+  /// The front bumper must not pass this arc length on the own route: a
+  /// crossing has not been granted yet. Empty where nobody is granted
+  /// anything.
+  std::optional<double> stop_at_m;
+  /// What the own sensors see, in the order of `scene::seen_by`. The traffic
+  /// leaves it empty; the road fills it in.
+  std::vector<perceived_object> objects;
 };
 
 } // namespace sofof

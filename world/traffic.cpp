@@ -1,4 +1,4 @@
-// Who is where on the road, who leads whom, and whose turn it is.
+// Who is where on the road, who touches whom, and whose turn it is.
 #include "world/traffic.hpp"
 
 #include "world/driver.hpp"
@@ -51,6 +51,7 @@ struct traffic::state {
     return std::make_shared<const itinerary>(on, all);
   }
 
+  void grant(time_point now);
   void perceive(time_point now);
   void list_bodies();
   void find_touching();
@@ -93,25 +94,23 @@ void traffic::remove(station_id station) {
 }
 
 void traffic::update(time_point now) {
-  for (auto& d : state_->drivers)
-    d.leg = d.way->leg_at(d.known.s_m);
-  state_->order.sort(state_->drivers);
   if (state_->grants)
-    state_->crossings.decide(state_->drivers, state_->order, now);
+    state_->grant(now);
   state_->perceive(now);
   state_->list_bodies();
   state_->find_touching();
 }
 
+void traffic::state::grant(time_point now) {
+  for (auto& d : drivers)
+    d.leg = d.way->leg_at(d.known.s_m);
+  order.sort(drivers);
+  crossings.decide(drivers, order, now);
+}
+
 void traffic::state::perceive(time_point now) {
-  for (std::size_t i = 0; i < drivers.size(); ++i) {
-    auto& d = drivers[i];
-    d.seen = {now, {}, {}, {}};
-    if (const auto ahead = order.ahead_of(i)) {
-      const auto& other = drivers[ahead->who].known;
-      d.seen.lead = {other.station, ahead->rear_m, other.speed_mps,
-                     other.accel_mps2};
-    }
+  for (auto& d : drivers) {
+    d.seen = {now, {}, {}};
     if (std::isfinite(d.line_m))
       d.seen.stop_at_m = d.line_m - stop_margin_m;
   }

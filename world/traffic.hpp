@@ -1,4 +1,4 @@
-// Who is where on the road, who leads whom, and whose turn it is. This is
+// Who is where on the road, who touches whom, and whose turn it is. This is
 // the ground truth that sensors and traffic rules are derived from.
 #pragma once
 
@@ -9,7 +9,6 @@
 #include "world/time.hpp"
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,32 +27,9 @@ struct road_user {
   oriented_box body;       ///< Where it really is.
 };
 
-/// The nearest road user ahead on one's own way.
-struct lead_vehicle {
-  station_id station = 0;
-  double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
-                       ///< route, laps counted as the follower counts.
-  double speed_mps = 0;
-  double accel_mps2 = 0;
-  friend bool operator==(const lead_vehicle&, const lead_vehicle&) = default;
-};
-
-/// What a driver has to know about the others.
-struct perception {
-  time_point at;
-  std::optional<lead_vehicle> lead;
-  /// The front bumper must not pass this arc length on the own route: a
-  /// crossing has not been granted yet. Empty where nobody is granted
-  /// anything.
-  std::optional<double> stop_at_m;
-  /// What the own sensors see, in the order of `scene::seen_by`. The traffic
-  /// leaves it empty; the road fills it in.
-  std::vector<perceived_object> objects;
-};
-
-/// All road users, in lane order; neighbours are found along the lanes, never
-/// by comparing all pairs. What comes out does not depend on the order of the
-/// reports.
+/// All road users. Neighbours are found along the lanes, bodies that touch by
+/// a sweep, never by comparing all pairs. What comes out does not depend on
+/// the order of the reports.
 class traffic {
 public:
   /// @param standing  Bodies that never move. They touch others, but the
@@ -75,8 +51,8 @@ public:
 
   void remove(station_id station);
 
-  /// Sorts the road users into their lanes and decides every crossing anew,
-  /// if crossings are granted.
+  /// Decides every crossing anew, if crossings are granted, and finds who
+  /// touches whom.
   /// A crossing (zone of a `conflict`) is closed by default and granted in
   /// lane order, to those who find room behind it; who holds it keeps it until
   /// its rear has left. Right of way: lower rank first, then earlier arrival

@@ -3,11 +3,14 @@
 
 #include "messages/payload.hpp"
 #include "planners/trajectory_planner.hpp"
+#include "world/perception.hpp"
 #include "world/trajectory.hpp"
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace sofof {
 
@@ -30,17 +33,13 @@ inline constexpr std::string_view payload_name<plan_request> = "plan_request";
 template <>
 inline constexpr std::string_view payload_name<drive_plan> = "drive_plan";
 
-void archive(auto& bytes, lead_vehicle& x) {
-  bytes(x.station, x.rear_s_m, x.speed_mps, x.accel_mps2);
-}
-
 void archive(auto& bytes, perceived_object& x) {
   bytes(x.centre, x.heading_rad, x.speed_mps, x.accel_mps2, x.length_m,
         x.width_m);
 }
 
 void archive(auto& bytes, perception& x) {
-  bytes(x.at, x.lead, x.stop_at_m, x.objects);
+  bytes(x.at, x.stop_at_m, x.objects);
 }
 
 void archive(auto& bytes, planning_input& x) {

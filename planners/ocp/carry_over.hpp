@@ -72,8 +72,12 @@ inline void resample(column& c, const regrid& g, double scale, double tail) {
 }
 
 /// Multipliers grow with the length of their stage.
-inline void resample_multipliers(column& y, const regrid& g) {
-  resample(y, g, g.step, 0);
+/// @param on_steps  The row whose bounds belong to steps, not to knots.
+template <class Rows>
+void resample_multipliers(Rows& rows, const regrid& g, int on_steps) {
+  rows.each([&](auto& row, int index) {
+    resample(row.y, index == on_steps ? g.of_steps() : g, g.step, 0);
+  });
 }
 
 /// What a solver has to know to go on from the plan of another one. Plain

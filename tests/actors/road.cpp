@@ -61,6 +61,13 @@ struct road_world : virtual_world {
     tell(road, motion_report{who, s_m, {{s_m, 0}, 0, speed_mps, 0.5, 0}},
          vehicle.handle);
   }
+  static perception last(const probe<vehicle_actor>& who) {
+    return who->all<perception>().back();
+  }
+  /// Of a body whose rear axle is there.
+  point middle(double s_m) const {
+    return {s_m + (size.front_m - size.rear_m) / 2, 0};
+  }
   std::size_t collisions() const { return recorder->count<collision_record>(); }
 };
 
@@ -74,28 +81,14 @@ TEST_CASE_FIXTURE(road_world,
   REQUIRE(times.size() >= 20);
   for (std::size_t k = 1; k < times.size(); ++k)
     CHECK(times[k] - times[k - 1] == 50ms);
-  CHECK(behind->all<perception>().back().at == times.back());
+  CHECK(last(behind).at == times.back());
   CHECK(ahead->entries().empty());
 }
 
 TEST_CASE_FIXTURE(road_world, "alone on the road one perceives nobody") {
   report(1, 100, 5, behind);
   run_for(100ms);
-  CHECK(!behind->all<perception>().back().lead);
-}
-
-TEST_CASE_FIXTURE(road_world, "who drives behind perceives who drives ahead, "
-                              "down to the rear bumper") {
-  report(1, 100, 5, behind);
-  report(2, 130, 7, ahead);
-  run_for(100ms);
-  const auto lead = behind->all<perception>().back().lead;
-  REQUIRE(lead);
-  CHECK(lead->station == 2);
-  CHECK(lead->speed_mps == 7);
-  CHECK(lead->accel_mps2 == 0.5);
-  CHECK(lead->rear_s_m == doctest::Approx(130 - size.rear_m));
-  CHECK(!ahead->all<perception>().back().lead);
+  CHECK(last(behind).objects.empty());
 }
 
 TEST_CASE_FIXTURE(road_world, "what is perceived moves with the reports") {
@@ -104,9 +97,8 @@ TEST_CASE_FIXTURE(road_world, "what is perceived moves with the reports") {
   run_for(100ms);
   report(2, 140, 7, ahead);
   run_for(100ms);
-  const auto lead = behind->all<perception>().back().lead;
-  REQUIRE(lead);
-  CHECK(lead->rear_s_m == doctest::Approx(140 - size.rear_m));
+  REQUIRE(last(behind).objects.size() == 1);
+  CHECK(distance_m(last(behind).objects[0].centre, middle(140)) < 0.5);
 }
 
 TEST_CASE_FIXTURE(road_world, "a station without a way is not on the road") {
@@ -144,12 +136,12 @@ TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
   report(1, 100, 5, behind);
   report(2, 130, 7, ahead);
   run_for(100ms);
-  REQUIRE(behind->all<perception>().back().lead);
+  REQUIRE(last(behind).objects.size() == 1);
   tell(road, station_id{2});
   tell(road, station_id{2}); // twice does no harm
   ahead->clear();
   run_for(100ms);
-  CHECK(!behind->all<perception>().back().lead);
+  CHECK(last(behind).objects.empty());
   CHECK(ahead->entries().empty());
 }
 
@@ -158,17 +150,16 @@ TEST_CASE_FIXTURE(road_world, "everybody sees the others from the middle of "
   report(1, 100, 5, behind);
   report(2, 130, 7, ahead);
   run_for(100ms);
-  const auto view = behind->all<perception>().back();
+  const auto view = last(behind);
   REQUIRE(view.objects.size() == 1); // not oneself
   const auto& seen = view.objects.front();
-  const point truth{130 + (size.front_m - size.rear_m) / 2, 0};
-  CHECK(distance_m(seen.centre, truth) < 0.5);
-  CHECK(distance_m(seen.centre, truth) > 0);
+  CHECK(distance_m(seen.centre, middle(130)) < 0.5);
+  CHECK(distance_m(seen.centre, middle(130)) > 0);
   CHECK(std::abs(seen.speed_mps - 7) < 0.5);
   CHECK(seen.length_m == size.front_m + size.rear_m);
   CHECK(seen.width_m == size.width_m);
 
-  const auto back = ahead->all<perception>().back();
+  const auto back = last(ahead);
   REQUIRE(back.objects.size() == 1);
   CHECK(std::abs(back.objects.front().speed_mps - 5) < 0.5);
 }
@@ -177,10 +168,10 @@ TEST_CASE_FIXTURE(road_world, "a vehicle's sensor reaches a hundred metres") {
   report(1, 100, 5, behind);
   report(2, 199.9, 7, ahead);
   run_for(100ms);
-  CHECK(behind->all<perception>().back().objects.size() == 1);
+  CHECK(last(behind).objects.size() == 1);
   report(2, 200.1, 7, ahead);
   run_for(100ms);
-  CHECK(behind->all<perception>().back().objects.empty());
+  CHECK(last(behind).objects.empty());
 }
 
 TEST_CASE_FIXTURE(road_world, "two look at the same and err each for itself, "
@@ -205,19 +196,17 @@ TEST_CASE_FIXTURE(road_world, "two look at the same and err each for itself, "
 }
 
 TEST_CASE_FIXTURE(road_world, "an obstacle is seen and hides who is behind "
-                              "it, but leads nobody") {
+                              "it") {
   auto s = setup();
   s.obstacles = {{{120, 0}, 0, 4.5, 2.5}};
   road = own(spawn_road(system(), s));
   report(1, 100, 5, behind);
   report(2, 140, 7, ahead);
   run_for(100ms);
-  const auto view = behind->all<perception>().back();
+  const auto view = last(behind);
   REQUIRE(view.objects.size() == 1);
   CHECK(view.objects.front().length_m == 4.5);
   CHECK(view.objects.front().width_m == 2.5);
-  REQUIRE(view.lead);
-  CHECK(view.lead->station == 2);
 }
 
 TEST_CASE_FIXTURE(road_world, "to touch an obstacle is a collision, once") {

@@ -86,7 +86,6 @@ TEST_CASE_FIXTURE(site_world, "a provider makes one site per kind it offers") {
   const auto& made = first->made->front();
   CHECK(made.remote);
   CHECK(made.world);
-  CHECK_FALSE(made.real_time);
   CHECK_FALSE(made.site);
   CHECK_FALSE(echo_service{"two"}.make_site({}));
 }
@@ -130,35 +129,28 @@ TEST_CASE_FIXTURE(site_world, "all functions of a kind at a provider share "
   CHECK((*first->functions)[1].site == first->sites->front());
   CHECK((*third->functions)[0].site == third->sites->front());
   CHECK((*first->functions)[0].remote);
-  CHECK_FALSE((*first->functions)[0].real_time);
 }
 
-TEST_CASE_FIXTURE(site_world, "where time is real, services are told") {
-  auto s = knowing();
-  s.virtual_time = false;
-  provider = own(spawn_service_provider(system(), std::move(s)));
+TEST_CASE_FIXTURE(site_world, "a function at a provider is told the time") {
   hear(inside);
   start({one});
-  CHECK(first->made->back().real_time);
-  CHECK(first->functions->back().real_time);
+  run_for(70ms);
+  CHECK(first->functions->back().clock() == now());
 }
 
-TEST_CASE_FIXTURE(requester_world, "in a vehicle there are no sites") {
-  for (const auto virtual_time : {true, false}) {
-    const auto kind = std::make_shared<knowing_echo>("one");
-    auto s = setup();
-    s.kinds = {kind};
-    s.virtual_time = virtual_time;
-    own(spawn_service_requester(system(), std::move(s)));
-    settle();
-    CHECK(kind->made->empty());
-    REQUIRE(kind->functions->size() == 1);
-    REQUIRE(kind->clients->size() == 1);
-    for (const auto& made :
-         {kind->functions->front(), kind->clients->front()}) {
-      CHECK_FALSE(made.site);
-      CHECK_FALSE(made.remote);
-      CHECK(made.real_time != virtual_time);
-    }
+TEST_CASE_FIXTURE(requester_world, "in a vehicle there are no sites, but "
+                                   "a clock") {
+  const auto kind = std::make_shared<knowing_echo>("one");
+  auto s = setup();
+  s.kinds = {kind};
+  own(spawn_service_requester(system(), std::move(s)));
+  run_for(70ms);
+  CHECK(kind->made->empty());
+  REQUIRE(kind->functions->size() == 1);
+  REQUIRE(kind->clients->size() == 1);
+  for (const auto& made : {kind->functions->front(), kind->clients->front()}) {
+    CHECK_FALSE(made.site);
+    CHECK_FALSE(made.remote);
+    CHECK(made.clock() == now());
   }
 }

@@ -257,7 +257,7 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle asks for plans where they are "
   CHECK(manager->entries().empty());
   tell(car, manager.handle);
   run_for(1s);
-  perception seen{now(), lead_vehicle{7, 150, 3, 0}, 170.0, {}};
+  const perception seen{now(), 170.0, {{{150, 1}, 0, 3, 0, 4.5, 1.8}}};
   tell(car, seen);
   REQUIRE(manager->count<service_input>() == 1);
   const auto input = manager->all<service_input>().front();
@@ -267,8 +267,10 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle asks for plans where they are "
   CHECK(request->way == "street");
   CHECK(request->from.s_m == doctest::Approx(100));
   CHECK(request->from.speed_mps == 0);
-  CHECK(request->seen.lead == seen.lead);
+  CHECK(request->seen.at == seen.at);
   CHECK(request->seen.stop_at_m == seen.stop_at_m);
+  REQUIRE(request->seen.objects.size() == 1);
+  CHECK(request->seen.objects[0].centre == seen.objects[0].centre);
 }
 
 // -- being seen --------------------------------------------------------------

@@ -145,15 +145,12 @@ TEST_CASE("a plan and a request for one arrive as they were sent") {
 
   plan_request ask{
       "street", {time_point{duration{9}}, 1, 2, 3, 4, 5, 6, {}}, {}};
-  ask.seen = {time_point{duration{8}},
-              lead_vehicle{1, 2, 3, 4},
-              5.0,
-              {{{1, 2}, 3, 4, 5, 6, 7}}};
+  ask.seen = {time_point{duration{8}}, 5.0, {{{1, 2}, 3, 4, 5, 6, 7}}};
   const auto asked = arrived("plan_request", payload::of(ask).encoded());
   REQUIRE(asked.as<plan_request>());
   CHECK(asked.as<plan_request>()->way == "street");
   CHECK(asked.as<plan_request>()->from.d_m == 2);
-  CHECK(asked.as<plan_request>()->seen.lead == ask.seen.lead);
+  CHECK(asked.as<plan_request>()->seen.at == ask.seen.at);
   CHECK(asked.as<plan_request>()->seen.stop_at_m == 5.0);
   REQUIRE(asked.as<plan_request>()->seen.objects.size() == 1);
   CHECK(same(asked.as<plan_request>()->seen.objects, ask.seen.objects));

@@ -54,11 +54,9 @@ inline constexpr std::size_t arity<ego_state> = 2;
 template <>
 inline constexpr std::size_t arity<source_change> = 2;
 template <>
-inline constexpr std::size_t arity<lead_vehicle> = 4;
-template <>
 inline constexpr std::size_t arity<perceived_object> = 6;
 template <>
-inline constexpr std::size_t arity<perception> = 4;
+inline constexpr std::size_t arity<perception> = 3;
 template <>
 inline constexpr std::size_t arity<site_view> = 2;
 template <>

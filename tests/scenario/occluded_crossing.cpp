@@ -1,10 +1,8 @@
 // The occluded crossing: who sees whom from where, and what its options do.
 #include "actors/services/trajectory_planning.hpp"
-#include "scenario/build.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
-#include "scenario/runtime.hpp"
-#include "tests/support/memory_sink.hpp"
+#include "tests/scenario/whole_run.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -39,15 +37,6 @@ std::string later_by(double lag_s) {
   return fmt::format("fleet.1.start_m={:.3f}", 30 - speed_mps * lag_s);
 }
 
-memory_sink drive(const scenario& s) {
-  auto records = std::make_shared<memory_sink>();
-  const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, records, true);
-  time->run_until(time->now() + s.length);
-  dismiss(actors, *time);
-  return *records;
-}
-
 std::vector<track_record> tracks_of(const memory_sink& records,
                                     station_id station) {
   std::vector<track_record> found;
@@ -76,27 +65,15 @@ bool is_hidden(point from, point to, const road_map& map) {
 }
 
 /// Trajectory planning that notes for whom its functions are made.
-class noted_planning final : public service_kind {
+class noted_planning final : public plain_planning {
 public:
-  noted_planning() { common = real_->common; }
-
-  std::string_view name() const override { return real_->name(); }
-
   std::shared_ptr<service_function>
   make_function(const service_setup& setup) const override {
     made.push_back(setup);
-    return real_->make_function(setup);
-  }
-
-  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
-                            const vehicle_actor& vehicle) const override {
-    return real_->spawn_client(sys, setup, vehicle);
+    return plain_planning::make_function(setup);
   }
 
   mutable std::vector<service_setup> made;
-
-private:
-  service_kind_ptr real_ = make_service_kind("trajectory_planning");
 };
 
 } // namespace
@@ -160,7 +137,7 @@ TEST_CASE("from the mast at the crossing both are seen all the time") {
 }
 
 TEST_CASE("who starts driving does not brake before its first plan") {
-  const auto records = drive(load({"duration=1s"}));
+  const auto records = play(load({"duration=1s"}));
   for (const auto station : {ego, other}) {
     auto lowest_mps2 = 0.0;
     auto steps = 0;
@@ -175,7 +152,7 @@ TEST_CASE("who starts driving does not brake before its first plan") {
 }
 
 TEST_CASE("the ego is offloaded at once, the unconnected other never") {
-  const auto records = drive(load({"duration=3s"}));
+  const auto records = play(load({"duration=3s"}));
   REQUIRE(records.episodes.size() == 2); // one for each side
   for (const auto& e : records.episodes) {
     CHECK(e.running.station == ego);
@@ -188,12 +165,12 @@ TEST_CASE("the ego is offloaded at once, the unconnected other never") {
 }
 
 TEST_CASE("connected, the other is offloaded too") {
-  const auto records = drive(load({"duration=3s", "fleet.1.connected=true"}));
+  const auto records = play(load({"duration=3s", "fleet.1.connected=true"}));
   CHECK(records.episodes.size() == 4);
 }
 
 TEST_CASE("who never asks plans on board") {
-  const auto records = drive(load({"duration=3s", "policies.lodm=never"}));
+  const auto records = play(load({"duration=3s", "policies.lodm=never"}));
   CHECK(records.episodes.empty());
 }
 
@@ -203,7 +180,7 @@ TEST_CASE("functions know whether crossings are granted") {
     s.traffic.crossings = granted ? "granted" : "perceived";
     const auto kind = std::make_shared<noted_planning>();
     s.services = {kind};
-    drive(s);
+    play(s);
     REQUIRE(kind->made.size() == 3);
     CHECK(std::ranges::count(kind->made, true, &service_setup::remote) == 1);
     for (const auto& made : kind->made)
@@ -215,7 +192,7 @@ TEST_CASE("where crossings are granted nobody collides, whatever the timing") {
   for (auto lag_s = -latest_s; lag_s <= latest_s; lag_s += latest_s / 4) {
     CAPTURE(lag_s);
     const auto records =
-        drive(load({"traffic.crossings=granted", later_by(lag_s)}));
+        play(load({"traffic.crossings=granted", later_by(lag_s)}));
     CHECK(records.collisions.empty());
     const auto ends = tracks_of(records, ego);
     REQUIRE(!ends.empty());

@@ -1,9 +1,7 @@
 // Whole runs in virtual time, judged by their records.
-#include "scenario/build.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
-#include "scenario/runtime.hpp"
-#include "tests/support/memory_sink.hpp"
+#include "tests/scenario/whole_run.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,21 +20,12 @@ using namespace std::chrono_literals;
 
 const std::string ulm_lehr = SOFOF_SOURCE_DIR "/config/ulm_lehr.toml";
 
-memory_sink play(const scenario& s) {
-  auto records = std::make_shared<memory_sink>();
-  const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, records, true);
-  time->run_until(time->now() + s.length);
-  dismiss(actors, *time);
-  return *records;
-}
-
 memory_sink drive(const std::vector<std::string>& overrides) {
   return play(load_scenario(ulm_lehr, overrides));
 }
 
 /// Trajectory planning whose providers write down what they get to know.
-class watched_planning final : public service_kind {
+class watched_planning final : public plain_planning {
 public:
   struct notebook final : service_site {
     std::size_t heard = 0, seen = 0;
@@ -49,25 +38,11 @@ public:
     }
   };
 
-  watched_planning() { common = inner_->common; }
-
-  std::string_view name() const override { return inner_->name(); }
-  std::shared_ptr<service_function>
-  make_function(const service_setup& setup) const override {
-    return inner_->make_function(setup);
-  }
-  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
-                            const vehicle_actor& vehicle) const override {
-    return inner_->spawn_client(sys, setup, vehicle);
-  }
   std::shared_ptr<service_site> make_site(const service_setup&) const override {
     return notes;
   }
 
   std::shared_ptr<notebook> notes = std::make_shared<notebook>();
-
-private:
-  service_kind_ptr inner_ = make_service_kind("trajectory_planning");
 };
 
 /// Latency of each remote trajectory of one station, by cycle.

@@ -1,17 +1,25 @@
 // Simple drivers for tests: points on rails that obey what they perceive.
 #pragma once
 
+#include "tests/support/lane_users.hpp"
 #include "world/traffic.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ranges>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace sofof::toy {
+
+/// What a rider goes by.
+struct view {
+  std::optional<double> stop_at_m; ///< As in `perception`.
+  std::optional<leader> ahead;
+  friend bool operator==(const view&, const view&) = default;
+};
 
 struct rider {
   road_user user;
@@ -19,7 +27,7 @@ struct rider {
   double stops_at_m = 0; ///< So far before a line.
   std::size_t late = 0;  ///< It acts on perceptions that many steps old.
   double top_mps = 10;
-  std::vector<perception> seen{};
+  std::vector<view> seen{};
 
   bool has_arrived() const {
     return !user.on->closed() && front_m() > user.on->length_m() - 1;
@@ -78,11 +86,11 @@ inline void drive(rider& r) {
   const auto late = std::min(r.late, r.seen.size() - 1);
   const auto& view = r.seen[r.seen.size() - 1 - late];
   auto wish_mps = std::min(r.top_mps, pace_mps(u));
-  if (view.lead) {
-    const auto& lead = *view.lead;
-    const auto gap_m = lead.rear_s_m - r.front_m() - r.gap_m;
+  if (view.ahead) {
+    const auto gap_m = view.ahead->rear_m - r.front_m() - r.gap_m;
     // As fast as would be safe if the one ahead braked at once.
-    wish_mps = std::min(wish_mps, braking_mps(gap_m, 0.5 * lead.speed_mps));
+    wish_mps =
+        std::min(wish_mps, braking_mps(gap_m, 0.5 * view.ahead->speed_mps));
   }
   if (view.stop_at_m)
     wish_mps = std::min(
@@ -99,20 +107,25 @@ inline void drive(rider& r) {
 /// Streets with riders on them. Who arrives at the end of its route is taken
 /// off the road.
 struct town {
-  explicit town(road_map m) : map{std::move(m)}, all{map} {}
+  explicit town(road_map m) : map{std::move(m)}, all{map}, lanes{map} {}
 
   /// One step; `backwards` turns the order of the reports around.
   void step(bool backwards = false) {
+    std::vector<road_user> users;
+    for (const auto& r : riders)
+      users.push_back(r.user);
     if (backwards)
-      std::ranges::for_each(riders | std::views::reverse,
-                            [&](auto& r) { all.report(r.user); });
-    else
-      std::ranges::for_each(riders, [&](auto& r) { all.report(r.user); });
+      std::ranges::reverse(users);
+    for (const auto& u : users)
+      all.report(u);
+    lanes.sort(users);
     now += std::chrono::milliseconds{50};
     all.update(now);
     collisions += all.collisions().size();
     for (auto& r : riders) {
-      r.seen.push_back(all.perceive(r.user.station));
+      const auto station = r.user.station;
+      r.seen.push_back(
+          {all.perceive(station).stop_at_m, lanes.ahead_of(station)});
       if (r.seen.size() > 16)
         r.seen.erase(r.seen.begin());
       drive(r);
@@ -135,6 +148,7 @@ struct town {
 
   road_map map;
   traffic all;
+  lane_users lanes;
   std::vector<rider> riders;
   time_point now;
   std::size_t collisions = 0;

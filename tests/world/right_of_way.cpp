@@ -390,6 +390,6 @@ TEST_CASE("the order of the reports changes nothing") {
   }
   for (std::size_t i = 0; i < a.riders.size(); ++i) {
     CHECK(a.riders[i].user.s_m == b.riders[i].user.s_m);
-    CHECK(a.riders[i].seen.back().lead == b.riders[i].seen.back().lead);
+    CHECK(a.riders[i].seen.back() == b.riders[i].seen.back());
   }
 }

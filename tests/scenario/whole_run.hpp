@@ -1,0 +1,45 @@
+// A scenario played in virtual time, and trajectory planning to look into.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "scenario/build.hpp"
+#include "scenario/runtime.hpp"
+#include "tests/support/memory_sink.hpp"
+
+#include <memory>
+#include <string_view>
+
+namespace sofof::test {
+
+/// @returns the records of a whole run.
+inline memory_sink play(const scenario& s) {
+  auto records = std::make_shared<memory_sink>();
+  const auto time = make_virtual_runtime();
+  const auto actors = build(time->system(), s, records, true);
+  time->run_until(time->now() + s.length);
+  dismiss(actors, *time);
+  return *records;
+}
+
+/// Trajectory planning, with its default options and without a site.
+class plain_planning : public service_kind {
+public:
+  plain_planning() { common = real_->common; }
+
+  std::string_view name() const override { return real_->name(); }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    return real_->make_function(setup);
+  }
+
+  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
+                            const vehicle_actor& vehicle) const override {
+    return real_->spawn_client(sys, setup, vehicle);
+  }
+
+private:
+  service_kind_ptr real_ = make_service_kind("trajectory_planning");
+};
+
+} // namespace sofof::test
