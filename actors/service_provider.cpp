@@ -57,7 +57,8 @@ struct provider_state {
           kind->make_site({.world = setup.world,
                            .remote = true,
                            .noise = setup.seed.part(kind->name()).part("site"),
-                           .real_time = !setup.virtual_time}));
+                           .real_time = !setup.virtual_time,
+                           .clock = clock_of(self)}));
   }
 
   template <class Function>
