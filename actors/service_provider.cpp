@@ -53,10 +53,11 @@ struct provider_state {
 
   void make_sites() {
     for (const auto& kind : setup.kinds)
-      sites.push_back(kind->make_site(
-          {.world = setup.world,
-           .remote = true,
-           .noise = setup.seed.part(kind->name()).part("site")}));
+      sites.push_back(
+          kind->make_site({.world = setup.world,
+                           .remote = true,
+                           .noise = setup.seed.part(kind->name()).part("site"),
+                           .clock = clock_of(self)}));
   }
 
   template <class Function>

@@ -27,13 +27,21 @@ constexpr std::size_t max_tracks = 128;
 /// Of a new value in the low-passed ones; most come at 10 Hz or more often.
 constexpr auto share_of_new = 0.5;
 
-/// Nothing on a road is faster or longer.
+/// Of one update, the first bodies count; no road shows more at once.
+constexpr std::size_t max_seen = 256;
+
+/// Nothing on a road is faster or longer, or farther away.
 constexpr auto max_speed_mps = 100.0;
 constexpr auto max_length_m = 30.0;
+constexpr auto farthest_m = 1e7;
+constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
 
 bool is_sound(const perceived_object& o) {
-  return std::isfinite(o.centre.x_m) && std::isfinite(o.centre.y_m)
-         && std::isfinite(o.heading_rad) && std::isfinite(o.accel_mps2)
+  // Comparisons with NaN are false.
+  return std::abs(o.centre.x_m) <= farthest_m
+         && std::abs(o.centre.y_m) <= farthest_m
+         && std::abs(o.heading_rad) <= max_heading_rad
+         && std::isfinite(o.accel_mps2)
          && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0
          && o.length_m >= o.width_m && o.length_m <= max_length_m;
 }
@@ -52,7 +60,7 @@ void environment_model::update(time_point at,
   if (!pass_time(at))
     return;
   sightings_.clear();
-  for (const auto& o : seen)
+  for (const auto& o : seen.first(std::min(seen.size(), max_seen)))
     if (is_sound(o))
       sightings_.push_back(make_sighting(at, o));
   pairs_.clear();

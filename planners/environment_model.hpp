@@ -42,8 +42,9 @@ public:
   /// Tells what one observer sees.
   /// @param at    When it saw this.
   /// @param seen  Each body once, in any order; those that no body on a road
-  ///              can be (not finite, 0 m or 31 m long, 101 m/s) are left
-  ///              out. May be empty: time passes.
+  ///              can be (not finite, 0 m or 31 m long, 101 m/s, 1e7 m away)
+  ///              are left out, and so are all after the first 256. May be
+  ///              empty: time passes.
   void update(time_point at, std::span<const perceived_object> seen);
 
   /// Tells what a connected vehicle says of itself (a CAM); from now on its

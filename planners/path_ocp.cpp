@@ -119,7 +119,7 @@ void path_ocp::guess(const path_problem& p) noexcept {
 }
 
 void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
-  started_ = started_ && ocp::is_grid(ds_m, steps) && by_m >= 0;
+  started_ = started_ && ocp::can_move(by_m, ds_m, steps);
   if (!started_)
     return;
   const auto knots = ocp::regrid::after(by_m, ds_m_, w_.n, ds_m, steps);

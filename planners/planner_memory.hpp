@@ -4,6 +4,7 @@
 #include "planners/path_ocp.hpp"
 #include "planners/velocity_ocp.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 namespace sofof {
@@ -18,5 +19,11 @@ struct planner_memory {
   velocity_warm_start speed;
   std::uint32_t sides = 0, order = 0; ///< As in planners/homotopy.hpp.
 };
+
+/// @returns whether both plans have a place on the route. What else is wrong
+/// with a stranger's plans their solvers notice.
+inline bool is_sound(const planner_memory& memory) {
+  return std::isfinite(memory.path_s_m) && std::isfinite(memory.speed_s_m);
+}
 
 } // namespace sofof

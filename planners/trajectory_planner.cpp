@@ -34,7 +34,8 @@ planning_input own(const planning_input& x) {
   return alone;
 }
 
-/// @returns `x` with what no car can do cut off; what is no number is 0.
+} // namespace
+
 planning_input made_possible(planning_input x) {
   const auto cut = [](double& number, double least, double most) {
     number = std::isnan(number) ? 0 : std::clamp(number, least, most);
@@ -47,8 +48,6 @@ planning_input made_possible(planning_input x) {
   cut(x.accel_mps2, -most_accel_mps2, most_accel_mps2);
   return x;
 }
-
-} // namespace
 
 planning_input joined(const route& way, time_point now,
                       const planning_input& input, const trajectory* previous) {

@@ -52,7 +52,7 @@ public:
   double end_m() const;
 
   /// Calls `visit(zone)` for every zone that begins in [from_m, to_m), in
-  /// order, until it returns false.
+  /// order, until it returns false; for none, where an end is no number.
   template <class Visitor>
   void for_zones(double from_m, double to_m, Visitor visit) const;
 
@@ -72,7 +72,7 @@ private:
 
 template <class Visitor>
 void itinerary::for_zones(double from_m, double to_m, Visitor visit) const {
-  if (zones_.empty())
+  if (zones_.empty() || !std::isfinite(from_m) || !(from_m < to_m))
     return;
   // A zone must come out at the very same place whoever asks for it from
   // where: hence lap times length, and no trust in differences.

@@ -70,9 +70,9 @@ public:
     if (!request || !prepare(request->way))
       return {};
     take_over(input.in_use.as<drive_plan>());
-    take_in(request->seen);
-    auto from = request->from;
-    describe(now, *request, from.others);
+    take_in(now, request->seen);
+    auto from = made_possible(request->from);
+    describe(now, from, request->seen);
     const auto start = setup_.clock();
     const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
     drive_plan next;
@@ -108,7 +108,7 @@ private:
         || (!plan_.empty() && other->plan.start <= plan_.start))
       return;
     plan_ = other->plan;
-    if (other->memory)
+    if (other->memory && is_sound(*other->memory))
       planner_->adopt(*other->memory);
   }
 
@@ -122,8 +122,8 @@ private:
   }
 
   // What the vehicle sees; every sight counts once.
-  void take_in(const perception& seen) {
-    if (seen.at == taken_in_)
+  void take_in(time_point now, const perception& seen) {
+    if (seen.at == taken_in_ || is_of_future(seen.at, now))
       return;
     taken_in_ = seen.at;
     if (site_)
@@ -132,15 +132,14 @@ private:
       model_.update(seen.at, seen.objects);
   }
 
-  void describe(time_point now, const plan_request& request,
-                surroundings& others) {
+  void describe(time_point now, planning_input& from, const perception& seen) {
     if (site_)
       site_->tracks(tracks_);
     else
       tracks_.assign(model_.tracks().begin(), model_.tracks().end());
-    const own_place me{setup_.station, request.from.s_m, request.from.d_m};
-    outlook_->describe(now, me, tracks_, others);
-    others.stop_at_m = request.seen.stop_at_m;
+    const own_place me{setup_.station, from.s_m, from.d_m};
+    outlook_->describe(now, me, tracks_, from.others);
+    from.others.stop_at_m = seen.stop_at_m;
   }
 
   service_setup setup_;
@@ -184,8 +183,9 @@ public:
                                                lanes(setup.world->map));
   }
 
-  std::shared_ptr<service_site> make_site(const service_setup&) const override {
-    return std::make_shared<planning_site>();
+  std::shared_ptr<service_site>
+  make_site(const service_setup& setup) const override {
+    return std::make_shared<planning_site>(setup.clock);
   }
 
   client_actor spawn_client(caf::actor_system&, const service_setup&,

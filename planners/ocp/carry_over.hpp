@@ -40,6 +40,11 @@ inline bool is_grid(double ds_m, int steps) {
   return steps >= 1 && steps <= most_steps && ds_m > 0 && std::isfinite(ds_m);
 }
 
+/// @returns whether a plan can be carried over to this grid.
+inline bool can_move(double by_m, double ds_m, int steps) {
+  return is_grid(ds_m, steps) && by_m >= 0 && std::isfinite(by_m);
+}
+
 /// @returns whether a plan on one grid is one on the other.
 inline bool same_grid(double ds_m, int steps, double other_ds_m,
                       int other_steps) {
@@ -86,6 +91,8 @@ void resample_multipliers(Rows& rows, const regrid& g, int on_steps) {
 template <std::size_t bounds>
 struct warm_start {
   static constexpr auto rows = bounds;
+  /// No planner has finer or coarser steps.
+  static constexpr auto least_ds_m = 0.01, most_ds_m = 100.0;
   using column = std::array<float, capacity>;
 
   double ds_m = 0;
@@ -95,7 +102,7 @@ struct warm_start {
 
   /// @returns whether this can be gone on from.
   bool usable() const {
-    if (!is_grid(ds_m, steps))
+    if (!is_grid(ds_m, steps) || ds_m < least_ds_m || ds_m > most_ds_m)
       return false;
     const auto finite = [this](const column& c) {
       return std::all_of(c.begin(), c.begin() + steps + 1,

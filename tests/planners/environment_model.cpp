@@ -398,16 +398,31 @@ TEST_CASE("a name is nobody else's") {
 TEST_CASE("what no body can be is left out") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   environment_model model;
-  std::vector wrong(6, car({}));
+  std::vector wrong(10, car({}));
   wrong[0].centre.x_m = nan;
   wrong[1].heading_rad = std::numeric_limits<double>::infinity();
   wrong[2].speed_mps = nan;
   wrong[3].speed_mps = 1e300;
   wrong[4].width_m = 0;
   wrong[5].length_m = 1e9;
+  wrong[6].centre.x_m = 1e300;
+  wrong[7].centre.y_m = -2e7;
+  wrong[8].heading_rad = 2e6;
+  wrong[9].heading_rad = nan;
   model.update(start, wrong);
-  model.hear(start, 1, wrong[0]);
+  for (const auto& o : wrong)
+    model.hear(start, 1, o);
   CHECK(model.tracks().empty());
+}
+
+TEST_CASE("nobody can tell of more bodies at once than a road shows") {
+  environment_model model;
+  std::vector<perceived_object> crowd(256, car({500, 0}));
+  crowd.push_back(car({}));
+  model.update(start, crowd);
+  REQUIRE_FALSE(model.tracks().empty());
+  for (const auto& x : model.tracks())
+    CHECK(x.centre() == point{500, 0});
 }
 
 TEST_CASE("who was not seen for longest makes room when there are too many") {

@@ -1,4 +1,5 @@
 // A warm start that moves by any distance, changes grids, and changes hands.
+#include "planners/planner_memory.hpp"
 #include "planners/practice.hpp"
 #include "tests/support/near.hpp"
 
@@ -244,6 +245,12 @@ TEST_CASE("nobody goes on from what is no plan") {
   SUBCASE("steps of no length") {
     memory.ds_m = 0;
   }
+  SUBCASE("steps of hardly any length") {
+    memory.ds_m = 1e-300;
+  }
+  SUBCASE("steps that are longer than streets") {
+    memory.ds_m = 1e300;
+  }
   SUBCASE("steps that are no number") {
     memory.ds_m = std::numeric_limits<double>::quiet_NaN();
   }
@@ -258,11 +265,25 @@ TEST_CASE("nobody goes on from what is no plan") {
   CHECK(path_solver()->warm_start().usable() == false);
 }
 
+TEST_CASE("what is known of no place is not gone on from") {
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr auto inf = std::numeric_limits<double>::infinity();
+  CHECK(is_sound(planner_memory{}));
+  for (const auto nowhere : {nan, inf, -inf}) {
+    planner_memory path, speed;
+    path.path_s_m = nowhere;
+    speed.speed_s_m = nowhere;
+    CHECK_FALSE(is_sound(path));
+    CHECK_FALSE(is_sound(speed));
+  }
+}
+
 TEST_CASE("carried over to nonsense, a solver starts cold") {
   slalom road;
   const auto& problem = road.at(0, {});
   const auto cold = path_solver()->solve(problem, start::cold);
-  for (const auto by : {-1., std::numeric_limits<double>::quiet_NaN()}) {
+  for (const auto by : {-1., std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::infinity()}) {
     const auto solver = steering(80, 1);
     solver->carry_over(by, 1, 80);
     CHECK(solver->solve(problem, start::warm).iterations == cold.iterations);

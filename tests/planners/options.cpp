@@ -24,7 +24,10 @@ public:
     CHECK(r.max < 1e300);
   }
   void field(std::string_view, bool&) override {}
-  void field(std::string_view, std::int64_t&, range) override {}
+  void field(std::string_view key, std::int64_t& value, range r) override {
+    auto number = static_cast<double>(value);
+    field(key, number, r);
+  }
   void field(std::string_view, std::string&) override {}
   void field(std::string_view, duration&, duration) override {}
   void field(std::string_view, std::vector<std::string>&) override {}
@@ -37,7 +40,7 @@ public:
   void refuse(std::string_view, const std::string&) override {}
 };
 
-/// Every member is a double, so their number is the struct's size.
+/// Every member is as large as a double, so their number is the struct's size.
 /// @param hidden  Members that are no options.
 template <class Params>
 void check_all_listed(std::size_t hidden = 0) {

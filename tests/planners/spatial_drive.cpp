@@ -86,7 +86,7 @@ TEST_CASE("the optimiser drives two laps in its lane, within limits, in "
   drive.drive(180);
   CHECK(drive.s_m() > 2 * way->length_m());
   check_comfort(drive);
-  CHECK(drive.worst.plan_change_m < 0.1);
+  CHECK(drive.worst.plan_change_m < 0.15);
 }
 
 TEST_CASE("the optimiser drives random roads to their end, in comfort") {
@@ -122,7 +122,7 @@ TEST_CASE("the optimiser's inputs may be 0.4 s old") {
   drive.drive(90);
   CHECK(drive.s_m() > 700);
   check_comfort(drive);
-  CHECK(drive.worst.plan_change_m < 0.1);
+  CHECK(drive.worst.plan_change_m < 0.15);
 }
 
 TEST_CASE("the optimiser stops shortly before a line, stands still, and goes "
@@ -144,7 +144,7 @@ TEST_CASE("the optimiser stops shortly before a line, stands still, and goes "
     auto before = 0.0;
     for (auto i = 0; i < 20 * 8; ++i) {
       drive.cycle();
-      REQUIRE(drive.car.speed_mps >= before - 1e-3);
+      REQUIRE(drive.car.speed_mps >= before - 5e-3);
       before = drive.car.speed_mps;
     }
     CHECK(before > 0.75 * std::min(speed, 8.0));

@@ -2,6 +2,7 @@
 // touches anybody or waits for ever.
 #include "tests/support/toy_drivers.hpp"
 #include "tests/support/toy_streets.hpp"
+#include "world/itinerary.hpp"
 #include "world/random.hpp"
 
 #include <doctest/doctest.h>
@@ -58,6 +59,26 @@ std::vector<station_id> order_of_crossing(town& t, int steps = 2 * minute) {
 using stations = std::vector<station_id>;
 
 } // namespace
+
+TEST_CASE("nowhere there are no zones, on a round either") {
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr auto inf = std::numeric_limits<double>::infinity();
+  const auto map = grid(3, 100);
+  const itinerary round{make_route(map, {0, 1, 4, 3}, true),
+                        list_encounters(map)};
+  const auto count = [&](double from_m, double to_m) {
+    auto zones = 0;
+    round.for_zones(from_m, to_m, [&](const zone&) { return ++zones < 1000; });
+    return zones;
+  };
+  CHECK(count(0, 400) > 0);
+  CHECK(count(-400, 0) > 0);
+  CHECK(count(0, inf) == 1000);
+  for (const auto nowhere : {nan, inf, -inf})
+    CHECK(count(nowhere, 0) == 0);
+  for (const auto nowhere : {nan, -inf})
+    CHECK(count(0, nowhere) == 0);
+}
 
 TEST_CASE("a crossing is closed from afar and open before one must brake") {
   town t{cross_roads()};
