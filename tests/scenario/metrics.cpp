@@ -143,6 +143,9 @@ TEST_CASE("all vehicles together have the sums and extremes of each") {
   CHECK(all.safety.driven == duration{200s});
   CHECK(all.plans.count == 3000);
   CHECK(all.plans.emergency == 3);
+  CHECK(all.plans.kept == 5);
+  CHECK(all.plans.stops == 2);
+  CHECK(all.plans.imperfect == 7);
   CHECK(all.plans.safe_stops == 1);
   CHECK(all.plans.extremes.lateral_accel_mps2 == 2);
   CHECK(all.ride.distance_m == 1700.5);
@@ -161,7 +164,7 @@ TEST_CASE("a vehicle's figures are those of all its records") {
   metrics m{run()};
   for (auto i = 0; i < 3; ++i) {
     m.take(safety_record{101, 1s, 0s, 0s, 100ms});
-    m.take(drive_record{101, {20, 1, 0, {}}, {10, {}, 1, 2}});
+    m.take(drive_record{101, {20, 1, 0, 0, 0, 0, {}}, {10, {}, 1, 2}});
   }
   const auto& x = m.vehicles().at(101);
   CHECK(x.safety.driven == duration{3s});
