@@ -181,6 +181,19 @@ TEST_CASE("a touch counts once for the run and once for either vehicle") {
   CHECK(m.vehicles().at(102).safety.collisions == 1);
 }
 
+TEST_CASE("an obstacle that is touched is no vehicle") {
+  auto info = run();
+  info.obstacles = 2;
+  metrics m{info};
+  m.take(collision_record{at(3s), 101, obstacle_id(0)});
+  m.take(collision_record{at(4s), 101, obstacle_id(1)});
+  m.take(collision_record{at(5s), 101, obstacle_id(2)}); // there are but two
+  CHECK(m.safety().collisions == 3);
+  CHECK(m.vehicles().at(101).safety.collisions == 3);
+  CHECK(m.vehicles().size() == 2);
+  CHECK(m.vehicles().contains(obstacle_id(2)));
+}
+
 TEST_CASE("every switch of plans counts with its jumps") {
   metrics m{run()};
   CHECK(m.switches().count() == 0);
