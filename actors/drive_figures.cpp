@@ -14,10 +14,16 @@ bool is_remote(const running_service& x) {
 } // namespace
 
 std::optional<plan_switch_record>
-drive_figures::take(const trajectory& in_use, const trajectory& next, bool firm,
-                    const running_service& running, time_point now) {
-  emergency_ = firm;
+drive_figures::take(const trajectory& in_use, const trajectory& next,
+                    const plan_report& report, const running_service& running,
+                    time_point now) {
+  stops_ = false;
+  emergency_ = report.emergency;
   ++plans_.count;
+  plans_.kept += report.origin == plan_origin::kept;
+  plans_.stops += report.origin == plan_origin::stop;
+  plans_.imperfect +=
+      !ocp::publishable(report.path) || !ocp::publishable(report.velocity);
   if (emergency_)
     ++plans_.emergency;
   else
@@ -32,8 +38,8 @@ drive_figures::take(const trajectory& in_use, const trajectory& next, bool firm,
 }
 
 void drive_figures::stop_safely() {
-  if (!source_)
-    return; // it stands, or stops already
+  if (std::exchange(stops_, true))
+    return;
   source_.reset();
   emergency_ = true;
   ++plans_.safe_stops;

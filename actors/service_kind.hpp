@@ -32,7 +32,8 @@ struct service_options {
 };
 
 /// One running function: from input to result, cycle by cycle. No actor, no
-/// clock; the same inputs give the same results.
+/// clock of its own: it may ask `service_setup::clock` how long it has taken.
+/// In virtual time the same inputs give the same results.
 class service_function {
 public:
   virtual ~service_function() = default;

@@ -63,7 +63,7 @@ struct vehicle_actor_state {
     car.speed_mps = setup.start_speed_mps;
     s_m = setup.start_s_m;
     due = now(self);
-    figures.emplace(setup.station, setup.car);
+    figures.emplace(setup.station, setup.car, car.speed_mps);
     plan = std::make_shared<const trajectory>(
         keep_speed(*setup.way, due, s_m, car.speed_mps));
     plan_created = due;
@@ -232,8 +232,8 @@ struct vehicle_actor_state {
     const auto t = now(self);
     if (result.created > t || next->start > t || next->end() < t)
       return; // of another time
-    if (const auto other = figures->take(*plan, *next, given->report.emergency,
-                                         result.running, t))
+    if (const auto other =
+            figures->take(*plan, *next, given->report, result.running, t))
       self->send(setup.recorder, *other);
     plan = next;
     plan_created = result.created;

@@ -152,7 +152,9 @@ template <class Inspector>
 bool inspect(Inspector& f, plan_figures& x) {
   return f.object(x).fields(
       f.field("count", x.count), f.field("emergency", x.emergency),
-      f.field("safe_stops", x.safe_stops), f.field("extremes", x.extremes));
+      f.field("kept", x.kept), f.field("stops", x.stops),
+      f.field("imperfect", x.imperfect), f.field("safe_stops", x.safe_stops),
+      f.field("extremes", x.extremes));
 }
 
 template <class Inspector>

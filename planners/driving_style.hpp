@@ -22,6 +22,9 @@ struct driving_style {
                                    ///< lane_follow alone.
   double front_m = vehicle_params{}.front_m; ///< Of the car; no option.
 
+  /// No emergency brakes softer than this.
+  static constexpr double least_emergency_mps2 = 2.5;
+
   /// Beyond comfort, before it is an emergency: corrections need a reserve.
   double firm_decel_mps2() const { return 1.25 * comfort_decel_mps2; }
 

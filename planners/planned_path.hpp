@@ -11,7 +11,8 @@
 namespace sofof {
 
 /// A path along a reference line; knots are equidistant on the line. Beyond
-/// its ends it stays as at them. No heap, byte-wise copyable.
+/// its ends offset, heading and curvature stay as at them, and lengths go on
+/// as between the two knots there. No heap, byte-wise copyable.
 class planned_path {
 public:
   /// Arc lengths of the line (`s`), and of the path itself from its first
@@ -42,6 +43,7 @@ public:
   template <class Line>
   void measure(const Line& line);
 
+  /// From the one length to the other, linear between knots and beyond.
   double way_m(double s_m) const;
   double s_m(double way_m) const;
 

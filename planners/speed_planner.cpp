@@ -35,7 +35,6 @@ constexpr double moving_up_m = 5.0;
 constexpr double worth_starting_m = 0.5;
 constexpr double standing_mps = 0.05;
 
-constexpr int fewest_steps = 16;
 constexpr double low_speed_mps = 2.0;
 constexpr double share_at_low_speed = 0.65;
 /// A plan that began farther back is of another drive.
@@ -46,7 +45,6 @@ constexpr double share_of_braking = 0.95;
 constexpr double small = 1e-3;
 /// Braking that cannot wait is planned with some reserve.
 constexpr double reserve = 1.1;
-constexpr double least_emergency_mps2 = 2.5;
 constexpr double emergency_share_of_jerk = 0.7;
 /// A plan that misses its bounds by less (s, m²/s², m/s², m/s³) may be driven
 /// all the same if it is clear.
@@ -173,8 +171,9 @@ speed_planner::result speed_planner::plan(const planned_path& path,
 }
 
 speed_planner::result speed_planner::brake_only(const speed_task& task) {
-  const auto decel = std::clamp(reserve * needed_decel(task),
-                                least_emergency_mps2, style_.max_decel_mps2);
+  const auto decel =
+      std::clamp(reserve * needed_decel(task),
+                 driving_style::least_emergency_mps2, style_.max_decel_mps2);
   brake({0, task.speed_mps, task.accel_mps2}, decel,
         emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
         steps_, motion_);

@@ -25,9 +25,12 @@ enum class speed_mode : unsigned char {
 /// Plans speeds that continue each other.
 class speed_planner {
 public:
+  /// Fewer steps are too coarse to stop with.
+  static constexpr int fewest_steps = 16;
+
   struct grid {
     double ds_m = 1;
-    int steps = 80;
+    int steps = 80; ///< At least `fewest_steps`.
   };
   struct result {
     speed_mode how = speed_mode::brakes;

@@ -107,6 +107,17 @@ void check_placement(const scenario& all, const toml_file& source) {
                       "{:.0f} m; {}.",
                       v.station, v.start_s_m, v.way->name(), v.way->length_m(),
                       more_room));
+  for (const auto& v : vehicles) {
+    const auto start_mps = all.fleets[v.fleet].start_speed_mps;
+    const auto limit_mps = v.way->limit_mps(v.start_s_m);
+    if (start_mps > limit_mps)
+      source.refuse(
+          fmt::format("fleet.{}.start_speed_mps", v.fleet),
+          fmt::format("vehicle {} would start with {} m/s at {:.0f} m of "
+                      "\"{}\", where the limit is {} m/s.",
+                      v.station, start_mps, v.start_s_m, v.way->name(),
+                      limit_mps));
+  }
   if (const auto near = find_too_near(vehicles)) {
     const auto& a = vehicles[near->first];
     const auto& b = vehicles[near->second];

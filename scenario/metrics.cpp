@@ -26,7 +26,8 @@ void safety_metrics::add(const safety_record& x) {
   max_plan_age = std::max(max_plan_age, x.max_plan_age);
 }
 
-metrics::metrics(const run_info& run) : headline_{run.headline_kind} {
+metrics::metrics(const run_info& run)
+    : headline_{run.headline_kind}, obstacles_{run.obstacles} {
   for (const auto& kind : run.kinds)
     of(service_name{kind});
 }
@@ -81,8 +82,9 @@ void metrics::take(const safety_record& x) {
 
 void metrics::take(const collision_record& x) {
   ++together_.safety.collisions;
-  ++vehicles_[x.first].safety.collisions;
-  ++vehicles_[x.second].safety.collisions;
+  for (const auto station : {x.first, x.second})
+    if (!is_obstacle(station, obstacles_))
+      ++vehicles_[station].safety.collisions;
 }
 
 void metrics::take(const drive_record& x) {

@@ -121,6 +121,7 @@ private:
   service_metrics& of(const service_name& kind);
 
   service_name headline_;
+  std::uint32_t obstacles_;
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;
   std::map<std::pair<service_name, station_id>, open_episode> open_;

@@ -24,8 +24,9 @@ constexpr std::string_view tracks_header =
     "plan_age_ms,source";
 constexpr std::string_view vehicles_header =
     "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,collisions,"
-    "max_plan_age_ms,plans,emergency_plans,safe_stops,min_accel_mps2,"
-    "max_jerk_mps3,max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3";
+    "max_plan_age_ms,plans,emergency_plans,kept_plans,stop_plans,"
+    "imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
+    "max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3";
 
 constexpr int length_places = 3;
 constexpr int angle_places = 6;
@@ -190,7 +191,8 @@ void results::write_vehicles() const {
              rounded(x.ride.distance_m, length_places),
              seconds(x.safety.without_fresh_plan), seconds(x.safety.off_road),
              x.safety.collisions, milliseconds(x.safety.max_plan_age),
-             x.plans.count, x.plans.emergency, x.plans.safe_stops,
+             x.plans.count, x.plans.emergency, x.plans.kept, x.plans.stops,
+             x.plans.imperfect, x.plans.safe_stops,
              rounded(x.ride.extremes.min_accel_mps2, comfort_places),
              rounded(x.ride.extremes.jerk_mps3, comfort_places),
              rounded(x.ride.extremes.lateral_accel_mps2, comfort_places),

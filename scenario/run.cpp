@@ -48,6 +48,7 @@ run_info describe(const scenario& s, const run_options& options) {
   info.trace_text = s.trace_text;
   info.seed = s.seed;
   info.vehicles = place_vehicles(s).size();
+  info.obstacles = static_cast<std::uint32_t>(s.obstacles.size());
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     info.provider_names.emplace_back(k + 1, s.providers[k].name);
   for (const auto& kind : s.services)

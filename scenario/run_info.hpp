@@ -26,6 +26,7 @@ struct run_info {
   std::string trace_text;  ///< The trace that it names; empty for none.
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
+  std::uint32_t obstacles = 0; ///< They have the highest station ids.
   std::vector<std::pair<boot_id, std::string>> provider_names;
   std::vector<std::string> kinds; ///< Of services, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.

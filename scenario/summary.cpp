@@ -97,6 +97,9 @@ void plans_of(json_object& to, const plan_figures& plans) {
   auto object = to.object("plans");
   object.member("count", plans.count);
   object.member("emergency", plans.emergency);
+  object.member("kept", plans.kept);
+  object.member("stops", plans.stops);
+  object.member("imperfect", plans.imperfect);
   object.member("safe_stops", plans.safe_stops);
   extremes_of(object, plans.extremes, plans.count > plans.emergency);
 }

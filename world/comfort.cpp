@@ -15,6 +15,9 @@ void motion_extremes::add(const motion_extremes& x) {
 void plan_figures::add(const plan_figures& x) {
   count += x.count;
   emergency += x.emergency;
+  kept += x.kept;
+  stops += x.stops;
+  imperfect += x.imperfect;
   safe_stops += x.safe_stops;
   extremes.add(x.extremes);
 }

@@ -36,6 +36,10 @@ motion_extremes extremes_of(const trajectory& plan);
 struct plan_figures {
   std::uint64_t count = 0;      ///< All that a service made.
   std::uint64_t emergency = 0;  ///< Those of them that brake beyond comfort.
+  std::uint64_t kept = 0;       ///< Those that are the one before, kept.
+  std::uint64_t stops = 0;      ///< Those that brake, for want of better.
+  std::uint64_t imperfect = 0;  ///< Path or speeds were not solved; kept ones
+                                ///< and stops may be among them.
   std::uint64_t safe_stops = 0; ///< Made by the vehicle itself.
   motion_extremes extremes;     ///< Of all but emergency plans.
 

@@ -14,6 +14,11 @@ constexpr station_id obstacle_id(std::uint32_t k) {
   return ~station_id{0} - k;
 }
 
+/// @returns whether this is the number of one of `count` obstacles.
+constexpr bool is_obstacle(station_id x, std::uint32_t count) {
+  return x > obstacle_id(count);
+}
+
 /// A provider process since its start; a restarted one has a new id.
 using boot_id = std::uint64_t;
 

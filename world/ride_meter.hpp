@@ -32,8 +32,11 @@ public:
   /// Braking beyond this is hard.
   static constexpr double hard_mps2 = -3;
 
-  /// The car stands.
-  explicit ride_meter(double wheelbase_m) : wheelbase_m_{wheelbase_m} {}
+  /// @param speed_mps  At the beginning; the car neither brakes nor speeds up.
+  explicit ride_meter(double wheelbase_m, double speed_mps = 0)
+      : wheelbase_m_{wheelbase_m}, speed_mps_{speed_mps} {
+    window_.fill({speed_mps, 0});
+  }
 
   /// @param x          After a step of protocol::control_period.
   /// @param emergency  Whether it follows an emergency plan or a safe stop.
@@ -55,7 +58,7 @@ private:
   ride_figures sum_;
   std::array<motion, window_steps> window_{}; // the oldest is next_
   std::size_t next_ = 0;
-  double speed_mps_ = 0;
+  double speed_mps_;
   bool brakes_hard_ = false;
   duration unsettled_{}; // still, after an emergency
 };

@@ -26,7 +26,9 @@ struct driver {
   }
   auto take(const running_service& from, double accel_mps2 = 0) {
     const auto next = plan(accel_mps2);
-    return figures.take(in_use, next, accel_mps2 < -2.6, from, next.start);
+    plan_report report;
+    report.emergency = accel_mps2 < -2.6;
+    return figures.take(in_use, next, report, from, next.start);
   }
   /// Drives on with jerks of 100 m/s³.
   void jolt(int steps) {
@@ -64,6 +66,34 @@ TEST_CASE_FIXTURE(driver, "a plan that brakes beyond comfort is an emergency "
   CHECK(x.extremes.jerk_mps3 == 2.5);
 }
 
+TEST_CASE_FIXTURE(driver, "plans that are kept, stop, or were not solved are "
+                          "counted as their reports say") {
+  using enum ocp::solve_status;
+  const auto take_one = [this](plan_origin origin, ocp::solve_status path,
+                               ocp::solve_status velocity) {
+    plan_report report;
+    report.origin = origin;
+    report.path = path;
+    report.velocity = velocity;
+    figures.take(in_use, in_use, report, local, in_use.start);
+    return figures.flush().plans;
+  };
+  auto x = take_one(plan_origin::planned, converged, acceptable);
+  CHECK(x.count == 1);
+  CHECK(x.kept + x.stops + x.imperfect == 0);
+  x = take_one(plan_origin::kept, converged, converged);
+  CHECK(x.kept == 1);
+  CHECK(x.stops + x.imperfect == 0);
+  x = take_one(plan_origin::stop, acceptable, converged);
+  CHECK(x.stops == 1);
+  CHECK(x.kept + x.imperfect == 0);
+  CHECK(take_one(plan_origin::planned, budget, converged).imperfect == 1);
+  x = take_one(plan_origin::stop, soft_infeasible, numerical);
+  CHECK(x.count == 1);
+  CHECK(x.stops == 1);
+  CHECK(x.imperfect == 1);
+}
+
 TEST_CASE_FIXTURE(driver, "jerk is not taken while an emergency plan or a safe "
                           "stop is in use, nor a second after") {
   take(local);
@@ -95,6 +125,18 @@ TEST_CASE_FIXTURE(driver, "to stand in the beginning is no safe stop, and to "
   take(local);
   figures.stop_safely();
   CHECK(figures.flush().plans.safe_stops == 1);
+}
+
+TEST_CASE("a car that starts driving and never gets a plan makes a safe stop") {
+  drive_figures figures{station, vehicle_params{}, 10};
+  figures.take(vehicle_state{{}, 0, 10, 0, 0});
+  CHECK(figures.flush().ride.distance_m == doctest::Approx(0.1));
+  figures.stop_safely();
+  figures.stop_safely();
+  figures.take(vehicle_state{{}, 0, 10, -5, 0});
+  const auto x = figures.flush();
+  CHECK(x.plans.safe_stops == 1);
+  CHECK(x.ride.extremes.jerk_mps3 == 0); // it is an emergency
 }
 
 TEST_CASE_FIXTURE(driver, "only plans from another source are a switch") {

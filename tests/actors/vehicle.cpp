@@ -388,6 +388,17 @@ TEST_CASE_FIXTURE(driving_world, "a vehicle that stops on its own says so "
   CHECK(x.ride.extremes.jerk_mps3 < 1.9); // of the drive before
 }
 
+TEST_CASE_FIXTURE(flying_start_world,
+                  "a vehicle that starts driving and never gets a plan stops "
+                  "on its own, and says so once") {
+  run_for(30s);
+  CHECK(last_report().state.speed_mps == 0);
+  const auto x = whole_drive();
+  CHECK(x.plans.count == 0);
+  CHECK(x.plans.safe_stops == 1);
+  CHECK(x.ride.extremes.jerk_mps3 < 1); // it keeps its speed until then
+}
+
 TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
                                  "to it is recorded") {
   const auto local = source;

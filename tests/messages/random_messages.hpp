@@ -76,7 +76,7 @@ inline constexpr std::size_t arity<collision_record> = 3;
 template <>
 inline constexpr std::size_t arity<motion_extremes> = 3;
 template <>
-inline constexpr std::size_t arity<plan_figures> = 4;
+inline constexpr std::size_t arity<plan_figures> = 7;
 template <>
 inline constexpr std::size_t arity<ride_figures> = 4;
 template <>

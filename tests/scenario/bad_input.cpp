@@ -130,6 +130,37 @@ TEST_CASE("a sensor that cannot be is refused") {
   });
 }
 
+TEST_CASE("driving that cannot work is refused") {
+  const auto planner = [](const std::string& option) {
+    return "max_latency = \"50ms\"\nplanner = { " + option + " }";
+  };
+  const std::string right = "max_latency = \"50ms\"";
+  const auto decel = planner("max_decel_mps2 = @2.4");
+  const auto soft = planner("comfort_decel_mps2 = 2.4, max_decel_mps2 = @2.99");
+  const auto coarse = planner("onboard = { horizon_m = 31.5, step_m = @2 }");
+  const auto fine = planner("mec = { horizon_m = 129, step_m = @0.5 }");
+  check_all({
+      {right, decel, {"max_decel_mps2", "from 2.5", "2.4"}},
+      {right, soft, {"max_decel_mps2", "at least 3", "comfort_decel_mps2"}},
+      {right, coarse, {"step_m", "at most horizon_m / 16"}},
+      {right, fine, {"step_m", "at least horizon_m / 256"}},
+  });
+  const auto loads = [&](const std::string& option) {
+    return example::error_of(example::with(right, planner(option))) == "";
+  };
+  CHECK(loads("comfort_decel_mps2 = 2.0, max_decel_mps2 = 2.5"));
+  CHECK(loads("onboard = { horizon_m = 32, step_m = 2 }"));
+}
+
+TEST_CASE("a start beyond the speed limit is refused") {
+  check_all({{"start_speed_mps = 8.5",
+              "start_speed_mps = @13.91",
+              {"vehicle 201", "straight", "13.91", "13.9 m/s"}}});
+  CHECK(example::error_of(
+            example::with("start_speed_mps = 8.5", "start_speed_mps = 13.9"))
+        == "");
+}
+
 TEST_CASE("an obstacle that cannot be is refused") {
   const auto obstacle = [](const std::string& options) {
     return "[[obstacle]]\n" + options + "\n[network]";

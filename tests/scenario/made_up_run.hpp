@@ -111,10 +111,12 @@ void play(Sink& to) {
   to.take(switched(running(102, 4), true, 90s));
   to.take(safety_record{101, 100s, 0s, 0s, 150ms});
   to.take(safety_record{102, 100s, 0s, 0s, 180ms});
-  to.take(drive_record{
-      101, {2000, 3, 1, {1.5, 1.25, -2}}, {900, {1.75, 1.5, -4}, 2, 80}});
-  to.take(drive_record{
-      102, {1000, 0, 0, {2, 1, -2.5}}, {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.take(drive_record{101,
+                       {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}},
+                       {900, {1.75, 1.5, -4}, 2, 80}});
+  to.take(drive_record{102,
+                       {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}},
+                       {800.5, {1, 2, -2.5}, 0, 20.5}});
   to.take(plan_switch_record{
       at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});
   to.take(plan_switch_record{

@@ -143,6 +143,9 @@ TEST_CASE("all vehicles together have the sums and extremes of each") {
   CHECK(all.safety.driven == duration{200s});
   CHECK(all.plans.count == 3000);
   CHECK(all.plans.emergency == 3);
+  CHECK(all.plans.kept == 5);
+  CHECK(all.plans.stops == 2);
+  CHECK(all.plans.imperfect == 7);
   CHECK(all.plans.safe_stops == 1);
   CHECK(all.plans.extremes.lateral_accel_mps2 == 2);
   CHECK(all.ride.distance_m == 1700.5);
@@ -161,7 +164,7 @@ TEST_CASE("a vehicle's figures are those of all its records") {
   metrics m{run()};
   for (auto i = 0; i < 3; ++i) {
     m.take(safety_record{101, 1s, 0s, 0s, 100ms});
-    m.take(drive_record{101, {20, 1, 0, {}}, {10, {}, 1, 2}});
+    m.take(drive_record{101, {20, 1, 0, 0, 0, 0, {}}, {10, {}, 1, 2}});
   }
   const auto& x = m.vehicles().at(101);
   CHECK(x.safety.driven == duration{3s});
@@ -176,6 +179,19 @@ TEST_CASE("a touch counts once for the run and once for either vehicle") {
   CHECK(m.safety().collisions == 1);
   CHECK(m.vehicles().at(101).safety.collisions == 1);
   CHECK(m.vehicles().at(102).safety.collisions == 1);
+}
+
+TEST_CASE("an obstacle that is touched is no vehicle") {
+  auto info = run();
+  info.obstacles = 2;
+  metrics m{info};
+  m.take(collision_record{at(3s), 101, obstacle_id(0)});
+  m.take(collision_record{at(4s), 101, obstacle_id(1)});
+  m.take(collision_record{at(5s), 101, obstacle_id(2)}); // there are but two
+  CHECK(m.safety().collisions == 3);
+  CHECK(m.vehicles().at(101).safety.collisions == 3);
+  CHECK(m.vehicles().size() == 2);
+  CHECK(m.vehicles().contains(obstacle_id(2)));
 }
 
 TEST_CASE("every switch of plans counts with its jumps") {

@@ -152,6 +152,9 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["safety"]["max_plan_age_s"] == 0.18);
   CHECK(s["plans"]["count"] == 3000);
   CHECK(s["plans"]["emergency"] == 3);
+  CHECK(s["plans"]["kept"] == 5);
+  CHECK(s["plans"]["stops"] == 2);
+  CHECK(s["plans"]["imperfect"] == 7);
   CHECK(s["plans"]["safe_stops"] == 1);
   CHECK(s["plans"]["max_lateral_accel_mps2"] == 2);
   CHECK(s["plans"]["max_jerk_mps3"] == 1.25);
@@ -252,16 +255,17 @@ TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
   REQUIRE(all.size() == 4);
   CHECK(all[0]
         == "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,"
-           "collisions,max_plan_age_ms,plans,emergency_plans,safe_stops,"
-           "min_accel_mps2,max_jerk_mps3,max_lateral_accel_mps2,hard_brakes,"
+           "collisions,max_plan_age_ms,plans,emergency_plans,kept_plans,"
+           "stop_plans,imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
+           "max_lateral_accel_mps2,hard_brakes,"
            "comfort_cost_m2ps3");
   CHECK(all[1].starts_with("9,"));
   CHECK(all[2]
         == "101,100.000000000,900.000,0.000000000,0.000000000,1,150.000000,"
-           "2000,3,1,-4.000000,1.500000,1.750000,2,80.000000");
+           "2000,3,4,2,6,1,-4.000000,1.500000,1.750000,2,80.000000");
   CHECK(all[3]
         == "102,100.000000000,800.500,0.000000000,0.000000000,0,180.000000,"
-           "1000,0,0,-2.500000,2.000000,1.000000,0,20.500000");
+           "1000,0,1,0,1,0,-2.500000,2.000000,1.000000,0,20.500000");
 }
 
 TEST_CASE("a switch of plans is an event with its jumps") {
