@@ -71,7 +71,8 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
     return;
   crossing_order order;
   order.choice = crossing_order::waits;
-  order.stop_m = minded[0].line_m;
+  for (std::size_t i = 0; i < n; ++i)
+    order.stop_m = std::min(order.stop_m, minded[i].line_m);
   for (std::size_t i = 0; i < n; ++i)
     if (minded[i].line_m <= order.stop_m)
       order.opens_s = std::max(order.opens_s, minded[i].user->leave_s);

@@ -270,9 +270,6 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
-  std::ranges::sort(users_, {}, [](const crossing_user& user) {
-    return std::pair{user.enter_s, user.from_m}; // the soonest count
-  });
   const crossing_car car{style_.front_m, car_.rear_m, at.start.speed_mps,
                          line_.limit_mps(at.start.s_m), style_.max_accel_mps2};
   list_orders(

@@ -143,17 +143,25 @@ double speed_planner::needed_decel(const speed_task& task) const {
   return needed;
 }
 
+bool speed_planner::comes_too_late(const speed_task& task,
+                                   const stop& end) const {
+  return task.speed_mps > standing_mps
+         && stopping_m(task.speed_mps, task.accel_mps2,
+                       style_.firm_decel_mps2(),
+                       share_of_jerk * style_.max_jerk_mps3)
+                > end.last_m;
+}
+
 speed_planner::result speed_planner::plan(const planned_path& path,
                                           double way_m, const speed_task& task,
                                           const ocp::budget& go_on) {
   const auto end = find_stop(task);
   result r;
   if (needed_decel(task) > style_.firm_decel_mps2()
-      || stopping_m(task.speed_mps, task.accel_mps2, style_.firm_decel_mps2(),
-                    share_of_jerk * style_.max_jerk_mps3)
-             > end.last_m) {
+      || comes_too_late(task, end)) {
     r = brake_only(task);
-  } else if (task.speed_mps < setting_off::until_mps
+  } else if (setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
+                                    grid_.ds_m)
              && end.wanted_m < moving_up_m) {
     const auto stands =
         task.speed_mps < standing_mps && end.wanted_m < worth_starting_m;

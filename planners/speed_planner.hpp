@@ -79,6 +79,7 @@ private:
   void be_cautious(const speed_task& task, double from_m, double ds_m);
   void set_windows(const speed_task& task, const lane_motion& from,
                    double ds_m);
+  bool comes_too_late(const speed_task& task, const stop& end) const;
   bool too_fast_for_bends() const;
   bool yield_to_braking(const lane_motion& from, double from_s, double ds_m,
                         double decel_mps2);

@@ -167,16 +167,16 @@ TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
 
 TEST_CASE("who leaves room in the lane is beside, who does not leads") {
   auto o = ten_metres_down_the_street();
-  // Of 3.5 m the own car needs 1.89 m + 2 * 0.3 m: 1.01 m are free.
+  // Of 3.5 m the own car needs 2.52 m: 0.98 m are free.
   for (const auto side : {-1.0, 1.0}) {
-    o.look({make_track({60, side * (0.75 + 0.945)}, 0, 2)});
+    o.look({make_track({60, side * (0.78 + 0.945)}, 0, 2)});
     CHECK_FALSE(o.seen.lead);
     REQUIRE(o.seen.beside.size() == 1);
     const auto& b = o.seen.beside[0];
     CHECK(b.from_m == test::near(60 - 2.55, 1e-6));
     CHECK(b.to_m == test::near(60 + 2.55, 1e-6));
     CHECK(std::min(std::abs(b.low_m), std::abs(b.high_m))
-          == test::near(0.75, 1e-6));
+          == test::near(0.78, 1e-6));
     CHECK(b.low_m * side > 0);
     CHECK(b.speed_mps == test::near(2, 1e-9));
     o.look({make_track({60, side * (0.73 + 0.945)})});

@@ -127,7 +127,7 @@ TEST_CASE("the optimiser's inputs may be 0.4 s old") {
 
 TEST_CASE("the optimiser stops shortly before a line, stands still, and goes "
           "on when the line opens") {
-  for (const auto speed : {2.0, 5.0, 8.3, 13.9}) {
+  for (const auto speed : {3.0, 5.0, 8.3, 13.9}) {
     CAPTURE(speed);
     auto drive = optimal(test::straight(600, {{0, speed}}), 0, speed);
     drive.others.stop_at_m = 150;
