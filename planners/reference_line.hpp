@@ -3,7 +3,6 @@
 
 #include "world/route.hpp"
 
-#include <span>
 #include <vector>
 
 namespace sofof {

@@ -23,11 +23,9 @@ constexpr double least_braking_mps2 = 0.3;
 /// A path that could not be planned on ends here, before its end.
 constexpr double path_end_gap_m = 2.0;
 
-constexpr path_planner::grid path_grid(const spatial_params& p) {
-  return {p.step_m, static_cast<int>(p.horizon_m / p.step_m)};
-}
-
-constexpr speed_planner::grid speed_grid(const spatial_params& p) {
+/// Path and speeds are planned on grids alike.
+template <class Planner>
+constexpr typename Planner::grid grid_of(const spatial_params& p) {
   return {p.step_m, static_cast<int>(p.horizon_m / p.step_m)};
 }
 
@@ -55,11 +53,14 @@ void spatial_params::fields(settings& s) {
 spatial_planner::spatial_planner(route_ptr way, const driving_style& style,
                                  const spatial_params& params)
     : route_{std::move(way)}, style_{style}, params_{params}, line_{route_},
-      path_{std::make_unique<path_planner>(line_, path_grid(params))},
-      other_path_{std::make_unique<path_planner>(line_, path_grid(params))},
-      speed_{std::make_unique<speed_planner>(line_, style, speed_grid(params))},
-      other_speed_{
-          std::make_unique<speed_planner>(line_, style, speed_grid(params))} {}
+      path_{
+          std::make_unique<path_planner>(line_, grid_of<path_planner>(params))},
+      other_path_{
+          std::make_unique<path_planner>(line_, grid_of<path_planner>(params))},
+      speed_{std::make_unique<speed_planner>(line_, style,
+                                             grid_of<speed_planner>(params))},
+      other_speed_{std::make_unique<speed_planner>(
+          line_, style, grid_of<speed_planner>(params))} {}
 
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
                                   const trajectory* previous, trajectory& out,
