@@ -24,7 +24,7 @@ struct running_service {
                           const running_service&) = default;
 };
 
-/// A vehicle's own motion, broadcast all the time (Cooperative Awareness).
+/// A vehicle's own motion, as its CAMs tell it.
 struct cam {
   station_id station = 0;
   time_point at;
@@ -32,6 +32,7 @@ struct cam {
   double heading_rad = 0;
   double speed_mps = 0;
   double accel_mps2 = 0;
+  double curvature_1pm = 0; ///< Of its way, left positive.
 };
 
 /// A provider has seen a station in its area and offers its services.
@@ -74,6 +75,8 @@ struct service_input {
   /// The result in use, for a source that takes over from another one, which
   /// shall go on from there; else empty.
   payload in_use{};
+  /// Cycle of the newest remote result that is in use; 0: none.
+  std::uint64_t followed = 0;
 };
 
 /// What one cycle of a running service gave.
@@ -82,6 +85,7 @@ struct service_result {
   std::uint64_t cycle = 0;
   time_point created; ///< Start of the cycle (t_creation).
   payload what;
+  payload about{}; ///< How it came about, for records; often empty.
 };
 
 /// Why an offloading ended.
@@ -110,6 +114,7 @@ struct service_end {
   running_service running;
   end_reason reason = end_reason::shutdown;
   side from = side::requester;
+  payload what{}; ///< The same in the service's own terms, if it has any.
 };
 
 template <class Inspector>
@@ -124,7 +129,8 @@ bool inspect(Inspector& f, cam& x) {
   return f.object(x).fields(
       f.field("station", x.station), f.field("at", x.at),
       f.field("position", x.position), f.field("heading_rad", x.heading_rad),
-      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2));
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
+      f.field("curvature_1pm", x.curvature_1pm));
 }
 
 template <class Inspector>
@@ -160,14 +166,16 @@ template <class Inspector>
 bool inspect(Inspector& f, service_input& x) {
   return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
                             f.field("what", x.what),
-                            f.field("in_use", x.in_use));
+                            f.field("in_use", x.in_use),
+                            f.field("followed", x.followed));
 }
 
 template <class Inspector>
 bool inspect(Inspector& f, service_result& x) {
   return f.object(x).fields(
       f.field("running", x.running), f.field("cycle", x.cycle),
-      f.field("created", x.created), f.field("what", x.what));
+      f.field("created", x.created), f.field("what", x.what),
+      f.field("about", x.about));
 }
 
 template <class Inspector>
@@ -184,7 +192,7 @@ template <class Inspector>
 bool inspect(Inspector& f, service_end& x) {
   return f.object(x).fields(f.field("running", x.running),
                             f.field("reason", x.reason),
-                            f.field("from", x.from));
+                            f.field("from", x.from), f.field("what", x.what));
 }
 
 } // namespace sofof

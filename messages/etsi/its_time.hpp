@@ -69,21 +69,21 @@ private:
 };
 
 /// TimestampIts mod 65536, as CAM, CPM TR 103 562 and MCM carry it.
-using generation_delta_time = std::uint16_t;
+using delta_time = std::uint16_t;
 
-constexpr generation_delta_time to_delta_time(timestamp_its its) {
-  return static_cast<generation_delta_time>(its); // modulo, also of negative
+constexpr delta_time to_delta_time(timestamp_its its) {
+  return static_cast<delta_time>(its); // modulo, also of negative
 }
 
 /// @returns how old a message is at `now`, ms, in [-32767, 32768]; negative
 /// when the sender's clock is ahead of ours.
-constexpr int age_ms(generation_delta_time generated, timestamp_its now) {
+constexpr int age_ms(delta_time generated, timestamp_its now) {
   const int age = static_cast<std::uint16_t>(to_delta_time(now) - generated);
   return age <= 32768 ? age : age - 65536;
 }
 
 /// @returns the moment nearest to `now` that `generated` can stand for.
-constexpr timestamp_its unwrap(generation_delta_time generated,
+constexpr timestamp_its unwrap(delta_time generated,
                                timestamp_its now) {
   return now - age_ms(generated, now);
 }

@@ -1,0 +1,28 @@
+// What a CAM says of a vehicle.
+#pragma once
+
+#include "messages/etsi/cam.hpp"
+#include "messages/service.hpp"
+#include "messages/v2x/datum.hpp"
+#include "world/vehicle.hpp"
+
+#include <optional>
+
+namespace sofof {
+
+/// @param own  The rear axle's motion. The message tells the middle of the
+///             front, and all quantities in ETSI's units.
+/// @returns the CAM without its low-frequency container.
+etsi::cam make_cam(const cam& own, const vehicle_params& car,
+                   const datum& where);
+
+/// @param now  The message tells its time modulo 65.536 s: the nearest to now
+///             is meant.
+/// @returns what a vehicle tells of its rear axle, which is where it would be
+/// in a car of ours scaled to its length; what it does not know counts as
+/// zero, the length as that of `car`. Nullopt for a roadside unit, for who
+/// does not know where it is, which way it points, or how fast it is.
+std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
+                            const datum& where, time_point now);
+
+} // namespace sofof
