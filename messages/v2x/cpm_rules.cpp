@@ -9,6 +9,7 @@ namespace {
 
 /// T_AddSensorInformation. Source: TS 103 324, section 6.1.2.
 constexpr duration sensor_period = std::chrono::milliseconds{1000};
+static_assert(sensor_period <= generation::longest); // so a CPM comes in time
 
 told_motion motion_of(const perceived_object& x) {
   return {x.centre, x.heading_rad, x.speed_mps};
@@ -28,14 +29,12 @@ cpm_trigger::cpm_trigger(generation_rule rule, duration period)
 
 cpm_trigger::decision
 cpm_trigger::check(time_point now, std::span<const known_object> perceived) {
-  const auto elapsed = now - last_;
-  if (!is_first_ && elapsed < period_)
+  if (!is_first_ && now - last_ < period_)
     return {};
   choose(now, perceived);
   const auto sensors = is_first_ || now - last_sensors_ >= sensor_period;
-  const auto send = sensors || !chosen_.empty()
-                    || elapsed >= generation::longest
-                    || rule_ == generation_rule::fixed_10hz;
+  const auto send =
+      sensors || !chosen_.empty() || rule_ == generation_rule::fixed_10hz;
   remember(now, perceived);
   if (!send)
     return {};

@@ -24,7 +24,7 @@ struct known_object {
 ///   told last, and a second after it was told last.
 /// * Sensors are told of in the first CPM, and then every second.
 /// * T_GenCpm after the last CPM, one is sent if an object or the sensors are
-///   due, and after a second in any case.
+///   due: after a second (T_GenCpmMax) in any case.
 /// * More objects than a CPM holds: those that wait for longest go first, new
 ///   ones before all, and of equals the lower ids; the others wait.
 ///
