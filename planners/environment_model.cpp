@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Who has not been seen for longer is forgotten.
+/// Who has not been seen for longer is forgotten, unless sightings are rare.
 constexpr duration memory = 1s;
 
 /// Sightings that arrive later than this are useless.
@@ -24,8 +24,10 @@ constexpr auto gate = 18.47;
 /// Bodies at one time; who was not seen for longest makes room for more.
 constexpr std::size_t max_tracks = 128;
 
-/// Of a new value in the low-passed ones; most come at 10 Hz or more often.
-constexpr auto share_of_new = 0.5;
+/// Of a new value in the low-passed ones, where values come at 10 Hz or more
+/// often; all of one that comes after twice as long.
+constexpr auto least_share = 0.5;
+constexpr auto whole_after_s = 0.2;
 
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;
@@ -48,7 +50,15 @@ bool is_sound(const perceived_object& o) {
 
 } // namespace
 
-environment_model::environment_model(sighting_noise noise) : noise_{noise} {
+duration sighting_rhythm::silence(double speed_mps) const {
+  // Of numbers from outside: the comparison with NaN is false.
+  const auto way_s = moved_m / std::abs(speed_mps);
+  return way_s < to_seconds(at_latest) ? from_seconds(way_s) : at_latest;
+}
+
+environment_model::environment_model(sighting_noise noise,
+                                     sighting_rhythm rhythm)
+    : noise_{noise}, rhythm_{rhythm} {
   tracks_.reserve(max_tracks);
   sightings_.reserve(max_tracks);
   pairs_.reserve(4 * max_tracks);
@@ -103,12 +113,19 @@ void environment_model::hear(time_point at, station_id who,
 bool environment_model::pass_time(time_point at) {
   if (at > newest_) {
     newest_ = at;
-    std::erase_if(tracks_,
-                  [&](const track& x) { return newest_ - x.seen > memory; });
+    std::erase_if(tracks_, [&](const track& x) {
+      return newest_ - x.seen > lifetime(x);
+    });
     for (auto& x : tracks_)
       x = predict(x, newest_);
   }
   return newest_ - at <= max_delay;
+}
+
+/// Long enough for the message after a lost one, which may be late.
+duration environment_model::lifetime(const track& x) const {
+  const auto silence = rhythm_.silence(x.speed_mps());
+  return std::max(memory, 2 * silence + max_delay);
 }
 
 environment_model::sighting
@@ -168,6 +185,8 @@ void environment_model::take(track& x, time_point at, const sighting& s,
   if (at < x.seen)
     return;
   const auto& o = s.object;
+  const auto share_of_new =
+      std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
   x.seen = at;
   x.heading_rad += share_of_new * wrap_angle(o.heading_rad - x.heading_rad);
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);

@@ -18,6 +18,15 @@ struct sighting_noise {
   double heading_rad = 0.01;
 };
 
+/// When observers tell again of a body that they still see.
+struct sighting_rhythm {
+  double moved_m = 0;   ///< When it has moved so far, ...
+  duration at_latest{}; ///< ... at the latest after so long; 0: at every look.
+
+  /// @returns how long nothing is told of a body at that speed, >= 0.
+  duration silence(double speed_mps) const;
+};
+
 /// Tracks of all bodies that observers see, and of vehicles that tell their
 /// own motion. Observers tell their clocks' true times, in any order.
 ///
@@ -34,10 +43,13 @@ struct sighting_noise {
 /// * Birth at the first sighting, without confirmation: whoever brakes late
 ///   for a body brakes hard.
 /// * Death after a second without sightings, so that short occlusions do not
-///   make bodies vanish; the uncertainty grows meanwhile.
+///   make bodies vanish; later where sightings are told so rarely that one
+///   lost message and the slowest next one take longer. The uncertainty grows
+///   meanwhile.
 class environment_model {
 public:
-  explicit environment_model(sighting_noise noise = {});
+  explicit environment_model(sighting_noise noise = {},
+                             sighting_rhythm rhythm = {});
 
   /// Tells what one observer sees.
   /// @param at    When it saw this.
@@ -69,6 +81,7 @@ private:
   };
 
   bool pass_time(time_point at);
+  duration lifetime(const track& x) const;
   sighting make_sighting(time_point at, const perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
@@ -76,6 +89,7 @@ private:
   void give_birth(time_point at, const sighting& s);
 
   sighting_noise noise_;
+  sighting_rhythm rhythm_;
   time_point newest_{-longest_time};
   std::uint32_t last_id_ = 0;
   std::vector<track> tracks_;

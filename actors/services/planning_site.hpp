@@ -3,6 +3,7 @@
 #pragma once
 
 #include "actors/service_kind.hpp"
+#include "messages/v2x/generation_rules.hpp"
 #include "planners/environment_model.hpp"
 
 #include <functional>
@@ -59,7 +60,8 @@ public:
 private:
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
-  environment_model model_;
+  // Told by CAMs and CPMs, which come when there is news.
+  environment_model model_{{}, {generation::moved_m, generation::longest}};
 };
 
 } // namespace sofof

@@ -20,6 +20,9 @@ namespace {
 
 constexpr time_point start{100s};
 
+/// As the rules for CPMs have it.
+constexpr sighting_rhythm rhythm{4, 1s};
+
 perceived_object car(point centre, double speed_mps = 0,
                      double heading_rad = 0) {
   return {centre, heading_rad, speed_mps, 0, 5.1, 1.89};
@@ -320,6 +323,73 @@ TEST_CASE("a body is remembered for a second without sightings") {
   CHECK(model.tracks()[0].centre().x_m == test::near(10, 1e-9));
   model.update(start + 1001ms, {});
   CHECK(model.tracks().empty());
+}
+
+TEST_CASE("a body that is told of once a second outlives a lost message") {
+  environment_model model{{}, rhythm};
+  see(model, start, car({}));
+  see(model, start + 2100ms, car({})); // one was lost, the next one is late
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a body that moves is expected back sooner than one that stands") {
+  environment_model model{{}, rhythm};
+  model.update(start, std::vector{car({}), car({0, 50}, 5), car({0, 99}, 40)});
+  model.update(start + 1s, {});
+  CHECK(model.tracks().size() == 3);
+  model.update(start + 2s, {}); // 40 m/s: after 1 s, as from sensors
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2});
+  model.update(start + 2200ms, {}); // 5 m/s: twice 0.8 s and half a second
+  CHECK(ids(model) == std::set<std::uint32_t>{1});
+  model.update(start + 2500ms, {});
+  CHECK(model.tracks().size() == 1);
+  model.update(start + 2600ms, {});
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("who tells of bodies at every look is silent at no speed") {
+  for (const auto speed_mps : {0.0, 3.0, -3.0, 1e300})
+    CHECK(sighting_rhythm{}.silence(speed_mps) == 0s);
+  CHECK(rhythm.silence(0) == 1s);
+  CHECK(rhythm.silence(-8) == 500ms);
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(rhythm.silence(nan) == 1s);
+}
+
+TEST_CASE("a queue that is told of by the rules is neither merged nor split") {
+  environment_model model{{}, rhythm};
+  observer eyes{1};
+  const queue street;
+  std::vector<perceived_object> told;
+  std::vector<time_point> when;
+  for (auto t = start; t < start + 60s; t += 100ms) {
+    const auto all = street.at(t);
+    if (t == start)
+      told = all, when.assign(all.size(), start - 1s);
+    std::vector<perceived_object> news;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (distance_m(told[i].centre, all[i].centre) > 4
+          || std::abs(told[i].speed_mps - all[i].speed_mps) > 0.5
+          || t - when[i] >= 1s) {
+        news.push_back(eyes.look(all[i]));
+        told[i] = all[i], when[i] = t;
+      }
+    model.update(t, news);
+    REQUIRE(model.tracks().size() == 8);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      REQUIRE(miss_m(model.tracks()[i], all[i].centre) < 1);
+  }
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8});
+}
+
+TEST_CASE("a heading that is told rarely is believed at once") {
+  environment_model model{{}, rhythm};
+  see(model, start, car({}, 5, 0));
+  see(model, start + 800ms, car({4, 0.1}, 5, 0.07));
+  CHECK(model.tracks()[0].heading_rad == test::near(0.07, 1e-9));
+  see(model, start + 900ms, car({4.5, 0.14}, 5, 0.09));
+  CHECK(model.tracks()[0].heading_rad == test::near(0.08, 1e-9));
 }
 
 TEST_CASE("a body that comes back from an occlusion is the same") {
