@@ -2,7 +2,10 @@
 #include "actors/network_link.hpp"
 
 #include "actors/time.hpp"
+#include "messages/v2x/geonet.hpp"
 
+#include <caf/binary_serializer.hpp>
+#include <caf/byte_buffer.hpp>
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
@@ -13,6 +16,22 @@
 namespace sofof {
 
 namespace {
+
+/// What a message takes on the air: an ITS message with what the layers below
+/// add to it, anything else as our own protocol has it.
+std::size_t octets_of(const its_pdu& message) {
+  return message.octets.size() + geonet_octets;
+}
+
+template <class Message>
+std::size_t octets_of(const Message& message) {
+  if constexpr (requires { message.what.type(); })
+    if (const auto pdu = message.what.template as<its_pdu>())
+      return octets_of(*pdu);
+  caf::byte_buffer bytes;
+  caf::binary_serializer sink{nullptr, bytes};
+  return sink.apply(message) ? bytes.size() : 0;
+}
 
 struct link_state {
   static inline const char* name = "network_link";
@@ -25,41 +44,52 @@ struct link_state {
   std::vector<std::pair<running_service, provider_manager_actor>> managers;
   std::uint64_t carried = 0;
 
-  template <class Receiver, class... Ts>
-  void up(const Receiver& receiver, Ts&&... xs) {
-    carry(setup->up, message_class::other, time_number(), receiver,
-          std::forward<Ts>(xs)...);
+  template <class Receiver, class Message, class... Ts>
+  void up(const Receiver& receiver, const Message& message, Ts&&... xs) {
+    carry(setup->up, message_class::other, time_number(message), receiver,
+          message, std::forward<Ts>(xs)...);
   }
 
-  template <class... Ts>
-  void down(Ts&&... xs) {
+  template <class Message, class... Ts>
+  void down(const Message& message, Ts&&... xs) {
     if (near)
-      carry(setup->down, message_class::other, time_number(), near,
-            std::forward<Ts>(xs)...);
+      carry(setup->down, message_class::other, time_number(message), near,
+            message, std::forward<Ts>(xs)...);
   }
 
-  // Protocol messages are numbered by the time they are sent at, so that the
-  // noise of one does not depend on how many went before.
-  std::uint64_t time_number() const {
+  // They are numbered by the time they are sent at, so that the noise of one
+  // does not depend on how many went before.
+  std::uint64_t time_number(const auto&) const {
     return static_cast<std::uint64_t>(now(self).time_since_epoch().count());
   }
+  // Those that are sent together do not share their noise.
+  std::uint64_t time_number(const its_pdu& message) const {
+    constexpr std::size_t id = 1; // the octet of the message's id
+    const auto of_its_kind =
+        message.octets.size() > id
+            ? std::to_integer<std::uint64_t>(message.octets[id])
+            : 0;
+    return time_number(0) ^ of_its_kind << 56;
+  }
 
-  template <class Receiver, class... Ts>
+  template <class Receiver, class Message, class... Ts>
   void carry(link_direction& direction, message_class kind,
-             std::uint64_t number, const Receiver& receiver, Ts&&... xs) {
-    const auto t = direction.arrival(now(self), kind, number);
+             std::uint64_t number, const Receiver& receiver,
+             const Message& message, Ts&&... xs) {
+    const auto t =
+        direction.arrival(now(self), kind, number, octets_of(message));
     if (!t)
       return;
     if (!setup->faults) {
-      send_at(self, receiver, *t, std::forward<Ts>(xs)...);
+      send_at(self, receiver, *t, message, std::forward<Ts>(xs)...);
       return;
     }
     const auto fate = setup->faults->of(carried++);
     if (fate.lost)
       return;
-    send_at(self, receiver, *t + fate.extra_delay, xs...);
+    send_at(self, receiver, *t + fate.extra_delay, message, xs...);
     if (fate.copy_after)
-      send_at(self, receiver, *t + *fate.copy_after, xs...);
+      send_at(self, receiver, *t + *fate.copy_after, message, xs...);
   }
 
   void meet(const requester_actor& requester) {
@@ -115,9 +145,10 @@ link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
     self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);
   });
   return {
-      [self](const cam& c, const requester_actor& requester) {
+      [self](const its_pdu& message, const requester_actor& requester) {
         self->state.meet(requester);
-        self->state.up(self->state.far, c, requester_actor{link_actor{self}});
+        self->state.up(self->state.far, message,
+                       requester_actor{link_actor{self}});
       },
       [self](const service_request& request, const requester_actor& requester) {
         self->state.meet(requester);

@@ -20,6 +20,7 @@ recorder(recorder_actor::pointer, const std::shared_ptr<record_sink>& sink) {
       [sink](const collision_record& r) { sink->take(r); },
       [sink](const drive_record& r) { sink->take(r); },
       [sink](const plan_switch_record& r) { sink->take(r); },
+      [sink](const air_record& r) { sink->take(r); },
   };
 }
 

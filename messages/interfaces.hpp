@@ -1,6 +1,7 @@
 // Every actor's interface, a sentence per message: the page to read first.
 #pragma once
 
+#include "messages/its_pdu.hpp"
 #include "messages/lifecycle.hpp"
 #include "messages/motion.hpp"
 #include "messages/qos.hpp"
@@ -76,7 +77,7 @@ using requester_actor = result_actor::extend<
 
 /// SR, as the other actors of its vehicle see it.
 using onboard_requester_actor = requester_actor::extend<
-    // The own motion, at every CAM.
+    // The own motion, every protocol::ego_period.
     takes<ego_state>,
     // The first result of a running service is in use.
     takes<running_service>,
@@ -85,8 +86,9 @@ using onboard_requester_actor = requester_actor::extend<
 
 /// SP, the edge server's side of offloading, as requesters see it.
 using provider_actor = caf::typed_actor<
-    // A station moves; its requester can be reached here.
-    takes<cam, requester_actor>,
+    // What a station tells everybody: a CAM, a CPM. Its requester can be reached
+    // here.
+    takes<its_pdu, requester_actor>,
     // A station asks for offered services.
     takes<service_request, requester_actor>,
     // The requester has ended a running service.
@@ -102,7 +104,8 @@ using roadside_provider_actor = provider_actor::extend<
 /// requester, to the requester like all of these.
 using link_actor = requester_actor::extend<
     // As provider_actor and provider_manager_actor take them.
-    takes<cam, requester_actor>, takes<service_request, requester_actor>,
+    takes<its_pdu, requester_actor>,
+    takes<service_request, requester_actor>,
     takes<service_input>>;
 
 /// A car: moves, sends CAMs, follows the trajectories it is given.
@@ -136,6 +139,8 @@ using recorder_actor = caf::typed_actor<
     // How smoothly a vehicle drove.
     takes<drive_record>,
     // The plans that a vehicle follows come from another source.
-    takes<plan_switch_record>>;
+    takes<plan_switch_record>,
+    // An ITS message was sent.
+    takes<air_record>>;
 
 } // namespace sofof

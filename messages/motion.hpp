@@ -17,7 +17,7 @@ struct motion_report {
   vehicle_state state;
 };
 
-/// What a vehicle tells its own requester at every CAM.
+/// What a vehicle tells its own requester all the time.
 struct ego_state {
   cam own;
   double s_m = 0; ///< Rear axle on its route, laps included.

@@ -1,6 +1,7 @@
 // What happened, for the results folder.
 #pragma once
 
+#include "messages/its_pdu.hpp"
 #include "messages/motion.hpp"
 #include "messages/service.hpp"
 #include "world/comfort.hpp"
@@ -84,6 +85,17 @@ struct plan_switch_record {
   running_service running; ///< Its remote side, the new or the former one.
   bool remote = false;     ///< Where the new plan comes from.
   plan_jump jump;
+};
+
+/// An ITS message was sent, whoever may have got it.
+struct air_record {
+  time_point at;
+  station_id station = 0; ///< Who sent it, ...
+  bool roadside = false;  ///< a provider or a vehicle, ...
+  point position;         ///< where, m, east-north, ...
+  double heading_rad = 0; ///< and how it moved.
+  double speed_mps = 0;
+  its_pdu message;
 };
 
 /// Two bodies have touched.
@@ -191,6 +203,15 @@ bool inspect(Inspector& f, collision_record& x) {
                             f.field("second", x.second));
 }
 
+template <class Inspector>
+bool inspect(Inspector& f, air_record& x) {
+  return f.object(x).fields(
+      f.field("at", x.at), f.field("station", x.station),
+      f.field("roadside", x.roadside), f.field("position", x.position),
+      f.field("heading_rad", x.heading_rad), f.field("speed_mps", x.speed_mps),
+      f.field("message", x.message));
+}
+
 /// Takes the records of a run; implemented by whoever keeps them.
 class record_sink {
 public:
@@ -204,6 +225,7 @@ public:
   virtual void take(const collision_record&) = 0;
   virtual void take(const drive_record&) = 0;
   virtual void take(const plan_switch_record&) = 0;
+  virtual void take(const air_record&) = 0;
 };
 
 } // namespace sofof

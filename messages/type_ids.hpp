@@ -53,5 +53,7 @@ CAF_ADD_ATOM(sofof, sofof, tick_atom)
 CAF_ADD_TYPE_ID(sofof, (sofof::drive_record))
 CAF_ADD_TYPE_ID(sofof, (sofof::plan_switch_record))
 CAF_ADD_TYPE_ID(sofof, (sofof::site_view))
+CAF_ADD_TYPE_ID(sofof, (sofof::its_pdu))
+CAF_ADD_TYPE_ID(sofof, (sofof::air_record))
 
 CAF_END_TYPE_ID_BLOCK(sofof)

@@ -29,6 +29,7 @@ public:
   void take(const collision_record& x) override { keep(x); }
   void take(const drive_record& x) override { keep(x); }
   void take(const plan_switch_record& x) override { keep(x); }
+  void take(const air_record& x) override { keep(x); }
 
   /// Calls `use(results&)` while nobody else does.
   /// @throws what went wrong in a `take` before.

@@ -62,8 +62,13 @@ duration channel::burst_delay(way direction, std::uint64_t stall) const {
   return network_draw(*profile_, of(direction).bursts, stall);
 }
 
-duration channel::airtime(const message_id& m) const {
-  return from_seconds(profile_->airtime.draw_s(of(m), m.number, airtime_lane));
+duration channel::airtime(const message_id& m, std::size_t octets) const {
+  const auto& p = *profile_;
+  const auto size = static_cast<double>(octets);
+  const auto usual = p.airtime.draw_s(of(m), m.number, airtime_lane);
+  const auto share = size / static_cast<double>(usual_octets);
+  const auto bits = p.cell_mbps > 0 ? size * 8 / (p.cell_mbps * 1e6) : 0;
+  return from_seconds(usual * share + bits);
 }
 
 bool channel::lost(const message_id& m, bool fading) const {

@@ -9,6 +9,7 @@
 #include "world/random.hpp"
 #include "world/time.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -57,7 +58,8 @@ public:
   duration burst_delay(way direction, std::uint64_t stall) const;
 
   /// Time that a message occupies the radio cell.
-  duration airtime(const message_id& m) const;
+  /// @param octets  Of the message on the air.
+  duration airtime(const message_id& m, std::size_t octets) const;
 
   /// @param fading  Whether the connection is in its bad state.
   bool lost(const message_id& m, bool fading) const;

@@ -108,6 +108,7 @@ void burst_loss_options::fields(settings& s) {
 void channel_profile::fields(settings& s) {
   s.field("workers", workers, {1, 1024});
   s.field("loss", loss, probability);
+  s.field("cell_mbps", cell_mbps, {0, 1e6});
   s.field("scatters_trace", scatters_trace);
   s.table("stalls", [this](settings& t) { stalls.fields(t); });
   s.table("burst_loss", [this](settings& t) { burst_loss.fields(t); });

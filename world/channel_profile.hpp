@@ -14,6 +14,10 @@
 
 namespace sofof {
 
+/// Of a trajectory on the air, about: the message that airtimes were fitted
+/// to.
+inline constexpr std::int64_t usual_octets = 500;
+
 /// Outages of one vehicle's connection: what is sent during one is held back
 /// and released together at its end (head-of-line blocking).
 struct stall_options {
@@ -44,7 +48,11 @@ struct channel_profile {
   std::int64_t workers = 1; ///< Of one provider, >= 1.
   delay_law service;        ///< Computing time of a result of unit demand.
   delay_law network;        ///< Delay of any message, one way.
-  delay_law airtime;        ///< Time in the radio cell that all share.
+  delay_law airtime;        ///< Time that a message of `usual_octets` takes in
+                            ///< the radio cell that all share; others take
+                            ///< it in proportion to their size.
+  double cell_mbps = 0;     ///< What the cell carries, Mbit/s, which takes time
+                            ///< besides; 0: as much as there is.
 
   /// One draw X a message, on top of the above: `joint_service_share` · X is
   /// computing time, the rest network delay.

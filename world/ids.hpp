@@ -19,6 +19,11 @@ constexpr bool is_obstacle(station_id x, std::uint32_t count) {
   return x > obstacle_id(count);
 }
 
+/// @returns the station id of the k-th provider, counting from 0.
+constexpr station_id provider_station(std::uint32_t k) {
+  return 900'000'001 + k;
+}
+
 /// A provider process since its start; a restarted one has a new id.
 using boot_id = std::uint64_t;
 

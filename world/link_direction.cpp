@@ -13,9 +13,10 @@ link_direction::link_direction(channel draws, way direction,
 
 std::optional<time_point> link_direction::arrival(time_point sent,
                                                   message_class kind,
-                                                  std::uint64_t number) {
+                                                  std::uint64_t number,
+                                                  std::size_t octets) {
   const message_id m{direction_, kind, number};
-  const auto airtime = draws_.airtime(m);
+  const auto airtime = draws_.airtime(m, octets);
   const auto queues = cell_ && airtime > duration{};
   const auto on_air = queues ? cell_->finish(sent, airtime) : sent + airtime;
   const auto stall = stalls_.at(sent);

@@ -26,10 +26,12 @@ public:
   ///                of links that share a cell are in the order of `sent`.
   /// @param number  Number of the draw: the cycle of a result, a running
   ///                number for everything else (streams of their own).
+  /// @param octets  What the message takes on the air.
   /// @returns when it arrives, never before an earlier message; nullopt when
   /// it is lost.
   std::optional<time_point> arrival(time_point sent, message_class kind,
-                                    std::uint64_t number);
+                                    std::uint64_t number,
+                                    std::size_t octets = usual_octets);
 
 private:
   channel draws_;

@@ -18,8 +18,9 @@ inline constexpr duration cool_down = 1s;
 /// A station whose latest CAM is older has gone.
 /// Source: Dehler & Buchholz 2025, CAM check.
 inline constexpr duration cam_timeout = 2s;
-/// Between two CAMs.
-inline constexpr duration cam_period = 100ms;
+/// Between two looks of a vehicle at whether a CAM or a CPM is due
+/// (T_CheckCamGen), and between two words to its own requester.
+inline constexpr duration ego_period = 100ms;
 /// Between two answers to results of unknown running services.
 inline constexpr duration unknown_result_period = 200ms;
 
