@@ -148,12 +148,13 @@ struct path_point {
       visit("deltaAltitude", x.altitude);
     }
   };
-  path_point::position position;
-  std::optional<extensible_integer<1, 65535>> age; ///< 10 ms
+  path_point::position position; ///< From the newer point, or the sender.
+  /// Since then until the newer point, 10 ms.
+  std::optional<extensible_integer<1, 65535>> before;
 
   static void fields(auto& x, auto&& visit) {
     visit("pathPosition", x.position);
-    visit("pathDeltaTime", x.age);
+    visit("pathDeltaTime", x.before);
   }
 };
 

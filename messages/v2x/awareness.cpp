@@ -3,6 +3,7 @@
 
 #include "messages/etsi/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sofof {
@@ -20,6 +21,10 @@ Number wire(const auto& quantity, double si) {
 
 } // namespace
 
+point front_of(const cam& own, const vehicle_params& car) {
+  return own.position + ahead(own.heading_rad, car.front_m);
+}
+
 etsi::cam make_cam(const cam& own, const vehicle_params& car,
                    const datum& where) {
   etsi::cam message;
@@ -29,7 +34,7 @@ etsi::cam make_cam(const cam& own, const vehicle_params& car,
   auto& basic = message.body.parameters.basic;
   basic.station_type = etsi::passenger_car;
   basic.position = to_reference(where.frame.to_wgs84(
-      own.position + ahead(own.heading_rad, car.front_m)));
+      front_of(own, car)));
   auto& motion = std::get<etsi::vehicle_high_frequency>(
       message.body.parameters.high_frequency.value);
   motion.heading.value = static_cast<std::uint16_t>(
@@ -49,6 +54,27 @@ etsi::cam make_cam(const cam& own, const vehicle_params& car,
   motion.yaw_rate.value = wire<std::int16_t>(
       etsi::yaw_rate_radps, own.curvature_1pm * own.speed_mps);
   return message;
+}
+
+void add_path(etsi::cam& message, const cam& own, const path_history& been,
+              const datum& where) {
+  auto& low = std::get<0>(
+      message.body.parameters.low_frequency.emplace().value);
+  auto newer = message.body.parameters.basic.position;
+  auto newer_at = own.at;
+  for (std::size_t i = 0; i < been.size(); ++i) {
+    const auto [at, when] = been[i];
+    const auto place = where.frame.to_wgs84(at);
+    etsi::path_point told;
+    told.position.latitude = place.latitude - newer.latitude;
+    told.position.longitude = place.longitude - newer.longitude;
+    const auto before = (newer_at - when) / std::chrono::milliseconds{10};
+    told.before.emplace(
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(before, 1, 65535)));
+    low.path_history.push_back(told);
+    newer = to_reference(place);
+    newer_at = when;
+  }
 }
 
 std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,

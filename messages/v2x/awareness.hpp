@@ -4,17 +4,27 @@
 #include "messages/etsi/cam.hpp"
 #include "messages/service.hpp"
 #include "messages/v2x/datum.hpp"
+#include "messages/v2x/path_history.hpp"
 #include "world/vehicle.hpp"
 
 #include <optional>
 
 namespace sofof {
 
+/// @returns the middle of the front: a vehicle's reference position in ETSI's
+/// messages. Source: EN 302 637-2 v1.4.1, annex B.
+point front_of(const cam& own, const vehicle_params& car);
+
 /// @param own  The rear axle's motion. The message tells the middle of the
 ///             front, and all quantities in ETSI's units.
 /// @returns the CAM without its low-frequency container.
 etsi::cam make_cam(const cam& own, const vehicle_params& car,
                    const datum& where);
+
+/// Adds the low-frequency container: where the vehicle has been.
+/// @param been  Of the middle of its front.
+void add_path(etsi::cam& message, const cam& own, const path_history& been,
+              const datum& where);
 
 /// @param now  The message tells its time modulo 65.536 s: the nearest to now
 ///             is meant.

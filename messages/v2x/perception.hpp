@@ -1,0 +1,51 @@
+// What a CPM says of the bodies that a vehicle perceives.
+#pragma once
+
+#include "messages/etsi/cpm_tr103562.hpp"
+#include "messages/service.hpp"
+#include "messages/v2x/cpm_rules.hpp"
+#include "messages/v2x/datum.hpp"
+#include "world/perception.hpp"
+#include "world/sensors.hpp"
+#include "world/vehicle.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// What a vehicle has to tell.
+struct perceived_scene {
+  cam own;         ///< Its own motion, when it tells.
+  time_point seen; ///< When it saw the objects.
+  std::span<const known_object> objects;
+  std::size_t perceived = 0; ///< All objects, those that it does not tell too.
+  /// Its sensor, in the middle of its body, if it is to be told of.
+  const sensor_params* sensor = nullptr;
+};
+
+/// What a station tells of bodies that it sees.
+struct sighting {
+  station_id from = 0;
+  time_point at;
+  std::vector<perceived_object> objects;
+};
+
+/// In the sender's frame: from the middle of its front, x where it is heading,
+/// y to its left; both as the message gives them, so that rounding them moves
+/// no object. Speeds and accelerations are over ground, along these axes.
+/// Objects are where they were when they were seen.
+etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
+                                      const vehicle_params& car,
+                                      const datum& where);
+
+/// @param now  The message tells its time modulo 65.536 s: the nearest to now
+///             is meant.
+/// @returns all objects of known size, moved on at constant speed to the time
+/// at which the last of them was seen; nullopt if the sender does not say where it is or
+/// which way it is heading.
+std::optional<sighting> read_cpm(const etsi::tr103562::cpm& message,
+                                 const datum& where, time_point now);
+
+} // namespace sofof
