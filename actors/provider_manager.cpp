@@ -1,5 +1,6 @@
 // Service management at the provider: one accepted service, from data in to
 // results out.
+#include "actors/on_air.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
 #include "world/protocol.hpp"
@@ -21,6 +22,7 @@ struct manager_state {
   caf::actor_addr provider;
   instance_actor instance;
   requester_actor requester;
+  recorder_actor recorder;
   bool fed = false;
 
   // A provider lives long, and does not forget by itself who watched it.
@@ -50,22 +52,23 @@ struct manager_state {
 
 manager_impl::behavior_type
 manager(manager_impl::stateful_pointer<manager_state> self,
-        instance_setup setup, requester_actor requester,
-        const provider_actor& provider) {
+        provider_manager_setup setup) {
   auto& state = self->state;
   state.self = self;
-  state.provider = provider.address();
-  setup.results = self;
-  state.requester = std::move(requester);
-  state.instance = spawn_instance(self->system(), std::move(setup));
+  state.provider = setup.provider.address();
+  state.requester = std::move(setup.requester);
+  state.recorder = std::move(setup.recorder);
+  setup.instance.results = self;
+  state.instance = spawn_instance(self->system(), std::move(setup.instance));
   self->link_to(state.instance);
-  self->monitor(provider);
+  self->monitor(setup.provider);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   self->send(state.instance, lifecycle_step::configure);
   send_after(self, self, protocol::start_timeout, tick_atom_v);
   return {
       [self](service_result& result) {
+        note_on_air(self, self->state.recorder, result.what);
         self->send(self->state.requester, std::move(result));
       },
       [self](service_input& input) { self->state.feed(input); },
@@ -77,11 +80,8 @@ manager(manager_impl::stateful_pointer<manager_state> self,
 } // namespace
 
 provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
-                                              instance_setup instance,
-                                              requester_actor requester,
-                                              const provider_actor& provider) {
-  return sys.spawn(manager, std::move(instance), std::move(requester),
-                   provider);
+                                              provider_manager_setup setup) {
+  return sys.spawn(manager, std::move(setup));
 }
 
 } // namespace sofof

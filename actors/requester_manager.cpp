@@ -1,4 +1,5 @@
 // Service management in the vehicle: chooses the source of one service.
+#include "actors/on_air.hpp"
 #include "actors/qos_watchdog.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
@@ -63,9 +64,9 @@ struct manager_state {
     if (newest.what.type().empty())
       return;
     remote->last_sent = now(self);
-    auto input = service_input{remote->running, newest.at, newest.what};
-    if (!remote->in_use)
-      input.in_use = in_use;
+    auto input = setup.on_air(
+        {remote->running, newest.at, newest.what, in_use}, !remote->in_use);
+    note_on_air(self, setup.recorder, input.what);
     self->send(remote->manager, std::move(input));
   }
 

@@ -46,12 +46,13 @@ struct instance_state {
     if (newest.what.type().empty())
       return;
     auto result = setup.function->run(t, newest);
-    if (result.type().empty())
+    if (result.what.type().empty())
       return;
     const auto cycle = static_cast<std::uint64_t>(
         (t.time_since_epoch() - setup.phase + setup.period) / setup.period);
     send_at(self, setup.results, setup.finish(t, cycle),
-            service_result{setup.running, cycle, t, std::move(result)});
+            service_result{setup.running, cycle, t, std::move(result.what),
+                           std::move(result.about)});
   }
 };
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "messages/interfaces.hpp"
+#include "messages/v2x/datum.hpp"
 #include "world/random.hpp"
 #include "world/settings.hpp"
 #include "world/streets.hpp"
+#include "world/vehicle.hpp"
 
 #include <caf/actor_system.hpp>
 
@@ -31,6 +33,17 @@ struct service_options {
   void fields(settings& s);
 };
 
+/// What one cycle of a function gives.
+struct service_output {
+  payload what;    ///< The result; empty when there is none (yet).
+  payload about{}; ///< How it came about, for records.
+
+  service_output() = default;
+  // NOLINTNEXTLINE(*-explicit-*): most have nothing to add
+  service_output(payload x, payload notes = {})
+      : what{std::move(x)}, about{std::move(notes)} {}
+};
+
 /// One running function: from input to result, cycle by cycle. No actor, no
 /// clock of its own: it may ask `service_setup::clock` how long it has taken.
 /// In virtual time the same inputs give the same results.
@@ -40,8 +53,7 @@ public:
 
   /// @param now    Start of the cycle.
   /// @param input  The newest input; empty before the first one.
-  /// @returns the result; empty when there is none (yet).
-  virtual payload run(time_point now, const service_input& input) = 0;
+  virtual service_output run(time_point now, const service_input& input) = 0;
 };
 
 /// What a provider knows beyond one vehicle's input; shared by all functions
@@ -62,9 +74,17 @@ public:
                    std::span<const perceived_object> objects) = 0;
 };
 
+/// Whose functions run at a provider, as ITS messages name it.
+struct roadside_station {
+  station_id station = 0;
+  point position; ///< m, east-north.
+};
+
 /// For whom a function, a client or a site is made.
 struct service_setup {
   streets_ptr world;
+  datum_ptr where; ///< Where that is on Earth.
+  vehicle_params car;
   station_id station = 0;
   bool remote = false;
   random_stream noise{0, ""}; ///< A stream of its own.
@@ -75,6 +95,7 @@ struct service_setup {
   std::function<time_point()> clock = [] { return time_point{}; };
   /// The provider's; null in vehicles.
   std::shared_ptr<service_site> site = nullptr;
+  roadside_station provider{}; ///< Where it runs, if not in a vehicle.
 };
 
 /// A kind of service with its options.
@@ -101,6 +122,31 @@ public:
   /// that is nothing.
   virtual std::shared_ptr<service_site> make_site(const service_setup&) const {
     return nullptr;
+  }
+
+  /// What of an input crosses the air to a provider; as it is, unless a kind
+  /// says it in messages of its own. `input.in_use` is the result in use.
+  /// @param setup       The vehicle's.
+  /// @param takes_over  Whether the provider is to take over from the source
+  ///                    of the result in use.
+  virtual service_input on_air(const service_setup& setup, service_input input,
+                               bool takes_over) const {
+    static_cast<void>(setup);
+    if (!takes_over)
+      input.in_use = {};
+    return input;
+  }
+
+  /// What says in the terms of the service that it has ended; nothing, unless
+  /// a kind has such a message.
+  /// @param setup  Of the side that ends it.
+  /// @param now    When.
+  /// @param own    The vehicle's motion, on its side.
+  virtual payload farewell(const service_setup& setup, const service_end& end,
+                           time_point now, const cam* own) const {
+    static_cast<void>(setup), static_cast<void>(end);
+    static_cast<void>(now), static_cast<void>(own);
+    return {};
   }
 
   service_options common;

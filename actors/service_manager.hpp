@@ -6,6 +6,8 @@
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
+
 namespace sofof {
 
 /// Service management in the vehicle, for one kind.
@@ -13,6 +15,8 @@ struct requester_manager_setup {
   station_id station = 0;
   service_name kind;
   service_options options;
+  /// `service_kind::on_air` of this vehicle.
+  std::function<service_input(service_input, bool takes_over)> on_air;
   instance_setup local; ///< `running`, `results` are filled in.
   client_actor client;
   onboard_requester_actor requester;
@@ -27,14 +31,19 @@ struct requester_manager_setup {
 requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup);
 
-/// Service management at the provider, for one accepted service: configures
-/// the instance, activates it at the first input, and sends its results to
-/// `requester`. Finalises the instance and quits at service_end; quits
+/// Service management at the provider, for one accepted service.
+struct provider_manager_setup {
+  instance_setup instance; ///< `results` is filled in.
+  requester_actor requester;
+  provider_actor provider;
+  recorder_actor recorder;
+};
+
+/// Configures the instance, activates it at the first input, and sends its
+/// results to `requester`. Finalises the instance and quits at service_end; quits
 /// (user_shutdown) when no input has come within protocol::start_timeout.
-/// `instance.results` is filled in. Does not outlive `provider`.
+/// Does not outlive `provider`.
 provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
-                                              instance_setup instance,
-                                              requester_actor requester,
-                                              const provider_actor& provider);
+                                              provider_manager_setup setup);
 
 } // namespace sofof

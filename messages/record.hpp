@@ -90,11 +90,6 @@ struct plan_switch_record {
 /// An ITS message was sent, whoever may have got it.
 struct air_record {
   time_point at;
-  station_id station = 0; ///< Who sent it, ...
-  bool roadside = false;  ///< a provider or a vehicle, ...
-  point position;         ///< where, m, east-north, ...
-  double heading_rad = 0; ///< and how it moved.
-  double speed_mps = 0;
   its_pdu message;
 };
 
@@ -205,11 +200,8 @@ bool inspect(Inspector& f, collision_record& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, air_record& x) {
-  return f.object(x).fields(
-      f.field("at", x.at), f.field("station", x.station),
-      f.field("roadside", x.roadside), f.field("position", x.position),
-      f.field("heading_rad", x.heading_rad), f.field("speed_mps", x.speed_mps),
-      f.field("message", x.message));
+  return f.object(x).fields(f.field("at", x.at),
+                            f.field("message", x.message));
 }
 
 /// Takes the records of a run; implemented by whoever keeps them.

@@ -75,8 +75,6 @@ struct service_input {
   /// The result in use, for a source that takes over from another one, which
   /// shall go on from there; else empty.
   payload in_use{};
-  /// Cycle of the newest remote result that is in use; 0: none.
-  std::uint64_t followed = 0;
 };
 
 /// What one cycle of a running service gave.
@@ -166,8 +164,7 @@ template <class Inspector>
 bool inspect(Inspector& f, service_input& x) {
   return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
                             f.field("what", x.what),
-                            f.field("in_use", x.in_use),
-                            f.field("followed", x.followed));
+                            f.field("in_use", x.in_use));
 }
 
 template <class Inspector>

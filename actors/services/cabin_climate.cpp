@@ -63,7 +63,7 @@ public:
   explicit climate_function(const climate_options& options)
       : options_{options} {}
 
-  payload run(time_point, const service_input& input) override {
+  service_output run(time_point, const service_input& input) override {
     const auto ask = input.what.as<climate_request>();
     if (!ask)
       return {};

@@ -42,7 +42,7 @@ public:
   std::shared_ptr<service_function>
   make_function(const service_setup&) const override {
     struct function final : service_function {
-      payload run(time_point, const service_input& input) override {
+      service_output run(time_point, const service_input& input) override {
         return input.what;
       }
     };

@@ -1,0 +1,73 @@
+// Planning in the vehicle: from what it sees itself.
+#include "actors/planning/onboard_planning.hpp"
+
+#include "actors/planning/plan_cycle.hpp"
+#include "actors/planning/plan_in_use.hpp"
+#include "actors/planning/plan_request.hpp"
+#include "planners/environment_model.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+class onboard_planning final : public service_function {
+public:
+  onboard_planning(service_setup setup, planner_options options,
+                   std::shared_ptr<const lane_network> lanes)
+      : setup_{std::move(setup)}, options_{std::move(options)},
+        lanes_{std::move(lanes)} {}
+
+  service_output run(time_point now, const service_input& input) override {
+    const auto request = input.what.as<plan_request>();
+    if (!request || !prepare(request->way))
+      return {};
+    auto from = made_possible(request->from);
+    if (const auto plan = plan_in_use(input.in_use, *cycle_->way(), from.s_m,
+                                      *setup_.where, now))
+      cycle_->take_over(*plan);
+    take_in(now, request->seen);
+    from.others.stop_at_m = request->seen.stop_at_m;
+    const auto report = cycle_->run(now, std::move(from), model_.tracks());
+    return {payload::of(cycle_->plan()), payload::of(report)};
+  }
+
+private:
+  bool prepare(const std::string& name) {
+    if (cycle_ && cycle_->way()->name() == name)
+      return true;
+    const auto way = setup_.world->find(name);
+    if (way)
+      cycle_.emplace(setup_, options_, lanes_, way);
+    return way != nullptr;
+  }
+
+  // Every sight counts once.
+  void take_in(time_point now, const perception& seen) {
+    if (seen.at == taken_in_ || is_of_future(seen.at, now))
+      return;
+    taken_in_ = seen.at;
+    model_.update(seen.at, seen.objects);
+  }
+
+  service_setup setup_;
+  planner_options options_;
+  std::shared_ptr<const lane_network> lanes_;
+  environment_model model_;
+  std::optional<time_point> taken_in_;
+  std::optional<plan_cycle> cycle_;
+};
+
+} // namespace
+
+std::shared_ptr<service_function>
+make_onboard_planning(service_setup setup, planner_options options,
+                      std::shared_ptr<const lane_network> lanes) {
+  return std::make_shared<onboard_planning>(std::move(setup),
+                                            std::move(options),
+                                            std::move(lanes));
+}
+
+} // namespace sofof

@@ -1,0 +1,44 @@
+// One planner at work, cycle by cycle, along one route.
+#pragma once
+
+#include "actors/planning/planner_options.hpp"
+#include "actors/service_kind.hpp"
+#include "planners/lane_network.hpp"
+#include "planners/outlook.hpp"
+#include "planners/track.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace sofof {
+
+/// What planning in vehicles and at providers has in common: the planner, its
+/// last plan, and what it makes of the others.
+class plan_cycle {
+public:
+  plan_cycle(const service_setup& setup, const planner_options& options,
+             std::shared_ptr<const lane_network> lanes, route_ptr way);
+
+  const route_ptr& way() const { return way_; }
+
+  /// @returns the last plan; empty before the first.
+  const trajectory& plan() const { return plan_; }
+
+  /// Another source has planned in the meantime, and its plan is in use.
+  void take_over(const trajectory& other);
+
+  /// Plans from here, given what is known of the others. `from.others` is
+  /// filled in, but for what it says of stopping.
+  plan_report run(time_point now, planning_input from,
+                  std::span<const track> others);
+
+private:
+  const service_setup& setup_;
+  route_ptr way_;
+  std::unique_ptr<trajectory_planner> planner_;
+  outlook outlook_;
+  trajectory plan_, next_;
+};
+
+} // namespace sofof

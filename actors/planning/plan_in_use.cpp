@@ -1,0 +1,28 @@
+// The plan that a vehicle follows, whoever made it.
+#include "actors/planning/plan_in_use.hpp"
+
+#include "actors/planning/plan_request.hpp"
+#include "messages/etsi/uper.hpp"
+#include "messages/its_pdu.hpp"
+#include "messages/v2x/coordination.hpp"
+
+namespace sofof {
+
+std::shared_ptr<const trajectory> plan_in_use(const payload& result,
+                                              const route& way,
+                                              double s_guess_m,
+                                              const datum& where,
+                                              time_point now) {
+  if (auto own = result.as<trajectory>())
+    return own->is_sound() ? own : nullptr;
+  const auto message = result.as<its_pdu>();
+  etsi::mcm suggestion;
+  if (!message || !etsi::decode(message->view(), suggestion))
+    return nullptr;
+  auto plan = std::make_shared<trajectory>();
+  const auto fault =
+      read_suggestion(suggestion, way, s_guess_m, where, now, *plan);
+  return fault == maneuver_fault::none ? plan : nullptr;
+}
+
+} // namespace sofof

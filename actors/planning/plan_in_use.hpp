@@ -1,0 +1,33 @@
+// The plan that a vehicle follows, whoever made it.
+#pragma once
+
+#include "messages/payload.hpp"
+#include "messages/v2x/datum.hpp"
+#include "world/route.hpp"
+#include "world/time.hpp"
+#include "world/trajectory.hpp"
+
+#include <memory>
+
+namespace sofof {
+
+/// @param result     Of trajectory planning: a trajectory from the vehicle's
+///                   own planner, an MCM from a provider's; or nothing.
+/// @param s_guess_m  About where the plan begins on the route, within 20 m.
+/// @returns the plan, sound; null for what is none.
+std::shared_ptr<const trajectory> plan_in_use(const payload& result,
+                                              const route& way,
+                                              double s_guess_m,
+                                              const datum& where,
+                                              time_point now);
+
+/// Clocks of vehicles, sensors and providers agree within this.
+inline constexpr duration clock_tolerance = std::chrono::milliseconds{200};
+
+/// @returns whether something cannot have been seen yet. One such sighting
+/// would make all true ones too old for an environment model.
+constexpr bool is_of_future(time_point at, time_point now) {
+  return at > now + clock_tolerance;
+}
+
+} // namespace sofof
