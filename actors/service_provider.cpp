@@ -1,8 +1,10 @@
 // SP: the edge server's side of offloading.
 #include "actors/service_provider.hpp"
 
+#include "actors/on_air.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
+#include "messages/v2x/reception.hpp"
 #include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -54,10 +56,22 @@ struct provider_state {
   void make_sites() {
     for (const auto& kind : setup.kinds)
       sites.push_back(
-          kind->make_site({.world = setup.world,
-                           .remote = true,
-                           .noise = setup.seed.part(kind->name()).part("site"),
-                           .clock = clock_of(self)}));
+          kind->make_site(setup_of(*kind, 0, setup.seed.part(kind->name())
+                                                 .part("site"))));
+  }
+
+  service_setup setup_of(const service_kind& kind, station_id station,
+                         random_stream noise) const {
+    const auto number = find_kind(kind.name());
+    return {.world = setup.world,
+            .where = setup.where,
+            .station = station,
+            .remote = true,
+            .noise = noise,
+            .crossings_granted = setup.crossings_granted,
+            .clock = clock_of(self),
+            .site = number && *number < sites.size() ? sites[*number] : nullptr,
+            .provider = {provider_station(setup.number), setup.position}};
   }
 
   template <class Function>
@@ -67,7 +81,22 @@ struct provider_state {
         tell(*site);
   }
 
-  // -- CAM, offer, CAM check ----------------------------------------------
+  // -- CAM, CPM, offer, CAM check -----------------------------------------
+
+  void take(const its_pdu& message, const requester_actor& requester) {
+    const auto heard = understand(message, *setup.where, now(self));
+    if (const auto* c = std::get_if<cam>(&heard))
+      take(*c, requester);
+    else if (const auto* seen = std::get_if<sighting>(&heard))
+      take(*seen);
+  }
+
+  void take(const sighting& seen) {
+    tell_sites(
+        [&](service_site& site) { site.see(seen.at, seen.objects); });
+    if (const auto known = stations.find(seen.from); known != stations.end())
+      known->second.heard = now(self); // it lives
+  }
 
   void take(const cam& c, const requester_actor& requester) {
     tell_sites([&](service_site& site) { site.hear(c); });
@@ -217,16 +246,16 @@ struct provider_state {
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
-    remote.function = kind.make_function({setup.world, running.station, true,
-                                          noise, setup.crossings_granted,
-                                          clock_of(self), sites[number]});
+    remote.function =
+        kind.make_function(setup_of(kind, running.station, noise));
     remote.period = kind.common.period;
     remote.phase = duration{static_cast<duration::rep>(
         noise.part("remote phase").uniform(0)
         * static_cast<double>(remote.period.count()))};
     remote.finish = computing_time(kind, running.station);
-    auto manager = spawn_provider_manager(self->system(), std::move(remote),
-                                          requester, provider_actor{self});
+    auto manager =
+        spawn_provider_manager(self->system(), {std::move(remote), requester,
+                                                self, setup.recorder});
     self->monitor(manager);
     station.sessions.push_back({running, manager, now(self)});
     return manager;
@@ -295,11 +324,17 @@ struct provider_state {
     auto i = std::ranges::find(station.sessions, running, &session::running);
     if (i == station.sessions.end())
       return;
-    const service_end e{running, reason, side::provider};
+    service_end e{running, reason, side::provider};
     self->demonitor(i->manager);
     self->send(i->manager, e);
-    if (tell)
+    if (tell) {
+      if (const auto kind = find_kind(running.kind.view()))
+        e.what = setup.kinds[*kind]->farewell(
+            setup_of(*setup.kinds[*kind], running.station, setup.seed), e,
+            now(self), nullptr);
+      note_on_air(self, setup.recorder, e.what);
       self->send(station.requester, e);
+    }
     self->send(setup.recorder,
                episode_record{running, side::provider, i->since, i->since, true,
                               now(self), reason, false});
@@ -331,8 +366,8 @@ provider(provider_impl::stateful_pointer<provider_state> self,
     self->quit(exit.reason);
   });
   return {
-      [self](const cam& c, const requester_actor& requester) {
-        self->state.take(c, requester);
+      [self](const its_pdu& message, const requester_actor& requester) {
+        self->state.take(message, requester);
       },
       [self](const service_request& request, const requester_actor& requester) {
         self->state.take(request, requester);

@@ -20,6 +20,7 @@ struct provider_setup {
   point position; ///< m, east-north.
   polygon area;
   streets_ptr world;
+  datum_ptr where; ///< Where that is on Earth.
   std::vector<service_kind_ptr> kinds; ///< Offered.
   std::unique_ptr<central_policy> codm;
   recorder_actor recorder;
@@ -30,7 +31,8 @@ struct provider_setup {
   bool crossings_granted = true; ///< As functions are told.
 };
 
-/// Tells the site of each kind of all CAMs and of all that its sensors see.
+/// Tells the site of each kind of all CAMs and CPMs and of all that its sensors
+/// see. ITS messages that cannot be read are as if they had not come.
 /// Offers its services to stations in its area, asks the CODM about requests,
 /// runs each accepted service under a manager of its own, and ends it when
 /// the station has left, has fallen silent, or says so. One state machine per

@@ -1,6 +1,7 @@
 // SR: the vehicle's side of offloading.
 #include "actors/service_requester.hpp"
 
+#include "actors/on_air.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
 #include "world/protocol.hpp"
@@ -62,26 +63,33 @@ struct requester_state {
   void start() {
     self->monitor(setup.vehicle);
     for (const auto& kind : setup.kinds)
-      slots.push_back({kind, spawn_manager(*kind), {}, {}, {}, {}, {}, {}});
+      slots.push_back({kind, spawn_manager(kind), {}, {}, {}, {}, {}, {}});
   }
 
   // -- services of this vehicle -------------------------------------------
 
-  requester_manager_actor spawn_manager(const service_kind& kind) {
-    const service_setup here{setup.world,
-                             setup.station,
-                             false,
-                             setup.noise.part(kind.name()),
-                             setup.crossings_granted,
-                             clock_of(self),
-                             nullptr};
+  service_setup setup_of(const service_kind& kind) const {
+    return {.world = setup.world,
+            .where = setup.where,
+            .station = setup.station,
+            .noise = setup.noise.part(kind.name()),
+            .crossings_granted = setup.crossings_granted,
+            .clock = clock_of(self)};
+  }
+
+  requester_manager_actor spawn_manager(const service_kind_ptr& shared) {
+    const auto& kind = *shared;
+    const auto here = setup_of(kind);
     auto client = kind.spawn_client(self->system(), here, setup.vehicle);
     if (client != setup.vehicle)
       self->link_to(client);
     auto manager = spawn_requester_manager(
         self->system(),
-        {setup.station, kind.name(), kind.common, local_instance(kind, here),
-         client, self, setup.recorder});
+        {setup.station, kind.name(), kind.common,
+         [shared, here](service_input input, bool takes_over) {
+           return shared->on_air(here, std::move(input), takes_over);
+         },
+         local_instance(kind, here), client, self, setup.recorder});
     self->link_to(manager);
     return manager;
   }
@@ -345,11 +353,15 @@ struct requester_state {
   // Closes the slot's running service, once. The manager activates the local
   // service in the turn after this one, at the same time.
   void end(service_slot& slot, end_reason reason, bool tell) {
-    const service_end e{slot.running, reason, side::requester};
+    service_end e{slot.running, reason, side::requester};
     self->send(slot.manager, e);
-    if (tell)
-      tell_provider(e);
     const auto t = now(self);
+    if (tell) {
+      e.what =
+          slot.kind->farewell(setup_of(*slot.kind), e, t, &ego.own);
+      note_on_air(self, setup.recorder, e.what);
+      tell_provider(e);
+    }
     const auto was_remote = slot.at == phase::remote;
     const auto fallback = was_remote && is_fallback(reason);
     self->send(setup.recorder,

@@ -17,6 +17,7 @@ struct requester_setup {
   station_id station = 0;
   route_ptr way; ///< The planned route.
   streets_ptr world;
+  datum_ptr where; ///< Where that is on Earth.
   std::vector<service_kind_ptr> kinds;
   std::unique_ptr<local_policy> lodm;
   vehicle_actor vehicle;

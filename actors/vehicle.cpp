@@ -2,8 +2,11 @@
 #include "actors/vehicle.hpp"
 
 #include "actors/drive_figures.hpp"
-#include "actors/services/trajectory_planning.hpp"
+#include "actors/on_air.hpp"
+#include "actors/planning/plan_in_use.hpp"
+#include "actors/planning/plan_request.hpp"
 #include "actors/time.hpp"
+#include "actors/v2x_broadcast.hpp"
 #include "planners/keep_speed.hpp"
 #include "planners/lane_motion.hpp"
 #include "planners/safe_stop.hpp"
@@ -55,6 +58,8 @@ struct vehicle_actor_state {
   std::uint64_t steps = 0;
   safety_record safety;
   std::optional<drive_figures> figures; // from the start on
+  std::optional<v2x_broadcast> broadcast;
+  perception newest; // of what it perceives
 
   void start() {
     const auto p = setup.way->path().at(setup.start_s_m);
@@ -68,6 +73,8 @@ struct vehicle_actor_state {
         keep_speed(*setup.way, due, s_m, car.speed_mps));
     plan_created = due;
     safety.station = setup.station;
+    if (setup.v2x)
+      broadcast.emplace(*setup.v2x, setup.car, setup.sensor, setup.where);
     requester = setup.spawn_requester(vehicle_actor{self});
     self->monitor(requester); // the car outlives it, and stops safely
     report();
@@ -140,8 +147,8 @@ struct vehicle_actor_state {
     figures->take(car);
     if (every(protocol::sensor_period))
       sense(place.d_m);
-    if (every(protocol::cam_period))
-      send_cam();
+    if (every(protocol::ego_period))
+      tell();
     if (setup.track_period > 0ms && every(setup.track_period))
       self->send(setup.recorder, track_record{due, ego(), place.d_m,
                                               due - plan_created, remote});
@@ -184,16 +191,14 @@ struct vehicle_actor_state {
       safety.off_road += protocol::sensor_period;
   }
 
-  void take(const perception& others) {
+  void take(perception& others) {
+    newest = std::move(others);
     if (!planning || has_arrived)
       return;
-    auto from = anchor();
-    const auto at = from.at;
+    plan_request request{setup.way->name(), anchor(), newest, ego().own};
+    const auto at = request.from.at;
     self->send(planning,
-               service_input{{},
-                             at,
-                             payload::of(plan_request{
-                                 setup.way->name(), std::move(from), others})});
+               service_input{{}, at, payload::of(std::move(request))});
   }
 
   // Where to plan from: the point of the plan in use if the car is there,
@@ -225,15 +230,19 @@ struct vehicle_actor_state {
   // -- plans --------------------------------------------------------------
 
   void take(const service_result& result) {
-    const auto given = result.what.as<drive_plan>();
-    if (!given || !given->plan.is_sound() || result.created < plan_created)
+    if (result.created < plan_created)
       return;
-    const std::shared_ptr<const trajectory> next{given, &given->plan};
     const auto t = now(self);
+    const auto next =
+        plan_in_use(result.what, *setup.way, s_m, *setup.where, t);
+    if (!next)
+      return;
+    const auto about = result.about.as<plan_report>();
     if (result.created > t || next->start > t || next->end() < t)
       return; // of another time
     if (const auto other =
-            figures->take(*plan, *next, given->report, result.running, t))
+            figures->take(*plan, *next, about ? *about : plan_report{},
+                          result.running, t))
       self->send(setup.recorder, *other);
     plan = next;
     plan_created = result.created;
@@ -243,18 +252,30 @@ struct vehicle_actor_state {
 
   ego_state ego() const {
     return {{setup.station, due, car.at, car.heading_rad, car.speed_mps,
-             car.accel_mps2},
+             car.accel_mps2,
+             std::tan(car.steer_rad) / setup.car.wheelbase_m},
             s_m};
   }
 
-  void send_cam() {
+  void tell() {
     if (!requester)
       return;
     const auto own = ego();
     self->send(requester, own);
+    if (!broadcast)
+      return;
+    send(broadcast->awareness(own.own));
+    send(broadcast->perceived(own.own, newest));
+  }
+
+  // To everybody who is near enough.
+  void send(const std::optional<its_pdu>& message) {
+    if (!message)
+      return;
+    note_on_air(self, setup.recorder, *message);
     for (const auto& a : setup.antennas)
       if (distance_m(car.at, a.position) <= a.range_m)
-        self->send(a.link, own.own, requester_actor{requester});
+        self->send(a.link, *message, requester_actor{requester});
   }
 
   void keep_safety() {
@@ -291,7 +312,7 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const requester_manager_actor& manager) {
         self->state.planning = manager;
       },
-      [self](const perception& others) { self->state.take(others); },
+      [self](perception& others) { self->state.take(others); },
       [self](tick_atom) { self->state.tick(); },
   };
 }

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "messages/type_ids.hpp"
+#include "messages/v2x/datum.hpp"
+#include "messages/v2x/v2x_options.hpp"
 #include "world/road_map.hpp"
+#include "world/sensors.hpp"
 #include "world/vehicle.hpp"
 
 #include <caf/actor_system.hpp>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace sofof {
@@ -26,6 +30,10 @@ struct vehicle_setup {
   double start_s_m = 0;       ///< Where it starts on its route,
   double start_speed_mps = 0; ///< and how fast.
   vehicle_params car;
+  sensor_params sensor; ///< As its CPMs tell it.
+  /// What it tells everybody; nothing if it is not connected.
+  std::optional<v2x_options> v2x;
+  datum_ptr where; ///< Where the map is on Earth.
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
   std::vector<antenna> antennas;

@@ -28,6 +28,11 @@ inline constexpr duration unknown_result_period = 200ms;
 inline constexpr double route_ahead_m = 800;
 inline constexpr double route_spacing_m = 5;
 
+/// How far ahead a vehicle tells who plans for it that it may go, m, and in
+/// which steps. Who is told less has to stop there.
+inline constexpr double authority_m = 200;
+inline constexpr double authority_spacing_m = 10;
+
 /// Between two steps of a vehicle and its controller.
 inline constexpr duration control_period = 10ms;
 /// Between two looks at the others.

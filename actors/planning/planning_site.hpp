@@ -2,12 +2,15 @@
 // vehicles it plans for see, put together.
 #pragma once
 
+#include "actors/planning/plan_in_use.hpp"
 #include "actors/service_kind.hpp"
 #include "messages/v2x/generation_rules.hpp"
 #include "planners/environment_model.hpp"
 
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,15 +25,6 @@ inline perceived_object body_of(const cam& c, const vehicle_params& car) {
           c.accel_mps2, box.length_m,    box.width_m};
 }
 
-/// Clocks of vehicles, sensors and providers agree within this.
-inline constexpr duration clock_tolerance = std::chrono::milliseconds{200};
-
-/// @returns whether something cannot have been seen yet. One such sighting
-/// would make all true ones too old for an environment model.
-constexpr bool is_of_future(time_point at, time_point now) {
-  return at > now + clock_tolerance;
-}
-
 /// @param clock  What is told of later than now is not believed.
 class planning_site final : public service_site {
 public:
@@ -42,6 +36,12 @@ public:
       return;
     const std::lock_guard lock{mutex_};
     model_.hear(c.at, c.station, body_of(c, {}));
+    std::erase_if(told_, [&](const auto& x) {
+      return x.second.at + remembered < c.at;
+    });
+    auto& newest = told_[c.station];
+    if (newest.at <= c.at)
+      newest = c;
   }
 
   void see(time_point at, std::span<const perceived_object> seen) override {
@@ -51,6 +51,13 @@ public:
     model_.update(at, seen);
   }
 
+  /// @returns what a vehicle told of itself last, if that was of late.
+  std::optional<cam> told_by(station_id who) const {
+    const std::lock_guard lock{mutex_};
+    const auto x = told_.find(who);
+    return x == told_.end() ? std::nullopt : std::optional{x->second};
+  }
+
   /// Copies what is known now.
   void tracks(std::vector<track>& out) const {
     const std::lock_guard lock{mutex_};
@@ -58,10 +65,13 @@ public:
   }
 
 private:
+  static constexpr duration remembered = std::chrono::seconds{10};
+
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
   // Told by CAMs and CPMs, which come when there is news.
   environment_model model_{{}, {generation::moved_m, generation::longest}};
+  std::map<station_id, cam> told_; // the newest CAM of each
 };
 
 } // namespace sofof

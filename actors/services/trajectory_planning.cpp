@@ -1,15 +1,15 @@
 // Trajectory planning as a service: the vehicle is its client; the planner at
 // a provider may plan farther and more thoroughly than the vehicle's own.
-#include "actors/services/trajectory_planning.hpp"
-
+#include "actors/planning/mec_planning.hpp"
+#include "actors/planning/onboard_planning.hpp"
+#include "actors/planning/plan_in_use.hpp"
+#include "actors/planning/plan_request.hpp"
 #include "actors/service_kind.hpp"
-#include "actors/services/planning_site.hpp"
-#include "planners/lane_follow.hpp"
-#include "planners/outlook.hpp"
-#include "planners/spatial_planner.hpp"
+#include "messages/v2x/coordination.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "world/protocol.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,141 +21,40 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::string_view optimal_planner = "al_ilqr";
-constexpr std::string_view simple_planner = "lane_follow";
+/// Where the vehicle's front may go: along its route, up to where it has to
+/// wait.
+std::vector<point> authority(const route& way, double s_m,
+                             std::optional<double> stop_at_m) {
+  constexpr double least_m = 1;
+  const auto told_m =
+      std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
+                 protocol::authority_m);
+  return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
+}
 
-/// Which planner, and how it plans.
-struct planner_options {
-  std::string name{optimal_planner};
-  driving_style style;
-  spatial_params onboard;
-  spatial_params mec{
-      .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
-
-  void fields(settings& s) {
-    s.field("name", name);
-    if (name != optimal_planner && name != simple_planner)
-      s.refuse("name", fmt::format("there is no planner '{}'; choose {} or {}",
-                                   name, optimal_planner, simple_planner));
-    style.fields(s);
-    s.table("onboard", [this](settings& t) { onboard.fields(t); });
-    s.table("mec", [this](settings& t) { mec.fields(t); });
+etsi::termination_status status_of(end_reason why) {
+  using enum etsi::termination_status;
+  switch (why) {
+  case end_reason::left_area:
+  case end_reason::shutdown:
+    return regular_end;
+  case end_reason::cam_timeout:
+  case end_reason::no_data:
+    return abort_by_timeout;
+  case end_reason::qos_latency:
+  case end_reason::qos_gap:
+    return abort_by_constraint_violation;
+  case end_reason::refused:
+    return abort_by_reject;
+  case end_reason::peer_lost:
+    break;
   }
+  return reason_unknown;
+}
 
-  std::unique_ptr<trajectory_planner> make(const route_ptr& way,
-                                           bool remote) const {
-    if (name == simple_planner)
-      return std::make_unique<lane_follow>(way, style);
-    return std::make_unique<spatial_planner>(way, style,
-                                             remote ? mec : onboard);
-  }
-};
-
-/// What a planner knows is written down for others so often.
-constexpr std::uint64_t cycles_remembered = 5;
-/// Trying harder than this helps nobody who waits; only where time is real.
-constexpr duration deadline = 2ms;
-
-class planning_function final : public service_function {
-public:
-  planning_function(service_setup setup, planner_options options,
-                    std::shared_ptr<const lane_network> lanes)
-      : setup_{std::move(setup)}, options_{std::move(options)},
-        lanes_{std::move(lanes)}, site_{
-                                      std::dynamic_pointer_cast<planning_site>(
-                                          setup_.site)} {}
-
-  payload run(time_point now, const service_input& input) override {
-    const auto request = input.what.as<plan_request>();
-    if (!request || !prepare(request->way))
-      return {};
-    take_over(input.in_use.as<drive_plan>());
-    take_in(now, request->seen);
-    auto from = made_possible(request->from);
-    describe(now, from, request->seen);
-    const auto start = setup_.clock();
-    const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
-    drive_plan next;
-    next.plan.points.reserve(plan_.points.size());
-    next.report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
-                                 next.plan, ocp::budget{in_time});
-    plan_ = next.plan;
-    next.memory = remembered();
-    return payload::of(std::move(next));
-  }
-
-private:
-  bool prepare(const std::string& way) {
-    if (planner_ && way == way_)
-      return true;
-    const auto route = setup_.world->find(way);
-    if (!route)
-      return false;
-    planner_ = options_.make(route, setup_.remote);
-    outlook_.emplace(
-        lanes_, route,
-        outlook_params{.judges_crossings = !setup_.crossings_granted});
-    plan_ = {};
-    memory_ = {};
-    cycle_ = 0;
-    way_ = way;
-    return true;
-  }
-
-  // Another source has planned in the meantime.
-  void take_over(const std::shared_ptr<const drive_plan>& other) {
-    if (!other || !other->plan.is_sound()
-        || (!plan_.empty() && other->plan.start <= plan_.start))
-      return;
-    plan_ = other->plan;
-    if (other->memory && is_sound(*other->memory))
-      planner_->adopt(*other->memory);
-  }
-
-  // It is about places, so it stays good for some cycles.
-  std::shared_ptr<const planner_memory> remembered() {
-    if (cycle_++ % cycles_remembered == 0) {
-      auto memory = std::make_shared<planner_memory>();
-      memory_ = planner_->remember(*memory) ? std::move(memory) : nullptr;
-    }
-    return memory_;
-  }
-
-  // What the vehicle sees; every sight counts once.
-  void take_in(time_point now, const perception& seen) {
-    if (seen.at == taken_in_ || is_of_future(seen.at, now))
-      return;
-    taken_in_ = seen.at;
-    if (site_)
-      site_->see(seen.at, seen.objects);
-    else
-      model_.update(seen.at, seen.objects);
-  }
-
-  void describe(time_point now, planning_input& from, const perception& seen) {
-    if (site_)
-      site_->tracks(tracks_);
-    else
-      tracks_.assign(model_.tracks().begin(), model_.tracks().end());
-    const own_place me{setup_.station, from.s_m, from.d_m};
-    outlook_->describe(now, me, tracks_, from.others);
-    from.others.stop_at_m = seen.stop_at_m;
-  }
-
-  service_setup setup_;
-  planner_options options_;
-  std::shared_ptr<const lane_network> lanes_;
-  std::shared_ptr<planning_site> site_; // null in the vehicle, ...
-  environment_model model_;             // which has its own
-  std::optional<time_point> taken_in_;
-  std::vector<track> tracks_;
-  std::string way_;
-  std::unique_ptr<trajectory_planner> planner_;
-  std::optional<outlook> outlook_;
-  std::shared_ptr<const planner_memory> memory_;
-  std::uint64_t cycle_ = 0;
-  trajectory plan_; // the last one; empty before the first
-};
+maneuver_name name_of_maneuver(const running_service& running) {
+  return {static_cast<std::uint16_t>(running.counter), 0};
+}
 
 class trajectory_planning final : public service_kind {
 public:
@@ -179,8 +78,12 @@ public:
 
   std::shared_ptr<service_function>
   make_function(const service_setup& setup) const override {
-    return std::make_shared<planning_function>(setup, planner_,
-                                               lanes(setup.world->map));
+    auto lanes = this->lanes(setup.world->map);
+    if (!setup.remote)
+      return make_onboard_planning(setup, planner_, std::move(lanes));
+    return make_mec_planning(
+        setup, planner_, std::move(lanes),
+        std::dynamic_pointer_cast<planning_site>(setup.site));
   }
 
   std::shared_ptr<service_site>
@@ -191,6 +94,45 @@ public:
   client_actor spawn_client(caf::actor_system&, const service_setup&,
                             const vehicle_actor& vehicle) const override {
     return vehicle;
+  }
+
+  /// An MCM: where the vehicle may go, and the plan in use for who takes over,
+  /// or that it follows what was suggested.
+  service_input on_air(const service_setup& setup, service_input input,
+                       bool takes_over) const override {
+    const auto request = input.what.as<plan_request>();
+    const auto way = request ? setup.world->find(request->way) : nullptr;
+    if (!way)
+      return {};
+    const auto ahead =
+        authority(*way, request->from.s_m, request->seen.stop_at_m);
+    road_user_word word{request->own, ahead, nullptr, {}};
+    const auto plan = takes_over ? plan_in_use(input.in_use, *way,
+                                               request->from.s_m, *setup.where,
+                                               input.at)
+                                 : nullptr;
+    word.plan = plan.get();
+    if (!takes_over)
+      word.answer.emplace(name_of_maneuver(input.running),
+                          etsi::maneuver_response::accept);
+    input.what = payload::of(encoded(make_word(word, setup.car, *setup.where)));
+    input.in_use = {};
+    return input;
+  }
+
+  payload farewell(const service_setup& setup, const service_end& end,
+                   time_point now, const cam* own) const override {
+    const auto name = name_of_maneuver(end.running);
+    if (setup.remote)
+      return payload::of(encoded(make_termination(
+          {setup.provider.station, setup.provider.position, end.running.station,
+           name},
+          now, status_of(end.reason), *setup.where)));
+    if (!own)
+      return {};
+    road_user_word word{*own, {}, nullptr, {}};
+    word.answer.emplace(name, etsi::maneuver_response::reject);
+    return payload::of(encoded(make_word(word, setup.car, *setup.where)));
   }
 
 private:

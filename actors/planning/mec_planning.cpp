@@ -1,0 +1,136 @@
+// Planning at a provider: from what vehicles and its own sensors tell it.
+#include "actors/planning/mec_planning.hpp"
+
+#include "actors/planning/plan_cycle.hpp"
+#include "actors/planning/plan_request.hpp"
+#include "messages/v2x/coordination.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "planners/ego_estimate.hpp"
+#include "world/protocol.hpp"
+#include "world/route_finder.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+class mec_planning final : public service_function {
+public:
+  mec_planning(service_setup setup, planner_options options,
+               std::shared_ptr<const lane_network> lanes,
+               std::shared_ptr<planning_site> site)
+      : setup_{std::move(setup)}, options_{std::move(options)},
+        lanes_{std::move(lanes)}, site_{std::move(site)} {}
+
+  service_output run(time_point now, const service_input& input) override {
+    if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
+      hear(*message, now);
+      heard_ = std::move(message);
+    }
+    if (!cycle_)
+      return {};
+    if (const auto own = site_->told_by(setup_.station))
+      ego_->hear({own->at, own->position, own->heading_rad, own->speed_mps,
+                  own->accel_mps2, own->curvature_1pm});
+    auto from = ego_->at(now);
+    if (!from)
+      return {};
+    from->others.stop_at_m = stop_at_m_;
+    site_->tracks(tracks_);
+    const auto report = cycle_->run(now, made_possible(*from), tracks_);
+    ego_->follow(cycle_->plan());
+    return said(report, input.running.counter);
+  }
+
+private:
+  // -- what the vehicle says ------------------------------------------------
+
+  void hear(const its_pdu& message, time_point now) {
+    if (!etsi::decode(message.view(), word_)
+        || word_.header.station != setup_.station)
+      return;
+    const auto word = read_word(word_, *setup_.where, now);
+    if (!word)
+      return;
+    const auto ahead = place(word->way);
+    if (!ahead)
+      return;
+    const auto told_m = ahead->to_m - ahead->from_m;
+    stop_at_m_.reset();
+    if (told_m < protocol::authority_m - protocol::authority_spacing_m)
+      stop_at_m_ = ahead->to_m;
+    if (word->plan)
+      take_over(*word, ahead->from_m);
+  }
+
+  // Where on which route the vehicle's way ahead is.
+  std::optional<route_stretch> place(std::span<const point> way) {
+    if (cycle_)
+      if (const auto ahead = still_on(*cycle_->way(), from_m_, way)) {
+        from_m_ = ahead->from_m;
+        return ahead;
+      }
+    const auto found = find_route(setup_.world->routes, way);
+    if (!found)
+      return std::nullopt;
+    cycle_.emplace(setup_, options_, lanes_, found->way);
+    ego_.emplace(found->way, found->ahead.from_m);
+    from_m_ = found->ahead.from_m;
+    return found->ahead;
+  }
+
+  void take_over(const understood_word& word, double from_m) {
+    const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
+    trajectory plan;
+    const auto fault =
+        to_trajectory(*word.plan, frame, *cycle_->way(), from_m, plan);
+    if (fault != maneuver_fault::none)
+      return;
+    cycle_->take_over(plan);
+    ego_->follow(plan);
+  }
+
+  // -- what it is told ------------------------------------------------------
+
+  service_output said(const plan_report& report, std::uint32_t counter) {
+    const suggestion what{setup_.provider.station,
+                          setup_.provider.position,
+                          setup_.station,
+                          {static_cast<std::uint16_t>(counter), ++update_}};
+    const auto message =
+        make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_);
+    if (!message)
+      return {};
+    return {payload::of(encoded(*message)), payload::of(report)};
+  }
+
+  service_setup setup_;
+  planner_options options_;
+  std::shared_ptr<const lane_network> lanes_;
+  std::shared_ptr<planning_site> site_;
+  std::shared_ptr<const its_pdu> heard_; // last
+  std::optional<plan_cycle> cycle_;
+  std::optional<ego_estimate> ego_;   // whenever there is a cycle
+  double from_m_ = 0;                 // of the last word
+  std::optional<double> stop_at_m_;   // the end of the vehicle's authority
+  std::uint16_t update_ = 0;
+  // Room that is used again.
+  etsi::mcm word_;
+  std::vector<track> tracks_;
+  std::vector<maneuver_waypoint> waypoints_;
+};
+
+} // namespace
+
+std::shared_ptr<service_function>
+make_mec_planning(service_setup setup, planner_options options,
+                  std::shared_ptr<const lane_network> lanes,
+                  std::shared_ptr<planning_site> site) {
+  return std::make_shared<mec_planning>(std::move(setup), std::move(options),
+                                        std::move(lanes), std::move(site));
+}
+
+} // namespace sofof
