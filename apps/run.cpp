@@ -59,6 +59,10 @@ void add_run(CLI::App& app, int& exit_code) {
       ->add_option("--out", args->out,
                    "Results folder (default results/<scenario>-<seed>)")
       ->type_name("DIR");
+  command
+      ->add_option("--pcap", args->options.pcap,
+                   "Capture all CAMs, CPMs and MCMs, for Wireshark")
+      ->type_name("FILE");
   command->add_flag("--force", args->options.force,
                     "Write into a folder that is not empty");
   command->add_flag("--realtime", args->options.realtime,

@@ -59,6 +59,7 @@ duration fresh_limit(const scenario& s) {
 
 roadside_provider_actor spawn_provider(caf::actor_system& sys,
                                        const scenario& s, std::uint32_t number,
+                                       const datum_ptr& where,
                                        const recorder_actor& recorder,
                                        bool virtual_time) {
   const auto& options = s.providers[number];
@@ -67,6 +68,7 @@ roadside_provider_actor spawn_provider(caf::actor_system& sys,
   setup.position = options.position_m;
   setup.area = options.area();
   setup.world = s.world;
+  setup.where = where;
   setup.kinds = offered(s, options);
   setup.codm = s.policies.codm->clone();
   setup.recorder = recorder;
@@ -110,16 +112,17 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 
 // The vehicle calls it later, from its own thread: nothing is borrowed.
 auto requester_maker(caf::actor_system& sys, const scenario& s,
-                     const placed_vehicle& v, const recorder_actor& recorder,
-                     bool virtual_time) {
-  return
-      [&sys, v, recorder, virtual_time, world = s.world, kinds = s.services,
-       lodm = s.policies.lodm, noise = noise_of(s, "vehicle").part(v.station),
-       granted = s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
-        return spawn_service_requester(sys, {v.station, v.way, world, kinds,
-                                             lodm->clone(), vehicle, recorder,
-                                             noise, virtual_time, granted});
-      };
+                     const placed_vehicle& v, const datum_ptr& where,
+                     const recorder_actor& recorder, bool virtual_time) {
+  return [&sys, v, where, recorder, virtual_time, world = s.world,
+          kinds = s.services, lodm = s.policies.lodm,
+          noise = noise_of(s, "vehicle").part(v.station),
+          granted =
+              s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
+    return spawn_service_requester(
+        sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
+              recorder, noise, virtual_time, granted});
+  };
 }
 
 std::vector<std::pair<caf::actor, std::string>>
@@ -161,10 +164,13 @@ void end(const std::vector<Handle>& leaving, runtime& time) {
 } // namespace
 
 world_actors build(caf::actor_system& sys, const scenario& s,
-                   std::shared_ptr<record_sink> sink, bool virtual_time,
+                   std::shared_ptr<record_sink> sink, etsi::its_clock clock,
+                   bool virtual_time,
                    std::function<void(const std::string&)> on_loss) {
   world_actors world;
   const vehicle_params car;
+  const auto where = std::make_shared<const datum>(
+      geo_frame{s.world->map.origin()}, clock);
   const auto placed = place_vehicles(s);
   station_routes ways;
   for (const auto& v : placed)
@@ -172,8 +178,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   world.recorder = spawn_recorder(sys, std::move(sink));
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    sites.push_back({spawn_provider(sys, s, k, world.recorder, virtual_time),
-                     &s.providers[k]});
+    sites.push_back({spawn_provider(sys, s, k, where, world.recorder, virtual_time),
+         &s.providers[k]});
     world.providers.push_back(sites.back().provider);
   }
   world.road =
@@ -187,17 +193,21 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     setup.start_s_m = v.start_s_m;
     setup.start_speed_mps = s.fleets[v.fleet].start_speed_mps;
     setup.car = car;
+    setup.sensor = s.sensors;
+    setup.where = where;
     setup.fresh_limit = fresh_limit(s);
     setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
-    if (s.fleets[v.fleet].connected)
+    if (s.fleets[v.fleet].connected) {
+      setup.v2x = s.v2x;
       for (std::uint32_t k = 0; k < sites.size(); ++k)
         setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
+    }
     for (const auto& a : setup.antennas)
       world.links.push_back(a.link);
     setup.road = world.road;
     setup.recorder = world.recorder;
     setup.spawn_requester =
-        requester_maker(sys, s, v, world.recorder, virtual_time);
+        requester_maker(sys, s, v, where, world.recorder, virtual_time);
     world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
   }
   if (on_loss)

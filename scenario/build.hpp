@@ -1,6 +1,7 @@
 // From a scenario to actors.
 #pragma once
 
+#include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
@@ -28,10 +29,12 @@ struct world_actors {
 /// the file, counting from 1; each vehicle a link to each provider.
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.
+/// @param clock  Tells the time of day of the run.
 /// @param virtual_time  Model computing times instead of taking time.
 /// @param on_loss  Called with a sentence when one of them dies.
 world_actors build(caf::actor_system& sys, const scenario& s,
-                   std::shared_ptr<record_sink> sink, bool virtual_time,
+                   std::shared_ptr<record_sink> sink, etsi::its_clock clock,
+                   bool virtual_time,
                    std::function<void(const std::string&)> on_loss = {});
 
 /// Ends all actors, group by group, so that what still runs is closed on both

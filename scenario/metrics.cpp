@@ -1,6 +1,10 @@
 // Adding up what happened.
 #include "scenario/metrics.hpp"
 
+#include "messages/etsi/cam.hpp"
+#include "messages/etsi/mcm.hpp"
+#include "messages/etsi/uper.hpp"
+
 #include <algorithm>
 
 namespace sofof {
@@ -92,6 +96,20 @@ void metrics::take(const drive_record& x) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
   }
+}
+
+void metrics::take(const air_record& x) {
+  const auto octets = x.message.view();
+  etsi::bit_reader in{octets};
+  etsi::pdu_header header;
+  etsi::read(in, header);
+  const auto downwards = is_provider_station(header.station);
+  auto& count = header.message_id == etsi::cam::message_id   ? air_.cam
+                : header.message_id == etsi::mcm::message_id ? downwards
+                    ? air_.mcm_down
+                    : air_.mcm_up
+                : air_.cpm;
+  count.add(octets.size());
 }
 
 void metrics::take(const plan_switch_record& x) {

@@ -78,6 +78,28 @@ struct switch_metrics {
   std::uint64_t count() const { return d_m.count(); }
 };
 
+/// What was sent of one kind of ITS message.
+struct air_count {
+  std::uint64_t messages = 0;
+  std::uint64_t octets = 0; ///< Of the messages alone.
+
+  void add(std::size_t size) {
+    ++messages;
+    octets += size;
+  }
+  /// @returns how long one is, on average.
+  std::optional<double> mean_octets() const {
+    if (messages == 0)
+      return std::nullopt;
+    return static_cast<double>(octets) / static_cast<double>(messages);
+  }
+};
+
+/// All ITS messages of a run.
+struct air_metrics {
+  air_count cam, cpm, mcm_up, mcm_down;
+};
+
 /// All figures of a run. Meanings: docs/results.md.
 class metrics {
 public:
@@ -93,6 +115,7 @@ public:
   void take(const collision_record& x);
   void take(const drive_record& x);
   void take(const plan_switch_record& x);
+  void take(const air_record& x);
 
   /// The run ends: what is still offloaded counts up to here.
   void finish(time_point end);
@@ -109,6 +132,7 @@ public:
     return vehicles_;
   }
   const switch_metrics& switches() const { return switches_; }
+  const air_metrics& air() const { return air_; }
   /// @returns the vehicles whose headline service is remote just now.
   std::size_t offloaded_now() const;
 
@@ -128,6 +152,7 @@ private:
   drive_metrics together_;
   std::map<station_id, drive_metrics> vehicles_;
   switch_metrics switches_;
+  air_metrics air_;
 };
 
 } // namespace sofof

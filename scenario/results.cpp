@@ -46,6 +46,8 @@ results::results(std::filesystem::path folder, run_info run)
       names_(run_.provider_names.begin(), run_.provider_names.end()),
       episodes_{folder_ / "episodes.csv", episodes_header},
       events_{folder_ / "events.jsonl"} {
+  if (!run_.pcap.empty())
+    pcap_.emplace(run_.pcap, run_.time_of_day);
   if (run_.cycles)
     cycles_.emplace(folder_ / "cycles.csv", cycles_header);
   if (run_.tracks)
@@ -121,6 +123,12 @@ void results::take(const track_record& x) {
                std::string_view{x.remote ? "remote" : "local"});
 }
 
+void results::take(const air_record& x) {
+  metrics_.take(x);
+  if (pcap_)
+    pcap_->write(x);
+}
+
 void results::take(const safety_record& x) {
   metrics_.take(x);
 }
@@ -162,6 +170,8 @@ void results::flush() {
   if (tracks_)
     tracks_->flush();
   events_.flush();
+  if (pcap_)
+    pcap_->flush();
 }
 
 run_end results::finish(time_point end, double wall_s, bool interrupted) {
@@ -173,6 +183,8 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
   if (tracks_)
     tracks_->close();
   events_.close();
+  if (pcap_)
+    pcap_->close();
   write_vehicles();
   write_timing(outcome);
   write_file(folder_ / "summary.json", summary_json(metrics_, run_, outcome));

@@ -6,6 +6,7 @@
 #include "scenario/csv.hpp"
 #include "scenario/metrics.hpp"
 #include "scenario/output_file.hpp"
+#include "scenario/pcap_file.hpp"
 #include "scenario/run_info.hpp"
 
 #include <filesystem>
@@ -34,6 +35,7 @@ public:
   void take(const collision_record& x) override;
   void take(const drive_record& x) override;
   void take(const plan_switch_record& x) override;
+  void take(const air_record& x) override;
 
   /// A figure of the wall's clock, for timing.csv.
   /// @param name  With its unit, e.g. "solve_p99_us".
@@ -69,6 +71,7 @@ private:
   std::optional<csv_file> cycles_;
   std::optional<csv_file> tracks_;
   output_file events_;
+  std::optional<pcap_file> pcap_;
 };
 
 } // namespace sofof

@@ -53,6 +53,7 @@ run_info describe(const scenario& s, const run_options& options) {
     info.provider_names.emplace_back(k + 1, s.providers[k].name);
   for (const auto& kind : s.services)
     info.kinds.emplace_back(kind->name());
+  info.pcap = options.pcap;
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;
   return info;
@@ -92,14 +93,15 @@ run_outcome run(const scenario& s, const run_options& options,
   const auto time =
       options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
   auto info = describe(s, options);
+  info.time_of_day = time->clock();
   const auto folder =
       make_results_folder(options.out, s.name, s.seed, options.force);
   info.start = time->now();
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};
   const stopwatch watch;
-  const auto actors = build(time->system(), s, keeper, !options.realtime,
-                            [keeper](const auto& why) { keeper->fail(why); });
+  const auto actors = build(time->system(), s, keeper, time->clock(),
+                            !options.realtime, [keeper](const auto& why) { keeper->fail(why); });
   time_point ended;
   try {
     ended = advance(*time, info.start + s.length, options, interrupted, *keeper,

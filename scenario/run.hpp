@@ -14,6 +14,7 @@ namespace sofof {
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
+  std::string pcap;      ///< Where to capture all ITS messages, if asked for.
   bool force = false;    ///< Write into a folder that is not empty.
   bool realtime = false; ///< On the wall clock instead of in virtual time.
   progress::output show = progress::output::quiet;

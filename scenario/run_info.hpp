@@ -1,6 +1,7 @@
 // What is known of a run before it starts, and once it has ended.
 #pragma once
 
+#include "messages/etsi/its_time.hpp"
 #include "world/ids.hpp"
 #include "world/time.hpp"
 
@@ -33,6 +34,8 @@ struct run_info {
   std::string headline_kind = "trajectory_planning";
   bool cycles = true; ///< Write cycles.csv.
   bool tracks = true; ///< Write tracks.csv.
+  std::string pcap;   ///< Where to capture all ITS messages; empty: nowhere.
+  etsi::its_clock time_of_day;
   time_point start;   ///< Second 0 of all files.
 };
 

@@ -25,6 +25,7 @@ public:
   time_point now() const override {
     return time_point{scheduler_.clock().now().time_since_epoch()};
   }
+  etsi::its_clock clock() const override { return etsi::its_clock{}; }
   void run_until(time_point end) override { scheduler_.run_until(end); }
   void await_end(const std::vector<caf::actor>&) override {
     scheduler_.run_ready();
@@ -42,6 +43,7 @@ public:
   time_point now() const override {
     return time_point{std::chrono::steady_clock::now().time_since_epoch()};
   }
+  etsi::its_clock clock() const override { return clock_; }
   void run_until(time_point end) override {
     std::this_thread::sleep_until(
         std::chrono::steady_clock::time_point{end.time_since_epoch()});
@@ -52,6 +54,15 @@ public:
   }
 
 private:
+  // The steady clock counts from anywhere.
+  static std::int64_t epoch_unix_ms() {
+    using std::chrono::milliseconds;
+    const auto day = std::chrono::system_clock::now().time_since_epoch();
+    const auto run = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::round<milliseconds>(day - run).count();
+  }
+
+  etsi::its_clock clock_{epoch_unix_ms()};
   caf::actor_system_config config_;
   caf::actor_system system_{config_};
 };

@@ -1,6 +1,7 @@
 // The time that a run lives in: virtual or wall clock, around one CAF system.
 #pragma once
 
+#include "messages/etsi/its_time.hpp"
 #include "world/time.hpp"
 
 #include <caf/actor.hpp>
@@ -20,6 +21,9 @@ public:
 
   /// @returns the time of the run now.
   virtual time_point now() const = 0;
+
+  /// @returns the time of day of the run's time.
+  virtual etsi::its_clock clock() const = 0;
 
   /// Returns when it is `end`: virtual time gets there as fast as it can.
   virtual void run_until(time_point end) = 0;

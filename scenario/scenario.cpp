@@ -169,6 +169,7 @@ void scenario::fields(settings& s) {
   list_all(s, "obstacle", obstacles);
   list_all(s, "provider", providers);
   s.table("network", [this](settings& t) { network.fields(t); });
+  s.table("v2x", [this](settings& t) { v2x.fields(t); });
   s.tables("service", services.size(), [this](std::size_t i, settings& t) {
     if (i == services.size())
       services.emplace_back();

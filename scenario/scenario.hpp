@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/service_kind.hpp"
+#include "messages/v2x/v2x_options.hpp"
 #include "policies/context.hpp"
 #include "world/channel.hpp"
 #include "world/sensors.hpp"
@@ -134,6 +135,7 @@ struct scenario {
   sensor_params sensors;                   ///< Of every vehicle.
   std::vector<provider_options> providers;
   network_options network;
+  v2x_options v2x; ///< What vehicles tell everybody.
   std::vector<service_kind_ptr> services;
   policy_options policies;
   record_options record;

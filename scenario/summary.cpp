@@ -12,6 +12,7 @@ constexpr int second_places = 6;
 constexpr int millisecond_places = 6;
 constexpr int share_places = 6;
 constexpr int motion_places = 6;
+constexpr int octet_places = 3;
 constexpr int wall_places = 3;
 
 void mean_and_max(json_object& to, std::string_view name,
@@ -84,6 +85,20 @@ void switches_of(json_object& to, const switch_metrics& switches) {
   jump(switches.accel_mps2, "mean_a_mps2", "max_a_mps2");
 }
 
+void air_of(json_object& to, const air_metrics& air) {
+  auto object = to.object("v2x");
+  const auto count = [&object](std::string_view name, const air_count& x) {
+    auto of = object.object(name);
+    of.member("messages", x.messages);
+    of.member("octets", x.octets);
+    of.member("mean_octets", rounded(x.mean_octets(), octet_places));
+  };
+  count("cam", air.cam);
+  count("cpm", air.cpm);
+  count("mcm_up", air.mcm_up);
+  count("mcm_down", air.mcm_down);
+}
+
 void extremes_of(json_object& to, const motion_extremes& x, bool recorded) {
   const auto member = [&](std::string_view name, double figure) {
     to.member(name, recorded ? rounded(figure, motion_places) : decimal{});
@@ -143,6 +158,7 @@ std::string summary_json(const metrics& m, const run_info& run,
     plans_of(top, m.together().plans);
     driving_of(top, m.together());
     switches_of(top, m.switches());
+    air_of(top, m.air());
     endings(top, m.headline());
     {
       auto services = top.object("services");

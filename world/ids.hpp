@@ -24,6 +24,11 @@ constexpr station_id provider_station(std::uint32_t k) {
   return 900'000'001 + k;
 }
 
+/// @returns whether this is the station id of a provider.
+constexpr bool is_provider_station(station_id x) {
+  return x >= provider_station(0) && x < provider_station(0) + 1'000'000;
+}
+
 /// A provider process since its start; a restarted one has a new id.
 using boot_id = std::uint64_t;
 

@@ -64,6 +64,11 @@ public:
         std::chrono::milliseconds{to_unix_ms(its) - epoch_unix_ms_}};
   }
 
+  /// @returns how long after 1970-01-01T00:00:00Z `t` is.
+  constexpr duration unix_time(time_point t) const {
+    return std::chrono::milliseconds{epoch_unix_ms_} + t.time_since_epoch();
+  }
+
 private:
   std::int64_t epoch_unix_ms_;
 };
