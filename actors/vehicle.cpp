@@ -234,7 +234,7 @@ struct vehicle_actor_state {
       return;
     const auto t = now(self);
     const auto next =
-        plan_in_use(result.what, *setup.way, s_m, *setup.where, t);
+        plan_in_use(result.what, *setup.way, s_m, *setup.where, t, plan.get());
     if (!next)
       return;
     const auto about = result.about.as<plan_report>();

@@ -86,7 +86,7 @@ private:
     const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
     trajectory plan;
     const auto fault =
-        to_trajectory(*word.plan, frame, *cycle_->way(), from_m, plan);
+        to_trajectory(*word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
     if (fault != maneuver_fault::none)
       return;
     cycle_->take_over(plan);
@@ -100,11 +100,10 @@ private:
                           setup_.provider.position,
                           setup_.station,
                           {static_cast<std::uint16_t>(counter), ++update_}};
-    const auto message =
-        make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_);
-    if (!message)
+    if (!make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_,
+                         said_))
       return {};
-    return {payload::of(encoded(*message)), payload::of(report)};
+    return {payload::of(encoded(said_)), payload::of(report)};
   }
 
   service_setup setup_;
@@ -118,7 +117,7 @@ private:
   std::optional<double> stop_at_m_;   // the end of the vehicle's authority
   std::uint16_t update_ = 0;
   // Room that is used again.
-  etsi::mcm word_;
+  etsi::mcm word_, said_;
   std::vector<track> tracks_;
   std::vector<maneuver_waypoint> waypoints_;
 };

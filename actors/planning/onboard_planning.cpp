@@ -26,7 +26,7 @@ public:
       return {};
     auto from = made_possible(request->from);
     if (const auto plan = plan_in_use(input.in_use, *cycle_->way(), from.s_m,
-                                      *setup_.where, now))
+                                      *setup_.where, now, nullptr))
       cycle_->take_over(*plan);
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;

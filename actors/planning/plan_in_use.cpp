@@ -12,7 +12,8 @@ std::shared_ptr<const trajectory> plan_in_use(const payload& result,
                                               const route& way,
                                               double s_guess_m,
                                               const datum& where,
-                                              time_point now) {
+                                              time_point now,
+                                              const trajectory* before) {
   if (auto own = result.as<trajectory>())
     return own->is_sound() ? own : nullptr;
   const auto message = result.as<its_pdu>();
@@ -21,7 +22,7 @@ std::shared_ptr<const trajectory> plan_in_use(const payload& result,
     return nullptr;
   auto plan = std::make_shared<trajectory>();
   const auto fault =
-      read_suggestion(suggestion, way, s_guess_m, where, now, *plan);
+      read_suggestion(suggestion, way, s_guess_m, where, now, before, *plan);
   return fault == maneuver_fault::none ? plan : nullptr;
 }
 

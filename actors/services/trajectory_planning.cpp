@@ -109,7 +109,7 @@ public:
     road_user_word word{request->own, ahead, nullptr, {}};
     const auto plan = takes_over ? plan_in_use(input.in_use, *way,
                                                request->from.s_m, *setup.where,
-                                               input.at)
+                                               input.at, nullptr)
                                  : nullptr;
     word.plan = plan.get();
     if (!takes_over)

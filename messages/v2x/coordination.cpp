@@ -20,17 +20,17 @@ etsi::reference_position_with_confidence reference(const geo_position& at) {
   return position;
 }
 
-/// The beginning of every message, and what its waypoints refer to.
-etsi::mcm begin(station_id from, std::uint8_t type, point at, time_point t,
-                const datum& where, std::optional<maneuver_frame>& frame) {
-  etsi::mcm message;
+/// The beginning of every message.
+/// @returns what its waypoints refer to.
+maneuver_frame begin(etsi::mcm& message, station_id from, std::uint8_t type,
+                     point at, time_point t, const datum& where) {
   message.header.station = from;
   message.body.generation = etsi::to_delta_time(where.clock.timestamp(t));
   geo_position rounded;
-  frame.emplace(maneuver_frame::of(where.frame, at, t, rounded));
+  const auto frame = maneuver_frame::of(where.frame, at, t, rounded);
   message.body.parameters.basic.station_type = type;
   message.body.parameters.basic.position = reference(rounded);
-  return message;
+  return frame;
 }
 
 std::optional<maneuver_frame> frame_of(const etsi::mcm& message,
@@ -90,9 +90,9 @@ planned_points understood(const etsi::planned_trajectory& plan) {
 etsi::mcm make_word(const road_user_word& word, const vehicle_params& car,
                     const datum& where) {
   const auto& own = word.own;
-  std::optional<maneuver_frame> frame;
-  auto message = begin(own.station, etsi::passenger_car, front_of(own, car),
-                       own.at, where, frame);
+  etsi::mcm message;
+  const auto frame = begin(message, own.station, etsi::passenger_car,
+                           front_of(own, car), own.at, where);
   auto& user = std::get<etsi::road_user_container>(
       message.body.parameters.maneuver.value);
   user.state.type = etsi::road_user_type::connected_automated_vehicle;
@@ -107,10 +107,10 @@ etsi::mcm make_word(const road_user_word& word, const vehicle_params& car,
   if (!word.way.empty()) {
     auto& way = user.desired_route.emplace();
     for (const auto& at : word.way)
-      way.push_back(waypoint_at(at, *frame));
+      way.push_back(waypoint_at(at, frame));
   }
   planned_points plan;
-  if (word.plan && to_planned_points(*word.plan, *frame, plan))
+  if (word.plan && to_planned_points(*word.plan, frame, plan))
     user.planned_trajectory = written(plan);
   if (word.answer) {
     const auto& [name, followed] = *word.answer;
@@ -146,58 +146,66 @@ std::optional<understood_word> read_word(const etsi::mcm& message,
 
 namespace {
 
+/// @returns what of `x` holds a T, its room kept if it did already.
+template <class T>
+T& made(auto& x) {
+  auto* is = std::get_if<T>(&x);
+  return is ? *is : x.template emplace<T>();
+}
+
 etsi::suggested_maneuver& suggest(etsi::mcm& message, const suggestion& what) {
-  auto& to = message.body.parameters.maneuver.value
-                 .emplace<etsi::suggested_maneuver_container>();
+  auto& to = made<etsi::suggested_maneuver_container>(
+      message.body.parameters.maneuver.value);
   to.target = what.to;
-  auto& maneuver = to.maneuver.emplace();
+  auto& maneuver = to.maneuver ? *to.maneuver : to.maneuver.emplace();
   maneuver.maneuver_id = what.name.maneuver;
   maneuver.advice_update_id = what.name.update;
+  maneuver.participants.clear();
   maneuver.participants.push_back(what.to);
   return maneuver;
 }
 
 } // namespace
 
-std::optional<etsi::mcm> make_suggestion(const suggestion& what,
-                                         const trajectory& plan,
-                                         const datum& where,
-                                         std::vector<maneuver_waypoint>& room) {
+bool make_suggestion(const suggestion& what, const trajectory& plan,
+                     const datum& where, std::vector<maneuver_waypoint>& room,
+                     etsi::mcm& out) {
   const auto near = distance_m(plan.points.front().at, what.position)
                         < farthest_waypoint_m
                     && distance_m(plan.points.back().at, what.position)
                            < farthest_waypoint_m;
-  std::optional<maneuver_frame> frame;
-  auto message = begin(what.from, etsi::roadside_unit,
-                       near ? what.position : plan.points.front().at,
-                       plan.start, where, frame);
-  if (!to_waypoints(plan, *frame, room))
-    return std::nullopt;
-  auto& constraints = suggest(message, what)
-                          .parameters.value.emplace<etsi::maneuver_constraints>();
-  constraints.waypoints.reserve(room.size());
+  const auto frame = begin(out, what.from, etsi::roadside_unit,
+                           near ? what.position : plan.points.front().at,
+                           plan.start, where);
+  if (!to_waypoints(plan, frame, room))
+    return false;
+  auto& waypoints = made<etsi::maneuver_constraints>(
+                        suggest(out, what).parameters.value)
+                        .waypoints;
+  waypoints.resize(room.size());
+  auto next = waypoints.begin();
   for (const auto& x : room) {
-    auto& to = constraints.waypoints.emplace_back();
+    auto& to = *next++;
     to.waypoint = {x.x_cm, x.y_cm};
     to.min_arrival_time = to.max_arrival_time = narrowed<std::uint16_t>(x.t_ms);
     to.min_velocity = to.max_velocity =
         etsi::speed_value{narrowed<std::uint16_t>(x.speed_cmps)};
   }
-  return message;
+  return true;
 }
 
 etsi::mcm make_termination(const suggestion& what, time_point at,
                            etsi::termination_status why, const datum& where) {
-  std::optional<maneuver_frame> frame;
-  auto message = begin(what.from, etsi::roadside_unit, what.position, at,
-                       where, frame);
+  etsi::mcm message;
+  begin(message, what.from, etsi::roadside_unit, what.position, at, where);
   suggest(message, what).parameters.value = why;
   return message;
 }
 
 std::optional<maneuver_fault>
 read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
-                const datum& where, time_point now, trajectory& out) {
+                const datum& where, time_point now, const trajectory* before,
+                trajectory& out) {
   const auto* to = std::get_if<etsi::suggested_maneuver_container>(
       &message.body.parameters.maneuver.value);
   const auto* plan = to && to->maneuver
@@ -215,7 +223,7 @@ read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
     waypoints.push_back({x.waypoint.x, x.waypoint.y, x.min_arrival_time.value,
                          x.min_velocity->value});
   }
-  return to_trajectory(waypoints, *frame, way, s_guess_m, out);
+  return to_trajectory(waypoints, *frame, way, s_guess_m, before, out);
 }
 
 } // namespace sofof

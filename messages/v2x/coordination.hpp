@@ -69,21 +69,23 @@ struct suggestion {
 /// away for waypoints, the plan's first point.
 /// @param plan  Sound.
 /// @param room  Used again and again.
-/// @returns nullopt if the plan cannot be written down.
-std::optional<etsi::mcm> make_suggestion(const suggestion& what,
-                                         const trajectory& plan,
-                                         const datum& where,
-                                         std::vector<maneuver_waypoint>& room);
+/// @param out   Its room is used again, too.
+/// @returns false if the plan cannot be written down.
+bool make_suggestion(const suggestion& what, const trajectory& plan,
+                     const datum& where, std::vector<maneuver_waypoint>& room,
+                     etsi::mcm& out);
 
 etsi::mcm make_termination(const suggestion& what, time_point at,
                            etsi::termination_status why, const datum& where);
 
 /// A suggested plan, along the vehicle's route.
 /// @param s_guess_m  About where it begins.
+/// @param before     The plan in use until now; null: none.
 /// @param out        Sound if there is no fault; its points are reused.
 /// @returns why it is no plan; nullopt if the message suggests none.
 std::optional<maneuver_fault>
 read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
-                const datum& where, time_point now, trajectory& out);
+                const datum& where, time_point now, const trajectory* before,
+                trajectory& out);
 
 } // namespace sofof
