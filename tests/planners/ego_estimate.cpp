@@ -216,7 +216,7 @@ TEST_CASE("a plan that has ended, or has not begun, says nothing") {
 }
 
 TEST_CASE("after a gap without plans the earlier ones are forgotten") {
-  ego_estimate me{street(), 100};
+  ego_estimate me{street(), 140};
   me.follow(plan_east(start, 100, 10));
   me.hear(told_east(start + 5s, 150, 10));
   me.follow(plan_east(start + 6500ms, 165, 10, -5));
