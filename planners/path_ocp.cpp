@@ -132,16 +132,6 @@ void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   ds_m_ = ds_m;
 }
 
-bool path_ocp::adopt(const path_warm_start& other) noexcept {
-  if (!other.usable())
-    return false;
-  w_.rows.discs = ocp::path_rows::most_discs;
-  ocp::recall(w_, other);
-  ds_m_ = other.ds_m;
-  started_ = true;
-  return true;
-}
-
 ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
                                   const path_options& options,
                                   const ocp::budget& go_on) noexcept {

@@ -56,9 +56,6 @@ struct path_options {
   ocp::solver_options solver;
 };
 
-/// What a path solver can go on from.
-using path_warm_start = ocp::warm_start<ocp::path_rows::most_discs + 2>;
-
 /// A solver with its workspace: no heap, no clock, byte-wise copyable.
 class path_ocp {
 public:
@@ -86,15 +83,6 @@ public:
 
   /// The same by whole knots, on the same grid.
   void shift(int knots) noexcept { carry_over(knots * ds_m_, ds_m_, w_.n); }
-
-  /// What another solver needs to go on from this plan.
-  path_warm_start warm_start() const noexcept {
-    return ocp::known<path_warm_start::rows>(w_, ds_m_);
-  }
-
-  /// Takes another solver's plan for its own last one; `carry_over` follows.
-  /// @returns false, and changes nothing, where it cannot be gone on from.
-  bool adopt(const path_warm_start& other) noexcept;
 
   int steps() const { return w_.n; }
 

@@ -29,23 +29,12 @@ bool path_planner::follows(const path_start& car) const {
                 <= same_curvature_1pm;
 }
 
-void path_planner::adopt(const path_warm_start& other, double s_m) {
-  path_.size = 0;
-  adopted_ = solver_.adopt(other);
-  adopted_s_m_ = s_m;
-}
-
 ocp::solve_report path_planner::plan(const path_start& car,
                                      std::span<const passing> others,
                                      const ocp::budget& go_on) {
   if (!follows(car)) {
-    path_.size = 0;
-    const auto how = adopted_ ? ocp::start::warm : ocp::start::cold;
-    if (adopted_)
-      solver_.carry_over(std::max(0.0, car.s_m - adopted_s_m_), grid_.ds_m,
-                         grid_.steps);
-    adopted_ = false;
-    if (solve(car.s_m, car.x, how, others, go_on))
+    forget();
+    if (solve(car.s_m, car.x, ocp::start::cold, others, go_on))
       take(car.s_m, 0);
     return report_;
   }

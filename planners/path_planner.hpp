@@ -48,12 +48,8 @@ public:
   /// The path; empty before the first good plan.
   const planned_path& path() const { return path_; }
 
-  /// Where the solver's memory begins on the line, and the memory.
-  double solved_s_m() const { return path_.start_s_m + frozen_ * path_.ds_m; }
-  path_warm_start warm_start() const { return solver_.warm_start(); }
-
-  /// Begins the next path from another planner's; `s_m` is where that began.
-  void adopt(const path_warm_start& other, double s_m);
+  /// Begins a new path with the next plan.
+  void forget() { path_.size = 0; }
 
   /// @returns whether the last call could plan on.
   bool settled() const { return settled_; }
@@ -74,8 +70,6 @@ private:
   int frozen_ = 0;        // knots of the path before the solver's first
   bool narrowed_ = false; // something was in the lane
   bool settled_ = false;  // the solver's memory is of the path
-  bool adopted_ = false;  // ... or of another planner's, from here:
-  double adopted_s_m_ = 0;
   ocp::solve_report report_;
   std::vector<double> bends_, wanted_;
 };

@@ -65,6 +65,9 @@ spatial_planner::spatial_planner(route_ptr way, const driving_style& style,
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
                                   const trajectory* previous, trajectory& out,
                                   const ocp::budget& go_on) {
+  if (previous && made_ && previous->start > *made_)
+    forget();
+  made_ = now;
   plan_report report;
   report.input = input.at;
   const scene at{now, joined(*route_, now, input, previous), input.others,
@@ -107,24 +110,12 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   return report;
 }
 
-bool spatial_planner::remember(planner_memory& memory) const {
-  if (path_->path().empty())
-    return false;
-  memory.path_s_m = path_->solved_s_m();
-  memory.path = path_->warm_start();
-  memory.speed_s_m = speed_->solved_s_m();
-  memory.stops = speed_->stops();
-  memory.speed = speed_->warm_start();
-  memory.sides = sides_;
-  memory.order = order_;
-  return true;
-}
-
-void spatial_planner::adopt(const planner_memory& memory) {
-  path_->adopt(memory.path, memory.path_s_m);
-  speed_->adopt(memory.speed, memory.speed_s_m, memory.stops);
-  sides_ = memory.sides;
-  order_ = memory.order;
+// What was planned here belongs to a plan that nobody drives any more.
+void spatial_planner::forget() {
+  path_->forget();
+  speed_->forget();
+  sides_ = order_ = 0;
+  kept_from_.reset();
 }
 
 // -- path ---------------------------------------------------------------------

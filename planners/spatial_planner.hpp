@@ -40,9 +40,6 @@ public:
                    const trajectory* previous, trajectory& out,
                    const ocp::budget& go_on = {}) override;
 
-  bool remember(planner_memory& memory) const override;
-  void adopt(const planner_memory& memory) override;
-
 private:
   /// What a cycle starts from.
   struct scene {
@@ -52,6 +49,7 @@ private:
     double age_s; ///< Of what is known of them.
   };
 
+  void forget();
   bool plan_path(const scene& at, plan_report& report,
                  const ocp::budget& go_on);
   bool plan_speed(const scene& at, plan_report& report,
@@ -88,6 +86,7 @@ private:
   std::vector<passing_order> all_sides_;
   std::vector<crossing_order> all_orders_;
   time_motion kept_;
+  std::optional<time_point> made_;      // start of the last plan
   std::optional<time_point> kept_from_; // start of the plan that is kept
 };
 

@@ -103,13 +103,6 @@ speed_planner::speed_planner(const reference_line& line,
   motion_.reserve(static_cast<std::size_t>(steps_) + 1);
 }
 
-void speed_planner::adopt(const velocity_warm_start& other, double s_m,
-                          bool stops) {
-  solved_ = solver_.adopt(other);
-  solved_s_m_ = s_m;
-  solved_stop_ = stops;
-}
-
 speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
   stop end{task.stop_m - line_gap_m, task.stop_m - least_line_gap_m};
   if (task.ahead) {

@@ -54,15 +54,6 @@ public:
   /// Plans the next one from scratch.
   void forget() { solved_ = false; }
 
-  /// Where the solver's memory begins on the line, whether it ends at rest,
-  /// and the memory.
-  double solved_s_m() const { return solved_s_m_; }
-  bool stops() const { return solved_stop_; }
-  velocity_warm_start warm_start() const { return solver_.warm_start(); }
-
-  /// Goes on from another planner's plan.
-  void adopt(const velocity_warm_start& other, double s_m, bool stops);
-
   /// The last resort on a path: braking, as firmly as needed.
   result brake_only(const speed_task& task);
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "planners/ocp/status.hpp"
-#include "planners/planner_memory.hpp"
 #include "planners/planning_input.hpp"
 #include "world/trajectory.hpp"
 
@@ -39,7 +38,8 @@ public:
   /// Plans from `now` on; always gives a plan.
   /// @param input     May be older than `now`; where to begin: `joined`.
   /// @param previous  The plan in use so far, whoever made it; null if none.
-  ///                  Not `&out`.
+  ///                  Not `&out`. One that begins later than the last plan
+  ///                  made here is another planner's.
   /// @param out       The plan; its points are reused, so that a control loop
   ///                  needs no heap after the first cycles.
   ///                  `out.start == now`.
@@ -47,13 +47,6 @@ public:
   virtual plan_report plan(time_point now, const planning_input& input,
                            const trajectory* previous, trajectory& out,
                            const ocp::budget& go_on = {}) = 0;
-
-  /// Writes down what another planner needs to go on from the last plan.
-  /// @returns false for planners that remember nothing.
-  virtual bool remember(planner_memory&) const { return false; }
-
-  /// Goes on from another planner's plan, which is `previous` next.
-  virtual void adopt(const planner_memory&) {}
 };
 
 /// @returns `x` with what no car's own motion can be cut off (10 000 km, 5 m

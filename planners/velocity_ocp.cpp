@@ -239,16 +239,6 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   ds_m_ = ds_m;
 }
 
-bool velocity_ocp::adopt(const velocity_warm_start& other) noexcept {
-  if (!other.usable())
-    return false;
-  w_.rows.timed = true;
-  ocp::recall(w_, other);
-  ds_m_ = other.ds_m;
-  started_ = true;
-  return true;
-}
-
 ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
                                       ocp::start from,
                                       const velocity_options& options,

@@ -62,9 +62,6 @@ struct velocity_options {
       .max_iterations = 100, .max_linearisations = 60, .max_inner = 8};
 };
 
-/// What a velocity solver can go on from.
-using velocity_warm_start = ocp::warm_start<5>;
-
 /// A solver with its workspace: no heap, no clock, byte-wise copyable.
 class velocity_ocp {
 public:
@@ -92,15 +89,6 @@ public:
 
   /// The same by whole knots, on the same grid.
   void shift(int knots) noexcept { carry_over(knots * ds_m_, ds_m_, w_.n); }
-
-  /// What another solver needs to go on from this plan.
-  velocity_warm_start warm_start() const noexcept {
-    return ocp::known<velocity_warm_start::rows>(w_, ds_m_);
-  }
-
-  /// Takes another solver's plan for its own last one; `carry_over` follows.
-  /// @returns false, and changes nothing, where it cannot be gone on from.
-  bool adopt(const velocity_warm_start& other) noexcept;
 
   int steps() const { return w_.n; }
 

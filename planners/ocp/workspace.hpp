@@ -1,5 +1,5 @@
 // All that a solve works on: fixed sizes, knots side by side, no pointers, so
-// that it can be copied byte by byte as the warm start of another solver.
+// that a solver can be copied byte by byte, to try another way from its plan.
 #pragma once
 
 #include "planners/ocp/series.hpp"

@@ -1,14 +1,11 @@
-// A warm start that moves by any distance, changes grids, and changes hands.
-#include "planners/planner_memory.hpp"
+// A warm start that moves by any distance, and changes grids.
 #include "planners/practice.hpp"
 #include "tests/support/near.hpp"
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 using namespace sofof;
@@ -24,15 +21,6 @@ std::unique_ptr<path_ocp> path_solver() {
 }
 std::unique_ptr<velocity_ocp> speed_solver() {
   return std::make_unique<velocity_ocp>();
-}
-
-struct grid {
-  int steps;
-  double ds_m;
-};
-
-int knot(const grid& g, int metre) {
-  return static_cast<int>(std::lround(metre / g.ds_m));
 }
 
 /// A velocity solver that has a plan for the practice road.
@@ -143,139 +131,6 @@ TEST_CASE(
   const auto cold = path_solver()->solve(coarse.at(0, {}), start::cold);
   CHECK(warm.iterations == cold.iterations);
   CHECK(warm.cost == cold.cost);
-}
-
-TEST_CASE("a velocity planner goes on from the plan of one with another grid") {
-  constexpr grid fine{250, 0.5}, coarse{80, 1};
-  for (const auto what : {event::free_flow, event::stop_line})
-    for (const auto& [from, to] : {std::pair{fine, coarse}, {coarse, fine}}) {
-      CAPTURE(static_cast<int>(what));
-      CAPTURE(from.steps);
-      practice_road theirs{what, from.steps, from.ds_m};
-      practice_road ours{what, to.steps, to.ds_m};
-      const auto first = speed_solver(), second = speed_solver();
-      const auto a_metre = static_cast<std::size_t>(1 / from.ds_m);
-      velocity_state x{0, 60, 0};
-      auto now_s = 0.;
-      auto warm = 0, cold = 0;
-      for (int metre = 0; metre < 40; ++metre) {
-        first->carry_over(metre > 0 ? 1 : 0, from.ds_m, from.steps);
-        first->solve(theirs.at(knot(from, metre), now_s, x), start::warm);
-        now_s += first->t_s()[a_metre];
-        x = state_at(*first, a_metre);
-        const auto& problem = ours.at(knot(to, metre + 1), now_s, x);
-        const auto fresh = second->solve(problem, start::cold);
-        REQUIRE(second->adopt(first->warm_start()));
-        second->carry_over(1, to.ds_m, to.steps);
-        const auto taken = second->solve(problem, start::warm);
-        CHECK(taken.status == converged);
-        CHECK(taken.cost == test::near(fresh.cost, 1e-3));
-        warm += taken.iterations;
-        cold += fresh.iterations;
-      }
-      CHECK(2 * warm < cold);
-    }
-}
-
-TEST_CASE("a path planner goes on from the plan of one that sees further") {
-  constexpr grid far{250, 0.5}, near{160, 0.5};
-  slalom theirs{far.steps, far.ds_m}, ours{near.steps, near.ds_m};
-  const auto first = path_solver(), second = path_solver();
-  path_state x;
-  auto warm = 0, cold = 0;
-  for (int metre = 0; metre < 40; ++metre) {
-    first->carry_over(metre > 0 ? 1 : 0, far.ds_m, far.steps);
-    first->solve(theirs.at(knot(far, metre), x), start::warm);
-    x = state_at(*first, 2);
-    const auto& problem = ours.at(knot(near, metre + 1), x);
-    const auto fresh = second->solve(problem, start::cold);
-    REQUIRE(second->adopt(first->warm_start()));
-    second->carry_over(1, near.ds_m, near.steps);
-    const auto taken = second->solve(problem, start::warm);
-    CHECK(taken.status == converged);
-    CHECK(taken.cost == test::near(fresh.cost, 1e-3));
-    warm += taken.iterations;
-    cold += fresh.iterations;
-  }
-  CHECK(2 * warm < cold);
-}
-
-TEST_CASE("a path planner can go on from one with other steps") {
-  constexpr grid fine{250, 0.5}, coarse{80, 1};
-  for (const auto& [from, to] : {std::pair{fine, coarse}, {coarse, fine}}) {
-    const auto first = steering(from.steps, from.ds_m);
-    const auto x = state_at(*first, static_cast<std::size_t>(2 / from.ds_m));
-    slalom ours{to.steps, to.ds_m};
-    const auto& problem = ours.at(knot(to, 2), x);
-    const auto fresh = path_solver()->solve(problem, start::cold);
-    const auto second = path_solver();
-    REQUIRE(second->adopt(first->warm_start()));
-    second->carry_over(2, to.ds_m, to.steps);
-    const auto taken = second->solve(problem, start::warm);
-    CHECK(taken.status == converged);
-    CHECK(taken.cost == test::near(fresh.cost, 1e-3));
-  }
-}
-
-TEST_CASE("a plan that changes hands on the same grid is continued as well") {
-  const auto first = steering(80, 1);
-  const auto second = path_solver();
-  REQUIRE(second->adopt(first->warm_start()));
-  slalom road;
-  const auto& next = road.at(1, state_at(*first, 1));
-  for (auto* solver : {first.get(), second.get()})
-    solver->shift(1);
-  const auto kept = first->solve(next, start::warm);
-  const auto taken = second->solve(next, start::warm);
-  CHECK(taken.status == converged);
-  CHECK(taken.cost == test::near(kept.cost, 1e-5));
-  CHECK(taken.iterations <= kept.iterations + 1);
-}
-
-TEST_CASE("nobody goes on from what is no plan") {
-  auto memory = steering(80, 1)->warm_start();
-  const auto solver = steering(80, 1);
-  const auto before = solver->offset_m()[40];
-  SUBCASE("no steps") {
-    memory.steps = 0;
-  }
-  SUBCASE("too many steps") {
-    memory.steps = ocp::most_steps + 1;
-  }
-  SUBCASE("steps of no length") {
-    memory.ds_m = 0;
-  }
-  SUBCASE("steps of hardly any length") {
-    memory.ds_m = 1e-300;
-  }
-  SUBCASE("steps that are longer than streets") {
-    memory.ds_m = 1e300;
-  }
-  SUBCASE("steps that are no number") {
-    memory.ds_m = std::numeric_limits<double>::quiet_NaN();
-  }
-  SUBCASE("a state that is no number") {
-    memory.x1[80] = std::numeric_limits<float>::quiet_NaN();
-  }
-  SUBCASE("a multiplier without end") {
-    memory.force[2][7] = std::numeric_limits<float>::infinity();
-  }
-  CHECK_FALSE(solver->adopt(memory));
-  CHECK(solver->offset_m()[40] == before);
-  CHECK(path_solver()->warm_start().usable() == false);
-}
-
-TEST_CASE("what is known of no place is not gone on from") {
-  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr auto inf = std::numeric_limits<double>::infinity();
-  CHECK(is_sound(planner_memory{}));
-  for (const auto nowhere : {nan, inf, -inf}) {
-    planner_memory path, speed;
-    path.path_s_m = nowhere;
-    speed.speed_s_m = nowhere;
-    CHECK_FALSE(is_sound(path));
-    CHECK_FALSE(is_sound(speed));
-  }
 }
 
 TEST_CASE("carried over to nonsense, a solver starts cold") {

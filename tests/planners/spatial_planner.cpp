@@ -319,3 +319,26 @@ TEST_CASE("a planner that takes over goes on from the plan in use, and soon "
     CHECK(iterations < 60);
   }
 }
+
+TEST_CASE("a planner that comes back begins where the plan in use is, not on "
+          "its own old path") {
+  const auto way = test::straight(600, {{0, 13.9}});
+  ride ride{way, 20, 10};
+  for (auto i = 0; i < 20; ++i)
+    ride.go();
+  // Meanwhile another planner has led the car a little to the side.
+  const auto other = test::optimiser(way);
+  auto x = seen_from(*way, ride.plan.at(ride.t + cycle));
+  x.d_m += 0.04;
+  x.at = x.others.at = ride.t + cycle;
+  trajectory theirs;
+  other->plan(ride.t + cycle, x, nullptr, theirs);
+  ride.plan = theirs;
+  ride.t += cycle;
+  ride.go();
+  CHECK(ride.report.origin == plan_origin::planned);
+  for (const auto ahead : {0.0, 0.5}) {
+    const auto when = ride.t + from_seconds(ahead);
+    CHECK(distance_m(ride.plan.at(when).at, theirs.at(when).at) < 0.005);
+  }
+}
