@@ -84,7 +84,7 @@ struct roadside_station {
 struct service_setup {
   streets_ptr world;
   datum_ptr where; ///< Where that is on Earth.
-  vehicle_params car;
+  vehicle_params car = {};
   station_id station = 0;
   bool remote = false;
   random_stream noise{0, ""}; ///< A stream of its own.

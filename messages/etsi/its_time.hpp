@@ -11,7 +11,7 @@ namespace sofof::etsi {
 
 /// Milliseconds since 2004-01-01T00:00:00Z, leap seconds included
 /// (TimestampIts of TS 102 894-2, 0..4398046511103).
-using timestamp_its = std::int64_t;
+using its_ms = std::int64_t;
 
 /// Unix time of 2004-01-01T00:00:00Z, ms.
 inline constexpr std::int64_t its_epoch_unix_ms = 1'072'915'200'000;
@@ -26,7 +26,7 @@ inline constexpr std::array<std::int64_t, 5> leap_seconds_unix_ms{
     1'483'228'800'000, // 2017-01-01
 };
 
-constexpr timestamp_its to_timestamp_its(std::int64_t unix_ms) {
+constexpr its_ms to_timestamp_its(std::int64_t unix_ms) {
   auto its = unix_ms - its_epoch_unix_ms;
   for (const auto leap : leap_seconds_unix_ms)
     its += unix_ms >= leap ? 1000 : 0;
@@ -34,7 +34,7 @@ constexpr timestamp_its to_timestamp_its(std::int64_t unix_ms) {
 }
 
 /// @returns Unix time, ms; of a leap second the second after it.
-constexpr std::int64_t to_unix_ms(timestamp_its its) {
+constexpr std::int64_t to_unix_ms(its_ms its) {
   auto unix_ms = its + its_epoch_unix_ms;
   for (const auto leap : leap_seconds_unix_ms)
     unix_ms -= unix_ms > leap ? 1000 : 0;
@@ -53,13 +53,13 @@ public:
       : epoch_unix_ms_{epoch_unix_ms} {}
 
   /// @returns the last whole millisecond at or before `t`.
-  constexpr timestamp_its timestamp(time_point t) const {
+  constexpr its_ms timestamp(time_point t) const {
     const auto ms = std::chrono::floor<std::chrono::milliseconds>(t);
     return to_timestamp_its(epoch_unix_ms_ + ms.time_since_epoch().count());
   }
 
   /// @param its  Of this millennium.
-  constexpr time_point time(timestamp_its its) const {
+  constexpr time_point time(its_ms its) const {
     return time_point{
         std::chrono::milliseconds{to_unix_ms(its) - epoch_unix_ms_}};
   }
@@ -74,22 +74,21 @@ private:
 };
 
 /// TimestampIts mod 65536, as CAM, CPM TR 103 562 and MCM carry it.
-using delta_time = std::uint16_t;
+using wrapped_ms = std::uint16_t;
 
-constexpr delta_time to_delta_time(timestamp_its its) {
-  return static_cast<delta_time>(its); // modulo, also of negative
+constexpr wrapped_ms to_delta_time(its_ms its) {
+  return static_cast<wrapped_ms>(its); // modulo, also of negative
 }
 
 /// @returns how old a message is at `now`, ms, in [-32767, 32768]; negative
 /// when the sender's clock is ahead of ours.
-constexpr int age_ms(delta_time generated, timestamp_its now) {
+constexpr int age_ms(wrapped_ms generated, its_ms now) {
   const int age = static_cast<std::uint16_t>(to_delta_time(now) - generated);
   return age <= 32768 ? age : age - 65536;
 }
 
 /// @returns the moment nearest to `now` that `generated` can stand for.
-constexpr timestamp_its unwrap(delta_time generated,
-                               timestamp_its now) {
+constexpr its_ms unwrap(wrapped_ms generated, its_ms now) {
   return now - age_ms(generated, now);
 }
 

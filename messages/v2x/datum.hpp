@@ -16,7 +16,7 @@ struct datum {
 
   /// @returns the moment that a message tells in its 16 bits: the nearest to
   /// `now` there is.
-  time_point unwrapped(etsi::delta_time ms, time_point now) const {
+  time_point unwrapped(etsi::wrapped_ms ms, time_point now) const {
     return clock.time(etsi::unwrap(ms, clock.timestamp(now)));
   }
 };

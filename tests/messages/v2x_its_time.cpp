@@ -45,7 +45,7 @@ TEST_CASE("a run in virtual time begins with 2026") {
 TEST_CASE("sixteen bits are enough for half a minute back and ahead") {
   test::dice d{7};
   for (int i = 0; i < 100000; ++i) {
-    const auto now = static_cast<timestamp_its>(d.between(6.9e11, 7.1e11));
+    const auto now = static_cast<its_ms>(d.between(6.9e11, 7.1e11));
     const auto age = static_cast<int>(d.between(-32767, 32768));
     REQUIRE(age_ms(to_delta_time(now - age), now) == age);
     REQUIRE(unwrap(to_delta_time(now - age), now) == now - age);
@@ -53,7 +53,7 @@ TEST_CASE("sixteen bits are enough for half a minute back and ahead") {
 }
 
 TEST_CASE("a message sent before the wrap and read behind it is not old") {
-  const timestamp_its wrap = 10'000'000 * std::int64_t{65536};
+  const its_ms wrap = 10'000'000 * std::int64_t{65536};
   CHECK(to_delta_time(wrap - 1) == 65535);
   CHECK(to_delta_time(wrap) == 0);
   CHECK(age_ms(65535, wrap + 20) == 21);
