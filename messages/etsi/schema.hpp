@@ -102,9 +102,10 @@ template <class Enum>
 inline constexpr auto names_of = nullptr;
 
 /// A fixed number of bits; bit 0, which goes first, is the highest.
-template <unsigned n>
+template <unsigned n, growth g = growth::closed>
 struct bit_string {
   static_assert(n <= 32);
+  static constexpr auto may_grow = g;
   static constexpr unsigned width = n;
   std::uint32_t bits = 0;
 
@@ -204,8 +205,8 @@ inline constexpr bool is_integer<integer<lo, hi, g>> = true;
 
 template <class T>
 inline constexpr bool is_bit_string = false;
-template <unsigned n>
-inline constexpr bool is_bit_string<bit_string<n>> = true;
+template <unsigned n, growth g>
+inline constexpr bool is_bit_string<bit_string<n, g>> = true;
 
 template <class T>
 inline constexpr bool is_choice = false;

@@ -177,6 +177,8 @@ void write(Out& out, const T& x) {
     write_index(out, static_cast<std::size_t>(x), names::count,
                 names::may_grow == extensible);
   } else if constexpr (is_bit_string<T>) {
+    if constexpr (T::may_grow == extensible)
+      out.put(0, 1);
     out.put(x.bits, T::width);
   } else if constexpr (is_choice<T>) {
     write_choice(out, x);
@@ -403,6 +405,9 @@ void read(In& in, T& x) {
     x = static_cast<T>(
         read_index(in, names::count, names::may_grow == extensible));
   } else if constexpr (is_bit_string<T>) {
+    if constexpr (T::may_grow == extensible)
+      if (in.get(1) == 1)
+        return in.fail(fault::bad_count);
     x.bits = static_cast<std::uint32_t>(in.get(T::width));
   } else if constexpr (is_choice<T>) {
     read_choice(in, x);
