@@ -16,18 +16,18 @@ constexpr auto names = std::to_array<std::string_view>(
      "",     "SREM", "SSEM", "EVCSN",  "SAEM",  "RTCMEM", "CPM",
      "IMZM", "VAM",  "",     "",       "",      "MCM"});
 
-std::string text_of(message_key key) {
-  return fmt::format("{} of protocol version {}", message_name(key[1]), key[0]);
-}
-
 } // namespace
 
-std::string message_name(std::uint64_t id) {
+std::string text_of(message_key key) {
+  const std::size_t id = key[1];
   const auto is_known = id >= 1 && id <= names.size() && !names[id - 1].empty();
-  return is_known ? std::string{names[id - 1]} : fmt::format("message {}", id);
+  return fmt::format("{} of protocol version {}",
+                     is_known ? std::string{names[id - 1]}
+                              : fmt::format("message {}", id),
+                     key[0]);
 }
 
-std::string explain_key(message_key found, message_key known) {
+std::string explain(message_key found, message_key known) {
   return fmt::format("this is a {}, and not a {}", text_of(found),
                      text_of(known));
 }

@@ -9,9 +9,9 @@
 
 namespace sofof::etsi {
 
-/// @returns what a message id of ETSI TS 102 894-2 stands for, e.g. "CAM";
-/// "message 99" if it stands for nothing we know of.
-std::string message_name(std::uint64_t id);
+/// @returns e.g. "CAM of protocol version 2", or "message 99 of protocol
+/// version 2" where the id has no name in ETSI TS 102 894-2.
+std::string text_of(message_key key);
 
 /// What was found where.
 struct finding {
@@ -22,7 +22,7 @@ struct finding {
 
 // Sentences without their full stop.
 std::string explain(const finding& found);
-std::string explain_key(message_key found, message_key known);
+std::string explain(message_key found, message_key known);
 
 /// Reads, and remembers what was wrong first.
 class tracing_reader : public bit_reader {
@@ -85,7 +85,7 @@ template <class T>
 std::string explain_decoding(std::span<const std::byte> in) {
   if constexpr (headed<T>)
     if (in.size() >= 2 && key_in(in) != key_of<T>)
-      return explain_key(key_in(in), key_of<T>);
+      return explain(key_in(in), key_of<T>);
   tracing_reader reader{in};
   T message;
   read_all(reader, message);
@@ -98,7 +98,7 @@ template <class T>
 std::string explain_encoding(const T& message) {
   if constexpr (headed<T>)
     if (key_in(message) != key_of<T>)
-      return explain_key(key_in(message), key_of<T>);
+      return explain(key_in(message), key_of<T>);
   tracing_writer writer;
   write(writer, message);
   return writer.sentence();

@@ -407,7 +407,7 @@ void read(In& in, T& x) {
   } else if constexpr (is_bit_string<T>) {
     if constexpr (T::may_grow == extensible)
       if (in.get(1) == 1)
-        return in.fail(fault::bad_count);
+        return in.fail(fault::bad_count, read_length(in), T::width, T::width);
     x.bits = static_cast<std::uint32_t>(in.get(T::width));
   } else if constexpr (is_choice<T>) {
     read_choice(in, x);
