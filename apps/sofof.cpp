@@ -32,6 +32,8 @@ int obey(int argc, char** argv) {
   sofof::add_run(app, exit_code);
   sofof::add_check(app, exit_code);
   sofof::add_solve(app, exit_code);
+  sofof::add_decode(app, exit_code);
+  sofof::add_encode(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

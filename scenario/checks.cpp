@@ -2,7 +2,7 @@
 #include "scenario/checks.hpp"
 
 #include "scenario/placement.hpp"
-#include "scenario/spelling.hpp"
+#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 

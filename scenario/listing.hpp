@@ -1,9 +1,9 @@
 // What several lists of options have in common.
 #pragma once
 
-#include "scenario/spelling.hpp"
 #include "world/geometry.hpp"
 #include "world/settings.hpp"
+#include "world/spelling.hpp"
 
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,7 @@
 #include "planners/practice.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/output_file.hpp"
-#include "scenario/spelling.hpp"
+#include "world/spelling.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "scenario/problem_file.hpp"
 
 #include "scenario/input_error.hpp"
-#include "scenario/spelling.hpp"
+#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,9 @@
 #include "scenario/toml_settings.hpp"
 
 #include "scenario/input_error.hpp"
-#include "scenario/spelling.hpp"
 #include "scenario/toml_text.hpp"
 #include "scenario/units.hpp"
+#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -42,7 +42,7 @@ public:
       flush_word();
   }
 
-  void fail(fault what) {
+  void fail(fault what, const auto&...) {
     if (fault_ == fault::none)
       fault_ = what;
   }
@@ -98,7 +98,7 @@ private:
 class bit_counter {
 public:
   void put(std::uint64_t, unsigned width) { bits_ += width; }
-  void fail(fault) {}
+  void fail(fault, const auto&...) {}
   std::size_t bits() const { return bits_; }
   void enter(const auto&) {}
   void leave() {}
@@ -131,7 +131,7 @@ public:
     return value;
   }
 
-  void fail(fault what) {
+  void fail(fault what, const auto&...) {
     if (fault_ == fault::none)
       fault_ = what;
   }

@@ -5,7 +5,7 @@
 // the MCM of the LUKAS project. Not the MCM of ETSI TS 103 561.
 #pragma once
 
-#include "messages/etsi/common.hpp"
+#include "messages/etsi/common_2.hpp"
 
 namespace sofof::etsi {
 
@@ -37,13 +37,12 @@ struct reference_position_with_confidence {
 /// The longest list of points or road users.
 inline constexpr std::size_t most_waypoints = 128;
 
-using cartesian_coordinate = integer<-131'072, 131'071>; ///< cm
-using waypoint_delta_time = integer<0, 65535>;           ///< ms
+using waypoint_delta_time = integer<0, 65535>; ///< ms
 
 /// A place seen from the reference position, which the ASN.1 leaves open: here
 /// x points east and y north.
 struct waypoint {
-  cartesian_coordinate x, y;
+  cartesian_coordinate_large x, y;
 
   static void fields(auto& x, auto&& visit) {
     visit("xDistance", x.x);

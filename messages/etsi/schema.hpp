@@ -181,6 +181,9 @@ struct registered {
 template <class Id, class... Registered>
 struct open_type {
   using id_type = Id;
+  /// As WrappedCpmContainer, our only one, calls its two members.
+  static constexpr std::string_view id_name = "containerId";
+  static constexpr std::string_view value_name = "containerData";
   static constexpr std::size_t count = sizeof...(Registered);
   static constexpr std::array<std::int64_t, count> ids{Registered::number...};
   static constexpr std::array<std::string_view, count> names{

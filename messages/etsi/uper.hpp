@@ -29,7 +29,7 @@ void write_length(Out& out, std::size_t octets) {
   else if (octets <= longest)
     out.put(octets | 0x8000, 16);
   else
-    out.fail(fault::too_long);
+    out.fail(fault::too_long, octets, 0, longest);
 }
 
 template <class Out, std::int64_t lo, std::int64_t hi, growth g>
@@ -53,7 +53,7 @@ void write_integer(Out& out, const integer<lo, hi, g>& x) {
       return;
     }
   } else if (!is_root) {
-    out.fail(fault::out_of_range);
+    out.fail(fault::out_of_range, x.value, lo, hi);
     out.put(0, type::width);
     return;
   }
@@ -71,7 +71,7 @@ void write_index(Out& out, std::size_t index, std::size_t count,
   else if (may_grow && index - count < std::size_t{1} << small_width)
     out.put(index - count, small_width + 1); // a small one begins with 0
   else
-    out.fail(fault::out_of_range);
+    out.fail(fault::out_of_range, index, 0, count - 1);
 }
 
 /// Which optional members are there.
@@ -132,7 +132,7 @@ template <class Out, class T, std::size_t a, std::size_t b, growth g>
 void write_list(Out& out, const sequence_of<T, a, b, g>& xs) {
   const auto is_root = xs.size() >= a && xs.size() <= b;
   if (!is_root)
-    return out.fail(fault::bad_count);
+    return out.fail(fault::bad_count, xs.size(), a, b);
   if constexpr (g == extensible)
     out.put(0, 1);
   out.put(xs.size() - a, static_cast<unsigned>(std::bit_width(b - a)));
@@ -208,7 +208,7 @@ std::size_t read_length(In& in) {
     return in.get(7);
   if (in.get(1) == 0)
     return in.get(14);
-  in.fail(fault::too_long);
+  in.fail(fault::too_long, 0, 0, longest);
   return 0;
 }
 
@@ -217,7 +217,7 @@ template <class In>
 std::size_t read_small(In& in) {
   if (in.get(1) == 0)
     return in.get(small_width);
-  in.fail(fault::too_long);
+  in.fail(fault::too_long, 0, 0, (1 << small_width) - 1);
   return 0;
 }
 
@@ -229,7 +229,7 @@ void read_integer(In& in, integer<lo, hi, g>& x) {
     if (in.get(1) == 1) {
       const auto octets = read_length(in);
       if (octets < 1 || octets > 4)
-        return in.fail(fault::too_long);
+        return in.fail(fault::too_long, octets, 1, 4);
       const auto width = static_cast<unsigned>(8 * octets);
       const auto raw = in.get(width) << (64 - width);
       x.value =
@@ -238,9 +238,10 @@ void read_integer(In& in, integer<lo, hi, g>& x) {
     }
   }
   const auto offset = in.get(type::width);
+  const auto value = static_cast<std::int64_t>(offset) + lo;
   if (offset > type::span)
-    return in.fail(fault::out_of_range);
-  x.value = static_cast<number>(static_cast<std::int64_t>(offset) + lo);
+    return in.fail(fault::out_of_range, value, lo, hi);
+  x.value = static_cast<number>(value);
 }
 
 template <class In>
@@ -249,7 +250,7 @@ std::size_t read_index(In& in, std::size_t count, bool may_grow) {
     return count + read_small(in);
   const auto index = in.get(static_cast<unsigned>(std::bit_width(count - 1)));
   if (index >= count)
-    in.fail(fault::out_of_range);
+    in.fail(fault::out_of_range, index, 0, count - 1);
   return index;
 }
 
@@ -292,7 +293,7 @@ struct member_reader {
 template <class In>
 void skip_octets(In& in, std::size_t octets) {
   if (octets * 8 > in.left())
-    in.fail(fault::ends_early);
+    in.fail(fault::ends_early, octets * 8);
   else
     in.go_to(in.at() + octets * 8);
 }
@@ -324,7 +325,7 @@ void read_choice(In& in, basic_choice<g, As...>& x) {
   using type = basic_choice<g, As...>;
   const auto index = read_index(in, type::count, g == extensible);
   if (index >= type::count)
-    return in.fail(fault::unknown_choice);
+    return in.fail(fault::unknown_choice, index, 0, type::count - 1);
   const auto read_one = [&]<std::size_t i>() {
     if (index != i)
       return;
@@ -343,10 +344,10 @@ template <class In, class T, std::size_t a, std::size_t b, growth g>
 void read_list(In& in, sequence_of<T, a, b, g>& xs) {
   if constexpr (g == extensible)
     if (in.get(1) == 1)
-      return in.fail(fault::bad_count);
+      return in.fail(fault::bad_count, read_length(in), a, b);
   const auto count = in.get(static_cast<unsigned>(std::bit_width(b - a))) + a;
   if (count > b)
-    return in.fail(fault::bad_count);
+    return in.fail(fault::bad_count, count, a, b);
   xs.resize(count);
   for (std::size_t i = 0; i < count && in.ok(); ++i) {
     in.enter(i);
@@ -368,7 +369,7 @@ void read_open(In& in, T& x) {
   read(in, id);
   const auto octets = read_length(in);
   if (octets * 8 > in.left())
-    return in.fail(fault::ends_early);
+    return in.fail(fault::ends_early, octets * 8);
   const auto behind = in.at() + octets * 8;
   const auto end = in.end_at(behind);
   const auto read_one = [&]<std::size_t i>() {
@@ -406,7 +407,7 @@ void read(In& in, T& x) {
   } else if constexpr (is_bit_string<T>) {
     if constexpr (T::may_grow == extensible)
       if (in.get(1) == 1)
-        return in.fail(fault::bad_count);
+        return in.fail(fault::bad_count, read_length(in), T::width, T::width);
     x.bits = static_cast<std::uint32_t>(in.get(T::width));
   } else if constexpr (is_choice<T>) {
     read_choice(in, x);
@@ -421,31 +422,72 @@ void read(In& in, T& x) {
 
 // -- whole messages ---------------------------------------------------------
 
+/// Messages that begin with a header that tells which they are.
+template <class T>
+concept headed = requires(const T& x) {
+  T::protocol_version;
+  T::message_id;
+  x.header;
+};
+
+/// The first two octets of a message: protocol version and message id.
+using message_key = std::array<std::uint8_t, 2>;
+template <headed T>
+inline constexpr message_key key_of{T::protocol_version, T::message_id};
+
+template <headed T>
+message_key key_in(const T& message) {
+  return {message.header.protocol_version, message.header.message_id};
+}
+/// Precondition: 2 octets.
+inline message_key key_in(std::span<const std::byte> in) {
+  return {std::to_integer<std::uint8_t>(in[0]),
+          std::to_integer<std::uint8_t>(in[1])};
+}
+
 /// Encodes without heap.
 /// @returns how many octets of `out` it takes; 0 if something does not fit:
 /// `explain_encoding` tells what.
 template <class T>
 std::size_t encode(const T& message, std::span<std::byte> out) {
+  if constexpr (headed<T>)
+    if (key_in(message) != key_of<T>)
+      return 0;
   bit_writer writer{out};
   write(writer, message);
   return writer.finish();
 }
 
-/// Decodes into a message whose room is used again. Only zero bits may follow,
-/// and fewer than 8.
+/// @returns how many octets it takes.
+template <class T>
+std::size_t encoded_size(const T& message) {
+  bit_counter counter;
+  write(counter, message);
+  return (counter.bits() + 7) / 8;
+}
+
+/// Reads to the end: only zero bits may follow, and fewer than 8.
+template <class In, class T>
+void read_all(In& in, T& x) {
+  read(in, x);
+  if (!in.ok())
+    return;
+  const auto rest = in.left();
+  if (rest >= 8 || in.get(static_cast<unsigned>(rest)) != 0)
+    in.fail(fault::leftover, rest);
+}
+
+/// Decodes into a message whose room is used again.
 /// @returns whether all of it could be read: if not, the message is not to be
 /// used, and `explain_decoding` tells why.
-template <class In, class T>
-bool decode_with(In& in, T& message) {
-  read(in, message);
-  if (in.ok() && (in.left() >= 8 || in.get(static_cast<unsigned>(in.left()))))
-    in.fail(fault::leftover);
-  return in.ok();
-}
 template <class T>
 bool decode(std::span<const std::byte> in, T& message) {
+  if constexpr (headed<T>)
+    if (in.size() >= 2 && key_in(in) != key_of<T>)
+      return false;
   bit_reader reader{in};
-  return decode_with(reader, message);
+  read_all(reader, message);
+  return reader.ok();
 }
 
 } // namespace sofof::etsi

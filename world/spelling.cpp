@@ -1,5 +1,5 @@
 // Helps with a word that is not known.
-#include "scenario/spelling.hpp"
+#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 
