@@ -1,0 +1,258 @@
+// From a plan to what an MCM says.
+#include "messages/etsi/units.hpp"
+#include "messages/v2x/maneuver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+constexpr std::int32_t largest_cm = 131071;
+constexpr std::int32_t largest_ms = 65535;
+constexpr double largest_speed_mps = 163.82;
+
+/// How far waypoints are apart where the jerk jumps by less than that.
+struct density {
+  double jump_mps3;
+  int gap_ms;
+};
+constexpr density usual{0.7, 200};
+constexpr density dense{4, 100};
+constexpr int densest_ms = 50;
+/// A waypoint may stand so far from where it is due, as a share of the gap.
+constexpr int window_share = 5;
+constexpr int widest_window_ms = usual.gap_ms / window_share;
+
+std::int32_t whole(double x) {
+  return static_cast<std::int32_t>(std::floor(x + 0.5)); // ties up
+}
+
+/// Distance to the nearest whole number; |x| < 1000.
+float miss(float x) {
+  constexpr float offset = 1000; // truncation becomes rounding
+  return x + offset - static_cast<float>(static_cast<int>(x + offset + 0.5F));
+}
+
+class writer {
+public:
+  writer(const trajectory& plan, const maneuver_frame& frame)
+      : plan_{plan}, origin_{frame.reference}, east_{frame.earth.to_map_axes(
+                                                   {100, 0}, frame.reference)},
+        north_{frame.earth.to_map_axes({0, 100}, frame.reference)},
+        generated_{frame.generated},
+        first_ms_{std::chrono::ceil<std::chrono::milliseconds>(plan.start
+                                                               - generated_)
+                      .count()},
+        step_ms_{1e3 * plan.points[1].t_s},
+        length_ms_{static_cast<int>(1e3 * plan.points.back().t_s + 0.5)} {}
+
+  bool fits() const {
+    return first_ms_ >= 0 && first_ms_ + length_ms_ <= largest_ms
+           && length_ms_ > 0;
+  }
+  int first_ms() const { return static_cast<int>(first_ms_); }
+  int length_ms() const { return length_ms_; }
+
+  /// @param ms  Since the first whole millisecond.
+  trajectory_point moment(int ms) const {
+    const auto t = generated_ + std::chrono::milliseconds{first_ms_ + ms};
+    auto p = plan_.at(t);
+    // The last waypoint may be half a millisecond later than the plan's end.
+    const auto beyond_s = to_seconds(t - plan_.end());
+    if (beyond_s > 0)
+      p.at = p.at
+             + beyond_s * p.speed_mps
+                   * point{std::cos(p.heading_rad), std::sin(p.heading_rad)};
+    return p;
+  }
+
+  /// In cm to the east and north of the reference.
+  point east_north(point v) const { return {dot(east_, v), dot(north_, v)}; }
+  point offset(const trajectory_point& p) const {
+    return east_north(p.at - origin_);
+  }
+
+  bool write(int ms, maneuver_waypoint& out) const {
+    const auto p = moment(ms);
+    const auto at = offset(p);
+    out = {whole(at.x_m), whole(at.y_m), first_ms() + ms,
+           whole(100 * p.speed_mps)};
+    return std::abs(out.x_cm) <= largest_cm && std::abs(out.y_cm) <= largest_cm
+           && p.speed_mps < largest_speed_mps;
+  }
+
+  /// @returns how far the next waypoint may be from the one at `ms`.
+  int gap_ms(int ms) const {
+    // One before and one behind what the usual gap spans: curves bend early.
+    const auto k = knot(ms);
+    const auto last = std::min(knot(ms + usual.gap_ms) + 1, size() - 2);
+    auto jump = 0.0;
+    for (auto i = std::max(k, std::size_t{1}); i <= last; ++i)
+      jump = std::max(jump, std::abs(accel(i + 1) - 2 * accel(i) + accel(i - 1))
+                                / (1e-3 * step_ms_));
+    return jump < usual.jump_mps3   ? usual.gap_ms
+           : jump < dense.jump_mps3 ? dense.gap_ms
+                                    : densest_ms;
+  }
+
+  /// @returns the end of a rest, or nothing.
+  int rest_until_ms(int ms) const {
+    auto k = knot(ms);
+    if (!stands(k))
+      return ms;
+    while (k + 1 < size() && stands(k + 1))
+      ++k;
+    return std::min(time_ms(k), length_ms_);
+  }
+
+  /// @returns whether the car comes to rest, just after.
+  bool about_to_rest(int ms) const {
+    const auto k = knot(ms);
+    return !stands(k)
+           && (stands(std::min(k + 1, size() - 1))
+               || stands(std::min(k + 2, size() - 1)));
+  }
+  /// @returns the next moment at which the plan has a point.
+  int next_point_ms(int ms) const { return time_ms(knot(ms) + 1); }
+
+  int best_near(int ms, int window_ms) const;
+
+private:
+  static constexpr double slack = 0.02; // of a step
+
+  std::size_t size() const { return plan_.points.size(); }
+  std::size_t knot(int ms) const {
+    return std::min(static_cast<std::size_t>(ms / step_ms_ + slack),
+                    size() - 1);
+  }
+  int time_ms(std::size_t knot) const {
+    return static_cast<int>(static_cast<double>(knot) * step_ms_ + 0.5);
+  }
+  double accel(std::size_t i) const { return plan_.points[i].accel_mps2; }
+  bool stands(std::size_t i) const { return plan_.points[i].speed_mps <= 0; }
+
+  const trajectory& plan_;
+  point origin_, east_, north_;
+  time_point generated_;
+  std::int64_t first_ms_;
+  double step_ms_;
+  int length_ms_;
+};
+
+/// @returns the moment about `ms` at which rounding costs least: the plan as a
+/// polynomial in time, compared with whole numbers a thousand times a second.
+int writer::best_near(int ms, int window_ms) const {
+  const auto p = moment(ms);
+  const auto later = moment(ms + window_ms), before = moment(ms - window_ms);
+  const point tangent{std::cos(p.heading_rad), std::sin(p.heading_rad)};
+  const point left{-tangent.y_m, tangent.x_m};
+  const auto at = offset(p);
+  const auto velocity = p.speed_mps * tangent;
+  const auto push = p.accel_mps2 * tangent
+                    + p.speed_mps * p.speed_mps * p.curvature_1pm * left;
+  const auto along = east_north(1e-3 * velocity);
+  const auto bend = east_north(0.5e-6 * push);
+  const auto side = east_north(0.01 * left);
+  const auto jerk = (later.accel_mps2 - before.accel_mps2) / (2 * window_ms);
+
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const auto x0 = f(at.x_m - whole(at.x_m)), x1 = f(along.x_m),
+             x2 = f(bend.x_m);
+  const auto y0 = f(at.y_m - whole(at.y_m)), y1 = f(along.y_m),
+             y2 = f(bend.y_m);
+  const auto v0 = f(100 * p.speed_mps - whole(100 * p.speed_mps)),
+             v1 = f(0.1 * p.accel_mps2), v2 = f(0.05 * jerk);
+  const auto left_x = f(side.x_m), left_y = f(side.y_m);
+
+  std::array<float, 2 * widest_window_ms + 1> cost;
+  const auto count = 2 * window_ms + 1;
+  for (int i = 0; i < count; ++i) {
+    const auto t = static_cast<float>(i - window_ms);
+    const auto x = miss(x0 + t * (x1 + t * x2));
+    const auto y = miss(y0 + t * (y1 + t * y2));
+    const auto v = miss(v0 + t * (v1 + t * v2));
+    const auto beside = left_x * x + left_y * y;
+    constexpr float tie = 1e-8F; // in the middle, if it is all the same
+    cost[static_cast<std::size_t>(i)] = beside * beside + v * v + tie * t * t;
+  }
+  const auto best = std::min_element(cost.begin(), cost.begin() + count);
+  return ms - window_ms + static_cast<int>(best - cost.begin());
+}
+
+} // namespace
+
+bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
+                  std::vector<maneuver_waypoint>& out) {
+  out.clear();
+  if (!plan.is_sound())
+    return false;
+  const writer pen{plan, frame};
+  if (!pen.fits())
+    return false;
+  const auto end = pen.length_ms();
+  const auto least_gap = end / static_cast<int>(most_waypoints - 8) + 1;
+  const auto put = [&](int ms) {
+    maneuver_waypoint x;
+    const auto good = pen.write(ms, x);
+    if (good)
+      out.push_back(x);
+    return good;
+  };
+
+  for (int ms = 0;;) {
+    if (!put(ms)) {
+      out.clear();
+      return false;
+    }
+    if (ms == end)
+      return true;
+    if (const auto rested = pen.rest_until_ms(ms); rested > ms) {
+      ms = rested;
+      continue;
+    }
+    const auto gap = std::max(pen.gap_ms(ms), least_gap);
+    auto next = ms + gap;
+    const auto window = std::min(gap / window_share, widest_window_ms);
+    if (pen.about_to_rest(ms) || pen.about_to_rest(next))
+      next = std::max(pen.next_point_ms(ms), ms + least_gap);
+    else if (next + window < end)
+      next = pen.best_near(next, window);
+    ms = next + gap / 2 < end ? next : end;
+  }
+}
+
+bool to_planned_points(const trajectory& plan, const maneuver_frame& frame,
+                       planned_points& out) {
+  out.points.clear();
+  if (!plan.is_sound())
+    return false;
+  const writer pen{plan, frame};
+  if (!pen.fits())
+    return false;
+  auto step = usual.gap_ms;
+  for (int ms = 0; ms < pen.length_ms(); ms += usual.gap_ms)
+    step = std::min(step, std::max(pen.gap_ms(ms), dense.gap_ms));
+  step = std::max(step, pen.length_ms() / static_cast<int>(most_waypoints) + 1);
+  constexpr int largest_step_ms = 255;
+  if (step > largest_step_ms)
+    return false;
+  step = std::min(step, pen.length_ms());
+  out.start_ms = pen.first_ms();
+  out.step_ms = step;
+  for (int ms = 0; ms <= pen.length_ms(); ms += step) {
+    maneuver_waypoint x;
+    if (!pen.write(ms, x)) {
+      out.points.clear();
+      return false;
+    }
+    out.points.push_back({x.x_cm, x.y_cm, x.speed_cmps,
+                          frame.earth.to_etsi_heading(
+                              pen.moment(ms).heading_rad, frame.reference)});
+  }
+  return true;
+}
+
+} // namespace sofof
