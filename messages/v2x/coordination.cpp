@@ -26,11 +26,10 @@ maneuver_frame begin(etsi::mcm& message, station_id from, std::uint8_t type,
                      point at, time_point t, const datum& where) {
   message.header.station = from;
   message.body.generation = etsi::to_delta_time(where.clock.timestamp(t));
-  geo_position rounded;
-  const auto frame = maneuver_frame::of(where.frame, at, t, rounded);
+  const auto place = place_maneuver(where.frame, at, t);
   message.body.parameters.basic.station_type = type;
-  message.body.parameters.basic.position = reference(rounded);
-  return frame;
+  message.body.parameters.basic.position = reference(place.reference);
+  return place.frame;
 }
 
 std::optional<maneuver_frame> frame_of(const etsi::mcm& message,
@@ -70,7 +69,7 @@ etsi::planned_trajectory written(const planned_points& plan) {
     etsi::trajectory_point& to = out.points.emplace_back();
     to.waypoint = {p.x_cm, p.y_cm};
     to.speed = narrowed<std::uint16_t>(p.speed_cmps);
-    to.heading = narrowed<std::uint16_t>(p.heading_ddeg);
+    to.heading = narrowed<std::uint16_t>(p.heading);
   }
   return out;
 }
