@@ -64,8 +64,8 @@ struct manager_state {
     if (newest.what.type().empty())
       return;
     remote->last_sent = now(self);
-    auto input = setup.on_air(
-        {remote->running, newest.at, newest.what, in_use}, !remote->in_use);
+    auto input = setup.on_air({remote->running, newest.at, newest.what, in_use},
+                              !remote->in_use);
     note_on_air(self, setup.recorder, input.what);
     self->send(remote->manager, std::move(input));
   }

@@ -40,8 +40,8 @@ struct provider_manager_setup {
 };
 
 /// Configures the instance, activates it at the first input, and sends its
-/// results to `requester`. Finalises the instance and quits at service_end; quits
-/// (user_shutdown) when no input has come within protocol::start_timeout.
+/// results to `requester`. Finalises the instance and quits at service_end;
+/// quits (user_shutdown) when no input has come within protocol::start_timeout.
 /// Does not outlive `provider`.
 provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
                                               provider_manager_setup setup);

@@ -55,9 +55,8 @@ struct provider_state {
 
   void make_sites() {
     for (const auto& kind : setup.kinds)
-      sites.push_back(
-          kind->make_site(setup_of(*kind, 0, setup.seed.part(kind->name())
-                                                 .part("site"))));
+      sites.push_back(kind->make_site(
+          setup_of(*kind, 0, setup.seed.part(kind->name()).part("site"))));
   }
 
   service_setup setup_of(const service_kind& kind, station_id station,
@@ -92,8 +91,7 @@ struct provider_state {
   }
 
   void take(const sighting& seen) {
-    tell_sites(
-        [&](service_site& site) { site.see(seen.at, seen.objects); });
+    tell_sites([&](service_site& site) { site.see(seen.at, seen.objects); });
     if (const auto known = stations.find(seen.from); known != stations.end())
       known->second.heard = now(self); // it lives
   }
@@ -253,9 +251,8 @@ struct provider_state {
         noise.part("remote phase").uniform(0)
         * static_cast<double>(remote.period.count()))};
     remote.finish = computing_time(kind, running.station);
-    auto manager =
-        spawn_provider_manager(self->system(), {std::move(remote), requester,
-                                                self, setup.recorder});
+    auto manager = spawn_provider_manager(
+        self->system(), {std::move(remote), requester, self, setup.recorder});
     self->monitor(manager);
     station.sessions.push_back({running, manager, now(self)});
     return manager;

@@ -20,7 +20,7 @@ struct provider_setup {
   point position; ///< m, east-north.
   polygon area;
   streets_ptr world;
-  datum_ptr where; ///< Where that is on Earth.
+  datum_ptr where;                     ///< Where that is on Earth.
   std::vector<service_kind_ptr> kinds; ///< Offered.
   std::unique_ptr<central_policy> codm;
   recorder_actor recorder;

@@ -357,8 +357,7 @@ struct requester_state {
     self->send(slot.manager, e);
     const auto t = now(self);
     if (tell) {
-      e.what =
-          slot.kind->farewell(setup_of(*slot.kind), e, t, &ego.own);
+      e.what = slot.kind->farewell(setup_of(*slot.kind), e, t, &ego.own);
       note_on_air(self, setup.recorder, e.what);
       tell_provider(e);
     }

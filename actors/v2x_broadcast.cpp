@@ -52,8 +52,7 @@ std::optional<its_pdu> v2x_broadcast::perceived(const cam& own,
   told_.clear();
   for (const auto i : due.objects)
     told_.push_back(known_[i]);
-  const perceived_scene scene{own,   seen.at,
-                              told_, known_.size(),
+  const perceived_scene scene{own, seen.at, told_, known_.size(),
                               due.sensor_information ? &sensor_ : nullptr};
   return encoded(make_cpm_tr103562(scene, car_, *where_));
 }

@@ -30,6 +30,8 @@ using vehicle_impl = vehicle_actor::extend<takes<tick_atom>>;
 
 /// A plan that ends sooner than this is replaced by a safe stop.
 constexpr duration reserve = 1s;
+/// Plans that came by air begin at a whole millisecond, up to one late.
+constexpr duration air_time_step = 1ms;
 /// A plan is followed well while the car is no farther from it than this.
 constexpr double followed_m = 1.0;
 constexpr double followed_mps = 1.5;
@@ -238,11 +240,11 @@ struct vehicle_actor_state {
     if (!next)
       return;
     const auto about = result.about.as<plan_report>();
-    if (result.created > t || next->start > t || next->end() < t)
+    if (result.created > t || next->start > t + air_time_step
+        || next->end() < t)
       return; // of another time
-    if (const auto other =
-            figures->take(*plan, *next, about ? *about : plan_report{},
-                          result.running, t))
+    if (const auto other = figures->take(
+            *plan, *next, about ? *about : plan_report{}, result.running, t))
       self->send(setup.recorder, *other);
     plan = next;
     plan_created = result.created;
@@ -252,8 +254,7 @@ struct vehicle_actor_state {
 
   ego_state ego() const {
     return {{setup.station, due, car.at, car.heading_rad, car.speed_mps,
-             car.accel_mps2,
-             std::tan(car.steer_rad) / setup.car.wheelbase_m},
+             car.accel_mps2, std::tan(car.steer_rad) / setup.car.wheelbase_m},
             s_m};
   }
 

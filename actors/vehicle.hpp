@@ -33,7 +33,7 @@ struct vehicle_setup {
   sensor_params sensor; ///< As its CPMs tell it.
   /// What it tells everybody; nothing if it is not connected.
   std::optional<v2x_options> v2x;
-  datum_ptr where; ///< Where the map is on Earth.
+  datum_ptr where;         ///< Where the map is on Earth.
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
   std::vector<antenna> antennas;

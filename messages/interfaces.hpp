@@ -86,8 +86,8 @@ using onboard_requester_actor = requester_actor::extend<
 
 /// SP, the edge server's side of offloading, as requesters see it.
 using provider_actor = caf::typed_actor<
-    // What a station tells everybody: a CAM, a CPM. Its requester can be reached
-    // here.
+    // What a station tells everybody: a CAM, a CPM. Its requester can be
+    // reached here.
     takes<its_pdu, requester_actor>,
     // A station asks for offered services.
     takes<service_request, requester_actor>,
@@ -104,8 +104,7 @@ using roadside_provider_actor = provider_actor::extend<
 /// requester, to the requester like all of these.
 using link_actor = requester_actor::extend<
     // As provider_actor and provider_manager_actor take them.
-    takes<its_pdu, requester_actor>,
-    takes<service_request, requester_actor>,
+    takes<its_pdu, requester_actor>, takes<service_request, requester_actor>,
     takes<service_input>>;
 
 /// A car: moves, sends CAMs, follows the trajectories it is given.

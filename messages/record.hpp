@@ -200,8 +200,7 @@ bool inspect(Inspector& f, collision_record& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, air_record& x) {
-  return f.object(x).fields(f.field("at", x.at),
-                            f.field("message", x.message));
+  return f.object(x).fields(f.field("at", x.at), f.field("message", x.message));
 }
 
 /// Takes the records of a run; implemented by whoever keeps them.

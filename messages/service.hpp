@@ -169,10 +169,10 @@ bool inspect(Inspector& f, service_input& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, service_result& x) {
-  return f.object(x).fields(
-      f.field("running", x.running), f.field("cycle", x.cycle),
-      f.field("created", x.created), f.field("what", x.what),
-      f.field("about", x.about));
+  return f.object(x).fields(f.field("running", x.running),
+                            f.field("cycle", x.cycle),
+                            f.field("created", x.created),
+                            f.field("what", x.what), f.field("about", x.about));
 }
 
 template <class Inspector>

@@ -114,15 +114,15 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 auto requester_maker(caf::actor_system& sys, const scenario& s,
                      const placed_vehicle& v, const datum_ptr& where,
                      const recorder_actor& recorder, bool virtual_time) {
-  return [&sys, v, where, recorder, virtual_time, world = s.world,
-          kinds = s.services, lodm = s.policies.lodm,
-          noise = noise_of(s, "vehicle").part(v.station),
-          granted =
-              s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
-    return spawn_service_requester(
-        sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
-              recorder, noise, virtual_time, granted});
-  };
+  return
+      [&sys, v, where, recorder, virtual_time, world = s.world,
+       kinds = s.services, lodm = s.policies.lodm,
+       noise = noise_of(s, "vehicle").part(v.station),
+       granted = s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
+        return spawn_service_requester(
+            sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
+                  recorder, noise, virtual_time, granted});
+      };
 }
 
 std::vector<std::pair<caf::actor, std::string>>
@@ -169,8 +169,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    std::function<void(const std::string&)> on_loss) {
   world_actors world;
   const vehicle_params car;
-  const auto where = std::make_shared<const datum>(
-      geo_frame{s.world->map.origin()}, clock);
+  const auto where =
+      std::make_shared<const datum>(geo_frame{s.world->map.origin()}, clock);
   const auto placed = place_vehicles(s);
   station_routes ways;
   for (const auto& v : placed)
@@ -178,7 +178,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   world.recorder = spawn_recorder(sys, std::move(sink));
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    sites.push_back({spawn_provider(sys, s, k, where, world.recorder, virtual_time),
+    sites.push_back(
+        {spawn_provider(sys, s, k, where, world.recorder, virtual_time),
          &s.providers[k]});
     world.providers.push_back(sites.back().provider);
   }

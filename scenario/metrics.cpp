@@ -104,11 +104,10 @@ void metrics::take(const air_record& x) {
   etsi::pdu_header header;
   etsi::read(in, header);
   const auto downwards = is_provider_station(header.station);
-  auto& count = header.message_id == etsi::cam::message_id   ? air_.cam
-                : header.message_id == etsi::mcm::message_id ? downwards
-                    ? air_.mcm_down
-                    : air_.mcm_up
-                : air_.cpm;
+  auto& count = header.message_id == etsi::cam::message_id ? air_.cam
+                : header.message_id == etsi::mcm::message_id
+                    ? downwards ? air_.mcm_down : air_.mcm_up
+                    : air_.cpm;
   count.add(octets.size());
 }
 

@@ -42,8 +42,8 @@ void describe(envelope& out, const etsi::cam& message) {
   const auto& x = message.body.parameters;
   out.port = btp_port::cam;
   locate(out.from, x.basic.station_type, x.basic.position);
-  if (const auto* motion = std::get_if<etsi::vehicle_high_frequency>(
-          &x.high_frequency.value)) {
+  if (const auto* motion =
+          std::get_if<etsi::vehicle_high_frequency>(&x.high_frequency.value)) {
     out.from.speed_cmps = motion->speed.value;
     out.from.heading = motion->heading.value;
   }
@@ -53,10 +53,10 @@ void describe(envelope& out, const etsi::tr103562::cpm& message) {
   const auto& x = message.body.parameters;
   out.port = btp_port::cpm;
   locate(out.from, x.management.station_type, x.management.position);
-  if (const auto* sender = x.station_data
-                               ? std::get_if<etsi::tr103562::originating_vehicle>(
-                                     &x.station_data->value)
-                               : nullptr) {
+  if (const auto* sender =
+          x.station_data ? std::get_if<etsi::tr103562::originating_vehicle>(
+              &x.station_data->value)
+                         : nullptr) {
     out.from.speed_cmps = sender->speed.value;
     out.from.heading = sender->heading.value;
   }

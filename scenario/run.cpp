@@ -100,8 +100,9 @@ run_outcome run(const scenario& s, const run_options& options,
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};
   const stopwatch watch;
-  const auto actors = build(time->system(), s, keeper, time->clock(),
-                            !options.realtime, [keeper](const auto& why) { keeper->fail(why); });
+  const auto actors =
+      build(time->system(), s, keeper, time->clock(), !options.realtime,
+            [keeper](const auto& why) { keeper->fail(why); });
   time_point ended;
   try {
     ended = advance(*time, info.start + s.length, options, interrupted, *keeper,

@@ -36,7 +36,7 @@ struct run_info {
   bool tracks = true; ///< Write tracks.csv.
   std::string pcap;   ///< Where to capture all ITS messages; empty: nowhere.
   etsi::its_clock time_of_day;
-  time_point start;   ///< Second 0 of all files.
+  time_point start; ///< Second 0 of all files.
 };
 
 /// Known once the run has ended.

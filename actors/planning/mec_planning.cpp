@@ -112,9 +112,9 @@ private:
   std::shared_ptr<planning_site> site_;
   std::shared_ptr<const its_pdu> heard_; // last
   std::optional<plan_cycle> cycle_;
-  std::optional<ego_estimate> ego_;   // whenever there is a cycle
-  double from_m_ = 0;                 // of the last word
-  std::optional<double> stop_at_m_;   // the end of the vehicle's authority
+  std::optional<ego_estimate> ego_; // whenever there is a cycle
+  double from_m_ = 0;               // of the last word
+  std::optional<double> stop_at_m_; // the end of the vehicle's authority
   std::uint16_t update_ = 0;
   // Room that is used again.
   etsi::mcm word_, said_;

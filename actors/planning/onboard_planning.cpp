@@ -65,9 +65,8 @@ private:
 std::shared_ptr<service_function>
 make_onboard_planning(service_setup setup, planner_options options,
                       std::shared_ptr<const lane_network> lanes) {
-  return std::make_shared<onboard_planning>(std::move(setup),
-                                            std::move(options),
-                                            std::move(lanes));
+  return std::make_shared<onboard_planning>(
+      std::move(setup), std::move(options), std::move(lanes));
 }
 
 } // namespace sofof

@@ -17,9 +17,10 @@ constexpr duration deadline = 2ms;
 plan_cycle::plan_cycle(const service_setup& setup,
                        const planner_options& options,
                        std::shared_ptr<const lane_network> lanes, route_ptr way)
-    : setup_{setup}, way_{std::move(way)},
-      planner_{options.make(way_, setup.remote)},
-      outlook_{std::move(lanes), way_,
+    : setup_{setup}, way_{std::move(way)}, planner_{options.make(way_,
+                                                                 setup.remote)},
+      outlook_{std::move(lanes),
+               way_,
                {.judges_crossings = !setup.crossings_granted}} {}
 
 void plan_cycle::take_over(const trajectory& other) {
@@ -35,9 +36,8 @@ plan_report plan_cycle::run(time_point now, planning_input from,
   from.others.stop_at_m = stop_at_m;
   const auto start = setup_.clock();
   const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
-  const auto report =
-      planner_->plan(now, from, plan_.empty() ? nullptr : &plan_, next_,
-                     ocp::budget{in_time});
+  const auto report = planner_->plan(
+      now, from, plan_.empty() ? nullptr : &plan_, next_, ocp::budget{in_time});
   std::swap(plan_, next_);
   return report;
 }

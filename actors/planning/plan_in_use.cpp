@@ -8,12 +8,9 @@
 
 namespace sofof {
 
-std::shared_ptr<const trajectory> plan_in_use(const payload& result,
-                                              const route& way,
-                                              double s_guess_m,
-                                              const datum& where,
-                                              time_point now,
-                                              const trajectory* before) {
+std::shared_ptr<const trajectory>
+plan_in_use(const payload& result, const route& way, double s_guess_m,
+            const datum& where, time_point now, const trajectory* before) {
   if (auto own = result.as<trajectory>())
     return own->is_sound() ? own : nullptr;
   const auto message = result.as<its_pdu>();

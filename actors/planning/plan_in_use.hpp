@@ -16,12 +16,9 @@ namespace sofof {
 /// @param s_guess_m  About where the plan begins on the route, within 20 m.
 /// @param before     The plan in use until now; null: none.
 /// @returns the plan, sound; null for what is none.
-std::shared_ptr<const trajectory> plan_in_use(const payload& result,
-                                              const route& way,
-                                              double s_guess_m,
-                                              const datum& where,
-                                              time_point now,
-                                              const trajectory* before);
+std::shared_ptr<const trajectory>
+plan_in_use(const payload& result, const route& way, double s_guess_m,
+            const datum& where, time_point now, const trajectory* before);
 
 /// Clocks of vehicles, sensors and providers agree within this.
 inline constexpr duration clock_tolerance = std::chrono::milliseconds{200};

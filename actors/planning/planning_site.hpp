@@ -36,9 +36,8 @@ public:
       return;
     const std::lock_guard lock{mutex_};
     model_.hear(c.at, c.station, body_of(c, {}));
-    std::erase_if(told_, [&](const auto& x) {
-      return x.second.at + remembered < c.at;
-    });
+    std::erase_if(
+        told_, [&](const auto& x) { return x.second.at + remembered < c.at; });
     auto& newest = told_[c.station];
     if (newest.at <= c.at)
       newest = c;

@@ -35,19 +35,19 @@ std::vector<point> authority(const route& way, double s_m,
 etsi::termination_status status_of(end_reason why) {
   using enum etsi::termination_status;
   switch (why) {
-  case end_reason::left_area:
-  case end_reason::shutdown:
-    return regular_end;
-  case end_reason::cam_timeout:
-  case end_reason::no_data:
-    return abort_by_timeout;
-  case end_reason::qos_latency:
-  case end_reason::qos_gap:
-    return abort_by_constraint_violation;
-  case end_reason::refused:
-    return abort_by_reject;
-  case end_reason::peer_lost:
-    break;
+    case end_reason::left_area:
+    case end_reason::shutdown:
+      return regular_end;
+    case end_reason::cam_timeout:
+    case end_reason::no_data:
+      return abort_by_timeout;
+    case end_reason::qos_latency:
+    case end_reason::qos_gap:
+      return abort_by_constraint_violation;
+    case end_reason::refused:
+      return abort_by_reject;
+    case end_reason::peer_lost:
+      break;
   }
   return reason_unknown;
 }
@@ -107,10 +107,10 @@ public:
     const auto ahead =
         authority(*way, request->from.s_m, request->seen.stop_at_m);
     road_user_word word{request->own, ahead, nullptr, {}};
-    const auto plan = takes_over ? plan_in_use(input.in_use, *way,
-                                               request->from.s_m, *setup.where,
-                                               input.at, nullptr)
-                                 : nullptr;
+    const auto plan = takes_over
+                          ? plan_in_use(input.in_use, *way, request->from.s_m,
+                                        *setup.where, input.at, nullptr)
+                          : nullptr;
     word.plan = plan.get();
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.running),
@@ -124,10 +124,10 @@ public:
                    time_point now, const cam* own) const override {
     const auto name = name_of_maneuver(end.running);
     if (setup.remote)
-      return payload::of(encoded(make_termination(
-          {setup.provider.station, setup.provider.position, end.running.station,
-           name},
-          now, status_of(end.reason), *setup.where)));
+      return payload::of(encoded(
+          make_termination({setup.provider.station, setup.provider.position,
+                            end.running.station, name},
+                           now, status_of(end.reason), *setup.where)));
     if (!own)
       return {};
     road_user_word word{*own, {}, nullptr, {}};

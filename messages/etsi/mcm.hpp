@@ -13,7 +13,7 @@ namespace sofof::etsi {
 
 /// A confidence ellipse with the names of release 2 (TS 102 894-2 v2.1.1).
 struct confidence_ellipse_2 : confidence_ellipse {
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("semiMajorAxisLength", x.semi_major);
     visit("semiMinorAxisLength", x.semi_minor);
     visit("semiMajorAxisOrientation", x.orientation);
@@ -26,7 +26,7 @@ struct reference_position_with_confidence {
   confidence_ellipse_2 confidence;
   etsi::altitude altitude;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("latitude", x.latitude);
     visit("longitude", x.longitude);
     visit("positionConfidenceEllipse", x.confidence);
@@ -44,7 +44,7 @@ using waypoint_delta_time = integer<0, 65535>; ///< ms
 struct waypoint {
   cartesian_coordinate_large x, y;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("xDistance", x.x);
     visit("yDistance", x.y);
   }
@@ -79,7 +79,7 @@ struct road_user_state {
   road_user_size length{road_user_size_unavailable};
   road_user_size width{road_user_size_unavailable};
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("roadUserType", x.type);
     visit("speed", x.speed);
     visit("heading", x.heading);
@@ -93,7 +93,7 @@ struct trajectory_point {
   speed_value speed{speed_unavailable};
   heading_value heading{heading_unavailable};
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("waypoint", x.waypoint);
     visit("speed", x.speed);
     visit("heading", x.heading);
@@ -106,7 +106,7 @@ struct planned_trajectory {
   integer<1, 255> delta_time;         ///< ms
   waypoints_of<trajectory_point> points;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("startDeltaTime", x.start_delta_time);
     visit("deltaTime", x.delta_time);
     visit("trajectoryPointContainer", x.points);
@@ -127,7 +127,7 @@ struct advice_response {
   etsi::advice_update_id advice_update_id;
   maneuver_response followed = maneuver_response::accept;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("maneuverID", x.maneuver_id);
     visit("adviceUpdateID", x.advice_update_id);
     visit("adviceFollowed", x.followed);
@@ -140,7 +140,7 @@ struct road_user_container {
   std::optional<etsi::desired_route> desired_route;
   std::optional<etsi::advice_response> advice_response;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("roadUserState", x.state);
     visit("plannedTrajectory", x.planned_trajectory);
     visit("desiredRoute", x.desired_route);
@@ -162,7 +162,7 @@ struct longitudinal_waypoint {
   std::optional<road_user_index> preceding, following;
   std::optional<extensible_sequence_of<road_user_index, 1, 16>> yield_to;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("waypoint", x.waypoint);
     visit("minArrivalTime", x.min_arrival_time);
     visit("maxArrivalTime", x.max_arrival_time);
@@ -195,7 +195,7 @@ struct maneuver_constraints {
   waypoints_of<longitudinal_waypoint> waypoints;
   std::optional<waypoints_of<waypoint>> corridor; ///< A polygon.
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("maneuverType", x.type);
     visit("longitudinalManeuverWaypointContainer", x.waypoints);
     visit("maneuverCorridor", x.corridor);
@@ -227,7 +227,7 @@ struct suggested_maneuver {
   bool confirmation_required = false;
   parameters_type parameters;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("maneuverID", x.maneuver_id);
     visit("adviceUpdateID", x.advice_update_id);
     visit("participatingRoadUserIDContainer", x.participants);
@@ -240,7 +240,7 @@ struct suggested_maneuver_container {
   station_id target;
   std::optional<suggested_maneuver> maneuver;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("targetStationID", x.target);
     visit("suggestedManeuver", x.maneuver);
   }
@@ -261,7 +261,7 @@ struct mcm {
     etsi::station_type station_type;
     reference_position_with_confidence position;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("stationType", x.station_type);
       visit("referencePosition", x.position);
     }
@@ -271,7 +271,7 @@ struct mcm {
     basic_container basic;
     mcm::maneuver_container maneuver;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("basicContainer", x.basic);
       visit("maneuverContainer", x.maneuver);
     }
@@ -281,7 +281,7 @@ struct mcm {
     generation_delta_time generation;
     mcm::parameters parameters;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("generationDeltaTime", x.generation);
       visit("mcmParameters", x.parameters);
     }
@@ -290,7 +290,7 @@ struct mcm {
   pdu_header_2 header{{protocol_version, message_id, {}}};
   coordination body;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("header", x.header);
     visit("mcm", x.body);
   }

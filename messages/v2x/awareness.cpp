@@ -29,18 +29,15 @@ etsi::cam make_cam(const cam& own, const vehicle_params& car,
                    const datum& where) {
   etsi::cam message;
   message.header.station = own.station;
-  message.body.generation =
-      etsi::to_delta_time(where.clock.timestamp(own.at));
+  message.body.generation = etsi::to_delta_time(where.clock.timestamp(own.at));
   auto& basic = message.body.parameters.basic;
   basic.station_type = etsi::passenger_car;
-  basic.position = to_reference(where.frame.to_wgs84(
-      front_of(own, car)));
+  basic.position = to_reference(where.frame.to_wgs84(front_of(own, car)));
   auto& motion = std::get<etsi::vehicle_high_frequency>(
       message.body.parameters.high_frequency.value);
   motion.heading.value = static_cast<std::uint16_t>(
       where.frame.to_etsi_heading(own.heading_rad, own.position));
-  motion.speed.value =
-      wire<std::uint16_t>(etsi::speed_mps, own.speed_mps);
+  motion.speed.value = wire<std::uint16_t>(etsi::speed_mps, own.speed_mps);
   motion.drive_direction = etsi::drive_direction::forward;
   motion.length.value =
       wire<std::uint16_t>(etsi::vehicle_length_m, car.front_m + car.rear_m);
@@ -51,15 +48,15 @@ etsi::cam make_cam(const cam& own, const vehicle_params& car,
   motion.curvature.value =
       wire<std::int16_t>(etsi::curvature_1pm, own.curvature_1pm);
   motion.curvature_mode = etsi::curvature_calculation_mode::yaw_rate_not_used;
-  motion.yaw_rate.value = wire<std::int16_t>(
-      etsi::yaw_rate_radps, own.curvature_1pm * own.speed_mps);
+  motion.yaw_rate.value = wire<std::int16_t>(etsi::yaw_rate_radps,
+                                             own.curvature_1pm * own.speed_mps);
   return message;
 }
 
 void add_path(etsi::cam& message, const cam& own, const path_history& been,
               const datum& where) {
-  auto& low = std::get<0>(
-      message.body.parameters.low_frequency.emplace().value);
+  auto& low =
+      std::get<0>(message.body.parameters.low_frequency.emplace().value);
   auto newer = message.body.parameters.basic.position;
   auto newer_at = own.at;
   for (std::size_t i = 0; i < been.size(); ++i) {
@@ -93,8 +90,8 @@ std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
   if (!heading || !speed)
     return std::nullopt;
   const auto our_length_m = car.front_m + car.rear_m;
-  const auto length_m = etsi::vehicle_length_m.to_si(motion->length.value)
-                            .value_or(our_length_m);
+  const auto length_m =
+      etsi::vehicle_length_m.to_si(motion->length.value).value_or(our_length_m);
   cam own;
   own.station = message.header.station;
   own.at = where.unwrapped(body.generation, now);

@@ -35,8 +35,7 @@ maneuver_frame begin(etsi::mcm& message, station_id from, std::uint8_t type,
 std::optional<maneuver_frame> frame_of(const etsi::mcm& message,
                                        const datum& where, time_point now) {
   const auto& position = message.body.parameters.basic.position;
-  const auto at =
-      where.frame.to_map({position.latitude, position.longitude});
+  const auto at = where.frame.to_map({position.latitude, position.longitude});
   if (!at)
     return std::nullopt;
   return maneuver_frame{where.frame, *at,
@@ -84,7 +83,8 @@ planned_points understood(const etsi::planned_trajectory& plan) {
 
 } // namespace
 
-// -- up ------------------------------------------------------------------------
+// -- up
+// ------------------------------------------------------------------------
 
 etsi::mcm make_word(const road_user_word& word, const vehicle_params& car,
                     const datum& where) {
@@ -141,7 +141,8 @@ std::optional<understood_word> read_word(const etsi::mcm& message,
   return word;
 }
 
-// -- down ----------------------------------------------------------------------
+// -- down
+// ----------------------------------------------------------------------
 
 namespace {
 
@@ -169,18 +170,17 @@ etsi::suggested_maneuver& suggest(etsi::mcm& message, const suggestion& what) {
 bool make_suggestion(const suggestion& what, const trajectory& plan,
                      const datum& where, std::vector<maneuver_waypoint>& room,
                      etsi::mcm& out) {
-  const auto near = distance_m(plan.points.front().at, what.position)
-                        < farthest_waypoint_m
-                    && distance_m(plan.points.back().at, what.position)
-                           < farthest_waypoint_m;
-  const auto frame = begin(out, what.from, etsi::roadside_unit,
-                           near ? what.position : plan.points.front().at,
-                           plan.start, where);
+  const auto near =
+      distance_m(plan.points.front().at, what.position) < farthest_waypoint_m
+      && distance_m(plan.points.back().at, what.position) < farthest_waypoint_m;
+  const auto frame =
+      begin(out, what.from, etsi::roadside_unit,
+            near ? what.position : plan.points.front().at, plan.start, where);
   if (!to_waypoints(plan, frame, room))
     return false;
-  auto& waypoints = made<etsi::maneuver_constraints>(
-                        suggest(out, what).parameters.value)
-                        .waypoints;
+  auto& waypoints =
+      made<etsi::maneuver_constraints>(suggest(out, what).parameters.value)
+          .waypoints;
   waypoints.resize(room.size());
   auto next = waypoints.begin();
   for (const auto& x : room) {
@@ -209,7 +209,7 @@ read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
       &message.body.parameters.maneuver.value);
   const auto* plan = to && to->maneuver
                          ? std::get_if<etsi::maneuver_constraints>(
-                               &to->maneuver->parameters.value)
+                             &to->maneuver->parameters.value)
                          : nullptr;
   const auto frame = frame_of(message, where, now);
   if (!plan || !frame)

@@ -63,9 +63,8 @@ void append_frame(std::string& out, const geonet_sender& from,
   append(out, static_cast<std::uint32_t>(from.at_ms)); // modulo 2^32
   append(out, from.latitude);
   append(out, from.longitude);
-  append(out,
-         static_cast<std::uint16_t>(accurate
-                                    | std::min(from.speed_cmps, fastest)));
+  append(out, static_cast<std::uint16_t>(accurate
+                                         | std::min(from.speed_cmps, fastest)));
   append(out, from.heading);
   append(out, std::uint32_t{0}); // what a station would tell of congestion
 

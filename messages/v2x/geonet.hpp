@@ -23,9 +23,9 @@ inline constexpr std::uint16_t mcm = 2020;
 struct geonet_sender {
   std::uint32_t station = 0; ///< Also in its made-up addresses.
   std::uint8_t station_type = 0;
-  std::uint64_t at_ms = 0;     ///< TimestampIts.
-  std::int32_t latitude = 0;   ///< 1e-7 °
-  std::int32_t longitude = 0;  ///< 1e-7 °
+  std::uint64_t at_ms = 0;    ///< TimestampIts.
+  std::int32_t latitude = 0;  ///< 1e-7 °
+  std::int32_t longitude = 0; ///< 1e-7 °
   std::uint16_t speed_cmps = 0;
   std::uint16_t heading = 0; ///< 0.1 °, clockwise from north.
 };

@@ -129,8 +129,8 @@ std::optional<timed_object> understand(const tr::perceived_object& told,
     if (ax && ay)
       what.accel_mps2 = dot(axis, point{*ax, *ay});
   }
-  return timed_object{
-      generated - milliseconds{told.time_of_measurement.value}, what};
+  return timed_object{generated - milliseconds{told.time_of_measurement.value},
+                      what};
 }
 
 /// Brings all objects to the time of the last one.
@@ -149,8 +149,7 @@ void bring_together(const std::vector<timed_object>& objects, sighting& out) {
 tr::cpm make_cpm_tr103562(const perceived_scene& scene,
                           const vehicle_params& car, const datum& where) {
   const auto& own = scene.own;
-  const auto place =
-      where.frame.to_wgs84(front_of(own, car));
+  const auto place = where.frame.to_wgs84(front_of(own, car));
   const auto heading =
       where.frame.to_etsi_heading(own.heading_rad, own.position);
   tr::cpm message;
@@ -160,8 +159,8 @@ tr::cpm make_cpm_tr103562(const perceived_scene& scene,
   auto& body = message.body.parameters;
   body.management.station_type = etsi::passenger_car;
   body.management.position = to_reference(place);
-  auto& sender = std::get<tr::originating_vehicle>(
-      body.station_data.emplace().value);
+  auto& sender =
+      std::get<tr::originating_vehicle>(body.station_data.emplace().value);
   sender.heading.value = static_cast<std::uint16_t>(heading);
   sender.speed.value = wire<std::uint16_t>(etsi::speed_mps, own.speed_mps);
   if (scene.sensor)
@@ -173,9 +172,8 @@ tr::cpm make_cpm_tr103562(const perceived_scene& scene,
   if (scene.objects.empty() || !at || !heading_rad)
     return message;
   const sender_frame from{*at, *heading_rad};
-  const auto age_ms = static_cast<int>(
-      std::clamp<std::int64_t>(generated - where.clock.timestamp(scene.seen),
-                               -1500, 1500));
+  const auto age_ms = static_cast<int>(std::clamp<std::int64_t>(
+      generated - where.clock.timestamp(scene.seen), -1500, 1500));
   auto& objects = body.objects.emplace();
   objects.resize(scene.objects.size());
   for (std::size_t i = 0; i < objects.size(); ++i)
@@ -193,8 +191,7 @@ std::optional<sighting> read_cpm(const tr::cpm& message, const datum& where,
           : nullptr;
   if (!at || !sender)
     return std::nullopt;
-  const auto heading =
-      where.frame.to_map_heading(sender->heading.value, *at);
+  const auto heading = where.frame.to_map_heading(sender->heading.value, *at);
   if (!heading)
     return std::nullopt;
   const auto generated = where.unwrapped(message.body.generation, now);
