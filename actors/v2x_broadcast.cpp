@@ -54,7 +54,9 @@ std::optional<its_pdu> v2x_broadcast::perceived(const cam& own,
     told_.push_back(known_[i]);
   const perceived_scene scene{own, seen.at, told_, known_.size(),
                               due.sensor_information ? &sensor_ : nullptr};
-  return encoded(make_cpm_tr103562(scene, car_, *where_));
+  return options_.is_release_2()
+             ? encoded(make_cpm_ts103324(scene, car_, *where_))
+             : encoded(make_cpm_tr103562(scene, car_, *where_));
 }
 
 } // namespace sofof

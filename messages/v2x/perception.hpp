@@ -2,9 +2,11 @@
 #pragma once
 
 #include "messages/etsi/cpm_tr103562.hpp"
+#include "messages/etsi/cpm_ts103324.hpp"
 #include "messages/service.hpp"
 #include "messages/v2x/cpm_rules.hpp"
 #include "messages/v2x/datum.hpp"
+#include "messages/v2x/sighting.hpp"
 #include "world/perception.hpp"
 #include "world/sensors.hpp"
 #include "world/vehicle.hpp"
@@ -25,13 +27,6 @@ struct perceived_scene {
   const sensor_params* sensor = nullptr;
 };
 
-/// What a station tells of bodies that it sees.
-struct sighting {
-  station_id from = 0;
-  time_point at;
-  std::vector<perceived_object> objects;
-};
-
 /// In the sender's frame: from the middle of its front, x where it is heading,
 /// y to its left; both as the message gives them, so that rounding them moves
 /// no object. Speeds and accelerations are over ground, along these axes.
@@ -47,5 +42,16 @@ etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
 /// it is or which way it is heading.
 std::optional<sighting> read_cpm(const etsi::tr103562::cpm& message,
                                  const datum& where, time_point now);
+
+/// The same in release 2: from the middle of the sender's front, x geographic
+/// east, y north; objects 2 s old at most.
+etsi::ts103324::cpm make_cpm_ts103324(const perceived_scene& scene,
+                                      const vehicle_params& car,
+                                      const datum& where);
+
+/// @returns as `read_cpm` of TR 103 562; what is told relative to lanes of a
+/// map is left out.
+std::optional<sighting> read_cpm(const etsi::ts103324::cpm& message,
+                                 const datum& where);
 
 } // namespace sofof

@@ -35,6 +35,9 @@ broadcast_word understand(const its_pdu& message, const datum& where,
   if (is_a<etsi::tr103562::cpm>(octets))
     if (etsi::tr103562::cpm in; etsi::decode(octets, in))
       return word_of(read_cpm(in, where, now));
+  if (is_a<etsi::ts103324::cpm>(octets))
+    if (etsi::ts103324::cpm in; etsi::decode(octets, in))
+      return word_of(read_cpm(in, where));
   return {};
 }
 

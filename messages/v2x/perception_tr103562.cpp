@@ -1,8 +1,8 @@
-// What a CPM says of the bodies that a vehicle perceives.
-#include "messages/v2x/perception.hpp"
-
+// What a CPM of TR 103 562 says of the bodies that a vehicle perceives.
 #include "messages/etsi/units.hpp"
 #include "messages/v2x/awareness.hpp"
+#include "messages/v2x/perception.hpp"
+#include "messages/v2x/sighting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +19,6 @@ constexpr std::uint8_t sensor_id = 1;
 constexpr std::uint8_t sensor_fusion = 8;
 constexpr std::uint8_t car_class = 3;
 constexpr std::uint16_t whole_circle = 3600; // 0.1 °
-/// A body without these is none that can be dealt with.
-constexpr double least_size_m = 0.1;
-
-template <class Number>
-Number wire(const auto& quantity, double si) {
-  return static_cast<Number>(quantity.to_wire(si));
-}
-
-point unit(double heading_rad) {
-  return {std::cos(heading_rad), std::sin(heading_rad)};
-}
-
 /// A vector of the map in a frame that heads like `axis`, and back.
 point into(point axis, point v) {
   return {dot(axis, v), axis.x_m * v.y_m - axis.y_m * v.x_m};
@@ -43,7 +31,7 @@ point out_of(point axis, point v) {
 struct sender_frame {
   point at;
   double heading_rad = 0;
-  point axis = unit(heading_rad);
+  point axis = unit_vector(heading_rad);
 };
 
 void describe(tr::perceived_object& told, const known_object& known,
@@ -56,7 +44,7 @@ void describe(tr::perceived_object& told, const known_object& known,
       wire<std::int32_t>(etsi::cpm_tr_distance_m, place.x_m);
   told.y_distance.value =
       wire<std::int32_t>(etsi::cpm_tr_distance_m, place.y_m);
-  const auto ahead = into(from.axis, unit(what.heading_rad));
+  const auto ahead = into(from.axis, unit_vector(what.heading_rad));
   told.x_speed.value =
       wire<std::int16_t>(etsi::velocity_mps, what.speed_mps * ahead.x_m);
   told.y_speed.value =
@@ -97,11 +85,6 @@ tr::sensor_information describe(const sensor_params& can,
   return told;
 }
 
-struct timed_object {
-  time_point at;
-  perceived_object what;
-};
-
 std::optional<timed_object> understand(const tr::perceived_object& told,
                                        const sender_frame& from,
                                        time_point generated) {
@@ -115,11 +98,11 @@ std::optional<timed_object> understand(const tr::perceived_object& told,
   perceived_object what;
   what.length_m = 0.1 * told.planar_dimension_1->value;
   what.width_m = 0.1 * told.planar_dimension_2->value;
-  if (what.length_m < least_size_m || what.width_m < least_size_m)
+  if (!has_size(what))
     return std::nullopt;
   const point place{0.01 * told.x_distance.value.value,
                     0.01 * told.y_distance.value.value};
-  const auto axis = unit(*yaw);
+  const auto axis = unit_vector(*yaw);
   what.centre = from.at + out_of(from.axis, place);
   what.heading_rad = wrap_angle(from.heading_rad + *yaw);
   what.speed_mps = dot(axis, point{*vx, *vy});
@@ -131,17 +114,6 @@ std::optional<timed_object> understand(const tr::perceived_object& told,
   }
   return timed_object{generated - milliseconds{told.time_of_measurement.value},
                       what};
-}
-
-/// Brings all objects to the time of the last one.
-void bring_together(const std::vector<timed_object>& objects, sighting& out) {
-  for (const auto& x : objects)
-    out.at = std::max(out.at, x.at);
-  for (auto [at, what] : objects) {
-    const auto moved_m = what.speed_mps * to_seconds(out.at - at);
-    what.centre = what.centre + moved_m * unit(what.heading_rad);
-    out.objects.push_back(what);
-  }
 }
 
 } // namespace
@@ -195,17 +167,13 @@ std::optional<sighting> read_cpm(const tr::cpm& message, const datum& where,
   if (!heading)
     return std::nullopt;
   const auto generated = where.unwrapped(message.body.generation, now);
-  sighting seen{message.header.station, generated, {}};
-  if (!body.objects)
-    return seen;
   const sender_frame from{*at, *heading};
   std::vector<timed_object> objects;
-  seen.at = generated - milliseconds{1500}; // at most
-  for (const auto& told : *body.objects)
-    if (const auto x = understand(told, from, generated))
-      objects.push_back(*x);
-  bring_together(objects, seen);
-  return seen;
+  if (body.objects)
+    for (const auto& told : *body.objects)
+      if (const auto x = understand(told, from, generated))
+        objects.push_back(*x);
+  return brought_together(message.header.station, generated, objects);
 }
 
 } // namespace sofof

@@ -1,0 +1,22 @@
+// What stations tell of bodies that they see, whatever the message.
+#include "messages/v2x/sighting.hpp"
+
+#include <algorithm>
+
+namespace sofof {
+
+sighting brought_together(station_id from, time_point generated,
+                          std::span<const timed_object> objects) {
+  sighting seen{from, generated, {}};
+  if (objects.empty())
+    return seen;
+  seen.at = std::ranges::max(objects, {}, &timed_object::at).at;
+  for (auto [at, what] : objects) {
+    const auto moved_m = what.speed_mps * to_seconds(seen.at - at);
+    what.centre = what.centre + moved_m * unit_vector(what.heading_rad);
+    seen.objects.push_back(what);
+  }
+  return seen;
+}
+
+} // namespace sofof
