@@ -53,6 +53,21 @@ public:
     return static_cast<std::size_t>(at_ - begin_) * 8 + holds_;
   }
 
+  /// Puts 16 bits in the place of others.
+  /// @param bit  Where they are; a word or more has been put behind them.
+  void replace_16(std::size_t bit, std::uint16_t value) {
+    auto* const octet = begin_ + bit / 8;
+    if (fault_ != fault::none || at_ - octet < 3)
+      return; // no room
+    const auto shift = 8 - static_cast<unsigned>(bit % 8);
+    for (int i = 0; i < 3; ++i) {
+      const auto from = 8 * (2 - i);
+      const auto mask = std::uint32_t{0xffff} << shift >> from & 0xff;
+      const auto bits = std::uint32_t{value} << shift >> from & 0xff;
+      octet[i] = (octet[i] & ~std::byte(mask)) | std::byte(bits);
+    }
+  }
+
   /// Fills the last octet with zero bits.
   /// @returns how many octets were written; 0 when something was wrong.
   std::size_t finish() {
@@ -97,6 +112,7 @@ class bit_counter {
 public:
   void put(std::uint64_t, unsigned width) { bits_ += width; }
   void fail(fault, const auto&...) {}
+  void replace_16(std::size_t, std::uint16_t) {}
   std::size_t bits() const { return bits_; }
   void enter(const auto&) {}
   void leave() {}

@@ -145,15 +145,38 @@ void write_list(Out& out, const sequence_of<T, a, b, g>& xs) {
   }
 }
 
+/// Writes as many octets as `x` needs, at least one.
+/// @returns how many.
+template <class Out, class T>
+std::size_t write_octets(Out& out, const T& x) {
+  const auto start = out.bits();
+  write(out, x);
+  const auto bits = out.bits() - start;
+  const auto octets = std::max<std::size_t>(1, (bits + 7) / 8);
+  out.put(0, static_cast<unsigned>(octets * 8 - bits));
+  return octets;
+}
+
+/// The length is known afterwards: what is short is written again behind it,
+/// into what is long it is put.
+template <class Out, class T>
+void write_behind_length(Out& out, const T& x) {
+  const auto before = out;
+  out.put(0, 16);
+  const auto octets = write_octets(out, x);
+  if (octets >= 0x80 && octets <= longest) {
+    out.replace_16(before.bits(), static_cast<std::uint16_t>(octets | 0x8000));
+    return;
+  }
+  out = before;
+  write_length(out, octets);
+  write_octets(out, x);
+}
+
 template <class Out, class T>
 void write_open(Out& out, const T& x) {
   const auto write_inner = [&](const auto& inner) {
-    bit_counter size;
-    write(size, inner);
-    const auto octets = std::max<std::size_t>(1, (size.bits() + 7) / 8);
-    write_length(out, octets);
-    write(out, inner);
-    out.put(0, static_cast<unsigned>(octets * 8 - size.bits()));
+    write_behind_length(out, inner);
   };
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     ((x.value.index() == i ? write_inner(*std::get_if<i>(&x.value)) : void()),
