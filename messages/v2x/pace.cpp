@@ -11,10 +11,12 @@ namespace {
 constexpr double sigma_way_m = 0.004;
 constexpr double sigma_speed_mps = 0.0025;
 
-// Jerk changes by so much from step to step, where moments are as far apart as
-// usual; with the square of their density it may change more.
-constexpr double sigma_kink_mps3 = 0.3;
-constexpr double usual_gap_s = 0.2;
+/// How much jerk changes from step to step, by how far moments are apart: their
+/// sender sets them close where it changes.
+double sigma_kink_mps3(double gap_s) {
+  return gap_s > 0.15 ? 0.3 : gap_s > 0.07 ? 1.2 : 20;
+}
+constexpr double widest_gap_s = 1;
 constexpr double sigma_accel_mps2 = 3; // of anybody, any time
 
 constexpr double sigma_before_mps = 0.003;
@@ -124,7 +126,7 @@ void pace::limit_jerk(std::size_t from, std::size_t to, double start_s,
                       std::size_t steps) {
   // The smallest gap around each knot.
   std::array<double, most_steps + 1> gap_s;
-  std::fill_n(gap_s.begin(), steps + 1, usual_gap_s);
+  std::fill_n(gap_s.begin(), steps + 1, widest_gap_s);
   for (auto i = from + 1; i < to; ++i) {
     const auto gap = moments_[i].t_s - moments_[i - 1].t_s;
     const auto begin = (moments_[i - 1].t_s - start_s) / step_s_ + 0.3;
@@ -136,9 +138,8 @@ void pace::limit_jerk(std::size_t from, std::size_t to, double start_s,
   }
   for (std::size_t k = 0; k <= steps; ++k) {
     way_.observe_bend(k, 0, weight(sigma_accel_mps2));
-    const auto denser = usual_gap_s / gap_s[k];
     if (k > 0 && k < steps)
-      way_.observe_kink(k, 0, weight(sigma_kink_mps3 * denser * denser));
+      way_.observe_kink(k, 0, weight(sigma_kink_mps3(gap_s[k])));
   }
 }
 

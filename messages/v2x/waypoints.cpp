@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace sofof {
 namespace {
@@ -26,8 +27,9 @@ constexpr int densest_ms = 50;
 constexpr int window_share = 5;
 constexpr int widest_window_ms = usual.gap_ms / window_share;
 
+/// @returns the nearest whole number, ties up; of |x| > 1e9 that.
 std::int32_t whole(double x) {
-  return static_cast<std::int32_t>(std::floor(x + 0.5)); // ties up
+  return static_cast<std::int32_t>(std::clamp(std::floor(x + 0.5), -1e9, 1e9));
 }
 
 /// Distance to the nearest whole number; |x| < 1000.
@@ -46,8 +48,9 @@ public:
         first_ms_{std::chrono::ceil<std::chrono::milliseconds>(plan.start
                                                                - generated_)
                       .count()},
-        step_ms_{1e3 * plan.points[1].t_s},
-        length_ms_{static_cast<int>(1e3 * plan.points.back().t_s + 0.5)} {}
+        step_ms_{1e3 * plan.points[1].t_s}, length_ms_{whole(
+                                                1e3 * plan.points.back().t_s)} {
+  }
 
   bool fits() const {
     return first_ms_ >= 0 && first_ms_ + length_ms_ <= largest_ms
@@ -69,12 +72,6 @@ public:
     return p;
   }
 
-  /// In cm to the east and north of the reference.
-  point east_north(point v) const { return {dot(east_, v), dot(north_, v)}; }
-  point offset(const trajectory_point& p) const {
-    return east_north(p.at - origin_);
-  }
-
   bool write(int ms, maneuver_waypoint& out) const {
     const auto p = moment(ms);
     const auto at = offset(p);
@@ -84,6 +81,21 @@ public:
            && p.speed_mps < largest_speed_mps;
   }
 
+  /// @returns where the next waypoint stands, at least about `least_gap`
+  /// behind the one at `ms`, which is not the last.
+  int next_ms(int ms, int least_gap) const;
+
+  /// @returns how far points are apart that are equally far.
+  int even_gap_ms() const {
+    auto gap = usual.gap_ms;
+    for (int ms = 0; ms < length_ms_; ms += usual.gap_ms)
+      gap = std::min(gap, std::max(gap_ms(ms), dense.gap_ms));
+    return gap;
+  }
+
+private:
+  static constexpr double slack = 0.02; // of a step
+
   /// @returns how far the next waypoint may be from the one at `ms`.
   int gap_ms(int ms) const {
     // One before and one behind what the usual gap spans: curves bend early.
@@ -91,14 +103,16 @@ public:
     const auto last = std::min(knot(ms + usual.gap_ms) + 1, size() - 2);
     auto jump = 0.0;
     for (auto i = std::max(k, std::size_t{1}); i <= last; ++i)
-      jump = std::max(jump, std::abs(accel(i + 1) - 2 * accel(i) + accel(i - 1))
-                                / (1e-3 * step_ms_));
+      if (!stands(i) && !stands(i + 1)) // a rest begins as it does
+        jump =
+            std::max(jump, std::abs(accel(i + 1) - 2 * accel(i) + accel(i - 1))
+                               / (1e-3 * step_ms_));
     return jump < usual.jump_mps3   ? usual.gap_ms
            : jump < dense.jump_mps3 ? dense.gap_ms
                                     : densest_ms;
   }
 
-  /// @returns the end of a rest, or nothing.
+  /// @returns the end of the rest at `ms`; `ms` if there is none.
   int rest_until_ms(int ms) const {
     auto k = knot(ms);
     if (!stands(k))
@@ -108,20 +122,24 @@ public:
     return std::min(time_ms(k), length_ms_);
   }
 
-  /// @returns whether the car comes to rest, just after.
-  bool about_to_rest(int ms) const {
-    const auto k = knot(ms);
-    return !stands(k)
-           && (stands(std::min(k + 1, size() - 1))
-               || stands(std::min(k + 2, size() - 1)));
+  /// @returns the plan's last point before the car comes to rest, or that of
+  /// the rest if the car is beyond; nothing if it does not rest before
+  /// the interval of `until_ms` is over.
+  std::optional<int> last_before_rest_ms(int ms, int until_ms) const {
+    const auto end = std::min(knot(until_ms) + 1, size() - 1);
+    for (auto k = knot(ms); k < end; ++k)
+      if (stands(k + 1))
+        return time_ms(ms < time_ms(k) ? k : k + 1);
+    return {};
   }
-  /// @returns the next moment at which the plan has a point.
-  int next_point_ms(int ms) const { return time_ms(knot(ms) + 1); }
 
   int best_near(int ms, int window_ms) const;
 
-private:
-  static constexpr double slack = 0.02; // of a step
+  /// In cm to the east and north of the reference.
+  point east_north(point v) const { return {dot(east_, v), dot(north_, v)}; }
+  point offset(const trajectory_point& p) const {
+    return east_north(p.at - origin_);
+  }
 
   std::size_t size() const { return plan_.points.size(); }
   std::size_t knot(int ms) const {
@@ -129,10 +147,13 @@ private:
                     size() - 1);
   }
   int time_ms(std::size_t knot) const {
-    return static_cast<int>(static_cast<double>(knot) * step_ms_ + 0.5);
+    return whole(static_cast<double>(knot) * step_ms_);
   }
   double accel(std::size_t i) const { return plan_.points[i].accel_mps2; }
-  bool stands(std::size_t i) const { return plan_.points[i].speed_mps <= 0; }
+  /// @returns whether it stands as far as the message can tell.
+  bool stands(std::size_t i) const {
+    return whole(100 * plan_.points[i].speed_mps) == 0;
+  }
 
   const trajectory& plan_;
   point origin_, east_, north_;
@@ -182,6 +203,20 @@ int writer::best_near(int ms, int window_ms) const {
   return ms - window_ms + static_cast<int>(best - cost.begin());
 }
 
+int writer::next_ms(int ms, int least_gap) const {
+  if (const auto rested = rest_until_ms(ms); rested > ms)
+    return rested;
+  const auto gap = std::max(gap_ms(ms), least_gap);
+  const auto window = std::min(gap / window_share, widest_window_ms);
+  const auto next = ms + gap;
+  if (const auto last = last_before_rest_ms(ms, next + window);
+      last && *last <= next + window)
+    return std::clamp(*last, ms + 1, length_ms_);
+  if (next + gap / 2 >= length_ms_)
+    return length_ms_;
+  return best_near(next, window);
+}
+
 } // namespace
 
 bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
@@ -193,34 +228,18 @@ bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
   if (!pen.fits())
     return false;
   const auto end = pen.length_ms();
-  const auto least_gap = end / static_cast<int>(most_waypoints - 8) + 1;
-  const auto put = [&](int ms) {
-    maneuver_waypoint x;
-    const auto good = pen.write(ms, x);
-    if (good)
-      out.push_back(x);
-    return good;
-  };
-
   for (int ms = 0;;) {
-    if (!put(ms)) {
+    maneuver_waypoint x;
+    if (!pen.write(ms, x)) {
       out.clear();
       return false;
     }
+    out.push_back(x);
     if (ms == end)
       return true;
-    if (const auto rested = pen.rest_until_ms(ms); rested > ms) {
-      ms = rested;
-      continue;
-    }
-    const auto gap = std::max(pen.gap_ms(ms), least_gap);
-    auto next = ms + gap;
-    const auto window = std::min(gap / window_share, widest_window_ms);
-    if (pen.about_to_rest(ms) || pen.about_to_rest(next))
-      next = std::max(pen.next_point_ms(ms), ms + least_gap);
-    else if (next + window < end)
-      next = pen.best_near(next, window);
-    ms = next + gap / 2 < end ? next : end;
+    // Long plans get wider gaps; two waypoints are kept for stops.
+    const auto left = static_cast<int>(most_waypoints - out.size()) - 2;
+    ms = left > 0 ? pen.next_ms(ms, (end - ms) / left + 1) : end;
   }
 }
 
@@ -232,9 +251,7 @@ bool to_planned_points(const trajectory& plan, const maneuver_frame& frame,
   const writer pen{plan, frame};
   if (!pen.fits())
     return false;
-  auto step = usual.gap_ms;
-  for (int ms = 0; ms < pen.length_ms(); ms += usual.gap_ms)
-    step = std::min(step, std::max(pen.gap_ms(ms), dense.gap_ms));
+  auto step = pen.even_gap_ms();
   step = std::max(step, pen.length_ms() / static_cast<int>(most_waypoints) + 1);
   constexpr int largest_step_ms = 255;
   if (step > largest_step_ms)
