@@ -9,6 +9,10 @@ namespace sofof {
 
 namespace {
 
+/// A CPM cannot tell of anything that was seen longer ago.
+/// Source: TimeOfMeasurement, TR 103 562 V2.1.1.
+constexpr duration oldest_sight = std::chrono::milliseconds{1500};
+
 told_motion motion_of(const cam& own) {
   return {own.position, own.heading_rad, own.speed_mps};
 }
@@ -44,7 +48,8 @@ std::optional<its_pdu> v2x_broadcast::perceived(const cam& own,
   model_.update(seen.at, seen.objects);
   known_.clear();
   for (const auto& x : model_.tracks())
-    if (x.seen == seen.at) // not those that are only remembered
+    if (x.seen == seen.at // not those that are only remembered
+        && own.at - seen.at <= oldest_sight)
       known_.push_back({x.id, object_of(x)});
   const auto due = cpm_due_.check(own.at, known_);
   if (!due.send)

@@ -235,8 +235,8 @@ struct vehicle_actor_state {
     if (result.created < plan_created)
       return;
     const auto t = now(self);
-    const auto next =
-        plan_in_use(result.what, *setup.way, s_m, *setup.where, t, plan.get());
+    const auto next = plan_in_use(result.what, setup.station, *setup.way, s_m,
+                                  *setup.where, t, plan.get());
     if (!next)
       return;
     const auto about = result.about.as<plan_report>();

@@ -25,8 +25,9 @@ public:
     if (!request || !prepare(request->way))
       return {};
     auto from = made_possible(request->from);
-    if (const auto plan = plan_in_use(input.in_use, *cycle_->way(), from.s_m,
-                                      *setup_.where, now, nullptr))
+    if (const auto plan =
+            plan_in_use(input.in_use, setup_.station, *cycle_->way(), from.s_m,
+                        *setup_.where, now, nullptr))
       cycle_->take_over(*plan);
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;

@@ -9,8 +9,9 @@
 namespace sofof {
 
 std::shared_ptr<const trajectory>
-plan_in_use(const payload& result, const route& way, double s_guess_m,
-            const datum& where, time_point now, const trajectory* before) {
+plan_in_use(const payload& result, station_id me, const route& way,
+            double s_guess_m, const datum& where, time_point now,
+            const trajectory* before) {
   if (auto own = result.as<trajectory>())
     return own->is_sound() ? own : nullptr;
   const auto message = result.as<its_pdu>();
@@ -18,8 +19,8 @@ plan_in_use(const payload& result, const route& way, double s_guess_m,
   if (!message || !etsi::decode(message->view(), suggestion))
     return nullptr;
   auto plan = std::make_shared<trajectory>();
-  const auto fault =
-      read_suggestion(suggestion, way, s_guess_m, where, now, before, *plan);
+  const auto fault = read_suggestion(suggestion, me, way, s_guess_m, where, now,
+                                     before, *plan);
   return fault == maneuver_fault::none ? plan : nullptr;
 }
 

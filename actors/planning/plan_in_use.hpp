@@ -3,6 +3,7 @@
 
 #include "messages/payload.hpp"
 #include "messages/v2x/datum.hpp"
+#include "world/ids.hpp"
 #include "world/route.hpp"
 #include "world/time.hpp"
 #include "world/trajectory.hpp"
@@ -13,12 +14,14 @@ namespace sofof {
 
 /// @param result     Of trajectory planning: a trajectory from the vehicle's
 ///                   own planner, an MCM from a provider's; or nothing.
+/// @param me         The vehicle; plans for others are none.
 /// @param s_guess_m  About where the plan begins on the route, within 20 m.
 /// @param before     The plan in use until now; null: none.
 /// @returns the plan, sound; null for what is none.
 std::shared_ptr<const trajectory>
-plan_in_use(const payload& result, const route& way, double s_guess_m,
-            const datum& where, time_point now, const trajectory* before);
+plan_in_use(const payload& result, station_id me, const route& way,
+            double s_guess_m, const datum& where, time_point now,
+            const trajectory* before);
 
 /// Clocks of vehicles, sensors and providers agree within this.
 inline constexpr duration clock_tolerance = std::chrono::milliseconds{200};

@@ -107,10 +107,10 @@ public:
     const auto ahead =
         authority(*way, request->from.s_m, request->seen.stop_at_m);
     road_user_word word{request->own, ahead, nullptr, {}};
-    const auto plan = takes_over
-                          ? plan_in_use(input.in_use, *way, request->from.s_m,
-                                        *setup.where, input.at, nullptr)
-                          : nullptr;
+    const auto plan = takes_over ? plan_in_use(input.in_use, setup.station,
+                                               *way, request->from.s_m,
+                                               *setup.where, input.at, nullptr)
+                                 : nullptr;
     word.plan = plan.get();
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.running),

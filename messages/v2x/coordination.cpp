@@ -202,12 +202,12 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
 }
 
 std::optional<maneuver_fault>
-read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
-                const datum& where, time_point now, const trajectory* before,
-                trajectory& out) {
+read_suggestion(const etsi::mcm& message, station_id me, const route& way,
+                double s_guess_m, const datum& where, time_point now,
+                const trajectory* before, trajectory& out) {
   const auto* to = std::get_if<etsi::suggested_maneuver_container>(
       &message.body.parameters.maneuver.value);
-  const auto* plan = to && to->maneuver
+  const auto* plan = to && to->target == me && to->maneuver
                          ? std::get_if<etsi::maneuver_constraints>(
                              &to->maneuver->parameters.value)
                          : nullptr;

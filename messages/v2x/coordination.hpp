@@ -81,13 +81,14 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
                            etsi::termination_status why, const datum& where);
 
 /// A suggested plan, along the vehicle's route.
+/// @param me         What is suggested to others is nothing to this station.
 /// @param s_guess_m  About where it begins.
 /// @param before     The plan in use until now; null: none.
 /// @param out        Sound if there is no fault; its points are reused.
 /// @returns why it is no plan; nullopt if the message suggests none.
 std::optional<maneuver_fault>
-read_suggestion(const etsi::mcm& message, const route& way, double s_guess_m,
-                const datum& where, time_point now, const trajectory* before,
-                trajectory& out);
+read_suggestion(const etsi::mcm& message, station_id me, const route& way,
+                double s_guess_m, const datum& where, time_point now,
+                const trajectory* before, trajectory& out);
 
 } // namespace sofof

@@ -38,7 +38,8 @@ struct cabin_world : virtual_world {
     for (const auto end = now() + d; now() < end;) {
       run_for(1s);
       const auto question = manager->all<service_input>().back();
-      tell(cabin, service_result{{}, 1, now(), function->run(now(), question)});
+      tell(cabin,
+           service_result{{}, 1, now(), function->run(now(), question).what});
       manager->clear();
     }
     run_for(1s);
@@ -104,7 +105,7 @@ TEST_CASE_FIXTURE(cabin_world, "a cold cabin is heated") {
   tell(cabin, manager.handle);
   run_for(1s);
   const auto cold = manager->all<service_input>().back();
-  const auto answer = function->run(now(), cold).encoded();
+  const auto answer = function->run(now(), cold).what.encoded();
   double power_w = 0;
   byte_reader in{answer};
   in(power_w);

@@ -6,6 +6,7 @@
 #include "actors/service_provider.hpp"
 #include "actors/service_requester.hpp"
 #include "policies/baselines.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
 
@@ -52,6 +53,7 @@ struct echo_world : virtual_world {
     s.boot = 1;
     s.area = polygon::regular({0, 0}, 100, 24);
     s.world = world;
+    s.where = in_ulm();
     s.kinds = kinds;
     s.codm = std::make_unique<constant_codm>(true);
     s.recorder = recorder.handle;
@@ -69,6 +71,7 @@ struct echo_world : virtual_world {
     s.station = station;
     s.way = world->routes.front();
     s.world = world;
+    s.where = in_ulm();
     s.kinds = kinds;
     s.lodm = std::make_unique<constant_lodm>(true);
     s.vehicle = vehicle.handle;
@@ -82,7 +85,7 @@ struct echo_world : virtual_world {
     for (const auto end = now() + d; now() < end; run_for(100ms)) {
       const cam own{station, now(), {x_m, 0}, 0, 0, 0};
       tell(requester, ego_state{own, x_m + 500});
-      tell(link, own, requester_actor{requester});
+      tell(link, pdu_of(own), requester_actor{requester});
       tell(manager, service_input{{}, now(), payload::of(echo{++said})});
     }
   }

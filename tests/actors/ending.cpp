@@ -73,6 +73,30 @@ TEST_CASE_FIXTURE(provider_world,
   CHECK(still_sends());
 }
 
+TEST_CASE_FIXTURE(provider_world, "a CPM is a sign of life, too") {
+  hear(inside);
+  start({one});
+  for (auto k = 0; k < 10; ++k) {
+    run_for(1900ms);
+    see(station);
+  }
+  CHECK(episodes().empty());
+  run_for(2s);
+  CHECK(episodes().empty());
+  run_for(1ns);
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::cam_timeout);
+}
+
+TEST_CASE_FIXTURE(provider_world, "another station's CPM is no sign of life") {
+  hear(inside);
+  start({one});
+  run_for(1s);
+  see(station + 1);
+  run_for(1s + 1ns);
+  CHECK(episodes().size() == 1);
+}
+
 TEST_CASE_FIXTURE(provider_world, "a silent station that comes back is offered "
                                   "to, and watched, like a new one") {
   hear(inside);
@@ -104,12 +128,12 @@ TEST_CASE_FIXTURE(provider_world, "a CAM that was overtaken changes nothing") {
   hear(inside);
   start({one});
   const cam older{station, now() - 1s, outside, 0, 10, 0};
-  tell(provider, older, requester.handle);
+  hear(older, requester);
   CHECK(episodes().empty());
   run_for(1s);
   auto old_inside = older;
   old_inside.position = inside;
-  tell(provider, old_inside, requester.handle);
+  hear(old_inside, requester);
   run_for(1s + 1ns); // it does not count as a sign of life either
   CHECK(episodes().size() == 1);
 }
@@ -257,4 +281,47 @@ TEST_CASE_FIXTURE(provider_world, "a station that leaves and returns is still "
   REQUIRE(recorder->count<episode_record>() == 1);
   CHECK(recorder->all<episode_record>().front().reason
         == end_reason::cam_timeout);
+}
+
+// -- what a service itself says ----------------------------------------------
+
+namespace {
+
+struct polite_world : provider_world {
+  polite_world() {
+    auto s = setup();
+    s.kinds = {std::make_shared<its_echo>("one")};
+    provider = own(spawn_service_provider(system(), std::move(s)));
+    hear(inside);
+    start({one});
+    recorder->clear();
+  }
+
+  const std::vector<std::byte> goodbye =
+      its_echo::octets(true, false).as<its_pdu>()->octets;
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(polite_world, "a provider that ends a service says so in its "
+                                "own terms, on the air") {
+  hear(outside);
+  REQUIRE(ends().size() == 1);
+  const auto said = ends().front().what.as<its_pdu>();
+  REQUIRE(said);
+  CHECK(said->octets == goodbye);
+  REQUIRE(recorder->count<air_record>() == 1);
+  CHECK(recorder->all<air_record>().front().at == now());
+  CHECK(recorder->all<air_record>().front().message.octets == goodbye);
+  hear(outside);
+  run_for(5s);
+  CHECK(recorder->count<air_record>() == 1);
+}
+
+TEST_CASE_FIXTURE(polite_world, "a provider says nothing when the requester "
+                                "has ended the service") {
+  tell(provider, service_end{verdicts().front().running, end_reason::qos_gap,
+                             side::requester});
+  CHECK(episodes().size() == 1);
+  CHECK(recorder->count<air_record>() == 0);
 }

@@ -373,3 +373,50 @@ TEST_CASE_FIXTURE(requester_world,
   for (const auto& m : managers)
     CHECK(is_gone(m));
 }
+
+// -- what a service itself says ----------------------------------------------
+
+namespace {
+
+struct polite_requester_world : requester_world {
+  polite_requester_world() {
+    auto s = setup();
+    s.kinds = {std::make_shared<its_echo>("one")};
+    requester = own(spawn_service_requester(system(), std::move(s)));
+    settle();
+    drive_to(100);
+    tell(vehicle->all<requester_manager_actor>().back(),
+         service_input{{}, now(), payload::of(echo{1})});
+    start_remote({one});
+    run_for(10ms);
+    recorder->clear();
+  }
+
+  const std::vector<std::byte> goodbye =
+      its_echo::octets(false, true).as<its_pdu>()->octets;
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(polite_requester_world,
+                  "a requester that ends a service says so in its own terms, "
+                  "on the air") {
+  run_for(200ms); // nothing comes
+  REQUIRE(ends().size() == 1);
+  const auto said = ends().front().what.as<its_pdu>();
+  REQUIRE(said);
+  CHECK(said->octets == goodbye);
+  REQUIRE(recorder->count<air_record>() == 1);
+  CHECK(recorder->all<air_record>().front().message.octets == goodbye);
+  CHECK(recorder->all<air_record>().front().at
+        == provider->times<service_end>().front());
+}
+
+TEST_CASE_FIXTURE(polite_requester_world,
+                  "a requester says nothing when the provider has ended the "
+                  "service") {
+  tell(requester,
+       service_end{at_here(one, 7), end_reason::left_area, side::provider});
+  CHECK(episodes().size() == 1);
+  CHECK(recorder->count<air_record>() == 0);
+}

@@ -2,6 +2,7 @@
 #include "actors/network_link.hpp"
 
 #include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"
 
 #include <doctest/doctest.h>
@@ -30,19 +31,28 @@ struct linked_world : virtual_world {
     return p;
   }
 
+  /// The same in a cell of 1 Mbit/s.
+  static channel_profile slow() {
+    auto p = steady();
+    p.cell_mbps = 1;
+    return p;
+  }
+
   link_actor join(std::optional<link_fault_options> faults,
-                  const channel_profile& profile = steady()) {
+                  const channel_profile& profile = steady(),
+                  const std::shared_ptr<fifo_servers>& cell = nullptr) {
     const random_stream seed{1, "network"};
     const channel draws{std::make_shared<const channel_profile>(profile), seed,
                         101, 0};
-    link_setup setup{
-        {draws, way::up, nullptr}, {draws, way::down, nullptr}, {}};
+    link_setup setup{{draws, way::up, cell}, {draws, way::down, cell}, {}};
     if (faults)
       setup.faults.emplace(seed.part("faults"), *faults);
     return own(spawn_network_link(system(), far.handle, std::move(setup)));
   }
 
-  void say_cam() { tell(link, cam{101, now(), {1, 2}, 3, 4, 5}, near.handle); }
+  void say_cam() {
+    tell(link, pdu_of(cam{101, now(), {1, 2}, 3, 4, 5}), near.handle);
+  }
   /// Lets both ends know each other, and forgets about it.
   void meet() {
     say_cam();
@@ -72,14 +82,12 @@ TEST_CASE_FIXTURE(linked_world, "a CAM arrives after the delay, unchanged") {
   const auto sent = now();
   say_cam();
   run_for(20ms - 1ns);
-  CHECK(far->count<cam>() == 0);
+  CHECK(far->count<its_pdu>() == 0);
   run_for(1ns);
-  REQUIRE(far->count<cam>() == 1);
-  CHECK(far->times<cam>().front() == sent + 20ms);
-  const auto c = far->all<cam>().front();
-  CHECK(c.station == 101);
-  CHECK(c.at == sent);
-  CHECK(c.position == point{1, 2});
+  REQUIRE(far->count<its_pdu>() == 1);
+  CHECK(far->times<its_pdu>().front() == sent + 20ms);
+  CHECK(far->all<its_pdu>().front().octets
+        == pdu_of(cam{101, sent, {1, 2}, 3, 4, 5}).octets);
 }
 
 TEST_CASE_FIXTURE(linked_world, "to the provider the link looks like the "
@@ -231,6 +239,63 @@ TEST_CASE_FIXTURE(linked_world,
   CHECK(arrivals(true) == alone);
 }
 
+TEST_CASE_FIXTURE(linked_world, "an ITS message is in the air for as long as "
+                                "its octets take, with the layers below") {
+  link = join({}, slow());
+  for (const std::size_t n : {10u, 100u, 1000u}) {
+    CAPTURE(n);
+    const its_pdu message{std::vector<std::byte>(n)};
+    const auto sent = now();
+    tell(link, message, near.handle);
+    run_for(1s);
+    CHECK(far->times<its_pdu>().back() == sent + 20ms + 8us * (n + 44));
+    // As a result of a service it takes as long.
+    const auto again = now();
+    tell(link, service_result{one, n, again, payload::of(message)});
+    run_for(1s);
+    CHECK(near->times<service_result>().back()
+          == again + 20ms + 8us * (n + 44));
+  }
+}
+
+TEST_CASE_FIXTURE(linked_world,
+                  "a longer message of the protocol takes longer") {
+  link = join({}, slow());
+  meet();
+  const auto takes = [&](std::size_t points) {
+    const auto sent = now();
+    tell(link,
+         service_request{11, 101, 3, {"one"}, std::vector<point>(points), 5},
+         near.handle);
+    run_for(1s);
+    return far->times<service_request>().back() - sent;
+  };
+  const auto empty = takes(0);
+  CHECK(empty > 20ms);
+  CHECK(takes(100) == empty + 100 * 16 * 8us);
+  const auto offer_takes = [&](std::size_t kinds) {
+    const auto sent = now();
+    tell(link,
+         service_offer{11, {}, std::vector<service_name>(kinds, {"one"})});
+    run_for(1s);
+    return near->times<service_offer>().back() - sent;
+  };
+  CHECK(offer_takes(5) > offer_takes(1));
+}
+
+TEST_CASE_FIXTURE(linked_world, "who shares a cell waits for the other's "
+                                "octets") {
+  const auto cell = std::make_shared<fifo_servers>(1);
+  link = join({}, slow(), cell);
+  const auto other = join({}, slow(), cell);
+  const auto sent = now();
+  tell(link, its_pdu{std::vector<std::byte>(956)}, near.handle);
+  tell(other, its_pdu{std::vector<std::byte>(56)}, near.handle);
+  run_for(1s);
+  CHECK(far->times<its_pdu>()
+        == std::vector{sent + 20ms + 8ms, sent + 20ms + 8ms + 800us});
+}
+
 TEST_CASE_FIXTURE(linked_world, "the link does not outlive the provider") {
   meet();
   kill(far.handle);
@@ -260,9 +325,9 @@ TEST_CASE_FIXTURE(linked_world, "what is doubled arrives twice, the first "
   say_cam();
   result(1);
   run_for(5s);
-  REQUIRE(far->count<cam>() == 2);
+  REQUIRE(far->count<its_pdu>() == 2);
   CHECK(near->count<service_result>() == 2);
-  CHECK(far->times<cam>().front() == sent + 20ms);
+  CHECK(far->times<its_pdu>().front() == sent + 20ms);
 }
 
 TEST_CASE_FIXTURE(linked_world, "what is reordered arrives once, some later "

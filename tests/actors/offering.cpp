@@ -1,5 +1,7 @@
 // Tests of the service provider: from a CAM to running services.
 #include "tests/actors/provider_world.hpp"
+#include "tests/support/dice.hpp"
+#include "tests/support/random_pdu.hpp"
 
 using namespace sofof;
 using namespace sofof::test;
@@ -25,8 +27,11 @@ TEST_CASE_FIXTURE(provider_world,
   CHECK(offer.kinds == std::vector{one, two});
 }
 
-TEST_CASE_FIXTURE(provider_world, "the rim counts as inside") {
-  hear({100, 100});
+TEST_CASE_FIXTURE(provider_world, "a station is inside as long as its rear "
+                                  "axle is, though its front be outside") {
+  hear({100.1, 0});
+  CHECK(offers().empty());
+  hear({99.9, 0});
   CHECK(offers().size() == 1);
 }
 
@@ -77,6 +82,62 @@ TEST_CASE_FIXTURE(provider_world, "what has ended is offered again") {
   stay(1s);
   REQUIRE(offers().size() == 2);
   CHECK(offers().back().kinds == std::vector{one});
+}
+
+TEST_CASE_FIXTURE(provider_world, "a CPM of who has sent no CAM yet brings no "
+                                  "offer") {
+  see(station);
+  run_for(100ms);
+  CHECK(requester->entries().empty());
+}
+
+TEST_CASE_FIXTURE(provider_world, "what cannot be read is as if it had not "
+                                  "come") {
+  hear(inside);
+  start({one});
+  run_for(1s);
+  recorder->clear();
+  const auto before = offers().size();
+  const auto good = pdu_of(cam{station + 1, now(), inside, 0, 10, 0});
+  dice d{1};
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(d.between(0, static_cast<double>(n)));
+  };
+  for (auto k = 0; k < 2000; ++k) {
+    its_pdu noise{std::vector<std::byte>(below(300))};
+    for (auto& octet : noise.octets)
+      octet = static_cast<std::byte>(below(256));
+    if (k % 2 == 0 && noise.octets.size() > 2) {
+      // An ITS header of no message, with a good one's kind.
+      noise.octets[0] = good.octets[0];
+      noise.octets[1] = std::byte{99};
+    }
+    tell(provider, noise, neighbour.handle);
+    auto cut = good;
+    cut.octets.resize(below(good.octets.size()));
+    tell(provider, cut, neighbour.handle);
+  }
+  tell(provider, its_pdu{}, neighbour.handle);
+  CHECK(!is_gone(provider));
+  CHECK(neighbour->entries().empty());
+  CHECK(offers().size() == before);
+  CHECK(recorder->entries().empty());
+  CHECK(still_sends());
+}
+
+TEST_CASE_FIXTURE(provider_world, "messages with any content do a provider no "
+                                  "harm") {
+  random_pdu random{1};
+  hear(inside);
+  start({one});
+  for (auto k = 0; k < 500; ++k) {
+    tell(provider, encoded(random.message<etsi::cam>()), neighbour.handle);
+    tell(provider, encoded(random.message<etsi::tr103562::cpm>()),
+         neighbour.handle);
+    tell(provider, encoded(random.message<etsi::mcm>()), neighbour.handle);
+  }
+  CHECK(!is_gone(provider));
+  CHECK(still_sends());
 }
 
 TEST_CASE_FIXTURE(provider_world, "each station is offered to by itself") {

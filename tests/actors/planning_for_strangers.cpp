@@ -1,10 +1,11 @@
 // Trajectory planning for those that tell nonsense.
-#include "actors/service_kind.hpp"
-#include "actors/services/trajectory_planning.hpp"
-#include "tests/support/toy_streets.hpp"
+#include "tests/actors/planning_world.hpp"
+#include "tests/support/dice.hpp"
+#include "tests/support/each_number.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <limits>
@@ -13,50 +14,11 @@
 #include <vector>
 
 using namespace sofof;
-using namespace std::chrono_literals;
+using namespace sofof::test;
 
 namespace {
 
-constexpr time_point start{100s};
-
-/// A round and an open way over crossings.
-streets_ptr blocks() {
-  auto world = std::make_shared<streets>();
-  world->map = toy::grid(3, 100);
-  world->routes = {toy::make_route(world->map, {0, 1, 4, 3}, true),
-                   toy::make_route(world->map, {3, 4, 5})};
-  return world;
-}
-
-struct place {
-  bool has_site, crossings_granted;
-};
-
-/// Plans on board or at a provider, at a time that a test sets.
-struct planning {
-  explicit planning(place where) {
-    setup.station = 101;
-    setup.remote = where.has_site;
-    setup.crossings_granted = where.crossings_granted;
-    setup.clock = [t = now] { return *t; };
-    if (where.has_site)
-      setup.site = kind->make_site(setup);
-    function = kind->make_function(setup);
-  }
-
-  /// @returns what is planned now; null if nothing.
-  std::shared_ptr<const drive_plan> run(const plan_request& ask,
-                                        const payload& in_use = {}) {
-    return function
-        ->run(*now, {{}, *now, payload::of(plan_request{ask}), in_use})
-        .as<drive_plan>();
-  }
-
-  std::shared_ptr<time_point> now = std::make_shared<time_point>(start);
-  service_kind_ptr kind = make_service_kind("trajectory_planning");
-  service_setup setup{.world = blocks()};
-  std::shared_ptr<service_function> function;
-};
+constexpr auto start = planning::start;
 
 perceived_object car_at(point centre) {
   return {centre, 0, 0, 0, 5, 2};
@@ -106,6 +68,20 @@ public:
     (hurt(xs), ...);
   }
 
+  std::int64_t any_between(std::int64_t low, std::int64_t high) {
+    const auto share = dice_.uniform(++draws_);
+    if (share < 0.2)
+      return share < 0.1 ? low : high;
+    const auto range = static_cast<double>(high) - static_cast<double>(low);
+    return low + static_cast<std::int64_t>((share - 0.2) / 0.8 * range);
+  }
+
+  /// @returns one of 0..n-1.
+  std::size_t any_index(std::size_t n) {
+    return static_cast<std::size_t>(dice_.uniform(++draws_)
+                                    * static_cast<double>(n));
+  }
+
 private:
   static constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   static constexpr auto inf = std::numeric_limits<double>::infinity();
@@ -137,128 +113,230 @@ plan_request lie(plan_request x, liar& who) {
   return x;
 }
 
-template <std::size_t rows>
-void lie(ocp::warm_start<rows>& x, liar& who) {
-  who.hurt_all(x.ds_m, x.steps);
-  if (who.lies(0.5))
-    return;
-  for (auto* column : {&x.x0, &x.x1, &x.x2, &x.u})
-    who.hurt((*column)[7]);
-  for (auto& column : x.force)
-    who.hurt((column)[7]);
-}
-
-drive_plan lie(drive_plan x, liar& who) {
-  who.hurt(x.plan.start);
-  if (who.lies() && !x.plan.empty()) {
-    auto& p = x.plan.points[x.plan.points.size() / 2];
+trajectory lie(trajectory x, liar& who) {
+  who.hurt(x.start);
+  if (who.lies() && !x.empty()) {
+    auto& p = x.points[x.points.size() / 2];
     who.hurt_all(p.t_s, p.s_m, p.at.x_m, p.at.y_m, p.heading_rad,
                  p.curvature_1pm, p.speed_mps, p.accel_mps2);
-  }
-  if (x.memory) {
-    auto memory = std::make_shared<planner_memory>(*x.memory);
-    lie(memory->path, who);
-    lie(memory->speed, who);
-    who.hurt_all(memory->path_s_m, memory->speed_s_m, memory->sides,
-                 memory->order);
-    x.memory = memory;
   }
   return x;
 }
 
-constexpr std::array<place, 4> everywhere{
-    {{false, true}, {false, false}, {true, true}, {true, false}}};
+/// Puts anything that can be said into some numbers of a message.
+template <class Message>
+its_pdu lie(const its_pdu& truth, liar& who) {
+  auto message = *message_in<Message>(truth);
+  each_number(message.body, [&]<class N>(N& x) {
+    if (who.lies(0.03))
+      x.value =
+          static_cast<typename N::number>(who.any_between(N::low, N::high));
+  });
+  return encoded(message);
+}
+
+/// Breaks octets.
+its_pdu garble(its_pdu x, liar& who) {
+  auto& octets = x.octets;
+  if (who.lies(0.3))
+    octets.resize(who.any_index(octets.size() + 4));
+  const auto flips = who.any_index(6);
+  for (std::size_t i = 0; i < flips && !octets.empty(); ++i)
+    octets[who.any_index(octets.size())] =
+        static_cast<std::byte>(who.any_index(256));
+  return x;
+}
+
+/// Of octets that begin like a message of some kind, or not at all.
+its_pdu noise(liar& who) {
+  constexpr std::array<std::array<int, 2>, 4> kinds{
+      {{2, 2}, {1, 14}, {2, 20}, {2, 14}}};
+  its_pdu x;
+  x.octets.resize(who.any_index(400));
+  for (auto& octet : x.octets)
+    octet = static_cast<std::byte>(who.any_index(256));
+  if (x.octets.size() > 2 && who.lies(0.9)) {
+    const auto kind = kinds[who.any_index(kinds.size())];
+    x.octets[0] = static_cast<std::byte>(kind[0]);
+    x.octets[1] = static_cast<std::byte>(kind[1]);
+  }
+  return x;
+}
 
 } // namespace
 
-TEST_CASE("whatever a planner is told, it gives a sound plan") {
+TEST_CASE("whatever a vehicle's planner is told, it gives a sound plan") {
   constexpr auto rounds = 100;
   std::uint64_t number = 0;
-  for (const auto& where : everywhere)
+  for (const auto granted : {true, false})
     for (const auto round : {true, false}) {
-      CAPTURE(where.has_site);
-      CAPTURE(where.crossings_granted);
+      CAPTURE(granted);
       CAPTURE(round);
-      planning planner{where}, other{where};
+      planning planner{false, granted}, other{false, granted};
       liar who{++number};
-      plan_request truth;
-      truth.way = round ? "0-1-4-3" : "3-4-5";
-      truth.from.speed_mps = 8;
-      truth.seen.objects = {car_at({90, 1.75}), car_at({130, 98.25}),
-                            car_at({98.25, 60})};
       payload in_use;
       for (auto i = 0; i < rounds; ++i) {
         CAPTURE(i);
-        *planner.now = *other.now = truth.from.at = truth.seen.at =
-            start + i * 50ms;
-        truth.from.s_m = 60 + 0.4 * i;
-        const auto made = planner.run(lie(truth, who), in_use);
+        *planner.now = *other.now = start + i * 50ms;
+        auto truth = planner.at(round ? "0-1-4-3" : "3-4-5", 60 + 0.4 * i, 8);
+        truth.seen.objects = {car_at({90, 1.75}), car_at({130, 98.25}),
+                              car_at({98.25, 60})};
+        const auto made = planner.ask(lie(truth, who), in_use);
         REQUIRE(made);
-        CHECK(made->plan.is_sound());
-        CHECK(made->plan.start == *planner.now);
+        CHECK(made->is_sound());
+        CHECK(made->start == *planner.now);
         // Another one has planned a moment later, and tells of it.
         *other.now += 1ms;
-        if (const auto given = other.run(truth); given && who.lies(0.5))
+        if (const auto given = other.ask(truth); given && who.lies(0.5))
           in_use = payload::of(lie(*given, who));
       }
     }
 }
 
+TEST_CASE("whatever a provider's planner is told, it gives a sound plan or "
+          "none, and goes on as soon as it hears the truth") {
+  constexpr auto rounds = 150;
+  std::uint64_t number = 100;
+  for (const auto granted : {true, false}) {
+    planning planner{true, granted};
+    liar who{++number};
+    auto plans = 0;
+    const auto take = [&](const service_output& result,
+                          const plan_request& truth) {
+      if (result.what.type().empty())
+        return;
+      const auto made = planner.understood(result, truth);
+      if (!made)
+        return; // of one who is said to be elsewhere
+      ++plans;
+      REQUIRE(made->is_sound());
+      REQUIRE(made->start <= *planner.now);
+      REQUIRE(made->start > *planner.now - 1ms);
+    };
+    for (auto i = 0; i < rounds; ++i) {
+      CAPTURE(i);
+      *planner.now = start + i * 50ms;
+      const auto truth = planner.at("0-1-4-3", 60 + 0.4 * i, 8);
+      const auto plan = payload::of(
+          trajectory{*planner.now,
+                     {{0, truth.from.s_m, truth.own.position, 0, 0, 8, 0},
+                      {1, truth.from.s_m + 8, truth.own.position + point{8, 0},
+                       0, 0, 8, 0}}});
+      const auto word = *planner.word(truth, plan, true).as<its_pdu>();
+      const auto sees =
+          pdu_of(truth.own, {{1, car_at({130, 98.25})}, {2, car_at({90, 5})}});
+      planner.hear(pdu_of(truth.own));
+      planner.hear(lie<etsi::cam>(pdu_of(truth.own), who));
+      planner.hear(lie<etsi::tr103562::cpm>(sees, who));
+      planner.hear(garble(pdu_of(truth.own), who));
+      planner.hear(garble(sees, who));
+      planner.hear(noise(who));
+      take(planner.run(payload::of(lie<etsi::mcm>(word, who))), truth);
+      take(planner.run(payload::of(garble(word, who))), truth);
+      take(planner.run(payload::of(noise(who))), truth);
+    }
+    CHECK(plans > rounds);
+    *planner.now += 1500ms; // the lies were of the near future at most
+    const auto truth = planner.at("3-4-5", 20, 8);
+    planner.hear(pdu_of(truth.own));
+    const auto made =
+        planner.understood(planner.run(planner.word(truth)), truth);
+    REQUIRE(made);
+    CHECK(made->points.front().s_m == doctest::Approx(20).epsilon(0.01));
+  }
+}
+
 TEST_CASE("for one who is nowhere there is a plan on a round with crossings") {
-  planning planner{{false, false}};
-  plan_request ask;
-  ask.way = "0-1-4-3";
-  ask.from.at = start;
+  planning planner{false, false};
+  auto ask = planner.at("0-1-4-3", 0, 0);
   for (const auto s : {std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300,
                        std::numeric_limits<double>::infinity()}) {
     ask.from.s_m = s;
-    const auto made = planner.run(ask);
+    const auto made = planner.ask(ask);
     REQUIRE(made);
-    CHECK(made->plan.is_sound());
+    CHECK(made->is_sound());
   }
 }
 
-TEST_CASE("what nobody can have seen yet blinds no planner") {
-  for (const auto has_site : {false, true}) {
-    CAPTURE(has_site);
-    planning planner{{has_site, true}};
-    plan_request ask;
-    ask.way = "3-4-5";
-    ask.from.at = ask.seen.at = start;
-    ask.from.speed_mps = 8;
-    const auto way = planner.setup.world->find(ask.way);
-    ask.seen.objects = {car_at(way->path().at(40).at)};
-    const auto stands_m = [&] {
-      const auto made = planner.run(ask);
-      REQUIRE(made);
-      return made->plan.points.back().s_m;
-    };
-    const auto before_m = stands_m();
-    CHECK(before_m < 40);
-    auto dream = ask;
-    dream.seen.objects.clear();
-    dream.seen.at = start + 2s;
-    planner.run(dream);
-    if (has_site) {
-      planner.setup.site->see(start + 2s, {});
-      planner.setup.site->hear(
-          {.station = 7, .at = start + 2s, .position = {0, 500}});
-    }
-    *planner.now = ask.from.at = ask.seen.at = start + 50ms;
-    CHECK(stands_m() < 40);
-  }
+TEST_CASE("what nobody can have seen yet blinds no vehicle's planner") {
+  planning planner{false};
+  auto ask = planner.at("3-4-5", 0, 8);
+  ask.seen.objects = {car_at(planner.way(ask.way)->path().at(40).at)};
+  const auto stands_m = [&] {
+    const auto made = planner.ask(ask);
+    REQUIRE(made);
+    return made->points.back().s_m;
+  };
+  CHECK(stands_m() < 40);
+  auto dream = ask;
+  dream.seen.objects.clear();
+  dream.seen.at = start + 2s;
+  planner.ask(dream);
+  *planner.now = ask.from.at = ask.seen.at = start + 50ms;
+  CHECK(stands_m() < 40);
+}
+
+TEST_CASE("what nobody can have seen yet blinds no provider's planner") {
+  planning planner{true};
+  const auto ask = planner.at("3-4-5", 0, 8);
+  const auto obstacle = car_at(planner.way(ask.way)->path().at(40).at);
+  const auto stands_m = [&] {
+    const auto made = planner.understood(planner.run(planner.word(ask)), ask);
+    REQUIRE(made);
+    return made->points.back().s_m;
+  };
+  planner.hear(pdu_of(ask.own));
+  const cam witness{102, start, {0, 300}, 0, 0};
+  planner.hear(pdu_of(witness, {{1, obstacle}}));
+  CHECK(stands_m() < 40);
+  auto dreamer = witness;
+  dreamer.at += 2s;
+  planner.hear(pdu_of(dreamer));
+  planner.hear(pdu_of(dreamer, {}));
+  planner.setup.site->see(start + 2s, {});
+  *planner.now = start + 50ms;
+  planner.hear(pdu_of({102, start + 50ms, {0, 300}}, {{1, obstacle}}));
+  CHECK(stands_m() < 40);
 }
 
 TEST_CASE("clocks may differ a little") {
-  planning planner{{true, true}};
-  plan_request ask;
-  ask.way = "3-4-5";
-  ask.from.at = start;
-  ask.from.speed_mps = 8;
-  ask.seen.at = start + 100ms;
-  const auto way = planner.setup.world->find(ask.way);
-  ask.seen.objects = {car_at(way->path().at(40).at)};
-  const auto made = planner.run(ask);
+  planning planner{true};
+  const auto ask = planner.at("3-4-5", 0, 8);
+  planner.hear(pdu_of(ask.own));
+  planner.hear(pdu_of({102, start + 100ms, {0, 300}},
+                      {{1, car_at(planner.way(ask.way)->path().at(40).at)}}));
+  const auto made = planner.understood(planner.run(planner.word(ask)), ask);
   REQUIRE(made);
-  CHECK(made->plan.points.back().s_m < 40);
+  CHECK(made->points.back().s_m < 40);
+}
+
+TEST_CASE("a word of another station does not steer this one's planning") {
+  planning planner{true};
+  const auto ask = planner.at("3-4-5", 0, 8);
+  planner.hear(pdu_of(ask.own));
+  auto other = ask;
+  other.own.station = planning::station + 1;
+  other.seen.stop_at_m = 30;
+  CHECK(planner.run(planner.word(other)).what.type().empty());
+  const auto free = planner.understood(planner.run(planner.word(ask)), ask);
+  REQUIRE(free);
+  CHECK(free->points.back().s_m > 50);
+  *planner.now += 50ms;
+  const auto still = planner.understood(planner.run(planner.word(other)), ask);
+  REQUIRE(still);
+  CHECK(still->points.back().s_m > 50);
+}
+
+TEST_CASE("a CAM of another station moves no one else") {
+  planning planner{true};
+  const auto ask = planner.at("3-4-5", 0, 8);
+  planner.hear(pdu_of(ask.own));
+  auto far = planner.at("3-4-5", 150, 8).own;
+  far.station = planning::station + 1;
+  far.at += 50ms;
+  *planner.now += 50ms;
+  planner.hear(pdu_of(far));
+  const auto made = planner.understood(planner.run(planner.word(ask)), ask);
+  REQUIRE(made);
+  CHECK(made->points.front().s_m < 2);
 }

@@ -14,6 +14,7 @@ struct provider_manager_world : virtual_world {
   const running_service running{1, 101, "echo", 7};
   probe<requester_actor> requester = listen<requester_actor>();
   probe<provider_actor> provider = listen<provider_actor>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
   std::weak_ptr<service_function> function; // lives as long as the instance
   provider_manager_actor manager = spawn();
 
@@ -25,8 +26,9 @@ struct provider_manager_world : virtual_world {
     setup.phase = 20ms;
     setup.finish = [](time_point start, std::uint64_t) { return start + 3ms; };
     function = setup.function;
-    return own(spawn_provider_manager(system(), std::move(setup),
-                                      requester.handle, provider.handle));
+    return own(
+        spawn_provider_manager(system(), {std::move(setup), requester.handle,
+                                          provider.handle, recorder.handle}));
   }
 
   void feed(std::uint64_t number) {
@@ -86,6 +88,23 @@ TEST_CASE_FIXTURE(provider_manager_world, "further input replaces the older, "
   REQUIRE(results.size() == 2); // of 20 ms and 70 ms
   CHECK(results[0].what.as<echo>()->number == 1);
   CHECK(results[1].what.as<echo>()->number == 3);
+}
+
+TEST_CASE_FIXTURE(provider_manager_world,
+                  "results that are ITS messages are recorded as they leave") {
+  feed(1);
+  run_for(10ms);
+  CHECK(recorder->count<air_record>() == 0); // an echo is none
+  const its_pdu said{{std::byte{7}}};
+  tell(manager, service_input{running, now(), payload::of(said)});
+  requester->clear();
+  run_for(100ms);
+  const auto records = recorder->all<air_record>();
+  CHECK(records.size() == 2);
+  CHECK(requester->count<service_result>() == 2);
+  for (const auto& r : records)
+    CHECK(r.message.octets == said.octets);
+  CHECK(records.front().at == requester->times<service_result>().front());
 }
 
 TEST_CASE_FIXTURE(provider_manager_world,

@@ -4,6 +4,7 @@
 #include "actors/service_provider.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"
 
 #include <doctest/doctest.h>
@@ -35,6 +36,7 @@ struct provider_world : virtual_world {
     s.position = {1, 2};
     s.area = polygon{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
     s.world = std::make_shared<streets>();
+    s.where = in_ulm();
     s.kinds = {std::make_shared<echo_service>("one"),
                std::make_shared<echo_service>("two")};
     s.codm = std::make_unique<spy_codm>(codm);
@@ -47,11 +49,20 @@ struct provider_world : virtual_world {
 
   // -- what happens to the provider ---------------------------------------
 
+  void hear(const cam& own, const probe<requester_actor>& from) {
+    tell(provider, pdu_of(own), from.handle);
+  }
   void hear(point where, const probe<requester_actor>& from,
             station_id who = station) {
-    tell(provider, cam{who, now(), where, 0, 10, 0}, from.handle);
+    hear(cam{who, now(), where, 0, 10, 0}, from);
   }
   void hear(point where) { hear(where, requester); }
+
+  /// Hears a CPM of one who sees these.
+  void see(station_id who, const std::vector<known_object>& seen = {}) {
+    tell(provider, pdu_of(cam{who, now(), inside, 0, 10, 0}, seen),
+         requester.handle);
+  }
 
   /// Hears CAMs at 10 Hz from inside for some time, the last one at its end.
   void stay(duration d) {

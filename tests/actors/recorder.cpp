@@ -28,6 +28,7 @@ struct letters final : record_sink {
   void take(const collision_record&) override { all += 'c'; }
   void take(const drive_record&) override { all += 'r'; }
   void take(const plan_switch_record&) override { all += 'w'; }
+  void take(const air_record&) override { all += 'a'; }
 };
 
 } // namespace
@@ -44,7 +45,8 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, collision_record{});
   tell(recorder, drive_record{});
   tell(recorder, plan_switch_record{});
-  CHECK(sink->all == "edyptscrw");
+  tell(recorder, air_record{});
+  CHECK(sink->all == "edyptscrwa");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

@@ -5,7 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <memory>
 #include <optional>
+#include <utility>
 
 using namespace sofof;
 using namespace sofof::test;
@@ -18,6 +21,7 @@ struct managed_world : virtual_world {
   const running_service running{1, 101, "echo", 7};
   const running_service next_running{1, 101, "echo", 8};
   echo_service kind{"echo"};
+  std::shared_ptr<echo_service> speak; // on the air, if not so
   probe<client_actor> client = listen<client_actor>();
   probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
@@ -31,6 +35,9 @@ struct managed_world : virtual_world {
     setup.station = 101;
     setup.kind = kind.name();
     setup.options = kind.common;
+    setup.on_air = [this](service_input input, bool takes_over) {
+      return (speak ? *speak : kind).on_air({}, std::move(input), takes_over);
+    };
     setup.local.function = kind.make_function({});
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {
@@ -359,6 +366,47 @@ TEST_CASE_FIXTURE(managed_world,
     CHECK(times[k] - times[k - 1] >= 100ms);
   run_for(55ms);
   CHECK(client->all<service_result>().back().what.as<echo>()->number == 51);
+}
+
+TEST_CASE_FIXTURE(managed_world, "what crosses the air is what the service "
+                                 "says there, recorded as it leaves") {
+  speak = std::make_shared<its_echo>("echo");
+  feed(1);
+  run_for(1s);
+  CHECK(recorder->count<air_record>() == 0);
+  accept(running);
+  run_for(100ms);
+  feed(2);
+  result(1); // the provider takes over
+  run_for(100ms);
+  feed(3);
+  const auto inputs = there->all<service_input>();
+  const auto records = recorder->all<air_record>();
+  REQUIRE(inputs.size() == 3);
+  REQUIRE(records.size() == 3);
+  const std::array<std::pair<std::uint64_t, bool>, 3> said{
+      {{1, true}, {2, true}, {3, false}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    REQUIRE(inputs[k].what.as<its_pdu>());
+    const auto expected = its_echo::octets(said[k].first, said[k].second);
+    CHECK(inputs[k].what.as<its_pdu>()->octets
+          == expected.as<its_pdu>()->octets);
+    CHECK(records[k].message.octets == expected.as<its_pdu>()->octets);
+    CHECK(records[k].at == there->times<service_input>()[k]);
+  }
+  // At home it stays as it is.
+  CHECK(client->all<service_result>().front().what.as<echo>());
+}
+
+TEST_CASE_FIXTURE(managed_world, "who takes over is told of the result in "
+                                 "use, who goes on is not") {
+  go_remote();
+  const auto first = there->all<service_input>().front();
+  REQUIRE(first.in_use.as<echo>());
+  CHECK(first.in_use.as<echo>()->number == 1);
+  run_for(100ms);
+  feed(2);
+  CHECK(there->all<service_input>().back().in_use.type().empty());
 }
 
 TEST_CASE_FIXTURE(managed_world, "a service that has ended is not fed") {

@@ -5,6 +5,7 @@
 #include "actors/service_requester.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
 
@@ -55,6 +56,7 @@ struct requester_world : virtual_world {
     setup.station = station;
     setup.way = world->routes.front();
     setup.world = world;
+    setup.where = in_ulm();
     setup.kinds = {std::make_shared<echo_service>("one"),
                    std::make_shared<echo_service>("two")};
     setup.lodm = std::make_unique<spy_lodm>(lodm);

@@ -18,9 +18,11 @@ struct counting_function final : service_function {
   int runs = 0;
   bool silent = false;
 
-  payload run(time_point, const service_input& input) override {
+  service_output run(time_point, const service_input& input) override {
     ++runs;
-    return silent ? payload{} : input.what;
+    if (silent)
+      return {};
+    return input.what;
   }
 };
 

@@ -1,7 +1,8 @@
 // Tests of the kinds of services: names, options, functions.
+#include "actors/planning/plan_request.hpp"
 #include "actors/service_kind.hpp"
-#include "actors/services/trajectory_planning.hpp"
 #include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/option_list.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -29,6 +30,7 @@ streets_ptr one_street() {
 service_setup on(streets_ptr world) {
   service_setup setup;
   setup.world = std::move(world);
+  setup.where = in_ulm();
   setup.station = 101;
   return setup;
 }
@@ -125,7 +127,7 @@ TEST_CASE("a function without proper input gives no result") {
     CAPTURE(name);
     auto function = make_service_kind(name)->make_function(on(one_street()));
     const auto result_of = [&](payload what) {
-      return function->run(time_point{1s}, {{}, time_point{1s}, what});
+      return function->run(time_point{1s}, {{}, time_point{1s}, what}).what;
     };
     CHECK(result_of({}).type().empty());
     CHECK(result_of(payload::of(echo{1})).type().empty());
@@ -139,10 +141,8 @@ TEST_CASE("a function without proper input gives no result") {
 namespace {
 
 /// The plan in a result, if there is one.
-std::shared_ptr<const trajectory> planned(const payload& result) {
-  const auto given = result.as<drive_plan>();
-  return given ? std::shared_ptr<const trajectory>{given, &given->plan}
-               : nullptr;
+std::shared_ptr<const trajectory> planned(const service_output& result) {
+  return result.what.as<trajectory>();
 }
 
 } // namespace
@@ -180,7 +180,7 @@ TEST_CASE("on a way that is not on the map there is no plan") {
   auto ask = standing_at(100, time_point{3s});
   ask.way = "lane"; // a lane is no route
   CHECK(function->run(time_point{3s}, {{}, time_point{3s}, payload::of(ask)})
-            .type()
+            .what.type()
             .empty());
 }
 
@@ -194,6 +194,57 @@ TEST_CASE("two functions of one kind know nothing of each other") {
       planned(b->run(t, {{}, t, payload::of(standing_at(500, t))}));
   REQUIRE(plan);
   CHECK(plan->points.front().s_m == doctest::Approx(500));
+}
+
+TEST_CASE("planning ends with an MCM of who ends it") {
+  const auto kind = make_service_kind("trajectory_planning");
+  auto setup = on(one_street());
+  const cam own{101, time_point{3s}, {100, 0}, 0, 8};
+  service_end end{{11, 101, "trajectory_planning", 0x10007},
+                  end_reason::qos_gap,
+                  side::requester};
+
+  const auto word = kind->farewell(setup, end, own.at, &own).as<its_pdu>();
+  REQUIRE(word);
+  const auto said = message_in<etsi::mcm>(*word);
+  REQUIRE(said);
+  CHECK(said->header.station == 101);
+  const auto& user =
+      std::get<etsi::road_user_container>(said->body.parameters.maneuver.value);
+  REQUIRE(user.advice_response);
+  CHECK(user.advice_response->maneuver_id == 7);
+  CHECK(user.advice_response->followed == etsi::maneuver_response::reject);
+  CHECK(kind->farewell(setup, end, own.at, nullptr).type().empty());
+
+  setup.remote = true;
+  setup.provider = {9001, {150, 50}};
+  const std::pair<end_reason, etsi::termination_status> reasons[]{
+      {end_reason::left_area, etsi::termination_status::regular_end},
+      {end_reason::shutdown, etsi::termination_status::regular_end},
+      {end_reason::cam_timeout, etsi::termination_status::abort_by_timeout},
+      {end_reason::no_data, etsi::termination_status::abort_by_timeout},
+      {end_reason::peer_lost, etsi::termination_status::reason_unknown}};
+  for (const auto& [why, status] : reasons) {
+    end.reason = why;
+    const auto pdu = kind->farewell(setup, end, own.at, nullptr).as<its_pdu>();
+    REQUIRE(pdu);
+    const auto told = message_in<etsi::mcm>(*pdu);
+    REQUIRE(told);
+    CHECK(told->header.station == 9001);
+    const auto& to = std::get<etsi::suggested_maneuver_container>(
+        told->body.parameters.maneuver.value);
+    CHECK(to.target == 101);
+    REQUIRE(to.maneuver);
+    CHECK(to.maneuver->maneuver_id == 7);
+    CHECK(std::get<etsi::termination_status>(to.maneuver->parameters.value)
+          == status);
+  }
+}
+
+TEST_CASE("other services say no farewell") {
+  const auto climate = make_service_kind("cabin_climate");
+  const cam own{101, time_point{3s}};
+  CHECK(climate->farewell(on(one_street()), {}, own.at, &own).type().empty());
 }
 
 TEST_CASE_FIXTURE(virtual_world, "the vehicle itself uses its plans") {

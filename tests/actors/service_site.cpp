@@ -97,10 +97,10 @@ TEST_CASE_FIXTURE(site_world, "sites hear every CAM, also from outside and of "
   start({two});
   hear(inside);
   auto late = cam{station, now() - 1s, inside, 0, 10, 0};
-  tell(provider, late, requester.handle); // overtaken on its way
+  hear(late, requester); // overtaken on its way
   REQUIRE(site().heard.size() == 4);
   CHECK(site().heard[1].station == 102);
-  CHECK(site().heard[1].position == outside);
+  CHECK(distance_m(site().heard[1].position, outside) < 0.02);
   CHECK(site().heard[3].at == late.at);
   CHECK(third->sites->front()->heard.size() == 4);
 }
@@ -113,6 +113,16 @@ TEST_CASE_FIXTURE(site_world, "sites see what the provider's sensors see") {
   REQUIRE(site().seen[0].objects.size() == 1);
   CHECK(site().seen[0].objects[0].centre == point{1, 2});
   CHECK(third->sites->front()->seen.size() == 1);
+}
+
+TEST_CASE_FIXTURE(site_world, "sites see what vehicles tell in CPMs, who they "
+                              "may be") {
+  see(102, {{5, {{30, 20}, 0.5, 3, 0, 5, 2}}});
+  REQUIRE(site().seen.size() == 1);
+  CHECK(site().seen[0].at == now());
+  REQUIRE(site().seen[0].objects.size() == 1);
+  CHECK(distance_m(site().seen[0].objects[0].centre, {30, 20}) < 0.02);
+  CHECK(site().heard.empty());
 }
 
 TEST_CASE_FIXTURE(site_world, "all functions of a kind at a provider share "

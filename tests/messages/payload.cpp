@@ -2,7 +2,7 @@
 // as bytes, and strangers' bytes do no harm.
 #include "messages/payload.hpp"
 
-#include "actors/services/trajectory_planning.hpp"
+#include "actors/planning/plan_request.hpp"
 #include "tests/messages/random_messages.hpp"
 #include "tests/messages/wire.hpp"
 
@@ -97,8 +97,8 @@ TEST_CASE("between processes a payload is bytes, and the same again") {
 }
 
 TEST_CASE("a payload of another type is none") {
-  CHECK(!payload::of(echo{5}).as<drive_plan>());
-  CHECK(!load<payload>(save(payload::of(echo{5})))->as<drive_plan>());
+  CHECK(!payload::of(echo{5}).as<trajectory>());
+  CHECK(!load<payload>(save(payload::of(echo{5})))->as<trajectory>());
 }
 
 TEST_CASE("no payload has no type and is nothing") {
@@ -119,41 +119,49 @@ TEST_CASE("a payload with too few or too many bytes is none") {
 }
 
 TEST_CASE("a plan and a request for one arrive as they were sent") {
-  drive_plan sent{{time_point{duration{7}}, {}}, {}, {}};
+  trajectory sent{time_point{duration{7}}, {}};
   for (int k = 0; k < 60; ++k)
-    sent.plan.points.push_back(
-        {0.1 * k, 1.0 * k, {2.0 * k, 3.0 * k}, 4, 5, 6, 7});
-  sent.report.emergency = true;
-  planner_memory memory;
-  memory.path.steps = 80;
-  memory.path.u[80] = 2;
-  memory.path.force[5][79] = 3;
-  memory.stops = true;
-  sent.memory = std::make_shared<const planner_memory>(memory);
-  const auto there = arrived("drive_plan", payload::of(sent).encoded());
-  const auto got = there.as<drive_plan>();
+    sent.points.push_back({0.1 * k, 1.0 * k, {2.0 * k, 3.0 * k}, 4, 5, 6, 7});
+  const auto there = arrived("trajectory", payload::of(sent).encoded());
+  const auto got = there.as<trajectory>();
   REQUIRE(got);
-  CHECK(got->plan.start == sent.plan.start);
-  REQUIRE(got->plan.points.size() == 60);
+  CHECK(got->start == sent.start);
+  REQUIRE(got->points.size() == 60);
   CHECK(there.encoded() == payload::of(sent).encoded());
-  CHECK(got->plan.points[3].at == point{6, 9});
-  CHECK(got->report.emergency);
-  REQUIRE(got->memory);
-  CHECK(got->memory->path.u == memory.path.u);
-  CHECK(got->memory->path.force == memory.path.force);
-  CHECK(got->memory->stops);
+  CHECK(got->points[3].at == point{6, 9});
 
-  plan_request ask{
-      "street", {time_point{duration{9}}, 1, 2, 3, 4, 5, 6, {}}, {}};
+  plan_request ask{"street",
+                   {time_point{duration{9}}, 1, 2, 3, 4, 5, 6, {}},
+                   {},
+                   {101, time_point{duration{9}}, {1, 2}, 3, 4, 5, 6}};
   ask.seen = {time_point{duration{8}}, 5.0, {{{1, 2}, 3, 4, 5, 6, 7}}};
   const auto asked = arrived("plan_request", payload::of(ask).encoded());
   REQUIRE(asked.as<plan_request>());
   CHECK(asked.as<plan_request>()->way == "street");
   CHECK(asked.as<plan_request>()->from.d_m == 2);
+  CHECK(same(asked.as<plan_request>()->own, ask.own));
   CHECK(asked.as<plan_request>()->seen.at == ask.seen.at);
   CHECK(asked.as<plan_request>()->seen.stop_at_m == 5.0);
   REQUIRE(asked.as<plan_request>()->seen.objects.size() == 1);
   CHECK(same(asked.as<plan_request>()->seen.objects, ask.seen.objects));
+
+  plan_report report;
+  report.emergency = true;
+  report.iterations = 12;
+  report.input = time_point{duration{5}};
+  const auto about = arrived("plan_report", payload::of(report).encoded());
+  REQUIRE(about.as<plan_report>());
+  CHECK(about.as<plan_report>()->emergency);
+  CHECK(about.as<plan_report>()->iterations == 12);
+  CHECK(about.as<plan_report>()->input == report.input);
+}
+
+TEST_CASE("an ITS message arrives as it was sent, and is nothing else") {
+  const its_pdu pdu{{std::byte{2}, std::byte{20}}};
+  const auto there = arrived("its_pdu", payload::of(pdu).encoded());
+  REQUIRE(there.as<its_pdu>());
+  CHECK(there.as<its_pdu>()->octets == pdu.octets);
+  CHECK(!there.as<trajectory>());
 }
 
 // -- bytes -------------------------------------------------------------------
@@ -274,9 +282,8 @@ TEST_CASE("whatever bytes come, they read as something or not at all") {
 
 TEST_CASE("whatever bytes come, they are a plan or none") {
   filler random{4};
-  drive_plan plan;
-  plan.plan.points.resize(10);
-  plan.memory = std::make_shared<const planner_memory>();
+  trajectory plan;
+  plan.points.resize(10);
   const auto good = payload::of(plan).encoded();
   for (int k = 0; k < 5000; ++k) {
     auto bytes = good;
@@ -284,8 +291,8 @@ TEST_CASE("whatever bytes come, they are a plan or none") {
     for (auto flips = random.below(10); flips > 0 && !bytes.empty(); --flips)
       bytes[random.below(bytes.size())] =
           static_cast<std::byte>(random.below(256));
-    const auto p = arrived("drive_plan", bytes);
-    if (p.as<drive_plan>())
+    const auto p = arrived("trajectory", bytes);
+    if (p.as<trajectory>())
       CHECK(p.encoded().size() == bytes.size());
   }
 }

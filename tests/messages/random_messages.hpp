@@ -24,7 +24,7 @@ inline constexpr std::size_t arity<point> = 2;
 template <>
 inline constexpr std::size_t arity<running_service> = 4;
 template <>
-inline constexpr std::size_t arity<cam> = 6;
+inline constexpr std::size_t arity<cam> = 7;
 template <>
 inline constexpr std::size_t arity<service_offer> = 3;
 template <>
@@ -36,9 +36,9 @@ inline constexpr std::size_t arity<service_response> = 4;
 template <>
 inline constexpr std::size_t arity<service_input> = 4;
 template <>
-inline constexpr std::size_t arity<service_result> = 4;
+inline constexpr std::size_t arity<service_result> = 5;
 template <>
-inline constexpr std::size_t arity<service_end> = 3;
+inline constexpr std::size_t arity<service_end> = 4;
 template <>
 inline constexpr std::size_t arity<qos_limits> = 2;
 template <>
@@ -85,6 +85,10 @@ template <>
 inline constexpr std::size_t arity<drive_record> = 3;
 template <>
 inline constexpr std::size_t arity<plan_switch_record> = 4;
+template <>
+inline constexpr std::size_t arity<its_pdu> = 1;
+template <>
+inline constexpr std::size_t arity<air_record> = 2;
 
 /// Everything that travels and is not a handle.
 using all_messages =
@@ -94,14 +98,18 @@ using all_messages =
                lifecycle_step, motion_report, ego_state, source_change,
                perception, event_record, decision_record, cycle_record,
                episode_record, track_record, safety_record, collision_record,
-               drive_record, plan_switch_record, site_view>;
+               drive_record, plan_switch_record, site_view, its_pdu,
+               air_record>;
 
 /// @returns references to all members.
 template <class T>
 auto members(T& x) {
   constexpr auto n = arity<std::remove_const_t<T>>;
-  static_assert(n >= 2 && n <= 8);
-  if constexpr (n == 2) {
+  static_assert(n >= 1 && n <= 8);
+  if constexpr (n == 1) {
+    auto& [a] = x;
+    return std::tie(a);
+  } else if constexpr (n == 2) {
     auto& [a, b] = x;
     return std::tie(a, b);
   } else if constexpr (n == 3) {
@@ -190,6 +198,7 @@ public:
   }
 
 private:
+  void fill_enum(std::byte& x) { x = static_cast<std::byte>(below(256)); }
   void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(8)); }
   void fill_enum(side& x) { x = static_cast<side>(below(2)); }
   void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(2)); }

@@ -59,6 +59,8 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::drive_record",
       "sofof::plan_switch_record",
       "sofof::site_view",
+      "sofof::its_pdu",
+      "sofof::air_record",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);
@@ -71,7 +73,7 @@ TEST_CASE("type ids are where they have always been") {
 }
 
 TEST_CASE("every type id is listed above") {
-  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 45);
+  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 47);
 }
 
 TEST_CASE("numbers of some types, written out") {
@@ -81,4 +83,5 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<provider_manager_actor> == 230);
   CHECK(caf::type_id_v<tick_atom> == 241);
   CHECK(caf::type_id_v<site_view> == 244);
+  CHECK(caf::type_id_v<its_pdu> == 245);
 }

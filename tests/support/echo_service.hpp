@@ -26,7 +26,7 @@ inline constexpr std::string_view sofof::payload_name<sofof::test::echo> =
 namespace sofof::test {
 
 /// Gives back its input, period by period. Its client is the vehicle's actor.
-class echo_service final : public service_kind {
+class echo_service : public service_kind {
 public:
   explicit echo_service(std::string name) : name_{std::move(name)} {
     using namespace std::chrono_literals;
@@ -56,6 +56,30 @@ public:
 
 private:
   std::string name_;
+};
+
+/// An echo whose messages on the air are ITS messages, of the number and of
+/// whether it takes over; at its end it says which side ends it.
+class its_echo final : public echo_service {
+public:
+  using echo_service::echo_service;
+
+  service_input on_air(const service_setup&, service_input input,
+                       bool takes_over) const override {
+    const auto said = input.what.as<echo>();
+    input.what = said ? octets(said->number, takes_over) : payload{};
+    input.in_use = {};
+    return input;
+  }
+  payload farewell(const service_setup& setup, const service_end&, time_point,
+                   const cam* own) const override {
+    return octets(setup.remote, own != nullptr);
+  }
+
+  static payload octets(std::uint64_t first, bool second) {
+    return payload::of(its_pdu{
+        {static_cast<std::byte>(first), static_cast<std::byte>(second)}});
+  }
 };
 
 } // namespace sofof::test

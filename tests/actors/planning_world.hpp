@@ -1,0 +1,117 @@
+// Planners of trajectories without actors, on board and at a provider, at a
+// time that a test sets.
+#pragma once
+
+#include "actors/planning/plan_in_use.hpp"
+#include "actors/planning/plan_request.hpp"
+#include "actors/service_kind.hpp"
+#include "messages/v2x/reception.hpp"
+#include "tests/support/on_air.hpp"
+#include "tests/support/toy_streets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace sofof::test {
+
+using namespace std::chrono_literals;
+
+/// A round and two open ways over crossings; each begins like another one.
+inline streets_ptr blocks() {
+  auto world = std::make_shared<streets>();
+  world->map = toy::grid(3, 100);
+  world->routes = {toy::make_route(world->map, {0, 1, 4, 3}, true),
+                   toy::make_route(world->map, {3, 4, 5}),
+                   toy::make_route(world->map, {0, 1, 2})};
+  return world;
+}
+
+/// One planner of a vehicle.
+class planning {
+public:
+  static constexpr time_point start{100s};
+  static constexpr station_id station = 101;
+  static constexpr station_id provider = 9001;
+
+  explicit planning(bool at_provider, bool crossings_granted = true) {
+    setup.station = station;
+    setup.remote = at_provider;
+    setup.crossings_granted = crossings_granted;
+    setup.clock = [t = now] { return *t; };
+    if (at_provider) {
+      setup.provider = {provider, {150, 50}};
+      setup.site = kind->make_site(setup);
+    }
+    function = kind->make_function(setup);
+  }
+
+  route_ptr way(const std::string& name) const {
+    return setup.world->find(name);
+  }
+
+  service_output run(const payload& what, const payload& in_use = {}) {
+    return function->run(*now, {running, *now, what, in_use});
+  }
+
+  /// Gives the planner of a vehicle what it asks.
+  std::shared_ptr<const trajectory> ask(const plan_request& request,
+                                        const payload& in_use = {}) {
+    return run(payload::of(request), in_use).what.as<trajectory>();
+  }
+
+  // -- at a provider --------------------------------------------------------
+
+  /// A message that everybody hears comes in.
+  void hear(const its_pdu& message) {
+    const auto heard = understand(message, *setup.where, *now);
+    if (const auto* own = std::get_if<cam>(&heard))
+      setup.site->hear(*own);
+    if (const auto* seen = std::get_if<sighting>(&heard))
+      setup.site->see(seen->at, seen->objects);
+  }
+
+  /// @returns the vehicle's word to who plans for it, or takes over.
+  payload word(const plan_request& request, const payload& in_use = {},
+               bool takes_over = false) const {
+    auto vehicle = setup;
+    vehicle.remote = false;
+    return kind
+        ->on_air(vehicle,
+                 {running, request.from.at, payload::of(request), in_use},
+                 takes_over)
+        .what;
+  }
+
+  /// @returns what the vehicle makes of a result, when that comes.
+  std::shared_ptr<const trajectory>
+  understood(const service_output& result, const plan_request& of,
+             const trajectory* before = nullptr) const {
+    return plan_in_use(result.what, station, *way(of.way), of.from.s_m,
+                       *setup.where, *now, before);
+  }
+
+  /// @returns the request of a vehicle that is there now.
+  plan_request at(const std::string& name, double s_m, double speed_mps) const {
+    const auto p = way(name)->path().at(s_m);
+    plan_request x;
+    x.way = name;
+    x.from.at = x.seen.at = *now;
+    x.from.s_m = s_m;
+    x.from.curvature_1pm = p.curvature_1pm;
+    x.from.speed_mps = speed_mps;
+    x.own = {station, *now, p.at, p.heading_rad, speed_mps, 0, p.curvature_1pm};
+    return x;
+  }
+
+  std::shared_ptr<time_point> now = std::make_shared<time_point>(start);
+  running_service running{11, station, "trajectory_planning", 7};
+  service_kind_ptr kind = make_service_kind("trajectory_planning");
+  service_setup setup{.world = blocks(), .where = in_ulm()};
+  std::shared_ptr<service_function> function;
+};
+
+} // namespace sofof::test

@@ -1,0 +1,68 @@
+// ITS messages for tests, at a place on Earth of their own.
+#pragma once
+
+#include "messages/etsi/cam.hpp"
+#include "messages/etsi/cpm_tr103562.hpp"
+#include "messages/etsi/mcm.hpp"
+#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/datum.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "messages/v2x/perception.hpp"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sofof::test {
+
+/// @returns where made-up maps lie.
+inline datum_ptr in_ulm() {
+  static const auto here = std::make_shared<const datum>();
+  return here;
+}
+
+/// @returns what a vehicle sends that moves like this, at a whole millisecond.
+inline its_pdu pdu_of(const cam& own) {
+  return encoded(make_cam(own, {}, *in_ulm()));
+}
+
+/// @returns what a vehicle sends that sees these objects now.
+inline its_pdu pdu_of(const cam& own, const std::vector<known_object>& seen) {
+  return encoded(make_cpm_tr103562({own, own.at, seen, seen.size(), nullptr},
+                                   {}, *in_ulm()));
+}
+
+/// @returns the message if it is one of this kind.
+template <class Message>
+std::optional<Message> message_in(const its_pdu& pdu) {
+  const auto octets = pdu.view();
+  if (octets.size() < 2 || octets[0] != std::byte{Message::protocol_version}
+      || octets[1] != std::byte{Message::message_id})
+    return std::nullopt;
+  Message message;
+  REQUIRE(etsi::decode(octets, message));
+  return message;
+}
+
+/// @returns those of the kind, in order.
+template <class Message>
+std::vector<Message> messages_in(const std::vector<its_pdu>& all) {
+  std::vector<Message> found;
+  for (const auto& pdu : all)
+    if (auto message = message_in<Message>(pdu))
+      found.push_back(std::move(*message));
+  return found;
+}
+
+/// @returns the motion that a CAM tells.
+inline cam motion_in(const its_pdu& pdu, time_point now) {
+  const auto message = message_in<etsi::cam>(pdu);
+  REQUIRE(message);
+  const auto own = read_cam(*message, {}, *in_ulm(), now);
+  REQUIRE(own);
+  return *own;
+}
+
+} // namespace sofof::test
