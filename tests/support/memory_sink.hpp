@@ -17,6 +17,7 @@ struct memory_sink final : record_sink {
   std::vector<collision_record> collisions;
   std::vector<drive_record> drives;
   std::vector<plan_switch_record> plan_switches;
+  std::vector<air_record> air;
 
   void take(const event_record& x) override { events.push_back(x); }
   void take(const decision_record& x) override { decisions.push_back(x); }
@@ -29,6 +30,7 @@ struct memory_sink final : record_sink {
   void take(const plan_switch_record& x) override {
     plan_switches.push_back(x);
   }
+  void take(const air_record& x) override { air.push_back(x); }
 };
 
 } // namespace sofof::test
