@@ -43,6 +43,21 @@ void check_stations(const scenario& all, const toml_file& source) {
   }
 }
 
+/// Who reads an ITS message tells vehicles from providers by their numbers.
+void check_provider_stations(const scenario& all, const toml_file& source) {
+  constexpr auto first = provider_station(0);
+  constexpr auto beyond = provider_station(provider_stations);
+  for (std::size_t f = 0; f < all.fleets.size(); ++f) {
+    const auto& fleet = all.fleets[f];
+    if (fleet.first_station < beyond
+        && fleet.first_station + fleet.count > first)
+      source.refuse(
+          fmt::format("fleet.{}.first_station", f),
+          fmt::format("stations {} to {} are providers; begin lower, or at {}.",
+                      first, beyond - 1, beyond));
+  }
+}
+
 void check_obstacles(const scenario& all, const toml_file& source) {
   const auto highest =
       obstacle_id(static_cast<std::uint32_t>(all.obstacles.size()));
@@ -140,6 +155,7 @@ void check_whole(const scenario& all, const toml_file& source) {
                                   fmt::join(service_kind_names(), ", ")));
   check_routes(all, source);
   check_stations(all, source);
+  check_provider_stations(all, source);
   check_services(all, source);
   check_providers(all, source);
   check_placement(all, source);

@@ -7,25 +7,39 @@
 
 #include <cerrno>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace sofof {
 
 namespace {
 
-[[noreturn]] void refused(const std::filesystem::path& path, int error) {
+[[noreturn]] void refused(const std::filesystem::path& path, int error,
+                          std::string_view choose) {
   throw input_error(fmt::format(
-      "cannot write {}: {}; choose another folder with --out{}", path.string(),
-      std::generic_category().message(error),
+      "cannot write {}: {}; choose {}{}", path.string(),
+      std::generic_category().message(error), choose,
       error == ENOSPC || error == EDQUOT ? " or free some space" : ""));
 }
 
 } // namespace
 
-output_file::output_file(std::filesystem::path path)
-    : path_{std::move(path)}, file_{std::fopen(path_.c_str(), "wb")} {
+void output_file::check(const std::filesystem::path& path,
+                        std::string_view choose) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    refused(path, EISDIR, choose);
+  const auto there =
+      std::filesystem::exists(path, none) ? path : path.parent_path() / ".";
+  if (access(there.c_str(), W_OK) != 0)
+    refused(path, errno, choose);
+}
+
+output_file::output_file(std::filesystem::path path, std::string_view choose)
+    : path_{std::move(path)}, choose_{choose}, file_{std::fopen(path_.c_str(),
+                                                                "wb")} {
   if (!file_)
-    refused(path_, errno);
+    refuse(errno);
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   text_.reserve(block_size + block_size / 8);
 }
@@ -40,13 +54,17 @@ void output_file::flush() {
   const auto complete = done == text_.size();
   text_.clear();
   if (!complete)
-    refused(path_, errno);
+    refuse(errno);
 }
 
 void output_file::close() {
   flush();
   if (std::fclose(file_.release()) != 0)
-    refused(path_, errno);
+    refuse(errno);
+}
+
+void output_file::refuse(int error) const {
+  refused(path_, error, choose_);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
@@ -64,7 +82,7 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
   if (error)
-    refused(path, error.value());
+    refused(path, error.value(), output_file::other_folder);
 }
 
 } // namespace sofof

@@ -6,15 +6,25 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace sofof {
 
 /// Lines are appended to `text` and go to the disk block by block.
 class output_file {
 public:
+  /// What its user can do about a file that cannot be written: choose ...
+  static constexpr std::string_view other_folder = "another folder with --out";
+
+  /// Refuses, without touching anything, what surely cannot be opened.
+  /// @throws input_error.
+  static void check(const std::filesystem::path& path, std::string_view choose);
+
   /// Creates the file, or empties it.
+  /// @param choose  Ends the sentence that refuses it; outlives it.
   /// @throws input_error when it cannot be opened.
-  explicit output_file(std::filesystem::path path);
+  explicit output_file(std::filesystem::path path,
+                       std::string_view choose = other_folder);
 
   output_file(const output_file&) = delete;
   output_file& operator=(const output_file&) = delete;
@@ -45,7 +55,10 @@ private:
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  [[noreturn]] void refuse(int error) const;
+
   std::filesystem::path path_;
+  std::string_view choose_;
   std::unique_ptr<std::FILE, closer> file_;
   std::string text_;
 };

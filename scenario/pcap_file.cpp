@@ -9,6 +9,7 @@
 #include "messages/v2x/geonet.hpp"
 
 #include <concepts>
+#include <string_view>
 #include <utility>
 
 namespace sofof {
@@ -19,6 +20,8 @@ constexpr std::uint32_t with_nanoseconds = 0xa1b23c4d;
 constexpr std::uint32_t longest_packet = 65535;
 constexpr std::uint32_t ethernet = 1;
 constexpr std::int64_t per_second = 1'000'000'000;
+
+constexpr std::string_view other_file = "another file with --pcap";
 
 /// As this machine has it; readers find out by the first number.
 void append(std::string& out, std::integral auto x) {
@@ -101,8 +104,12 @@ envelope envelope_of(const its_pdu& pdu) {
 
 } // namespace
 
+void pcap_file::check(const std::filesystem::path& path) {
+  output_file::check(path, other_file);
+}
+
 pcap_file::pcap_file(std::filesystem::path path, etsi::its_clock clock)
-    : file_{std::move(path)}, clock_{clock} {
+    : file_{std::move(path), other_file}, clock_{clock} {
   auto& out = file_.text();
   append(out, with_nanoseconds);
   append(out, std::uint16_t{2}); // version 2.4

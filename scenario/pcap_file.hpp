@@ -14,6 +14,10 @@ namespace sofof {
 /// Source: the pcap format of libpcap.
 class pcap_file {
 public:
+  /// Refuses, without touching anything, what surely cannot be opened.
+  /// @throws input_error.
+  static void check(const std::filesystem::path& path);
+
   /// @param clock  Tells the time of day of the run.
   /// @throws input_error when it cannot be opened.
   pcap_file(std::filesystem::path path, etsi::its_clock clock);

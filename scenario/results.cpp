@@ -33,6 +33,12 @@ constexpr int angle_places = 6;
 constexpr int comfort_places = 6;
 constexpr int timing_places = 6;
 
+std::optional<pcap_file> capture_of(const run_info& run) {
+  if (run.pcap.empty())
+    return std::nullopt;
+  return std::optional<pcap_file>{std::in_place, run.pcap, run.time_of_day};
+}
+
 /// Makes room for the files of a run, before the first one is opened.
 std::filesystem::path cleared(std::filesystem::path folder) {
   remove_results(folder);
@@ -42,12 +48,11 @@ std::filesystem::path cleared(std::filesystem::path folder) {
 } // namespace
 
 results::results(std::filesystem::path folder, run_info run)
-    : folder_{cleared(std::move(folder))}, run_{std::move(run)}, metrics_{run_},
+    : pcap_{capture_of(run)}, folder_{cleared(std::move(folder))},
+      run_{std::move(run)}, metrics_{run_},
       names_(run_.provider_names.begin(), run_.provider_names.end()),
       episodes_{folder_ / "episodes.csv", episodes_header},
       events_{folder_ / "events.jsonl"} {
-  if (!run_.pcap.empty())
-    pcap_.emplace(run_.pcap, run_.time_of_day);
   if (run_.cycles)
     cycles_.emplace(folder_ / "cycles.csv", cycles_header);
   if (run_.tracks)

@@ -62,6 +62,7 @@ private:
   void write_vehicles() const;
   void write_timing(const run_end& end) const;
 
+  std::optional<pcap_file> pcap_; // before results are replaced
   std::filesystem::path folder_;
   run_info run_;
   metrics metrics_;
@@ -71,7 +72,6 @@ private:
   std::optional<csv_file> cycles_;
   std::optional<csv_file> tracks_;
   output_file events_;
-  std::optional<pcap_file> pcap_;
 };
 
 } // namespace sofof

@@ -2,6 +2,7 @@
 #include "scenario/run.hpp"
 
 #include "scenario/build.hpp"
+#include "scenario/pcap_file.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/record_keeper.hpp"
 #include "scenario/results_folder.hpp"
@@ -86,12 +87,27 @@ time_point advance(runtime& time, time_point end, const run_options& options,
   return t;
 }
 
+/// Refuses a capture that cannot be opened, while nothing has been touched.
+void check_capture(const run_options& options) {
+  if (options.pcap.empty())
+    return;
+  const auto as_folder = [](const std::filesystem::path& name) {
+    return (name / "").lexically_normal();
+  };
+  const std::filesystem::path file = options.pcap;
+  const auto in_results =
+      options.out && as_folder(file.parent_path()) == as_folder(*options.out);
+  if (!in_results) // else its folder may be made yet
+    pcap_file::check(file);
+}
+
 } // namespace
 
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
   const auto time =
       options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
+  check_capture(options);
   auto info = describe(s, options);
   info.time_of_day = time->clock();
   const auto folder =

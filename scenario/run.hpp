@@ -33,8 +33,8 @@ enum class run_outcome {
 /// @param interrupted  Once true, the run ends soon; what was recorded is
 ///                     kept and marked.
 /// @param console      Gets the progress and the final table.
-/// @throws input_error when the results folder is refused or cannot be
-///         written.
+/// @throws input_error when the results folder is refused, or it or the
+///         capture cannot be written.
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console);
 

@@ -24,9 +24,12 @@ constexpr station_id provider_station(std::uint32_t k) {
   return 900'000'001 + k;
 }
 
+/// These numbers are kept for providers.
+inline constexpr std::uint32_t provider_stations = 1'000'000;
+
 /// @returns whether this is the station id of a provider.
 constexpr bool is_provider_station(station_id x) {
-  return x >= provider_station(0) && x < provider_station(0) + 1'000'000;
+  return x >= provider_station(0) && x < provider_station(provider_stations);
 }
 
 /// A provider process since its start; a restarted one has a new id.

@@ -3,9 +3,11 @@
 
 #include "messages/v2x/generation_rules.hpp"
 #include "world/settings.hpp"
+#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,9 +28,13 @@ struct v2x_options {
   bool is_release_2() const { return cpm_version == "ts103324"; }
 
   void fields(settings& s) {
-    word(s, "cam", cam, std::array{"triggered", "fixed_10hz"});
-    word(s, "cpm", cpm, std::array{"triggered", "fixed_10hz", "off"});
-    word(s, "cpm_version", cpm_version, std::array{"tr103562", "ts103324"});
+    using namespace std::string_view_literals;
+    constexpr std::array cam_rules{"triggered"sv, "fixed_10hz"sv};
+    constexpr std::array cpm_rules{"triggered"sv, "fixed_10hz"sv, "off"sv};
+    constexpr std::array cpm_versions{"tr103562"sv, "ts103324"sv};
+    word(s, "cam", cam, "rule for CAMs", cam_rules);
+    word(s, "cpm", cpm, "rule for CPMs", cpm_rules);
+    word(s, "cpm_version", cpm_version, "version of the CPM", cpm_versions);
   }
 
 private:
@@ -38,14 +44,11 @@ private:
   }
 
   static void word(settings& s, std::string_view key, std::string& value,
-                   const auto& known) {
+                   std::string_view what,
+                   std::span<const std::string_view> known) {
     s.field(key, value);
-    if (std::ranges::find(known, value) != known.end())
-      return;
-    std::string choice;
-    for (const std::string_view name : known)
-      (choice += choice.empty() ? "" : ", ").append(name);
-    s.refuse(key, "'" + value + "' is not known; choose one of " + choice);
+    if (std::ranges::find(known, value) == known.end())
+      s.refuse(key, unknown_word(what, value, known));
   }
 };
 

@@ -27,12 +27,14 @@ struct drain final : record_sink {
   void take(const collision_record&) override {}
   void take(const drive_record&) override {}
   void take(const plan_switch_record&) override {}
+  void take(const air_record&) override {}
 };
 
 /// One virtual second after the other of a run that has settled in.
 void messages(benchmark::State& state, const scenario& s) {
   const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, std::make_shared<drain>(), true);
+  const auto actors =
+      build(time->system(), s, std::make_shared<drain>(), time->clock(), true);
   time->run_until(time->now() + std::chrono::seconds{30});
   auto& handled = *time->system().base_metrics().processed_messages;
   const auto before = handled.value();

@@ -6,6 +6,8 @@
 #include "actors/recorder.hpp"
 #include "actors/service_provider.hpp"
 #include "actors/service_requester.hpp"
+#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/encoded.hpp"
 #include "policies/baselines.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/echo_service.hpp"
@@ -25,6 +27,9 @@ using namespace sofof::test;
 namespace {
 
 constexpr station_id station = 101;
+
+/// In Ulm-Lehr, in 2026.
+const datum_ptr somewhere = std::make_shared<const datum>();
 
 /// What one vehicle's client lives through; every promise is checked at every
 /// message.
@@ -104,7 +109,8 @@ drive(moving_client::stateful_pointer<client_state> self,
         const cam own{station, t, {s.x_m, 0}, 0, 15, 0};
         self->send(s.requester, ego_state{own, s.x_m + 500});
         for (const auto& link : links)
-          self->send(link, own, requester_actor{s.requester});
+          self->send(link, encoded(make_cam(own, {}, *somewhere)),
+                     requester_actor{s.requester});
       },
   };
 }
@@ -133,6 +139,7 @@ struct ledger final : record_sink {
   void take(const collision_record&) override {}
   void take(const drive_record&) override {}
   void take(const plan_switch_record&) override {}
+  void take(const air_record&) override {}
 };
 
 streets_ptr one_street() {
@@ -165,6 +172,7 @@ struct faulty_world : virtual_world {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
     requester_setup setup;
+    setup.where = somewhere;
     setup.station = station;
     setup.way = world->routes.front();
     setup.world = world;
@@ -179,6 +187,7 @@ struct faulty_world : virtual_world {
   void add_provider(int k) {
     provider_setup setup;
     setup.boot = static_cast<boot_id>(k + 1);
+    setup.where = somewhere;
     setup.area = polygon::regular({100.0 * k, 0}, 300, 24);
     setup.world = world;
     setup.kinds = kinds;

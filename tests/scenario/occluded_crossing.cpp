@@ -1,5 +1,4 @@
 // The occluded crossing: who sees whom from where, and what its options do.
-#include "actors/services/trajectory_planning.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"

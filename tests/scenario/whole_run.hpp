@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace sofof::test {
 
@@ -15,13 +16,13 @@ namespace sofof::test {
 inline memory_sink play(const scenario& s) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, records, true);
+  const auto actors = build(time->system(), s, records, time->clock(), true);
   time->run_until(time->now() + s.length);
   dismiss(actors, *time);
   return *records;
 }
 
-/// Trajectory planning, with its default options and without a site.
+/// Trajectory planning with its default options.
 class plain_planning : public service_kind {
 public:
   plain_planning() { common = real_->common; }
@@ -36,6 +37,21 @@ public:
   client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
                             const vehicle_actor& vehicle) const override {
     return real_->spawn_client(sys, setup, vehicle);
+  }
+
+  std::shared_ptr<service_site>
+  make_site(const service_setup& setup) const override {
+    return real_->make_site(setup);
+  }
+
+  service_input on_air(const service_setup& setup, service_input input,
+                       bool takes_over) const override {
+    return real_->on_air(setup, std::move(input), takes_over);
+  }
+
+  payload farewell(const service_setup& setup, const service_end& end,
+                   time_point now, const cam* own) const override {
+    return real_->farewell(setup, end, now, own);
   }
 
 private:

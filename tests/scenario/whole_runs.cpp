@@ -30,16 +30,32 @@ public:
   struct notebook final : service_site {
     std::size_t heard = 0, seen = 0;
     std::vector<point> where;
-    void hear(const cam&) override { ++heard; }
-    void see(time_point, std::span<const perceived_object> objects) override {
+    std::shared_ptr<service_site> real;
+    void hear(const cam& c) override {
+      ++heard;
+      real->hear(c);
+    }
+    void see(time_point at,
+             std::span<const perceived_object> objects) override {
+      real->see(at, objects);
       ++seen;
       for (const auto& o : objects)
         where.push_back(o.centre);
     }
   };
 
-  std::shared_ptr<service_site> make_site(const service_setup&) const override {
+  std::shared_ptr<service_site>
+  make_site(const service_setup& setup) const override {
+    notes->real = plain_planning::make_site(setup);
     return notes;
+  }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    auto real = setup;
+    if (real.site)
+      real.site = notes->real;
+    return plain_planning::make_function(real);
   }
 
   std::shared_ptr<notebook> notes = std::make_shared<notebook>();
@@ -150,7 +166,9 @@ TEST_CASE("an obstacle of a scenario stands on its road") {
 }
 
 TEST_CASE("a provider knows of the CAMs and of what its sensors see") {
-  auto s = load_scenario(ulm_lehr, std::vector<std::string>{"duration=10s"});
+  auto s = load_scenario(
+      ulm_lehr, std::vector<std::string>{"duration=10s", "v2x.cam=fixed_10hz",
+                                         "v2x.cpm=off"});
   const auto planning = std::make_shared<watched_planning>();
   s.services = {planning};
   s.obstacles.push_back({{20, -30}});
