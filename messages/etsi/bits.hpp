@@ -31,15 +31,16 @@ public:
 
   /// @param width  At most 64; `value` has no higher bits.
   void put(std::uint64_t value, unsigned width) {
-    if (width > 32) {
-      put(value >> 32, width - 32);
-      value &= 0xffff'ffff;
-      width = 32;
+    const auto holds = holds_ + width;
+    if (holds < word) {
+      held_ = held_ << width | value;
+      holds_ = holds;
+      return;
     }
-    held_ = held_ << width | value;
-    holds_ += width;
-    if (holds_ >= 32)
-      flush_word();
+    const auto over = holds - word; // bits wait for the next word
+    store(held_ << 1 << (word - 1 - holds_) | value >> over);
+    held_ = value;
+    holds_ = over;
   }
 
   void fail(fault what, const auto&...) {
@@ -73,21 +74,18 @@ public:
   void leave() {}
 
 private:
-  void flush_word() {
-    if (end_ - at_ < 4) {
-      fail(fault::no_room);
-      holds_ -= 32;
-      return;
-    }
-    holds_ -= 32;
-    const auto word =
-        __builtin_bswap32(static_cast<std::uint32_t>(held_ >> holds_));
-    std::memcpy(at_, &word, 4);
-    at_ += 4;
+  static constexpr unsigned word = 64;
+
+  void store(std::uint64_t bits) {
+    if (end_ - at_ < 8)
+      return fail(fault::no_room);
+    bits = __builtin_bswap64(bits);
+    std::memcpy(at_, &bits, 8);
+    at_ += 8;
   }
 
   std::uint64_t held_ = 0; // the lowest `holds_` bits wait
-  unsigned holds_ = 0;     // less than 32 between two calls
+  unsigned holds_ = 0;     // less than a word between two calls
   fault fault_ = fault::none;
   std::byte* at_;
   std::byte* end_;

@@ -22,7 +22,7 @@ struct tolling_zone {
   etsi::longitude longitude{longitude_unavailable};
   std::optional<zone_id> id;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("protectedZoneLatitude", x.latitude);
     visit("protectedZoneLongitude", x.longitude);
     visit("cenDsrcTollingZoneID", x.id);
@@ -52,7 +52,7 @@ struct vehicle_high_frequency {
   std::optional<integer<0, 7>> performance_class;
   std::optional<tolling_zone> tolling;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("heading", x.heading);
     visit("speed", x.speed);
     visit("driveDirection", x.drive_direction);
@@ -86,7 +86,7 @@ struct communication_zone {
   std::optional<extensible_integer<1, 255>> radius; ///< m
   std::optional<zone_id> id;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("protectedZoneType", x.type);
     visit("expiryTime", x.expiry_time);
     visit("protectedZoneLatitude", x.latitude);
@@ -100,7 +100,7 @@ struct roadside_high_frequency {
   static constexpr auto may_grow = extensible;
   std::optional<sequence_of<communication_zone, 1, 16>> zones;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("protectedCommunicationZonesRSU", x.zones);
   }
 };
@@ -142,7 +142,7 @@ struct path_point {
     integer<-12'700, delta_altitude_unavailable> altitude{
         delta_altitude_unavailable}; ///< cm
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("deltaLatitude", x.latitude);
       visit("deltaLongitude", x.longitude);
       visit("deltaAltitude", x.altitude);
@@ -151,7 +151,7 @@ struct path_point {
   path_point::position position;
   std::optional<extensible_integer<1, 65535>> age; ///< 10 ms
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("pathPosition", x.position);
     visit("pathDeltaTime", x.age);
   }
@@ -163,7 +163,7 @@ struct vehicle_low_frequency {
   bit_string<8> lights;
   sequence_of<path_point, 0, 40> path_history; ///< Newest first.
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("vehicleRole", x.role);
     visit("exteriorLights", x.lights);
     visit("pathHistory", x.path_history);
@@ -179,7 +179,7 @@ struct cause_code {
   static constexpr auto may_grow = extensible;
   integer<0, 255> cause, sub_cause;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("causeCode", x.cause);
     visit("subCauseCode", x.sub_cause);
   }
@@ -190,7 +190,7 @@ struct public_transport {
     integer<0, 255> type;
     sequence_of<integer<0, 255>, 1, 20> data;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("ptActivationType", x.type);
       visit("ptActivationData", x.data);
     }
@@ -198,7 +198,7 @@ struct public_transport {
   bool embarkation = false;
   std::optional<public_transport::activation> activation;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("embarkationStatus", x.embarkation);
     visit("ptActivation", x.activation);
   }
@@ -208,7 +208,7 @@ struct special_transport {
   bit_string<4> type;
   light_bar_siren in_use;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("specialTransportType", x.type);
     visit("lightBarSirenInUse", x.in_use);
   }
@@ -229,7 +229,7 @@ inline constexpr auto names_of<dangerous_goods_basic> =
 struct dangerous_goods {
   dangerous_goods_basic goods = dangerous_goods_basic::explosives_1;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("dangerousGoodsBasic", x.goods);
   }
 };
@@ -244,7 +244,7 @@ struct closed_lanes {
   std::optional<hard_shoulder> inner, outer;
   std::optional<sequence_of<bool, 1, 13>> lanes; ///< As a BIT STRING.
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("innerhardShoulderStatus", x.inner);
     visit("outerhardShoulderStatus", x.outer);
     visit("drivingLaneStatus", x.lanes);
@@ -256,7 +256,7 @@ struct road_works {
   light_bar_siren in_use;
   std::optional<etsi::closed_lanes> closed_lanes;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("roadworksSubCauseCode", x.sub_cause);
     visit("lightBarSirenInUse", x.in_use);
     visit("closedLanes", x.closed_lanes);
@@ -266,7 +266,7 @@ struct road_works {
 struct rescue {
   light_bar_siren in_use;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("lightBarSirenInUse", x.in_use);
   }
 };
@@ -276,7 +276,7 @@ struct emergency {
   std::optional<cause_code> incident;
   std::optional<bit_string<2>> priority;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("lightBarSirenInUse", x.in_use);
     visit("incidentIndication", x.incident);
     visit("emergencyPriority", x.priority);
@@ -299,7 +299,7 @@ struct safety_car {
   std::optional<traffic_rule> rule;
   std::optional<integer<1, 255>> speed_limit; ///< km/h
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("lightBarSirenInUse", x.in_use);
     visit("incidentIndication", x.incident);
     visit("trafficRule", x.rule);
@@ -333,7 +333,7 @@ struct cam {
     etsi::station_type station_type;
     reference_position position;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("stationType", x.station_type);
       visit("referencePosition", x.position);
     }
@@ -346,7 +346,7 @@ struct cam {
     std::optional<cam::low_frequency> low_frequency;
     std::optional<cam::special> special;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("basicContainer", x.basic);
       visit("highFrequencyContainer", x.high_frequency);
       visit("lowFrequencyContainer", x.low_frequency);
@@ -359,7 +359,7 @@ struct cam {
     generation_delta_time generation;
     cam::parameters parameters;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("generationDeltaTime", x.generation);
       visit("camParameters", x.parameters);
     }
@@ -368,7 +368,7 @@ struct cam {
   pdu_header header{protocol_version, message_id, {}};
   awareness body;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("header", x.header);
     visit("cam", x.body);
   }

@@ -31,7 +31,7 @@ struct pdu_header {
   integer<0, 255> message_id;
   station_id station;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("protocolVersion", x.protocol_version);
     visit("messageID", x.message_id);
     visit("stationID", x.station);
@@ -40,7 +40,7 @@ struct pdu_header {
 
 /// The same with the names of release 2 (TS 102 894-2 v2.1.1).
 struct pdu_header_2 : pdu_header {
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("protocolVersion", x.protocol_version);
     visit("messageId", x.message_id);
     visit("stationId", x.station);
@@ -92,7 +92,7 @@ struct confidence_ellipse {
   semi_axis semi_minor{semi_axis_unavailable};
   heading_value orientation{heading_unavailable};
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("semiMajorConfidence", x.semi_major);
     visit("semiMinorConfidence", x.semi_minor);
     visit("semiMajorOrientation", x.orientation);
@@ -103,7 +103,7 @@ struct altitude {
   altitude_value value{altitude_unavailable};
   altitude_confidence confidence = altitude_confidence::unavailable;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("altitudeValue", x.value);
     visit("altitudeConfidence", x.confidence);
   }
@@ -115,7 +115,7 @@ struct reference_position {
   confidence_ellipse confidence;
   etsi::altitude altitude;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("latitude", x.latitude);
     visit("longitude", x.longitude);
     visit("positionConfidenceEllipse", x.confidence);
@@ -133,7 +133,7 @@ struct measured {
   Value value{unknown};
   Confidence confidence{unsure};
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit(value_name.view(), x.value);
     visit(confidence_name.view(), x.confidence);
   }

@@ -36,7 +36,7 @@ struct euler_angles {
   cartesian_angle z; ///< Applied first, then y, then x.
   std::optional<cartesian_angle> y, x;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("zAngle", x.z);
     visit("yAngle", x.y);
     visit("xAngle", x.x);
@@ -81,7 +81,7 @@ struct cartesian_position {
   cartesian_coordinate x, y;
   std::optional<cartesian_coordinate> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("xCoordinate", x.x);
     visit("yCoordinate", x.y);
     visit("zCoordinate", x.z);
@@ -92,7 +92,7 @@ struct measured_position {
   measured_coordinate x, y;
   std::optional<measured_coordinate> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("xCoordinate", x.x);
     visit("yCoordinate", x.y);
     visit("zCoordinate", x.z);
@@ -112,7 +112,7 @@ struct polar_velocity {
   cartesian_angle direction;
   std::optional<velocity_component> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("velocityMagnitude", x.magnitude);
     visit("velocityDirection", x.direction);
     visit("zVelocity", x.z);
@@ -123,7 +123,7 @@ struct cartesian_velocity {
   velocity_component x, y;
   std::optional<velocity_component> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("xVelocity", x.x);
     visit("yVelocity", x.y);
     visit("zVelocity", x.z);
@@ -148,7 +148,7 @@ struct polar_acceleration {
   cartesian_angle direction;
   std::optional<acceleration_component> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("accelerationMagnitude", x.magnitude);
     visit("accelerationDirection", x.direction);
     visit("zAcceleration", x.z);
@@ -159,7 +159,7 @@ struct cartesian_acceleration {
   acceleration_component x, y;
   std::optional<acceleration_component> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("xAcceleration", x.x);
     visit("yAcceleration", x.y);
     visit("zAcceleration", x.z);
@@ -180,7 +180,7 @@ struct rectangular_shape {
   std::optional<cartesian_angle_value> orientation;
   std::optional<standard_length_12b> height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("shapeReferencePoint", x.reference_point);
     visit("semiLength", x.semi_length);
     visit("semiBreadth", x.semi_breadth);
@@ -194,7 +194,7 @@ struct circular_shape {
   standard_length_12b radius;
   std::optional<standard_length_12b> height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("shapeReferencePoint", x.reference_point);
     visit("radius", x.radius);
     visit("height", x.height);
@@ -206,7 +206,7 @@ struct polygonal_shape {
   extensible_sequence_of<cartesian_position, 3, 16> polygon;
   std::optional<standard_length_12b> height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("shapeReferencePoint", x.reference_point);
     visit("polygon", x.polygon);
     visit("height", x.height);
@@ -219,7 +219,7 @@ struct elliptical_shape {
   std::optional<cartesian_angle_value> orientation;
   std::optional<standard_length_12b> height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("shapeReferencePoint", x.reference_point);
     visit("semiMajorAxisLength", x.semi_major);
     visit("semiMinorAxisLength", x.semi_minor);
@@ -235,7 +235,7 @@ struct radial_shape {
   cartesian_angle_value horizontal_end{angle_unavailable};
   std::optional<cartesian_angle_value> vertical_start, vertical_end;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("shapeReferencePoint", x.reference_point);
     visit("range", x.range);
     visit("horizontalOpeningAngleStart", x.horizontal_start);
@@ -252,7 +252,7 @@ struct radial_shapes {
     cartesian_angle_value horizontal_end{angle_unavailable};
     std::optional<cartesian_angle_value> vertical_start, vertical_end;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("range", x.range);
       visit("horizontalOpeningAngleStart", x.horizontal_start);
       visit("horizontalOpeningAngleEnd", x.horizontal_end);
@@ -265,7 +265,7 @@ struct radial_shapes {
   std::optional<cartesian_coordinate_small> z;
   extensible_sequence_of<details, 1, 16> list;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("refPointId", x.reference_point);
     visit("xCoordinate", x.x);
     visit("yCoordinate", x.y);
@@ -288,7 +288,7 @@ struct map_element_id {
   std::optional<identifier_2b> region;
   identifier_2b id;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("region", x.region);
     visit("id", x.id);
   }
@@ -309,7 +309,7 @@ struct map_position {
   std::optional<identifier_1b> lane, connection; ///< One of them.
   std::optional<along_lane> position;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("mapReference", x.map_reference);
     visit("laneId", x.lane);
     visit("connectionId", x.connection);
@@ -339,7 +339,7 @@ struct vru_cluster {
   /// Bits: pedestrian, bicyclist, motorcyclist, animal.
   std::optional<bit_string<4>> profiles;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("clusterId", x.id);
     visit("clusterBoundingBoxShape", x.bounding_box);
     visit("clusterCardinalitySize", x.size);
@@ -358,7 +358,7 @@ struct trailer_data {
   std::optional<vehicle_width> width;                  ///< Not in a CPM.
   cartesian_angle hitch_angle;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("refPointId", x.reference_point);
     visit("hitchPointOffset", x.hitch_point_offset);
     visit("frontOverhang", x.front_overhang);

@@ -39,7 +39,7 @@ template <unsigned bits>
 struct node_xy {
   offset<bits> x, y;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("x", x.x);
     visit("y", x.y);
   }
@@ -62,7 +62,7 @@ struct offset_point {
       xy;
   std::optional<node_z> z;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("nodeOffsetPointxy", x.xy);
     visit("nodeOffsetPointZ", x.z);
   }
@@ -71,7 +71,7 @@ struct offset_point {
 struct area_polygon {
   extensible_sequence_of<offset_point, 3, 16> points;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("polyPointList", x.points);
   }
 };
@@ -80,7 +80,7 @@ struct area_circular {
   std::optional<offset_point> center;
   range radius;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("nodeCenterPoint", x.center);
     visit("radius", x.radius);
   }
@@ -92,7 +92,7 @@ struct area_ellipse {
   angle_value orientation{heading_unavailable};
   std::optional<range> semi_height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("nodeCenterPoint", x.center);
     visit("semiMinorRangeLength", x.semi_minor);
     visit("semiMajorRangeLength", x.semi_major);
@@ -107,7 +107,7 @@ struct area_rectangle {
   angle_value orientation{heading_unavailable};
   std::optional<range> semi_height;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("nodeCenterPoint", x.center);
     visit("semiMajorRangeLength", x.semi_major);
     visit("semiMinorRangeLength", x.semi_minor);
@@ -125,7 +125,7 @@ struct area_radial {
   std::optional<offset_point> position;
   std::optional<integer<-5000, 5000>> height; ///< cm
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("range", x.range);
     visit("stationaryHorizontalOpeningAngleStart", x.horizontal_start);
     visit("stationaryHorizontalOpeningAngleEnd", x.horizontal_end);
@@ -147,7 +147,7 @@ struct vehicle_sensor {
     angle_value horizontal_end{heading_unavailable};
     std::optional<angle_value> vertical_start, vertical_end;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("range", x.range);
       visit("horizontalOpeningAngleStart", x.horizontal_start);
       visit("horizontalOpeningAngleEnd", x.horizontal_end);
@@ -161,7 +161,7 @@ struct vehicle_sensor {
   std::optional<integer<0, 1000>> z; ///< cm
   sequence_of<vehicle_sensor::properties, 1, 10> properties;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("refPointId", x.reference_point);
     visit("xSensorOffset", x.x);
     visit("ySensorOffset", x.y);
@@ -187,7 +187,7 @@ struct sensor_information {
   area detection_area;
   std::optional<percentage> free_space_confidence;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("sensorID", x.id);
     visit("type", x.type);
     visit("detectionArea", x.detection_area);
@@ -206,7 +206,7 @@ struct free_space_addendum {
   std::optional<sensor_id_list> sensors;
   defaulted<bool, true> shadowing;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("freeSpaceConfidence", x.confidence);
     visit("freeSpaceArea", x.area);
     visit("sensorIDList", x.sensors);
@@ -225,7 +225,7 @@ struct object_class {
     defaulted<integer<0, 255>, 0> type;
     defaulted<percentage, 0> confidence;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("type", x.type);
       visit("confidence", x.confidence);
     }
@@ -235,7 +235,7 @@ struct object_class {
          alternative<"animal", subclass>, alternative<"other", subclass>>
       what;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("confidence", x.confidence);
     visit("class", x.what);
   }
@@ -251,7 +251,7 @@ struct matched_position {
   std::optional<integer<0, 255>> lane;
   std::optional<along_lane> position;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("laneID", x.lane);
     visit("longitudinalLanePosition", x.position);
   }
@@ -283,7 +283,7 @@ struct perceived_object {
   std::optional<sequence_of<object_class, 1, 8>> classification;
   std::optional<tr103562::matched_position> matched_position;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("objectID", x.id);
     visit("sensorIDList", x.sensors);
     visit("timeOfMeasurement", x.time_of_measurement);
@@ -320,7 +320,7 @@ struct trailer {
   std::optional<vehicle_width> width;
   std::optional<angle> hitch_angle;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("refPointId", x.reference_point);
     visit("hitchPointOffset", x.hitch_point);
     visit("frontOverhang", x.front_overhang);
@@ -347,7 +347,7 @@ struct originating_vehicle {
   std::optional<integer<0, 127>> height; ///< 5 cm
   std::optional<sequence_of<trailer, 1, 2>> trailers;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("heading", x.heading);
     visit("speed", x.speed);
     visit("vehicleOrientationAngle", x.orientation);
@@ -370,7 +370,7 @@ struct map_reference {
   std::optional<integer<0, 65535>> region;
   integer<0, 65535> id;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("region", x.region);
     visit("id", x.id);
   }
@@ -386,7 +386,7 @@ struct management {
   struct segment {
     integer<1, 127> total, number;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("totalMsgSegments", x.total);
       visit("thisSegmentNum", x.number);
     }
@@ -395,7 +395,7 @@ struct management {
   std::optional<management::segment> segment;
   reference_position position;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("stationType", x.station_type);
     visit("perceivedObjectContainerSegmentInfo", x.segment);
     visit("referencePosition", x.position);
@@ -420,7 +420,7 @@ struct cpm {
         free_space;
     integer<0, 255> number_of_objects; ///< In all segments.
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("managementContainer", x.management);
       visit("stationDataContainer", x.station_data);
       visit("sensorInformationContainer", x.sensors);
@@ -435,7 +435,7 @@ struct cpm {
     generation_delta_time generation;
     cpm::parameters parameters;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("generationDeltaTime", x.generation);
       visit("cpmParameters", x.parameters);
     }
@@ -444,7 +444,7 @@ struct cpm {
   pdu_header header{protocol_version, message_id, {}};
   perception body;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("header", x.header);
     visit("cpm", x.body);
   }

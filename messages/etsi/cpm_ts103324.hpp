@@ -14,7 +14,7 @@ struct originating_vehicle {
   std::optional<cartesian_angle> pitch, roll;
   std::optional<extensible_sequence_of<trailer_data, 1, 8>> trailers;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("orientationAngle", x.orientation);
     visit("pitchAngle", x.pitch);
     visit("rollAngle", x.roll);
@@ -26,7 +26,7 @@ struct originating_roadside_unit {
   static constexpr auto may_grow = extensible;
   std::optional<etsi::map_reference> map_reference;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("mapReference", x.map_reference);
   }
 };
@@ -41,7 +41,7 @@ struct sensor_information {
   std::optional<confidence_level> confidence;
   bool shadowing = false;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("sensorId", x.id);
     visit("sensorType", x.type);
     visit("perceptionRegionShape", x.shape);
@@ -62,7 +62,7 @@ struct perception_region {
   std::optional<cardinal_number_1b> number_of_objects;
   std::optional<extensible_sequence_of<identifier_2b, 0, 255>> objects;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("measurementDeltaTime", x.measured_at);
     visit("perceptionRegionConfidence", x.confidence);
     visit("perceptionRegionShape", x.shape);
@@ -94,7 +94,7 @@ struct object_class {
       what;
   confidence_level confidence;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("objectClass", x.what);
     visit("confidence", x.confidence);
   }
@@ -109,7 +109,7 @@ struct correlation_matrix {
   bit_string<13, extensible> components;
   extensible_sequence_of<column, 1, 13> columns;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("componentsIncludedIntheMatrix", x.components);
     visit("matrix", x.columns);
   }
@@ -134,7 +134,7 @@ struct perceived_object {
   std::optional<sequence_of<object_class, 1, 8>> classification;
   std::optional<etsi::map_position> map_position;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("objectId", x.id);
     visit("measurementDeltaTime", x.measured_at);
     visit("position", x.position);
@@ -159,7 +159,7 @@ struct perceived_object_container {
   cardinal_number_1b number_of_objects; ///< In all segments.
   extensible_sequence_of<perceived_object, 0, 255> objects;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("numberOfPerceivedObjects", x.number_of_objects);
     visit("perceivedObjects", x.objects);
   }
@@ -172,7 +172,7 @@ struct management {
   struct segment {
     integer<1, 8> total, number;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("totalMsgNo", x.total);
       visit("thisMsgNo", x.number);
     }
@@ -181,7 +181,7 @@ struct management {
     integer<1, 100> mantissa;
     integer<-5, 2> exponent; ///< Of 10; Hz.
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("mantissa", x.mantissa);
       visit("exponent", x.exponent);
     }
@@ -189,7 +189,7 @@ struct management {
   struct rate_range {
     rate least, most;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("messageRateMin", x.least);
       visit("messageRateMax", x.most);
     }
@@ -199,7 +199,7 @@ struct management {
   std::optional<management::segment> segment;
   std::optional<management::rate_range> rate_range;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("referenceTime", x.reference_time);
     visit("referencePosition", x.position);
     visit("segmentationInfo", x.segment);
@@ -225,7 +225,7 @@ struct cpm {
     /// It may not grow: a further constraint takes that away (X.680).
     sequence_of<container, 1, 8> containers;
 
-    static void fields(auto& x, auto&& visit) {
+    static constexpr void fields(auto& x, auto&& visit) {
       visit("managementContainer", x.management);
       visit("cpmContainers", x.containers);
     }
@@ -234,7 +234,7 @@ struct cpm {
   pdu_header_2 header{{protocol_version, message_id, {}}};
   payload body;
 
-  static void fields(auto& x, auto&& visit) {
+  static constexpr void fields(auto& x, auto&& visit) {
     visit("header", x.header);
     visit("payload", x.body);
   }

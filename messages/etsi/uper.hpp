@@ -3,6 +3,7 @@
 #pragma once
 
 #include "messages/etsi/bits.hpp"
+#include "messages/etsi/packed.hpp"
 #include "messages/etsi/schema.hpp"
 
 #include <utility>
@@ -187,12 +188,13 @@ void write(Out& out, const T& x) {
   } else if constexpr (is_open_type<T>) {
     write(out, x.id());
     write_open(out, x);
+  } else if constexpr (is_packed<Out, T>) {
+    write_packed(out, x);
   } else {
-    if constexpr (sequence_may_grow<T>())
-      out.put(0, 1);
     presence_writer presence;
     T::fields(x, presence);
-    out.put(presence.bits, presence.width);
+    // It has no additions: a leading zero.
+    out.put(presence.bits, presence.width + sequence_may_grow<T>());
     T::fields(x, member_writer<Out>{out});
   }
 }
@@ -310,13 +312,12 @@ void skip_additions(In& in) {
 
 template <class In, class T>
 void read_sequence(In& in, T& x) {
-  auto has_additions = false;
-  if constexpr (sequence_may_grow<T>())
-    has_additions = in.get(1) == 1;
   presence_counter may_miss;
   T::fields(x, may_miss);
-  T::fields(x, member_reader<In>{in, in.get(may_miss.count), may_miss.count});
-  if (has_additions)
+  const auto count = may_miss.count;
+  const auto bits = in.get(count + sequence_may_grow<T>());
+  T::fields(x, member_reader<In>{in, bits, count});
+  if (bits >> count != 0)
     skip_additions(in);
 }
 
@@ -415,6 +416,8 @@ void read(In& in, T& x) {
     read_list(in, x);
   } else if constexpr (is_open_type<T>) {
     read_open(in, x);
+  } else if constexpr (is_packed<In, T>) {
+    read_packed(in, x);
   } else {
     read_sequence(in, x);
   }
