@@ -5,6 +5,7 @@
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/message.hpp"
 #include "messages/etsi/uper.hpp"
+#include "tests/messages/codec_laws.hpp"
 
 #include <doctest/doctest.h>
 
@@ -140,4 +141,16 @@ TEST_CASE("other messages are refused by their header") {
       "a message 99 of protocol version 1 is not known"));
   CHECK(decode_message({}).error
         == "the message ends before it tells what it is");
+}
+
+TEST_CASE("CAMs of any content come back, within their ranges") {
+  sofof::test::check_random_messages<cam>(500);
+  sofof::test::check_ranges<cam>(5);
+}
+TEST_CASE("CAMs that end early or are damaged do no harm") {
+  sofof::test::check_truncation<cam>(20);
+  sofof::test::check_damage<cam>(1000);
+}
+TEST_CASE("what a later version adds to the CAM is skipped") {
+  sofof::test::check_additions<cam>(64);
 }

@@ -4,6 +4,7 @@
 #include "messages/etsi/explain.hpp"
 #include "messages/etsi/message.hpp"
 #include "messages/etsi/uper.hpp"
+#include "tests/messages/codec_laws.hpp"
 
 #include <doctest/doctest.h>
 
@@ -89,12 +90,11 @@ TEST_CASE("the end of a maneuver has a reason, the unknown one being last") {
   CHECK(!encode_message(m).value);
 }
 
-TEST_CASE("an MCM that ends early is refused") {
-  for (const auto& m : {suggestion(3), plan(3)}) {
-    const auto octets = encode_message(m).value.value();
-    for (std::size_t size = 0; size < octets.size(); ++size) {
-      mcm back;
-      CHECK(!decode(std::span{octets}.first(size), back));
-    }
-  }
+TEST_CASE("MCMs of any content come back, within their ranges") {
+  sofof::test::check_random_messages<mcm>(500);
+  sofof::test::check_ranges<mcm>(5);
+}
+TEST_CASE("MCMs that end early or are damaged do no harm") {
+  sofof::test::check_truncation<mcm>(20);
+  sofof::test::check_damage<mcm>(1000);
 }

@@ -269,6 +269,7 @@ TEST_CASE("bits of a bit string go first to last") {
   bits.set(5);
   CHECK(bits_of(bits) == "10000100");
   CHECK(read_bits<bit_string<7>>("1000010")->test(5));
+  CHECK(bits_of(bit_string<7>{128}) == "");
 }
 
 TEST_CASE("an open type knows how long it is") {
