@@ -95,8 +95,7 @@ private:
         if (x)
           (*this)(name, *x);
       } else if constexpr (is_defaulted<T>) {
-        if (!x.is_usual())
-          (*this)(name, x.value);
+        (*this)(name, x.value);
       } else {
         if (!std::exchange(empty_, false))
           to_.out_ += ',';
@@ -397,6 +396,8 @@ outcome<message> message_from_json(std::string_view text) {
     return made;
   } catch (const wrong& e) {
     return {{}, e.sentence};
+  } catch (const json::out_of_range&) {
+    return {{}, "this has a number that is too large"};
   } catch (const json::parse_error& e) {
     return {{}, fmt::format("this is no JSON from character {} on", e.byte)};
   }

@@ -5,7 +5,8 @@
 //   ENUMERATED    "name"; of a later version, the number of its place
 //   BIT STRING    "0110", the first bit first
 //   CHOICE        {"alternative": value}
-//   OPTIONAL      left out when absent; DEFAULT when usual
+//   OPTIONAL      left out when absent
+//   DEFAULT       always there; may be left out in what is read
 //   unknown       what stands behind a length that nobody knows: "0a1b", hex
 #pragma once
 

@@ -73,7 +73,7 @@ struct packer {
       const auto index = static_cast<std::uint64_t>(x);
       add(index, fixed_width<T>(), index < names_of<T>.count);
     } else if constexpr (is_bit_string<T>) {
-      add(x.bits, T::width, true);
+      add(x.bits, T::width, x.bits <= T::all);
     } else if constexpr (std::is_same_v<T, bool>) {
       add(x, 1, true);
     } else {

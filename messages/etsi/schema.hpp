@@ -107,6 +107,7 @@ struct bit_string {
   static_assert(n <= 32);
   static constexpr auto may_grow = g;
   static constexpr unsigned width = n;
+  static constexpr std::uint32_t all = 0xffff'ffff >> (32 - n);
   std::uint32_t bits = 0;
 
   static constexpr std::uint32_t mask(unsigned i) {

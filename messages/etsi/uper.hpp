@@ -203,7 +203,9 @@ void write(Out& out, const T& x) {
   } else if constexpr (is_bit_string<T>) {
     if constexpr (T::may_grow == extensible)
       out.put(0, 1);
-    out.put(x.bits, T::width);
+    if (x.bits > T::all)
+      out.fail(fault::out_of_range, x.bits, 0, T::all);
+    out.put(x.bits & T::all, T::width);
   } else if constexpr (is_choice<T>) {
     write_choice(out, x);
   } else if constexpr (is_sequence_of<T>) {
