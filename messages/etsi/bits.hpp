@@ -49,8 +49,9 @@ public:
   }
   fault bad() const { return fault_; }
 
+  /// @returns how many were put, also those for which there was no room.
   std::size_t bits() const {
-    return static_cast<std::size_t>(at_ - begin_) * 8 + holds_;
+    return static_cast<std::size_t>(at_ - begin_) * 8 + holds_ + lost_;
   }
 
   /// Puts 16 bits in the place of others.
@@ -92,8 +93,10 @@ private:
   static constexpr unsigned word = 64;
 
   void store(std::uint64_t bits) {
-    if (end_ - at_ < 8)
+    if (end_ - at_ < 8) {
+      lost_ += word;
       return fail(fault::no_room);
+    }
     bits = __builtin_bswap64(bits);
     std::memcpy(at_, &bits, 8);
     at_ += 8;
@@ -101,6 +104,7 @@ private:
 
   std::uint64_t held_ = 0; // the lowest `holds_` bits wait
   unsigned holds_ = 0;     // less than a word between two calls
+  std::size_t lost_ = 0;
   fault fault_ = fault::none;
   std::byte* at_;
   std::byte* end_;
