@@ -36,27 +36,30 @@ concept transparent = requires {
   typename std::integral_constant<unsigned, width_of_members(T{})>;
 };
 
+/// Types whose width depends on their value.
+template <class T>
+inline constexpr bool is_loose =
+    is_optional<
+        T> || is_defaulted<T> || is_choice<T> || is_sequence_of<T> || is_open_type<T> || sequence_may_grow<T>();
+
 /// How many bits a type takes, whatever its value.
 template <class T>
 consteval unsigned fixed_width() {
+  auto width = no_fixed_width;
   if constexpr (std::is_same_v<T, bool>) {
-    return 1;
+    width = 1;
   } else if constexpr (std::is_enum_v<T>) {
     using names = std::remove_cvref_t<decltype(names_of<T>)>;
-    return names::may_grow == extensible
-               ? no_fixed_width
-               : static_cast<unsigned>(std::bit_width(names::count - 1));
+    if (names::may_grow != extensible)
+      width = static_cast<unsigned>(std::bit_width(names::count - 1));
   } else if constexpr (is_integer<T> || is_bit_string<T>) {
-    return T::may_grow == extensible ? no_fixed_width : T::width;
-  } else if constexpr (
-      is_optional<
-          T> || is_defaulted<T> || is_choice<T> || is_sequence_of<T> || is_open_type<T> || sequence_may_grow<T>()) {
-    return no_fixed_width;
-  } else if constexpr (transparent<T>) {
-    return width_of_members(T{});
-  } else {
-    return no_fixed_width;
+    if (T::may_grow != extensible)
+      width = T::width;
+  } else if constexpr (!is_loose<T>) {
+    if constexpr (transparent<T>)
+      width = width_of_members(T{});
   }
+  return width;
 }
 
 struct packer {
