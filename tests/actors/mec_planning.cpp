@@ -210,7 +210,7 @@ TEST_CASE("a provider goes on planning with a CAM a second") {
     }
     plan = next;
   }
-  CHECK(s_m > 150); // and so it drives, round corners
+  CHECK(s_m > 120); // and so it drives, round corners
 }
 
 TEST_CASE("a vehicle that does not follow is planned for from where it is") {

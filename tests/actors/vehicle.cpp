@@ -5,6 +5,7 @@
 #include "messages/v2x/coordination.hpp"
 #include "planners/lane_follow.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/each_number.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -365,6 +366,33 @@ TEST_CASE_FIXTURE(driving_world, "whatever octets come as plans, a vehicle "
   CHECK(distance_m(last_report().state.at, there.at) < 0.5);
 }
 
+TEST_CASE_FIXTURE(driving_world, "whatever numbers a suggestion holds, a "
+                                 "vehicle drives like a car, and goes on with "
+                                 "the next good plan") {
+  drive(5s);
+  dice d{2};
+  const auto good = *message_in<etsi::mcm>(encoded_suggestion(plan(), station));
+  for (auto k = 0; k < 1000; ++k) {
+    auto message = good;
+    each_number(message.body, [&]<class N>(N& x) {
+      if (d.between(0, 1) < 0.02)
+        x.value = static_cast<typename N::number>(d.between(
+            static_cast<double>(N::low), static_cast<double>(N::high) + 1));
+    });
+    tell(car,
+         service_result{source, ++cycle, now(), payload::of(encoded(message))});
+    if (k % 10 == 0)
+      run_for(10ms);
+    REQUIRE(!is_gone(car));
+  }
+  CHECK(std::isfinite(last_report().state.at.x_m));
+  CHECK(std::isfinite(last_report().state.at.y_m));
+  CHECK(last_report().state.speed_mps < 30);
+  run_for(10s); // it stops, if it has to
+  drive(5s);
+  CHECK(last_report().state.speed_mps > 3);
+}
+
 TEST_CASE_FIXTURE(driving_world, "a vehicle asks for plans where they are "
                                  "made, whenever it has perceived") {
   tell(car, perception{});
@@ -417,7 +445,7 @@ TEST_CASE_FIXTURE(driving_world,
 TEST_CASE_FIXTURE(driving_world, "a vehicle at rest sends a CAM a second, and "
                                  "a CPM") {
   run_for(10s);
-  for (const auto times : {air_times<etsi::cam>(), air_times<cpm>()}) {
+  for (const auto& times : {air_times<etsi::cam>(), air_times<cpm>()}) {
     REQUIRE(times.size() == 10);
     for (std::size_t k = 1; k < times.size(); ++k)
       CHECK(times[k] - times[k - 1] == 1s);
