@@ -30,6 +30,7 @@ struct driving_world : virtual_world {
   probe<requester_manager_actor> manager = listen<requester_manager_actor>();
   const double start_speed_mps;
   const std::optional<v2x_options> v2x;
+  const double range_m; // of both antennas
   route_ptr way = street();
   lane_follow planner{way, {}};
   vehicle_actor car = spawn();
@@ -37,8 +38,10 @@ struct driving_world : virtual_world {
   std::uint64_t cycle = 0;
 
   explicit driving_world(double starts_at_mps = 0,
-                         std::optional<v2x_options> says = v2x_options{})
-      : start_speed_mps{starts_at_mps}, v2x{std::move(says)} {
+                         std::optional<v2x_options> says = v2x_options{},
+                         double heard_within_m = 100)
+      : start_speed_mps{starts_at_mps}, v2x{std::move(says)},
+        range_m{heard_within_m} {
     settle();
   }
 
@@ -58,8 +61,8 @@ struct driving_world : virtual_world {
     setup.where = in_ulm();
     setup.fresh_limit = 200ms;
     setup.track_period = 100ms;
-    setup.antennas = {{near.handle, {150, 0}, 100},
-                      {distant.handle, {500, 0}, 100}};
+    setup.antennas = {{near.handle, {150, 0}, range_m},
+                      {distant.handle, {500, 0}, range_m}};
     setup.road = road.handle;
     setup.recorder = recorder.handle;
     setup.spawn_requester = [this](const vehicle_actor&) {
@@ -180,11 +183,6 @@ struct flying_start_world : driving_world {
 inline void tell_of_a_car(driving_world& world) {
   world.tell(world.car,
              perception{world.now(), {}, {{{150, 1}, 0, 3, 0, 4.5, 1.8}}});
-}
-
-inline void kill_antennas(driving_world& world) {
-  world.kill(world.near.handle);
-  world.kill(world.distant.handle);
 }
 
 } // namespace sofof::test

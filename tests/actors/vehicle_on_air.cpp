@@ -112,23 +112,26 @@ TEST_CASE_FIXTURE(driving_world, "what was seen long ago is not told as if it "
   CHECK(told < 3);
 }
 
-TEST_CASE_FIXTURE(driving_world, "what a vehicle sends is recorded once, "
-                                 "however many hear it") {
-  drive(8s); // from none in range of the far one, to one
-  run_for(1s);
-  const auto sent = air_pdus();
-  CHECK(sent.size() > 10);
-  const auto heard = near->all<its_pdu>();
-  REQUIRE(heard.size() == sent.size());
-  for (std::size_t k = 0; k < sent.size(); ++k)
-    CHECK(heard[k].octets == sent[k].octets);
-}
-
-TEST_CASE("what nobody hears is on the air all the same") {
-  driving_world world;
-  kill_antennas(world);
-  world.run_for(5s);
-  CHECK(world.air().size() == 10);
+TEST_CASE("what a vehicle sends is recorded once, however many hear it") {
+  for (const double range_m : {0, 100, 1000}) {
+    CAPTURE(range_m);
+    driving_world world{0, v2x_options{}, range_m};
+    world.drive(5s);
+    const auto sent = world.air_pdus();
+    CHECK(sent.size() > 10);
+    const auto check_heard = [&](const probe<link_actor>& who) {
+      const auto heard = who->all<its_pdu>();
+      REQUIRE(heard.size() == sent.size());
+      for (std::size_t k = 0; k < sent.size(); ++k)
+        CHECK(heard[k].octets == sent[k].octets);
+    };
+    if (range_m > 0)
+      check_heard(world.near);
+    if (range_m > 100)
+      check_heard(world.distant);
+    else
+      CHECK(world.distant->entries().empty());
+  }
 }
 
 TEST_CASE_FIXTURE(driving_world,
