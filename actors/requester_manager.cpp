@@ -82,7 +82,8 @@ struct manager_state {
       if (!remote || !remote->in_use)
         use(result);
     } else if (remote && remote->running == result.running
-               && result.cycle > remote->last_cycle) {
+               && result.cycle > remote->last_cycle
+               && setup.understands(result.what)) {
       take_remote(result);
     }
   }

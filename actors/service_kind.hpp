@@ -137,6 +137,15 @@ public:
     return input;
   }
 
+  /// Asked of every result that comes over the air. One that is not understood
+  /// is as if it had not come, so that who sends no others is left.
+  /// @param setup  The vehicle's.
+  virtual bool understands(const service_setup& setup,
+                           const payload& result) const {
+    static_cast<void>(setup), static_cast<void>(result);
+    return true;
+  }
+
   /// What says in the terms of the service that it has ended; nothing, unless
   /// a kind has such a message.
   /// @param setup  Of the side that ends it.

@@ -17,6 +17,8 @@ struct requester_manager_setup {
   service_options options;
   /// `service_kind::on_air` of this vehicle.
   std::function<service_input(service_input, bool takes_over)> on_air;
+  /// `service_kind::understands` of this vehicle.
+  std::function<bool(const payload& result)> understands;
   instance_setup local; ///< `running`, `results` are filled in.
   client_actor client;
   onboard_requester_actor requester;
@@ -27,7 +29,8 @@ struct requester_manager_setup {
 /// jump in at any moment. Results of a remote service are used from the first
 /// one that comes in time on: then the local instance is deactivated in the
 /// same turn, the watchdog armed and the requester told. Results that come
-/// too late, twice or out of order are not used.
+/// too late, twice or out of order are not used; those that are not understood
+/// are as if they had not come.
 requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup);
 

@@ -24,4 +24,11 @@ plan_in_use(const payload& result, station_id me, const route& way,
   return fault == maneuver_fault::none ? plan : nullptr;
 }
 
+bool is_suggestion(const payload& result, station_id me) {
+  const auto message = result.as<its_pdu>();
+  etsi::mcm suggestion;
+  return message && etsi::decode(message->view(), suggestion)
+         && suggests_plan(suggestion, me);
+}
+
 } // namespace sofof

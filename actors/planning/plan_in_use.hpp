@@ -23,6 +23,10 @@ plan_in_use(const payload& result, station_id me, const route& way,
             double s_guess_m, const datum& where, time_point now,
             const trajectory* before);
 
+/// @returns whether a provider's result is a message that suggests a plan to
+/// this vehicle, be it one that can be driven or not.
+bool is_suggestion(const payload& result, station_id me);
+
 /// Clocks of vehicles, sensors and providers agree within this.
 inline constexpr duration clock_tolerance = std::chrono::milliseconds{200};
 

@@ -120,6 +120,11 @@ public:
     return input;
   }
 
+  bool understands(const service_setup& setup,
+                   const payload& result) const override {
+    return is_suggestion(result, setup.station);
+  }
+
   payload farewell(const service_setup& setup, const service_end& end,
                    time_point now, const cam* own) const override {
     const auto name = name_of_maneuver(end.running);

@@ -201,16 +201,29 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
   return message;
 }
 
+namespace {
+
+const etsi::maneuver_constraints* suggested_to(station_id me,
+                                               const etsi::mcm& message) {
+  const auto* to = std::get_if<etsi::suggested_maneuver_container>(
+      &message.body.parameters.maneuver.value);
+  return to && to->target == me && to->maneuver
+             ? std::get_if<etsi::maneuver_constraints>(
+                 &to->maneuver->parameters.value)
+             : nullptr;
+}
+
+} // namespace
+
+bool suggests_plan(const etsi::mcm& message, station_id me) {
+  return suggested_to(me, message) != nullptr;
+}
+
 std::optional<maneuver_fault>
 read_suggestion(const etsi::mcm& message, station_id me, const route& way,
                 double s_guess_m, const datum& where, time_point now,
                 const trajectory* before, trajectory& out) {
-  const auto* to = std::get_if<etsi::suggested_maneuver_container>(
-      &message.body.parameters.maneuver.value);
-  const auto* plan = to && to->target == me && to->maneuver
-                         ? std::get_if<etsi::maneuver_constraints>(
-                             &to->maneuver->parameters.value)
-                         : nullptr;
+  const auto* plan = suggested_to(me, message);
   const auto frame = frame_of(message, where, now);
   if (!plan || !frame)
     return std::nullopt;

@@ -90,8 +90,10 @@ public:
   std::shared_ptr<const trajectory>
   understood(const service_output& result, const plan_request& of,
              const trajectory* before = nullptr) const {
-    return plan_in_use(result.what, station, *way(of.way), of.from.s_m,
-                       *setup.where, *now, before);
+    const auto plan = plan_in_use(result.what, station, *way(of.way),
+                                  of.from.s_m, *setup.where, *now, before);
+    REQUIRE((!plan || plan->is_sound()));
+    return plan;
   }
 
   /// @returns the request of a vehicle that is there now.

@@ -100,7 +100,7 @@ TEST_CASE_FIXTURE(provider_manager_world,
   requester->clear();
   run_for(100ms);
   const auto records = recorder->all<air_record>();
-  CHECK(records.size() == 2);
+  REQUIRE(records.size() == 2);
   CHECK(requester->count<service_result>() == 2);
   for (const auto& r : records)
     CHECK(r.message.octets == said.octets);

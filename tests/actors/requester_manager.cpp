@@ -38,6 +38,9 @@ struct managed_world : virtual_world {
     setup.on_air = [this](service_input input, bool takes_over) {
       return (speak ? *speak : kind).on_air({}, std::move(input), takes_over);
     };
+    setup.understands = [](const payload& result) {
+      return result.as<echo>() != nullptr;
+    };
     setup.local.function = kind.make_function({});
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {
@@ -265,6 +268,30 @@ TEST_CASE_FIXTURE(managed_world, "results that come twice or out of order do "
   result(1);
   run_for(40ms + 1ns);
   CHECK(requester->count<qos_violation>() == 1);
+}
+
+TEST_CASE_FIXTURE(managed_world, "results that nobody understands are as if "
+                                 "they had not come") {
+  const auto nonsense = [&](std::uint64_t cycle) {
+    tell(manager, service_result{running, cycle, now() - 10ms,
+                                 payload::of(its_pdu{{std::byte{1}}})});
+  };
+  feed(1);
+  run_for(1s);
+  accept(running);
+  nonsense(1);
+  run_for(100ms);
+  CHECK(!source()); // the local service plans on
+  result(2);
+  CHECK(source() == true);
+  for (std::uint64_t k = 3; k < 13; ++k) {
+    run_for(10ms);
+    nonsense(k);
+  }
+  CHECK(requester->count<qos_violation>() == 0);
+  run_for(1ns);
+  CHECK(requester->count<qos_violation>() == 1); // of the gap
+  CHECK(results(true) == 1);
 }
 
 TEST_CASE_FIXTURE(managed_world,

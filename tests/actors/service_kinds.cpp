@@ -1,6 +1,7 @@
 // Tests of the kinds of services: names, options, functions.
 #include "actors/planning/plan_request.hpp"
 #include "actors/service_kind.hpp"
+#include "messages/v2x/coordination.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/option_list.hpp"
@@ -196,6 +197,34 @@ TEST_CASE("two functions of one kind know nothing of each other") {
   CHECK(plan->points.front().s_m == doctest::Approx(500));
 }
 
+TEST_CASE(
+    "a vehicle understands what is suggested to it, and nothing else as a "
+    "plan") {
+  const auto kind = make_service_kind("trajectory_planning");
+  const auto setup = on(one_street());
+  const trajectory plan{
+      time_point{3s},
+      {{0, 100, {100, 0}, 0, 0, 8, 0}, {1, 108, {108, 0}, 0, 0, 8, 0}}};
+  const auto suggested_to = [&](station_id whom) {
+    std::vector<maneuver_waypoint> room;
+    etsi::mcm message;
+    REQUIRE(make_suggestion({9001, {150, 50}, whom, {7, 1}}, plan, *in_ulm(),
+                            room, message));
+    return encoded(message);
+  };
+  CHECK(kind->understands(setup, payload::of(suggested_to(101))));
+  CHECK(!kind->understands(setup, payload::of(suggested_to(102))));
+  auto cut = suggested_to(101);
+  cut.octets.resize(cut.octets.size() / 2);
+  CHECK(!kind->understands(setup, payload::of(cut)));
+  CHECK(!kind->understands(setup, payload::of(its_pdu{})));
+  CHECK(!kind->understands(setup, {}));
+  CHECK(!kind->understands(setup, payload::of(echo{1})));
+  const cam own{101, time_point{3s}, {100, 0}, 0, 8};
+  CHECK(!kind->understands(setup, payload::of(pdu_of(own))));
+  CHECK(!kind->understands(setup, kind->farewell(setup, {}, own.at, &own)));
+}
+
 TEST_CASE("planning ends with an MCM of who ends it") {
   const auto kind = make_service_kind("trajectory_planning");
   auto setup = on(one_street());
@@ -243,7 +272,7 @@ TEST_CASE("planning ends with an MCM of who ends it") {
 
 TEST_CASE("other services say no farewell") {
   const auto climate = make_service_kind("cabin_climate");
-  const cam own{101, time_point{3s}};
+  const cam own{101, time_point{3s}, {}};
   CHECK(climate->farewell(on(one_street()), {}, own.at, &own).type().empty());
 }
 

@@ -1,7 +1,7 @@
 // What a CAM says of a vehicle, and what is understood of it.
+#include "messages/etsi/units.hpp"
 #include "messages/v2x/awareness.hpp"
 #include "tests/support/dice.hpp"
-#include "messages/etsi/units.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/on_air.hpp"
 
@@ -203,7 +203,7 @@ TEST_CASE("the path history leads back where the vehicle has been, from the "
   }
 }
 
-TEST_CASE("who has only just begun to drive has no path yet") {
+TEST_CASE("who has only just begun to drive has been where it is") {
   const cam own{101, start, {}, 0, 10, 0, 0};
   path_history been;
   been.pass(own.at, front_of(own, car));
@@ -212,8 +212,12 @@ TEST_CASE("who has only just begun to drive has no path yet") {
   add_path(message, own, been, *in_ulm());
   const auto got = sent(message);
   REQUIRE(got.body.parameters.low_frequency);
-  CHECK(std::get<0>(got.body.parameters.low_frequency->value)
-            .path_history.empty());
+  const auto& path =
+      std::get<0>(got.body.parameters.low_frequency->value).path_history;
+  REQUIRE(path.size() == 1);
+  CHECK(path[0].position.latitude == 0);
+  CHECK(path[0].position.longitude == 0);
+  CHECK(path[0].before->value == 1); // the least that can be said
 }
 
 TEST_CASE("a point that the vehicle left long ago is as old as can be said") {

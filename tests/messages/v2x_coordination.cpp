@@ -70,7 +70,7 @@ void check_same_drive(const trajectory& is, const trajectory& was) {
 const suggestion to_101{9001, {50, 50}, 101, {7, 3}};
 
 std::shared_ptr<trajectory> plan_in(const etsi::mcm& message, double s_guess_m,
-                                 time_point now = start + 20ms) {
+                                    time_point now = start + 20ms) {
   auto out = std::make_shared<trajectory>();
   const auto fault = read_suggestion(sent(message), 101, *round(), s_guess_m,
                                      *in_ulm(), now, nullptr, *out);

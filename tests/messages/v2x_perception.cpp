@@ -1,8 +1,8 @@
 // What a CPM says of the bodies that a vehicle perceives, and what is
 // understood of it.
+#include "messages/etsi/units.hpp"
 #include "messages/v2x/perception.hpp"
 #include "tests/support/dice.hpp"
-#include "messages/etsi/units.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/on_air.hpp"
 

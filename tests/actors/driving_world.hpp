@@ -1,0 +1,188 @@
+// One vehicle on a straight street, among probes.
+#pragma once
+
+#include "actors/planning/plan_request.hpp"
+#include "actors/vehicle.hpp"
+#include "messages/v2x/coordination.hpp"
+#include "planners/lane_follow.hpp"
+#include "tests/support/on_air.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sofof::test {
+
+/// One vehicle on a straight street (limit 10 m/s), starting 100 m along it.
+struct driving_world : virtual_world {
+  static constexpr station_id station = 101;
+  probe<road_actor> road = listen<road_actor>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
+  probe<link_actor> near = listen<link_actor>();
+  probe<link_actor> distant = listen<link_actor>();
+  probe<requester_manager_actor> manager = listen<requester_manager_actor>();
+  const double start_speed_mps;
+  const std::optional<v2x_options> v2x;
+  const double range_m; // of both antennas
+  route_ptr way = street();
+  lane_follow planner{way, {}};
+  vehicle_actor car = spawn();
+  running_service source{0, station, "trajectory_planning", 0};
+  std::uint64_t cycle = 0;
+
+  explicit driving_world(double starts_at_mps = 0,
+                         std::optional<v2x_options> says = v2x_options{},
+                         double heard_within_m = 100)
+      : start_speed_mps{starts_at_mps}, v2x{std::move(says)},
+        range_m{heard_within_m} {
+    settle();
+  }
+
+  static route_ptr street() {
+    const road_map map{
+        "street", {}, {toy::straight("street", {0, 0}, {1000, 0})}};
+    return map.make_route("street", std::vector<std::string>{"street"}, false);
+  }
+
+  vehicle_actor spawn() {
+    vehicle_setup setup;
+    setup.station = station;
+    setup.way = way;
+    setup.start_s_m = 100;
+    setup.start_speed_mps = start_speed_mps;
+    setup.v2x = v2x;
+    setup.where = in_ulm();
+    setup.fresh_limit = 200ms;
+    setup.track_period = 100ms;
+    setup.antennas = {{near.handle, {150, 0}, range_m},
+                      {distant.handle, {500, 0}, range_m}};
+    setup.road = road.handle;
+    setup.recorder = recorder.handle;
+    setup.spawn_requester = [this](const vehicle_actor&) {
+      return requester.handle;
+    };
+    return own(spawn_vehicle(system(), std::move(setup)));
+  }
+
+  /// Plans from where the car is, as a service would do.
+  trajectory plan() {
+    const auto report = last_report();
+    planning_input from;
+    from.at = report_time();
+    from.s_m = report.s_m;
+    from.d_m = report.state.at.y_m;
+    from.speed_mps = report.state.speed_mps;
+    from.accel_mps2 = report.state.accel_mps2;
+    trajectory out;
+    planner.plan(report_time(), from, nullptr, out);
+    return out;
+  }
+  void give(trajectory t, time_point created) {
+    tell(car,
+         service_result{source, ++cycle, created, payload::of(std::move(t))});
+  }
+  /// The same as a provider would do.
+  its_pdu encoded_suggestion(const trajectory& t, station_id whom) {
+    std::vector<maneuver_waypoint> room;
+    etsi::mcm message;
+    REQUIRE(make_suggestion({9001, {150, 0}, whom, {7, 1}}, t, *in_ulm(), room,
+                            message));
+    return encoded(message);
+  }
+  void suggest(const trajectory& t, station_id whom) {
+    tell(car, service_result{source, ++cycle, now(),
+                             payload::of(encoded_suggestion(t, whom))});
+  }
+  /// Drives with a new plan every 50 ms.
+  void drive(duration d) {
+    trajectory last = plan();
+    for (const auto end = now() + d; now() < end; run_for(50ms)) {
+      planning_input from;
+      const auto p = last.at(now());
+      from.at = now();
+      from.s_m = p.s_m;
+      from.speed_mps = p.speed_mps;
+      from.accel_mps2 = p.accel_mps2;
+      trajectory next;
+      planner.plan(now(), from, &last, next);
+      last = next;
+      give(next, now());
+    }
+  }
+
+  // -- what it sent ---------------------------------------------------------
+
+  using cpm = etsi::tr103562::cpm;
+  std::vector<air_record> air() const { return recorder->all<air_record>(); }
+  std::vector<its_pdu> air_pdus() const {
+    std::vector<its_pdu> all;
+    for (const auto& record : air())
+      all.push_back(record.message);
+    return all;
+  }
+  template <class Message>
+  std::vector<time_point> air_times() const {
+    std::vector<time_point> all;
+    for (const auto& record : air())
+      if (message_in<Message>(record.message))
+        all.push_back(record.at);
+    return all;
+  }
+
+  motion_report last_report() const {
+    return road->all<motion_report>().back();
+  }
+  time_point report_time() const { return road->times<motion_report>().back(); }
+  double fastest_mps() const {
+    double v = 0;
+    for (const auto& r : road->all<motion_report>())
+      v = std::max(v, r.state.speed_mps);
+    return v;
+  }
+  drive_record whole_drive() const {
+    drive_record sum;
+    for (const auto& r : recorder->all<drive_record>()) {
+      CHECK(r.station == station);
+      sum.plans.add(r.plans);
+      sum.ride.add(r.ride);
+    }
+    return sum;
+  }
+  safety_record total() const {
+    safety_record sum;
+    for (const auto& r : recorder->all<safety_record>()) {
+      sum.driven += r.driven;
+      sum.without_fresh_plan += r.without_fresh_plan;
+      sum.off_road += r.off_road;
+      sum.max_plan_age = std::max(sum.max_plan_age, r.max_plan_age);
+    }
+    return sum;
+  }
+};
+
+/// The same, starting at the speed limit.
+struct flying_start_world : driving_world {
+  flying_start_world() : driving_world{10} {}
+
+  /// What a vehicle does before its first plan and after.
+  double slowest_mps() const {
+    auto v = start_speed_mps;
+    for (const auto& r : road->all<motion_report>())
+      v = std::min(v, r.state.speed_mps);
+    return v;
+  }
+};
+
+inline void tell_of_a_car(driving_world& world) {
+  world.tell(world.car,
+             perception{world.now(), {}, {{{150, 1}, 0, 3, 0, 4.5, 1.8}}});
+}
+
+} // namespace sofof::test
