@@ -126,9 +126,9 @@ TEST_CASE("a capture that cannot be written is refused before the run") {
     check_refused(at, {scenario_file, "--pcap", file}, "cannot write", says);
     check_refused(at, {scenario_file, "--pcap", file, "--out", "new/folder"},
                   "cannot write", says);
-    check_refused(
-        at, {scenario_file, "--pcap", file, "--out", "done", "--force"},
-        "cannot write", says);
+    check_refused(at,
+                  {scenario_file, "--pcap", file, "--out", "done", "--force"},
+                  "cannot write", says);
   }
   // Nor is an earlier capture lost, if the results are what is refused.
   check_refused(at, {scenario_file, "--pcap", "plain", "--out", "done"},
