@@ -11,7 +11,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -107,7 +107,7 @@ TEST_CASE("the summary's figures of messages are those that were sent") {
     of_its_kind.octets += x.message.octets.size();
     r.take(x);
   }
-  r.finish(made_up::at(30s), 2, false);
+  r.finish(made_up::at(std::chrono::seconds{30}), 2, false);
   REQUIRE(sent.size() == 4);
   const auto summary = nlohmann::json::parse(read(dir / "summary.json"))["v2x"];
   CHECK(summary.size() == 4);
