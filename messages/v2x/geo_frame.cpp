@@ -3,7 +3,6 @@
 
 #include "messages/etsi/units.hpp"
 
-#include <GeographicLib/Constants.hpp>
 #include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
 #include <numbers>
@@ -17,7 +16,7 @@ constexpr double per_degree = 1e7;
 constexpr std::int32_t largest_latitude = 900'000'000;
 constexpr std::int32_t largest_longitude = 1'800'000'000;
 constexpr double largest_distance_m = 1e5;
-const double earth_radius_m = GeographicLib::Constants::WGS84_a();
+constexpr double earth_radius_m = 6'378'137; // WGS84
 
 std::int32_t to_integer(double degrees) {
   return static_cast<std::int32_t>(std::lround(degrees * per_degree));

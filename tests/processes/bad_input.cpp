@@ -108,6 +108,33 @@ TEST_CASE("an unknown channel profile is refused") {
                  {"\"paper-7g\"", "did you mean \"paper-5g\"?"}});
 }
 
+TEST_CASE("an unknown rule for messages is refused") {
+  check_mistake({"[network]",
+                 "[v2x]\ncpm = @\"sometimes\"\n[network]",
+                 {"\"sometimes\"", "triggered", "fixed_10hz", "off"}});
+}
+
+TEST_CASE("a capture that cannot be written is refused before the run") {
+  const workplace at;
+  at.write("plain", "text");
+  at.drive("done", {"--duration", "2s"});
+  for (const std::string file :
+       {"plain/air.pcap", "nowhere/air.pcap", "config", "/proc/sofof/air"}) {
+    CAPTURE(file);
+    const std::vector<std::string_view> says{file,
+                                             "choose another file with --pcap"};
+    check_refused(at, {scenario_file, "--pcap", file}, "cannot write", says);
+    check_refused(at, {scenario_file, "--pcap", file, "--out", "new/folder"},
+                  "cannot write", says);
+    check_refused(at,
+                  {scenario_file, "--pcap", file, "--out", "done", "--force"},
+                  "cannot write", says);
+  }
+  // Nor is an earlier capture lost, if the results are what is refused.
+  check_refused(at, {scenario_file, "--pcap", "plain", "--out", "done"},
+                "not empty", {});
+}
+
 TEST_CASE("an output folder that cannot be written is refused") {
   // Even for root: below a file, and where the kernel lets nobody write.
   const workplace at;

@@ -29,7 +29,10 @@ namespace {
 constexpr station_id station = 101;
 
 /// In Ulm-Lehr, in 2026.
-const datum_ptr somewhere = std::make_shared<const datum>();
+datum_ptr somewhere() {
+  static const auto where = std::make_shared<const datum>();
+  return where;
+}
 
 /// What one vehicle's client lives through; every promise is checked at every
 /// message.
@@ -109,7 +112,7 @@ drive(moving_client::stateful_pointer<client_state> self,
         const cam own{station, t, {s.x_m, 0}, 0, 15, 0};
         self->send(s.requester, ego_state{own, s.x_m + 500});
         for (const auto& link : links)
-          self->send(link, encoded(make_cam(own, {}, *somewhere)),
+          self->send(link, encoded(make_cam(own, {}, *somewhere())),
                      requester_actor{s.requester});
       },
   };
@@ -172,7 +175,7 @@ struct faulty_world : virtual_world {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
     requester_setup setup;
-    setup.where = somewhere;
+    setup.where = somewhere();
     setup.station = station;
     setup.way = world->routes.front();
     setup.world = world;
@@ -187,7 +190,7 @@ struct faulty_world : virtual_world {
   void add_provider(int k) {
     provider_setup setup;
     setup.boot = static_cast<boot_id>(k + 1);
-    setup.where = somewhere;
+    setup.where = somewhere();
     setup.area = polygon::regular({100.0 * k, 0}, 300, 24);
     setup.world = world;
     setup.kinds = kinds;

@@ -161,6 +161,44 @@ TEST_CASE("a start beyond the speed limit is refused") {
         == "");
 }
 
+TEST_CASE("messages that nobody can send are refused") {
+  const auto v2x = [](const std::string& option) {
+    return "[v2x]\n" + option + "\n[network]";
+  };
+  check_all({
+      {"[network]",
+       v2x("cam = @\"trigered\""),
+       {"\"trigered\"", "rule for CAMs", "did you mean \"triggered\"?",
+        "fixed_10hz"}},
+      {"[network]", v2x("cam = @\"off\""), {"triggered", "fixed_10hz"}},
+      {"[network]",
+       v2x("cpm = @\"of\""),
+       {"rule for CPMs", "did you mean \"off\"?", "triggered"}},
+      {"[network]",
+       v2x("cpm_version = @\"tr103652\""),
+       {"version of the CPM", "did you mean \"tr103562\"?", "ts103324"}},
+      {"[network]", v2x("cpm = @10"), {"text in quotes"}},
+      {"[network]", v2x("@cpm_rate_hz = 10"), {"cpm_rate_hz", "cpm"}},
+      {"[network]", "[network]\ncell_mbps = @-1", {"cell_mbps", "from 0"}},
+      {"[network]", "[network]\ncell_mbps = @1e7", {"to 1000000"}},
+  });
+}
+
+TEST_CASE("vehicles with numbers of providers are refused") {
+  const std::string right = "count = 6\nfirst_station = 101";
+  const std::vector<std::string_view> says{"stations 900000001 to 901000000",
+                                           "providers", "at 901000001"};
+  check_all({
+      {right, "count = 6\nfirst_station = @899999996", says},
+      {right, "count = 6\nfirst_station = @900000001", says},
+      {right, "count = 6\nfirst_station = @901000000", says},
+  });
+  for (const auto* good : {"899999995", "901000001"})
+    CHECK(example::error_of(example::with(
+              right, std::string{"count = 6\nfirst_station = "} + good))
+          == "");
+}
+
 TEST_CASE("an obstacle that cannot be is refused") {
   const auto obstacle = [](const std::string& options) {
     return "[[obstacle]]\n" + options + "\n[network]";
