@@ -92,8 +92,8 @@ private:
   motion heard_; // when `told_`
   trajectory plan_;
   // Where plans began, as seen from the last one; a ring. Plans come each
-  // 50 ms: more than 1.6 s.
-  std::array<moment, 32> starts_{};
+  // 50 ms: more than 3 s, when a silent vehicle has been given up.
+  std::array<moment, 64> starts_{};
   std::size_t newest_ = 0, known_ = 0;
 };
 

@@ -214,6 +214,29 @@ TEST_CASE("a provider goes on planning with a CAM a second, or every two") {
   }
 }
 
+TEST_CASE("a provider knows without a CAM that a vehicle brakes as it was told "
+          "to") {
+  informed there{"3-4-5", 20, 8};
+  std::shared_ptr<const trajectory> plan;
+  auto s_m = 20.0;
+  for (auto step = 0; step < 38; ++step, *there.now += 50ms) {
+    CAPTURE(step);
+    if (plan)
+      s_m = plan->at(*there.now).s_m;
+    there.ask = there.at("3-4-5", s_m, 8);
+    there.ask.seen.stop_at_m = 45;
+    const auto next = there.understood(there.run(there.word(there.ask)),
+                                       there.ask, plan.get());
+    REQUIRE(next);
+    if (plan)
+      REQUIRE(std::abs(next->at(next->start).speed_mps
+                       - plan->at(next->start).speed_mps)
+              < 0.05);
+    plan = next;
+  }
+  CHECK(plan->points.front().speed_mps < 6);
+}
+
 TEST_CASE("a vehicle that does not follow is planned for from where it is") {
   informed there{"3-4-5", 20, 8};
   there.plan();
