@@ -31,7 +31,7 @@ inline constexpr double route_spacing_m = 5;
 /// How far ahead a vehicle tells who plans for it that it may go, m, and in
 /// which steps. Who is told less has to stop there.
 inline constexpr double authority_m = 200;
-inline constexpr double authority_spacing_m = 10;
+inline constexpr double authority_spacing_m = 20;
 
 /// Between two steps of a vehicle and its controller.
 inline constexpr duration control_period = 10ms;

@@ -54,9 +54,10 @@ std::optional<route_stretch> walk(const path& line, double from_m,
     const auto chord_m = distance_m(waypoints[i - 1], waypoints[i]);
     const auto least_m = s_m + least_stretch * chord_m - rounding_m;
     const auto most_m = s_m + most_stretch * chord_m + rounding_m;
-    const auto next = place(line, waypoints[i], 0.5 * (least_m + most_m),
-                            0.5 * (most_m - least_m), tolerance_m);
-    if (!next)
+    const auto guess_m = s_m + chord_m; // mostly it is straight
+    const auto next =
+        place(line, waypoints[i], guess_m, most_m - guess_m, tolerance_m);
+    if (!next || *next < least_m)
       return std::nullopt;
     s_m = *next;
   }
