@@ -18,9 +18,13 @@ constexpr double shortest_m = 0.5; // also of a car that stands
 constexpr double sigma_offset_m = 0.0015;
 constexpr double sigma_bend_1pm = 0.0005;
 constexpr double sigma_bend_per_bend = 0.2;
-constexpr double sigma_kink_1pm2 = 1e-4; // for every metre of step
+constexpr double sigma_kink_1pm3 = 1e-4; // for every metre of step
 constexpr double sigma_kink_per_bend = 0.01;
-constexpr double sigma_slope = 0.01; // of the beginning
+constexpr double sigma_kink_per_kink = 0.3; // of the path's own
+constexpr double sigma_slope = 0.01;        // of the beginning
+// A plan that does not fit so: it changes lanes, or passes somebody.
+constexpr double usual_freedom = 1, great_freedom = 10;
+constexpr double rounding_m = 0.005;
 constexpr double reach_m = 6; // so far before and behind bends, that holds
 
 // Of the plan in use, which is as uncertain as this one was.
@@ -53,36 +57,56 @@ bool course::fit(const path& line, std::span<const sight> sights,
     bend_[k] =
         line.at(start_m_ + static_cast<double>(k) * step_m_).curvature_1pm;
 
-  offset_.begin(steps_, step_m_);
+  for (const auto freedom : {usual_freedom, great_freedom}) {
+    offset_.begin(steps_, step_m_);
+    see(sights);
+    expect_little(freedom);
+    if (before != nullptr)
+      expect(*before);
+    if (!offset_.solve())
+      return false;
+    if (meets(sights))
+      break;
+  }
+  measure();
+  return true;
+}
+
+void course::see(std::span<const sight> sights) {
   for (const auto& x : sights) {
     const auto along_m = x.at.s_m - start_m_;
     offset_.observe_value(along_m, x.at.d_m, weight(sigma_offset_m));
     if (x.slope_weight > 0)
       offset_.observe_slope(along_m, x.slope, x.slope_weight);
   }
-  expect_little();
-  if (before != nullptr)
-    expect(*before);
-  if (!offset_.solve())
-    return false;
-  measure();
-  return true;
+}
+
+/// @returns whether the curve is as close to what was seen as rounding is.
+bool course::meets(std::span<const sight> sights) const {
+  return std::ranges::all_of(sights, [this](const sight& x) {
+    return std::abs(offset_.at(x.at.s_m - start_m_).value - x.at.d_m)
+           < rounding_m;
+  });
 }
 
 /// Without reason a car keeps to its lane and turns the wheel evenly.
-void course::expect_little() {
+void course::expect_little(double freedom) {
   const auto reach = static_cast<std::size_t>(std::ceil(reach_m / step_m_));
-  offset_.observe_slope(0, 0, weight(sigma_slope));
+  offset_.observe_slope(0, 0, weight(freedom * sigma_slope));
   for (std::size_t k = 0; k <= steps_; ++k) {
     auto sharpest = 0.0;
     for (auto i = k - std::min(k, reach); i <= std::min(k + reach, steps_); ++i)
       sharpest = std::max(sharpest, std::abs(bend_[i]));
     offset_.observe_bend(
-        k, 0, weight(sigma_bend_1pm + sigma_bend_per_bend * sharpest));
-    if (k > 0 && k < steps_)
-      offset_.observe_kink(
-          k, (2 * bend_[k] - bend_[k + 1] - bend_[k - 1]) / step_m_,
-          weight(step_m_ * (sigma_kink_1pm2 + sigma_kink_per_bend * sharpest)));
+        k, 0,
+        weight(freedom * (sigma_bend_1pm + sigma_bend_per_bend * sharpest)));
+    if (k == 0 || k == steps_)
+      continue;
+    const auto kink =
+        (2 * bend_[k] - bend_[k + 1] - bend_[k - 1]) / (step_m_ * step_m_);
+    const auto sigma = sigma_kink_1pm3 + sigma_kink_per_bend * sharpest
+                       + sigma_kink_per_kink * std::abs(kink);
+    offset_.observe_kink(k, step_m_ * kink, weight(freedom * step_m_ * sigma));
   }
 }
 

@@ -44,8 +44,10 @@ public:
   path_point at(double s_m) const;
 
 private:
-  void expect_little();
+  void see(std::span<const sight> sights);
+  void expect_little(double freedom);
   void expect(const joint& before);
+  bool meets(std::span<const sight> sights) const;
   void measure();
 
   static constexpr std::size_t most_knots = smooth_curve::most_steps + 1;

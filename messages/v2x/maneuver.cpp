@@ -18,7 +18,8 @@ constexpr std::int32_t largest_ms = 65535;
 constexpr std::int32_t largest_cmps = 16382;
 constexpr std::int32_t largest_step_ms = 255;
 constexpr double usual_step_s = 0.1;
-constexpr double window_m = 20;
+constexpr double first_window_m = 20;
+constexpr double window_m = 1.5; // the speeds tell where to look
 constexpr double farthest_m = 10;
 constexpr double shortest_slope_inner = 0.2;
 
@@ -99,7 +100,8 @@ private:
                   + (x.t_s - last.t_s) * (x.speed_mps + last.speed_mps) / 2;
       }
       auto& sight = sights_[i];
-      sight.at = way_.path().project(x.at, guess_m, window_m);
+      sight.at =
+          way_.path().project(x.at, guess_m, i > 0 ? window_m : first_window_m);
       // Forwards: rounding can set a car back that hardly moves.
       if (i > 0)
         sight.at.s_m = std::max(sight.at.s_m, sights_[i - 1].at.s_m);

@@ -111,7 +111,8 @@ bool pace::drive(std::size_t from, std::size_t to, const motion* before) {
     return false;
   while (done_ <= last) {
     const auto x = way_.at_knot(done_ - first);
-    put(x.slope > 0 ? motion{x.value, x.slope, x.bend} : motion{x.value, 0, 0});
+    put(x.slope > 0 ? motion{x.value, x.slope, x.bend}
+                    : motion{x.value, 0, std::max(x.bend, 0.0)});
   }
   return true;
 }

@@ -24,7 +24,7 @@ constexpr density usual{0.7, 200};
 constexpr density dense{4, 100};
 constexpr int densest_ms = 50;
 /// A waypoint may stand so far from where it is due, as a share of the gap.
-constexpr int window_share = 5;
+constexpr int window_share = 8;
 constexpr int widest_window_ms = usual.gap_ms / window_share;
 
 /// @returns the nearest whole number, ties up; of |x| > 1e9 that.
@@ -152,7 +152,9 @@ private:
   double accel(std::size_t i) const { return plan_.points[i].accel_mps2; }
   /// @returns whether it stands as far as the message can tell.
   bool stands(std::size_t i) const {
-    return whole(100 * plan_.points[i].speed_mps) == 0;
+    constexpr double walking_mps = 1; // faster cars need no closer look
+    return plan_.points[i].speed_mps < walking_mps
+           && whole(100 * moment(time_ms(i)).speed_mps) == 0;
   }
 
   const trajectory& plan_;
@@ -167,7 +169,7 @@ private:
 /// polynomial in time, compared with whole numbers a thousand times a second.
 int writer::best_near(int ms, int window_ms) const {
   const auto p = moment(ms);
-  const auto later = moment(ms + window_ms), before = moment(ms - window_ms);
+  const auto k = std::min(knot(ms), size() - 2);
   const point tangent{std::cos(p.heading_rad), std::sin(p.heading_rad)};
   const point left{-tangent.y_m, tangent.x_m};
   const auto at = offset(p);
@@ -177,7 +179,7 @@ int writer::best_near(int ms, int window_ms) const {
   const auto along = east_north(1e-3 * velocity);
   const auto bend = east_north(0.5e-6 * push);
   const auto side = east_north(0.01 * left);
-  const auto jerk = (later.accel_mps2 - before.accel_mps2) / (2 * window_ms);
+  const auto jerk = (accel(k + 1) - accel(k)) / step_ms_;
 
   const auto f = [](double x) { return static_cast<float>(x); };
   const auto x0 = f(at.x_m - whole(at.x_m)), x1 = f(along.x_m),
