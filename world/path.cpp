@@ -12,6 +12,8 @@ namespace sofof {
 namespace {
 
 constexpr auto table_step_m = 0.5;
+/// A guess is good that is no farther off.
+constexpr auto good_guess_m = 1.0;
 
 /// Where the spline has which arc length: short intervals of its pieces.
 class ruler {
@@ -109,6 +111,8 @@ path::path(std::span<const point> points, bool closed) : closed_{closed} {
                       cross(slope, piece->bend(u)) / (speed * speed * speed)});
   }
   turn_rad_ = table_.back().heading_rad - table_.front().heading_rad;
+  for (const auto& x : table_)
+    sharpest_1pm_ = std::max(sharpest_1pm_, std::abs(x.curvature_1pm));
 }
 
 path::place path::locate(double s_m) const {
@@ -154,13 +158,32 @@ path_offset path::project(point p, double s_guess_m, double window_m) const {
     high_m = std::clamp(high_m, 0.0, length_m_);
     s_guess_m = std::clamp(s_guess_m, low_m, high_m);
   }
-  auto start_m = s_guess_m + look(p, s_guess_m).along_m;
-  start_m = std::clamp(start_m, low_m, high_m);
+  const auto seen = look(p, s_guess_m);
+  const auto start_m = std::clamp(s_guess_m + seen.along_m, low_m, high_m);
+  if (is_nearest_about(seen, window_m)) {
+    constexpr auto per_chord = 1.1; // of arcs that are not longer than that
+    const auto reach_m = 2 * per_chord * std::abs(seen.left_m) + good_guess_m;
+    const auto foot = refine(p, start_m, std::max(low_m, start_m - reach_m),
+                             std::min(high_m, start_m + reach_m));
+    return {laps_m + foot.s_m, foot.d_m};
+  }
   const auto near_m = step_m_ * nearest_entry(p, start_m, low_m, high_m);
   const auto foot = refine(p, std::clamp(near_m, low_m, high_m),
                            std::max(low_m, near_m - step_m_),
                            std::min(high_m, near_m + step_m_));
   return {laps_m + foot.s_m, foot.d_m};
+}
+
+/// @returns whether a point that is seen like this from the guess is nearest
+/// to the path about there, whatever the path does in the window: who is never
+/// sharper than a circle does not come back as near (Schur 1921), until it has
+/// gone round most of it.
+bool path::is_nearest_about(const view& seen, double window_m) const {
+  constexpr double most_of_a_circle_rad = 5;
+  constexpr double near_share = 0.5; // of the way to the circle's centre
+  return std::abs(seen.along_m) < good_guess_m
+         && std::abs(seen.left_m) * sharpest_1pm_ < near_share
+         && (window_m + good_guess_m) * sharpest_1pm_ < most_of_a_circle_rad;
 }
 
 /// Number of the nearest entry of the table in a stretch, counted from the

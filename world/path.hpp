@@ -74,6 +74,7 @@ private:
   };
   place locate(double s_m) const;
   view look(point p, double s_m) const;
+  bool is_nearest_about(const view& seen, double window_m) const;
   double nearest_entry(point p, double start_m, double low_m,
                        double high_m) const;
   path_offset refine(point p, double s_m, double low_m, double high_m) const;
@@ -84,6 +85,7 @@ private:
   double steps_per_m_ = 0;
   double length_m_ = 0;
   double turn_rad_ = 0; // heading gained over the whole path
+  double sharpest_1pm_ = 0;
   bool closed_ = false;
 };
 

@@ -25,6 +25,8 @@ constexpr density dense{4, 100};
 constexpr int densest_ms = 50;
 /// A waypoint may stand so far from where it is due, as a share of the gap.
 constexpr int window_share = 8;
+/// So often is looked for the best place in there.
+constexpr int look_ms = 2;
 constexpr int widest_window_ms = usual.gap_ms / window_share;
 
 /// @returns the nearest whole number, ties up; of |x| > 1e9 that.
@@ -166,7 +168,7 @@ private:
 };
 
 /// @returns the moment about `ms` at which rounding costs least: the plan as a
-/// polynomial in time, compared with whole numbers a thousand times a second.
+/// polynomial in time, compared with whole numbers every `look_ms`.
 int writer::best_near(int ms, int window_ms) const {
   const auto p = moment(ms);
   const auto k = std::min(knot(ms), size() - 2);
@@ -190,10 +192,10 @@ int writer::best_near(int ms, int window_ms) const {
              v1 = f(0.1 * p.accel_mps2), v2 = f(0.05 * jerk);
   const auto left_x = f(side.x_m), left_y = f(side.y_m);
 
-  std::array<float, 2 * widest_window_ms + 1> cost;
-  const auto count = 2 * window_ms + 1;
+  std::array<float, 2 * widest_window_ms / look_ms + 1> cost;
+  const auto count = 2 * window_ms / look_ms + 1;
   for (int i = 0; i < count; ++i) {
-    const auto t = static_cast<float>(i - window_ms);
+    const auto t = static_cast<float>(look_ms * i - window_ms);
     const auto x = miss(x0 + t * (x1 + t * x2));
     const auto y = miss(y0 + t * (y1 + t * y2));
     const auto v = miss(v0 + t * (v1 + t * v2));
@@ -202,7 +204,7 @@ int writer::best_near(int ms, int window_ms) const {
     cost[static_cast<std::size_t>(i)] = beside * beside + v * v + tie * t * t;
   }
   const auto best = std::min_element(cost.begin(), cost.begin() + count);
-  return ms - window_ms + static_cast<int>(best - cost.begin());
+  return ms - window_ms + look_ms * static_cast<int>(best - cost.begin());
 }
 
 int writer::next_ms(int ms, int least_gap) const {
