@@ -66,6 +66,8 @@ struct manager_state {
     remote->last_sent = now(self);
     auto input = setup.on_air({remote->running, newest.at, newest.what, in_use},
                               !remote->in_use);
+    if (input.what.type().empty())
+      return; // nothing to say
     note_on_air(self, setup.recorder, input.what);
     self->send(remote->manager, std::move(input));
   }
@@ -82,9 +84,13 @@ struct manager_state {
       if (!remote || !remote->in_use)
         use(result);
     } else if (remote && remote->running == result.running
-               && result.cycle > remote->last_cycle
-               && setup.understands(result.what)) {
-      take_remote(result);
+               && result.cycle > remote->last_cycle) {
+      auto meant = setup.off_air(
+          result.what, {remote->running, newest.at, newest.what, in_use},
+          now(self));
+      if (!meant.type().empty())
+        take_remote({result.running, result.cycle, result.created,
+                     std::move(meant), result.about});
     }
   }
 

@@ -137,13 +137,18 @@ public:
     return input;
   }
 
-  /// Asked of every result that comes over the air. One that is not understood
-  /// is as if it had not come, so that who sends no others is left.
-  /// @param setup  The vehicle's.
-  virtual bool understands(const service_setup& setup,
-                           const payload& result) const {
-    static_cast<void>(setup), static_cast<void>(result);
-    return true;
+  /// What a result that came over the air is to the vehicle; as it is, unless
+  /// a kind gets it in messages of its own.
+  /// @param setup   The vehicle's.
+  /// @param latest  Its newest input; `in_use` is the result in use.
+  /// @param now     When the result came.
+  /// @returns nothing for what is not understood or must not be used: it is as
+  /// if it had not come, so that who sends no others is left.
+  virtual payload off_air(const service_setup& setup, const payload& result,
+                          const service_input& latest, time_point now) const {
+    static_cast<void>(setup), static_cast<void>(latest);
+    static_cast<void>(now);
+    return result;
   }
 
   /// What says in the terms of the service that it has ended; nothing, unless

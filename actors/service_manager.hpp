@@ -17,8 +17,10 @@ struct requester_manager_setup {
   service_options options;
   /// `service_kind::on_air` of this vehicle.
   std::function<service_input(service_input, bool takes_over)> on_air;
-  /// `service_kind::understands` of this vehicle.
-  std::function<bool(const payload& result)> understands;
+  /// `service_kind::off_air` of this vehicle.
+  std::function<payload(const payload& result, const service_input& latest,
+                        time_point now)>
+      off_air;
   instance_setup local; ///< `running`, `results` are filled in.
   client_actor client;
   onboard_requester_actor requester;

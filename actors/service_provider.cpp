@@ -87,12 +87,13 @@ struct provider_state {
     if (const auto* c = std::get_if<cam>(&heard))
       take(*c, requester);
     else if (const auto* seen = std::get_if<sighting>(&heard))
-      take(*seen);
+      take(*seen, requester);
   }
 
-  void take(const sighting& seen) {
+  void take(const sighting& seen, const requester_actor& requester) {
     tell_sites([&](service_site& site) { site.see(seen.at, seen.objects); });
-    if (const auto known = stations.find(seen.from); known != stations.end())
+    const auto known = stations.find(seen.from);
+    if (known != stations.end() && known->second.requester == requester)
       known->second.heard = now(self); // it lives
   }
 
@@ -101,6 +102,8 @@ struct provider_state {
     const auto known = stations.find(c.station);
     if (known != stations.end() && c.at < known->second.latest.at)
       return; // overtaken on its way
+    if (protocol::is_of_future(c.at, now(self)))
+      return; // all true ones would seem overtaken
     if (!setup.area.contains(c.position)) {
       if (known != stations.end())
         forget(known, end_reason::left_area);

@@ -89,8 +89,9 @@ struct requester_state {
          [shared, here](service_input input, bool takes_over) {
            return shared->on_air(here, std::move(input), takes_over);
          },
-         [shared, here](const payload& result) {
-           return shared->understands(here, result);
+         [shared, here](const payload& result, const service_input& latest,
+                        time_point now) {
+           return shared->off_air(here, result, latest, now);
          },
          local_instance(kind, here), client, self, setup.recorder});
     self->link_to(manager);

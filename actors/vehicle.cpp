@@ -3,7 +3,6 @@
 
 #include "actors/drive_figures.hpp"
 #include "actors/on_air.hpp"
-#include "actors/planning/plan_in_use.hpp"
 #include "actors/planning/plan_request.hpp"
 #include "actors/time.hpp"
 #include "actors/v2x_broadcast.hpp"
@@ -235,9 +234,8 @@ struct vehicle_actor_state {
     if (result.created < plan_created)
       return;
     const auto t = now(self);
-    const auto next = plan_in_use(result.what, setup.station, *setup.way, s_m,
-                                  *setup.where, t, plan.get());
-    if (!next)
+    const auto next = result.what.as<trajectory>();
+    if (!next || !next->is_sound())
       return;
     const auto about = result.about.as<plan_report>();
     if (result.created > t || next->start > t + air_time_step

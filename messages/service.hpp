@@ -33,6 +33,8 @@ struct cam {
   double speed_mps = 0;
   double accel_mps2 = 0;
   double curvature_1pm = 0; ///< Of its way, left positive.
+  double length_m = 5.1;    ///< Of its body; the test vehicle's, as below.
+  double width_m = 1.89;
 };
 
 /// A provider has seen a station in its area and offers its services.
@@ -128,7 +130,8 @@ bool inspect(Inspector& f, cam& x) {
       f.field("station", x.station), f.field("at", x.at),
       f.field("position", x.position), f.field("heading_rad", x.heading_rad),
       f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
-      f.field("curvature_1pm", x.curvature_1pm));
+      f.field("curvature_1pm", x.curvature_1pm),
+      f.field("length_m", x.length_m), f.field("width_m", x.width_m));
 }
 
 template <class Inspector>

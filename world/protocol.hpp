@@ -24,6 +24,15 @@ inline constexpr duration ego_period = 100ms;
 /// Between two answers to results of unknown running services.
 inline constexpr duration unknown_result_period = 200ms;
 
+/// Clocks of vehicles, sensors and providers agree within this.
+inline constexpr duration clock_tolerance = 200ms;
+
+/// @returns whether something cannot have been seen or said yet. Believing one
+/// such thing would make all true ones too old.
+constexpr bool is_of_future(time_point at, time_point now) {
+  return at > now + clock_tolerance;
+}
+
 /// Planned path that a requester looks at and sends along, m, and its step.
 inline constexpr double route_ahead_m = 800;
 inline constexpr double route_spacing_m = 5;

@@ -53,42 +53,77 @@ private:
         || word_.header.station != setup_.station)
       return;
     const auto word = read_word(word_, *setup_.where, now);
-    if (!word)
+    if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
       return;
-    const auto ahead = place(word->way);
-    if (!ahead)
+    heard_at_ = word->at;
+    const auto ahead = place(word->way, now);
+    if (!ahead) { // it goes where nobody here knows the way
+      cycle_.reset();
+      ego_.reset();
       return;
-    const auto told_m = ahead->to_m - ahead->from_m;
-    stop_at_m_.reset();
-    if (told_m < protocol::authority_m - protocol::authority_spacing_m)
-      stop_at_m_ = ahead->to_m;
+    }
+    stop_at_m_ = ahead->to_m;
     if (word->plan)
-      take_over(*word, ahead->from_m);
+      take_over(*word, ahead->from_m, now);
   }
 
   // Where on which route the vehicle's way ahead is.
-  std::optional<route_stretch> place(std::span<const point> way) {
-    if (cycle_)
-      if (const auto ahead = still_on(*cycle_->way(), from_m_, way)) {
+  std::optional<route_stretch> place(std::span<const point> way,
+                                     time_point now) {
+    if (cycle_) {
+      const auto own = ego_->at(now);
+      const auto guess_m = own ? own->s_m : from_m_;
+      if (const auto ahead = still_on(*cycle_->way(), guess_m, way)) {
         from_m_ = ahead->from_m;
         return ahead;
       }
+    }
     const auto found = find_route(setup_.world->routes, way);
     if (!found)
       return std::nullopt;
-    cycle_.emplace(setup_, options_, lanes_, found->way);
-    ego_.emplace(found->way, found->ahead.from_m);
     from_m_ = found->ahead.from_m;
+    begin(found->way);
     return found->ahead;
   }
 
-  void take_over(const understood_word& word, double from_m) {
+  // Of what was planned along another way that goes on which both share.
+  void begin(const route_ptr& way) {
+    const auto shared = cycle_ ? along(*way, cycle_->plan()) : trajectory{};
+    cycle_.emplace(setup_, options_, lanes_, way);
+    ego_.emplace(way, from_m_);
+    if (shared.is_sound())
+      follow(shared);
+  }
+
+  trajectory along(const route& way, trajectory plan) const {
+    constexpr double same_way_m = 1;
+    auto guess_m = from_m_;
+    auto& points = plan.points;
+    for (auto p = points.begin(); p != points.end(); ++p) {
+      const auto foot = way.path().project(p->at, guess_m);
+      if (distance_m(way.path().at(foot.s_m).at, p->at) > same_way_m) {
+        points.erase(p, points.end());
+        break;
+      }
+      guess_m = p->s_m = foot.s_m;
+    }
+    return plan;
+  }
+
+  void take_over(const understood_word& word, double from_m, time_point now) {
     const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
     trajectory plan;
     const auto fault =
         to_trajectory(*word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
-    if (fault != maneuver_fault::none)
+    if (fault != maneuver_fault::none
+        || protocol::is_of_future(plan.start, now))
       return;
+    ego_.emplace(cycle_->way(), from_m);
+    follow(plan);
+  }
+
+  // The vehicle follows this plan.
+  void follow(const trajectory& plan) {
     cycle_->take_over(plan);
     ego_->follow(plan);
   }
@@ -103,18 +138,22 @@ private:
     if (!make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_,
                          said_))
       return {};
-    return {payload::of(encoded(said_)), payload::of(report)};
+    auto message = encoded(said_);
+    if (message.octets.empty())
+      return {};
+    return {payload::of(std::move(message)), payload::of(report)};
   }
 
   service_setup setup_;
   planner_options options_;
   std::shared_ptr<const lane_network> lanes_;
   std::shared_ptr<planning_site> site_;
-  std::shared_ptr<const its_pdu> heard_; // last
+  std::shared_ptr<const its_pdu> heard_; // last, ...
+  time_point heard_at_;                  // and when it was said
   std::optional<plan_cycle> cycle_;
   std::optional<ego_estimate> ego_; // whenever there is a cycle
   double from_m_ = 0;               // of the last word
-  std::optional<double> stop_at_m_; // the end of the vehicle's authority
+  double stop_at_m_ = 0;            // the end of the vehicle's authority
   std::uint16_t update_ = 0;
   // Room that is used again.
   etsi::mcm word_, said_;

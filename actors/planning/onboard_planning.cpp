@@ -2,9 +2,9 @@
 #include "actors/planning/onboard_planning.hpp"
 
 #include "actors/planning/plan_cycle.hpp"
-#include "actors/planning/plan_in_use.hpp"
 #include "actors/planning/plan_request.hpp"
 #include "planners/environment_model.hpp"
+#include "world/protocol.hpp"
 
 #include <optional>
 #include <utility>
@@ -25,10 +25,11 @@ public:
     if (!request || !prepare(request->way))
       return {};
     auto from = made_possible(request->from);
-    if (const auto plan =
-            plan_in_use(input.in_use, setup_.station, *cycle_->way(), from.s_m,
-                        *setup_.where, now, nullptr))
-      cycle_->take_over(*plan);
+    const auto in_use = input.in_use.as<trajectory>();
+    const auto& own = cycle_->plan();
+    if (in_use && in_use->is_sound()
+        && (own.empty() || in_use->start > own.start))
+      cycle_->take_over(*in_use);
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;
     const auto report = cycle_->run(now, std::move(from), model_.tracks());
@@ -47,7 +48,7 @@ private:
 
   // Every sight counts once.
   void take_in(time_point now, const perception& seen) {
-    if (seen.at == taken_in_ || is_of_future(seen.at, now))
+    if (seen.at == taken_in_ || protocol::is_of_future(seen.at, now))
       return;
     taken_in_ = seen.at;
     model_.update(seen.at, seen.objects);

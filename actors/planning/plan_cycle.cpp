@@ -23,11 +23,6 @@ plan_cycle::plan_cycle(const service_setup& setup,
                way_,
                {.judges_crossings = !setup.crossings_granted}} {}
 
-void plan_cycle::take_over(const trajectory& other) {
-  if (other.is_sound() && (plan_.empty() || other.start > plan_.start))
-    plan_ = other;
-}
-
 plan_report plan_cycle::run(time_point now, planning_input from,
                             std::span<const track> others) {
   const auto stop_at_m = from.others.stop_at_m;

@@ -25,8 +25,9 @@ public:
   /// @returns the last plan; empty before the first.
   const trajectory& plan() const { return plan_; }
 
-  /// Another source has planned in the meantime, and its plan is in use.
-  void take_over(const trajectory& other);
+  /// Another source has planned, and its plan is in use.
+  /// @param other  Sound.
+  void take_over(const trajectory& other) { plan_ = other; }
 
   /// Plans from here, given what is known of the others. `from.others` is
   /// filled in, but for what it says of stopping.

@@ -47,7 +47,7 @@ void archive(auto& bytes, point& x) {
 
 void archive(auto& bytes, cam& x) {
   bytes(x.station, x.at, x.position, x.heading_rad, x.speed_mps, x.accel_mps2,
-        x.curvature_1pm);
+        x.curvature_1pm, x.length_m, x.width_m);
 }
 
 void archive(auto& bytes, plan_request& x) {

@@ -1,8 +1,7 @@
-// What a provider knows of the road: all CAMs, all that its sensors and the
-// vehicles it plans for see, put together.
+// What a provider knows of the road: all CAMs and CPMs, and what its own
+// sensors see, put together.
 #pragma once
 
-#include "actors/planning/plan_in_use.hpp"
 #include "actors/service_kind.hpp"
 #include "messages/v2x/generation_rules.hpp"
 #include "planners/environment_model.hpp"
@@ -12,65 +11,38 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace sofof {
 
-/// @returns the body of a vehicle with these measures that has sent a CAM.
-inline perceived_object body_of(const cam& c, const vehicle_params& car) {
-  const auto box =
-      body({c.position, c.heading_rad, c.speed_mps, c.accel_mps2, 0}, car);
-  return {box.centre,   box.heading_rad, c.speed_mps,
-          c.accel_mps2, box.length_m,    box.width_m};
-}
+/// @returns the body of a vehicle that has sent a CAM. Its rear axle is as far
+/// forward in it as in a car of ours.
+perceived_object body_of(const cam& c);
 
-/// @param clock  What is told of later than now is not believed.
+/// What is told of later than now is not believed.
 class planning_site final : public service_site {
 public:
-  explicit planning_site(std::function<time_point()> clock)
-      : clock_{std::move(clock)} {}
+  explicit planning_site(std::function<time_point()> clock);
 
-  void hear(const cam& c) override {
-    if (is_of_future(c.at, clock_()))
-      return;
-    const std::lock_guard lock{mutex_};
-    model_.hear(c.at, c.station, body_of(c, {}));
-    std::erase_if(
-        told_, [&](const auto& x) { return x.second.at + remembered < c.at; });
-    auto& newest = told_[c.station];
-    if (newest.at <= c.at)
-      newest = c;
-  }
+  void hear(const cam& c) override;
+  void see(time_point at, std::span<const perceived_object> seen) override;
 
-  void see(time_point at, std::span<const perceived_object> seen) override {
-    if (is_of_future(at, clock_()))
-      return;
-    const std::lock_guard lock{mutex_};
-    model_.update(at, seen);
-  }
-
-  /// @returns what a vehicle told of itself last, if that was of late.
-  std::optional<cam> told_by(station_id who) const {
-    const std::lock_guard lock{mutex_};
-    const auto x = told_.find(who);
-    return x == told_.end() ? std::nullopt : std::optional{x->second};
-  }
+  /// @returns what a vehicle told of itself last, unless that is older than
+  /// protocol::cam_timeout.
+  std::optional<cam> told_by(station_id who) const;
 
   /// Copies what is known now.
-  void tracks(std::vector<track>& out) const {
-    const std::lock_guard lock{mutex_};
-    out.assign(model_.tracks().begin(), model_.tracks().end());
-  }
+  void tracks(std::vector<track>& out) const;
 
 private:
-  static constexpr duration remembered = std::chrono::seconds{10};
+  void forget_silent(time_point now);
 
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
   // Told by CAMs and CPMs, which come when there is news.
   environment_model model_{{}, {generation::moved_m, generation::longest}};
   std::map<station_id, cam> told_; // the newest CAM of each
+  time_point tidied_;
 };
 
 } // namespace sofof

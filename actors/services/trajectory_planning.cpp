@@ -2,7 +2,6 @@
 // a provider may plan farther and more thoroughly than the vehicle's own.
 #include "actors/planning/mec_planning.hpp"
 #include "actors/planning/onboard_planning.hpp"
-#include "actors/planning/plan_in_use.hpp"
 #include "actors/planning/plan_request.hpp"
 #include "actors/service_kind.hpp"
 #include "messages/v2x/coordination.hpp"
@@ -10,6 +9,7 @@
 #include "world/protocol.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,15 +21,29 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Where the vehicle's front may go: along its route, up to where it has to
-/// wait.
+/// Where the vehicle may go: along its route, from its rear axle on, up to
+/// where its front has to wait.
 std::vector<point> authority(const route& way, double s_m,
                              std::optional<double> stop_at_m) {
-  constexpr double least_m = 1;
+  constexpr double least_m = 2; // less has no direction
   const auto told_m =
       std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
                  protocol::authority_m);
   return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
+}
+
+/// @returns whether a plan begins where the vehicle is, as fast as it is.
+bool begins_at(const trajectory& plan, const cam& own) {
+  constexpr double same_place_m = 1.0;
+  constexpr double same_speed_mps = 1.5;
+  const auto t = std::max(own.at, plan.start);
+  const auto moved_m = own.speed_mps * to_seconds(t - own.at);
+  const auto p = plan.at(t);
+  const auto here =
+      own.position
+      + moved_m * point{std::cos(own.heading_rad), std::sin(own.heading_rad)};
+  return distance_m(p.at, here) <= same_place_m
+         && std::abs(p.speed_mps - own.speed_mps) <= same_speed_mps;
 }
 
 etsi::termination_status status_of(end_reason why) {
@@ -107,22 +121,36 @@ public:
     const auto ahead =
         authority(*way, request->from.s_m, request->seen.stop_at_m);
     road_user_word word{request->own, ahead, nullptr, {}};
-    const auto plan = takes_over ? plan_in_use(input.in_use, setup.station,
-                                               *way, request->from.s_m,
-                                               *setup.where, input.at, nullptr)
-                                 : nullptr;
+    const auto plan = takes_over ? input.in_use.as<trajectory>() : nullptr;
     word.plan = plan.get();
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.running),
                           etsi::maneuver_response::accept);
-    input.what = payload::of(encoded(make_word(word, setup.car, *setup.where)));
+    auto message = encoded(make_word(word, setup.car, *setup.where));
+    if (message.octets.empty())
+      return {};
+    input.what = payload::of(std::move(message));
     input.in_use = {};
     return input;
   }
 
-  bool understands(const service_setup& setup,
-                   const payload& result) const override {
-    return is_suggestion(result, setup.station);
+  /// A trajectory along the vehicle's way, from where it is.
+  payload off_air(const service_setup& setup, const payload& result,
+                  const service_input& latest, time_point now) const override {
+    const auto request = latest.what.as<plan_request>();
+    const auto way = request ? setup.world->find(request->way) : nullptr;
+    const auto message = result.as<its_pdu>();
+    etsi::mcm suggestion;
+    if (!way || !message || !etsi::decode(message->view(), suggestion))
+      return {};
+    const auto before = latest.in_use.as<trajectory>();
+    trajectory plan;
+    const auto fault =
+        read_suggestion(suggestion, setup.station, *way, request->from.s_m,
+                        *setup.where, now, before.get(), plan);
+    if (fault != maneuver_fault::none || !begins_at(plan, request->own))
+      return {};
+    return payload::of(std::move(plan));
   }
 
   payload farewell(const service_setup& setup, const service_end& end,

@@ -97,6 +97,9 @@ std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
   own.at = where.unwrapped(body.generation, now);
   own.position =
       *front - ahead(*heading, car.front_m * length_m / our_length_m);
+  own.length_m = length_m;
+  own.width_m =
+      etsi::vehicle_width_m.to_si(motion->width).value_or(car.width_m);
   own.heading_rad = *heading;
   own.speed_mps = *speed;
   own.accel_mps2 =

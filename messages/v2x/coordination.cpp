@@ -227,11 +227,15 @@ read_suggestion(const etsi::mcm& message, station_id me, const route& way,
   const auto frame = frame_of(message, where, now);
   if (!plan || !frame)
     return std::nullopt;
+  if (plan->corridor)
+    return maneuver_fault::not_understood;
   std::vector<maneuver_waypoint> waypoints;
   waypoints.reserve(plan->waypoints.size());
   for (const auto& x : plan->waypoints) {
-    if (!x.min_velocity)
-      return maneuver_fault::out_of_range;
+    if (!x.min_velocity || x.min_arrival_time != x.max_arrival_time
+        || (x.max_velocity && *x.max_velocity != *x.min_velocity)
+        || x.min_duration_of_stop || x.preceding || x.following || x.yield_to)
+      return maneuver_fault::not_understood;
     waypoints.push_back({x.waypoint.x, x.waypoint.y, x.min_arrival_time.value,
                          x.min_velocity->value});
   }

@@ -20,7 +20,7 @@ constexpr std::int32_t largest_step_ms = 255;
 constexpr double usual_step_s = 0.1;
 constexpr double first_window_m = 20;
 constexpr double window_m = 1.5; // the speeds tell where to look
-constexpr double farthest_m = 10;
+constexpr double farthest_m = 5; // beside the route, as planners go
 constexpr double shortest_slope_inner = 0.2;
 
 // A plan that differs by more than rounding is another plan.
@@ -73,6 +73,16 @@ const trajectory_point* find_joint(const trajectory* before, time_point start,
   return same ? &at : nullptr;
 }
 
+/// @returns whether a car's tyres could do that.
+bool can_be_driven(const trajectory& plan) {
+  constexpr double most_accel_mps2 = 12;
+  return std::ranges::all_of(plan.points, [](const trajectory_point& p) {
+    return std::abs(p.accel_mps2) <= most_accel_mps2
+           && p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm)
+                  <= most_accel_mps2;
+  });
+}
+
 class reader {
 public:
   reader(std::span<const sample> seen, const route& way)
@@ -87,7 +97,8 @@ public:
     if (!fit(joint))
       return maneuver_fault::no_motion;
     write(out);
-    return out.is_sound() ? maneuver_fault::none : maneuver_fault::no_motion;
+    return out.is_sound() && can_be_driven(out) ? maneuver_fault::none
+                                                : maneuver_fault::no_motion;
   }
 
 private:
@@ -105,7 +116,8 @@ private:
       // Forwards: rounding can set a car back that hardly moves.
       if (i > 0)
         sight.at.s_m = std::max(sight.at.s_m, sights_[i - 1].at.s_m);
-      if (!(std::abs(sight.at.d_m) <= farthest_m))
+      // Also of what lies before or behind the window.
+      if (!(distance_m(way_.path().at(sight.at.s_m).at, x.at) <= farthest_m))
         return false;
       if (x.heading_rad < no_heading)
         see_slope(sight, x.heading_rad);
@@ -190,6 +202,8 @@ std::string_view to_string(maneuver_fault fault) {
       return "a number is out of range";
     case maneuver_fault::off_route:
       return "a point is off the route";
+    case maneuver_fault::not_understood:
+      return "it says more or less than when to be where";
     case maneuver_fault::no_motion:
       return "no car can do that";
   }

@@ -93,7 +93,8 @@ enum class maneuver_fault : std::uint8_t {
   wrong_count,      ///< Fewer than 2 points, or more than 128.
   times_not_rising, ///< Or steps of no time.
   out_of_range,     ///< Not what the ASN.1 allows.
-  off_route,        ///< Farther than 10 m from the route.
+  off_route,        ///< Farther than 5 m from the route.
+  not_understood,   ///< It leaves open when to be where, or asks for more.
   no_motion,        ///< Nothing that a car could do.
 };
 

@@ -24,7 +24,7 @@ inline constexpr std::size_t arity<point> = 2;
 template <>
 inline constexpr std::size_t arity<running_service> = 4;
 template <>
-inline constexpr std::size_t arity<cam> = 7;
+inline constexpr std::size_t arity<cam> = 9;
 template <>
 inline constexpr std::size_t arity<service_offer> = 3;
 template <>
@@ -105,7 +105,7 @@ using all_messages =
 template <class T>
 auto members(T& x) {
   constexpr auto n = arity<std::remove_const_t<T>>;
-  static_assert(n >= 1 && n <= 8);
+  static_assert(n >= 1 && n <= 9);
   if constexpr (n == 1) {
     auto& [a] = x;
     return std::tie(a);
@@ -127,9 +127,12 @@ auto members(T& x) {
   } else if constexpr (n == 7) {
     auto& [a, b, c, d, e, f, g] = x;
     return std::tie(a, b, c, d, e, f, g);
-  } else {
+  } else if constexpr (n == 8) {
     auto& [a, b, c, d, e, f, g, h] = x;
     return std::tie(a, b, c, d, e, f, g, h);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i] = x;
+    return std::tie(a, b, c, d, e, f, g, h, i);
   }
 }
 
