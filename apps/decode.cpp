@@ -35,7 +35,7 @@ void add_decode(CLI::App& app, int& exit_code) {
   command->footer(
       "Prints a JSON object a line; where a message is wrong, {\"error\": ..., "
       "\"line\": ...}.\nExample:\n  sofof decode - < messages.hex | jq "
-      ".header.stationID");
+      "'.header | .stationID // .stationId'");
   command->callback(
       [words, &exit_code] { exit_code = line_by_line(*words, decode); });
 }

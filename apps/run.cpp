@@ -62,7 +62,10 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option("--pcap", args->options.pcap,
                    "Capture all CAMs, CPMs and MCMs, for Wireshark")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check([](const std::string& file) {
+        return std::string{file.empty() ? "a file's name is expected" : ""};
+      });
   command->add_flag("--force", args->options.force,
                     "Write into a folder that is not empty");
   command->add_flag("--realtime", args->options.realtime,

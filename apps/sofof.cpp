@@ -26,8 +26,8 @@ int obey(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.footer("First steps:\n  sofof run config/ulm_lehr.toml\n"
              "  sofof test        (through ./sofof at the root)\n\n"
-             "Exit codes: 0 done, 1 the run was unsafe or failed, 2 wrong "
-             "input or usage,\n130 interrupted.");
+             "Exit codes: 0 done, 1 the run was unsafe or failed, or a message "
+             "is wrong,\n2 wrong input or usage, 130 interrupted.");
   int exit_code = 0;
   sofof::add_run(app, exit_code);
   sofof::add_check(app, exit_code);

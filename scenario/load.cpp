@@ -40,6 +40,7 @@ void load_world(scenario& all, const fs::path& folder,
   }
   const auto file = folder / all.map_file;
   all.map_text = read_named(file, "map", source);
+  all.read_from.push_back(file);
   all.world = parse_map(all.map_text, file);
 }
 
@@ -50,6 +51,7 @@ void load_trace(scenario& all, const fs::path& folder,
   auto filled = *all.network.channel;
   try {
     all.trace_text = read_named(file, key, source);
+    all.read_from.push_back(file);
     filled.trace = parse_trace(all.trace_text);
   } catch (const std::invalid_argument& problem) {
     source.refuse(key, fmt::format("{}, {}.", file.string(), problem.what()));
@@ -67,6 +69,7 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
     source.set(assignment);
   scenario all;
   source.read([&](settings& s) { all.fields(s); });
+  all.read_from.push_back(file);
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())
     load_trace(all, folder, source);

@@ -39,6 +39,16 @@ void locate(geonet_sender& from, std::uint8_t type, const Position& at) {
   from.station_type = type;
   from.latitude = at.latitude;
   from.longitude = at.longitude;
+  from.is_mobile = type != etsi::roadside_unit;
+}
+
+/// What is unavailable goes out as 0: the network layer has no word for it.
+void set_in_motion(geonet_sender& from, std::uint16_t speed,
+                   std::uint16_t heading) {
+  if (speed != etsi::speed_unavailable)
+    from.speed_cmps = speed;
+  if (heading != etsi::heading_unavailable)
+    from.heading = heading;
 }
 
 void describe(envelope& out, const etsi::cam& message) {
@@ -46,10 +56,8 @@ void describe(envelope& out, const etsi::cam& message) {
   out.port = btp_port::cam;
   locate(out.from, x.basic.station_type, x.basic.position);
   if (const auto* motion =
-          std::get_if<etsi::vehicle_high_frequency>(&x.high_frequency.value)) {
-    out.from.speed_cmps = motion->speed.value;
-    out.from.heading = motion->heading.value;
-  }
+          std::get_if<etsi::vehicle_high_frequency>(&x.high_frequency.value))
+    set_in_motion(out.from, motion->speed.value, motion->heading.value);
 }
 
 void describe(envelope& out, const etsi::tr103562::cpm& message) {
@@ -59,10 +67,8 @@ void describe(envelope& out, const etsi::tr103562::cpm& message) {
   if (const auto* sender =
           x.station_data ? std::get_if<etsi::tr103562::originating_vehicle>(
               &x.station_data->value)
-                         : nullptr) {
-    out.from.speed_cmps = sender->speed.value;
-    out.from.heading = sender->heading.value;
-  }
+                         : nullptr)
+    set_in_motion(out.from, sender->speed.value, sender->heading.value);
 }
 
 void describe(envelope& out, const etsi::ts103324::cpm& message) {
@@ -75,10 +81,8 @@ void describe(envelope& out, const etsi::mcm& message) {
   out.port = btp_port::mcm;
   locate(out.from, x.basic.station_type, x.basic.position);
   if (const auto* user =
-          std::get_if<etsi::road_user_container>(&x.maneuver.value)) {
-    out.from.speed_cmps = user->state.speed;
-    out.from.heading = user->state.heading;
-  }
+          std::get_if<etsi::road_user_container>(&x.maneuver.value))
+    set_in_motion(out.from, user->state.speed, user->state.heading);
 }
 
 template <class Message>

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <string>
 #include <system_error>
@@ -88,6 +89,24 @@ fs::path make_results_folder(const std::optional<fs::path>& wanted,
         "replace the results in it with --force",
         folder.string()));
   return folder;
+}
+
+bool same_place(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error))
+    return true;
+  const auto place = [&error](const fs::path& path) {
+    const auto whole = fs::absolute(path, error);
+    const auto found = fs::weakly_canonical(whole, error);
+    return error ? whole.lexically_normal() : found;
+  };
+  return place(a) == place(b);
+}
+
+bool is_result(const fs::path& file, const fs::path& folder) {
+  return std::ranges::any_of(files_of_a_run, [&](const auto name) {
+    return same_place(file, folder / name);
+  });
 }
 
 void remove_results(const fs::path& folder) {

@@ -21,6 +21,14 @@ make_results_folder(const std::optional<std::filesystem::path>& wanted,
                     std::string_view scenario, std::int64_t seed, bool force,
                     const std::filesystem::path& parent = "results");
 
+/// @returns whether `file` is, or will be, one that a run writes into
+/// `folder`, however the two are spelled; they need not be there.
+bool is_result(const std::filesystem::path& file,
+               const std::filesystem::path& folder);
+
+/// @returns whether two paths lead to the same place, there or not.
+bool same_place(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Removes the files of an earlier run from a folder, and nothing else; the
 /// summary goes first.
 /// @throws input_error when one cannot be removed.

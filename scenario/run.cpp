@@ -2,6 +2,7 @@
 #include "scenario/run.hpp"
 
 #include "scenario/build.hpp"
+#include "scenario/input_error.hpp"
 #include "scenario/pcap_file.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/record_keeper.hpp"
@@ -9,6 +10,8 @@
 #include "scenario/runtime.hpp"
 #include "scenario/stopwatch.hpp"
 #include "scenario/table.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <ostream>
@@ -87,16 +90,26 @@ time_point advance(runtime& time, time_point end, const run_options& options,
   return t;
 }
 
-/// Refuses a capture that cannot be opened, while nothing has been touched.
-void check_capture(const run_options& options) {
+/// Refuses a capture that cannot be opened, or that would destroy what this run
+/// reads or writes, while nothing has been touched.
+void check_capture(const scenario& s, const run_options& options) {
   if (options.pcap.empty())
     return;
-  const auto as_folder = [](const std::filesystem::path& name) {
-    return (name / "").lexically_normal();
-  };
   const std::filesystem::path file = options.pcap;
+  const auto refuse = [&](std::string_view why) {
+    throw input_error(fmt::format("cannot capture into {}: {}; choose another "
+                                  "file with --pcap",
+                                  options.pcap, why));
+  };
+  for (const auto& input : s.read_from)
+    if (same_place(file, input))
+      refuse("the run reads this file");
+  if (options.out && is_result(file, *options.out))
+    refuse("the run writes its results there");
+  constexpr auto anything = "x";
   const auto in_results =
-      options.out && as_folder(file.parent_path()) == as_folder(*options.out);
+      options.out
+      && same_place(file.parent_path() / anything, *options.out / anything);
   if (!in_results) // else its folder may be made yet
     pcap_file::check(file);
 }
@@ -107,7 +120,7 @@ run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
   const auto time =
       options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
-  check_capture(options);
+  check_capture(s, options);
   auto info = describe(s, options);
   info.time_of_day = time->clock();
   const auto folder =

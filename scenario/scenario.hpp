@@ -12,6 +12,7 @@
 #include "world/vehicle.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -143,6 +144,8 @@ struct scenario {
   streets_ptr world;      ///< The map, loaded.
   std::string map_text;   ///< What the map's file says; empty for a grid.
   std::string trace_text; ///< What the trace's file says; empty for none.
+  /// The files that all this was read from.
+  std::vector<std::filesystem::path> read_from;
 
   /// Lists everything once.
   void fields(settings& s);

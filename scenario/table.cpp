@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace sofof {
 
@@ -59,44 +62,33 @@ std::string mean_and_deviation(const statistics& ms) {
   return fmt::format("{:.2f} ± {:.2f} ms", *ms.mean(), *ms.deviation());
 }
 
-/// The kinds of service that stand side by side.
+/// @returns how many columns of a screen this takes: letters and signs of one
+/// column each, in UTF-8.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+/// Figures in lines, a column for each kind of service.
 class block {
 public:
-  /// Takes as many of `services` as fit into a line, at least one.
-  block(std::string& out, const painter& paint,
-        std::span<const service_metrics> services)
-      : out_{out}, paint_{paint} {
-    auto used = label_width;
-    std::size_t n = 0;
-    for (; n < services.size(); ++n) {
-      used += width(services[n]);
-      if (n > 0 && used > line_width)
-        break;
-    }
-    services_ = services.first(n);
-  }
-
-  std::size_t size() const { return services_.size(); }
+  explicit block(std::span<const service_metrics> services)
+      : services_{services} {}
 
   /// A heading, and the names of the services.
   void names(std::string_view heading) {
-    std::string line = fmt::format("{:<{}}", heading, label_width);
-    for (const auto& service : services_)
-      line += fmt::format("{:>{}}", service.kind.view(), width(service));
-    out_ += '\n' + paint_.heading(line) + '\n';
+    add({std::string{heading}, true, {}},
+        [](const auto& x) { return x.kind.view(); });
   }
 
   /// @param of  Gives a service's figure, as a number or as text.
   template <class Figure>
   void row(std::string_view label, Figure of) {
-    out_ += fmt::format("  {:<{}}", label, label_width - 2);
-    for (const auto& service : services_)
-      out_ += fmt::format("{:>{}}", std::invoke(of, service), width(service));
-    out_ += '\n';
+    add({fmt::format("  {}", label), false, {}}, of);
   }
 
   void endings() {
-    out_ += "  ended by\n";
+    lines_.push_back({"  ended by", false, {}});
     for (std::size_t i = 0; i < end_reason_count; ++i) {
       const auto count = [i](const auto& x) { return x.ended_by[i]; };
       if (std::ranges::any_of(services_, count))
@@ -109,15 +101,56 @@ public:
       row("  still running", &service_metrics::running_at_end);
   }
 
-private:
-  static std::size_t width(const service_metrics& service) {
-    return std::max(least_column_width,
-                    service.kind.view().size() + column_gap);
+  /// Appends it, as many columns side by side as fit into a line.
+  void print(std::string& out, const painter& paint) const {
+    for (std::size_t first = 0; first < services_.size();) {
+      auto used = label_width + width(first);
+      auto end = first + 1;
+      while (end < services_.size() && used + width(end) <= line_width)
+        used += width(end++);
+      print(out, paint, first, end);
+      first = end;
+    }
   }
 
-  std::string& out_;
-  const painter& paint_;
+private:
+  struct line {
+    std::string label;
+    bool is_heading = false;
+    std::vector<std::string> figures; ///< One per service, or none.
+  };
+
+  template <class Figure>
+  void add(line made, Figure of) {
+    for (const auto& service : services_)
+      made.figures.push_back(fmt::format("{}", std::invoke(of, service)));
+    lines_.push_back(std::move(made));
+  }
+
+  /// @returns that of a column, its gap included.
+  std::size_t width(std::size_t column) const {
+    auto widest = least_column_width;
+    for (const auto& line : lines_)
+      if (!line.figures.empty())
+        widest = std::max(widest, column_gap + width_of(line.figures[column]));
+    return widest;
+  }
+
+  void print(std::string& out, const painter& paint, std::size_t first,
+             std::size_t end) const {
+    for (const auto& line : lines_) {
+      auto text = line.label;
+      if (!line.figures.empty())
+        text = fmt::format("{:<{}}", text, label_width);
+      for (auto i = first; i < end && !line.figures.empty(); ++i)
+        text += fmt::format("{:>{}}", line.figures[i], width(i));
+      out += line.is_heading ? '\n' + paint.heading(text) : text;
+      out += '\n';
+    }
+  }
+
   std::span<const service_metrics> services_;
+  std::vector<line> lines_;
 };
 
 void offloading(block& to, const run_info& run, const run_end& end) {
@@ -190,8 +223,6 @@ void safety_lines(std::string& out, const painter& paint,
              with_unit(to_seconds(safety.max_plan_age), 3, "s"));
 }
 
-} // namespace
-
 void comfort_lines(std::string& out, const painter& paint,
                    const drive_metrics& drive) {
   if (drive.safety.driven == duration::zero())
@@ -204,6 +235,36 @@ void comfort_lines(std::string& out, const painter& paint,
   drive_line(out, "hard brakes", fmt::format("{}", ride.hard_brakes));
   drive_line(out, "emergency plans", fmt::format("{}", drive.plans.emergency));
 }
+
+std::uint64_t messages_of(const air_metrics& air) {
+  return air.cam.messages + air.cpm.messages + air.mcm_up.messages
+         + air.mcm_down.messages;
+}
+
+void air_lines(std::string& out, const painter& paint, const air_metrics& air) {
+  if (messages_of(air) == 0)
+    return;
+  const auto line = [](std::string_view label, std::string_view messages,
+                       std::string_view octets) {
+    return fmt::format("{:<{}}{:>{}}{:>{}}", label, drive_label_width + 2,
+                       messages, drive_column_width, octets,
+                       drive_column_width);
+  };
+  out += '\n' + paint.heading(line("on the air", "messages", "mean octets"))
+         + '\n';
+  const auto count = [&](std::string_view label, const air_count& x) {
+    const auto mean = x.mean_octets();
+    out += line(label, fmt::format("{}", x.messages),
+                mean ? fmt::format("{:.1f}", *mean) : absent)
+           + '\n';
+  };
+  count("  CAM", air.cam);
+  count("  CPM", air.cpm);
+  count("  MCM up", air.mcm_up);
+  count("  MCM down", air.mcm_down);
+}
+
+} // namespace
 
 std::string table(const metrics& m, const run_info& run, const run_end& end,
                   const std::filesystem::path& folder, bool colour) {
@@ -221,15 +282,17 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   out += fmt::format("  {} clock, channel {}, LODM {}, CODM {}\n", run.clock,
                      run.profile, run.lodm, run.codm);
 
-  for (auto rest = m.services(); !rest.empty();) {
-    block services{out, paint, rest};
-    offloading(services, run, end);
-    remote_results(services);
-    rest = rest.subspan(services.size());
-  }
+  block services{m.services()};
+  offloading(services, run, end);
+  remote_results(services);
+  services.print(out, paint);
   safety_lines(out, paint, m.safety());
   comfort_lines(out, paint, m.together());
+  air_lines(out, paint, m.air());
   out += fmt::format("\nresults in {}\n", folder.string());
+  if (!run.pcap.empty())
+    out += fmt::format("{} message{} in {}\n", messages_of(m.air()),
+                       messages_of(m.air()) == 1 ? "" : "s", run.pcap);
   return out;
 }
 

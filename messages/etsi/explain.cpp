@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -27,9 +28,19 @@ std::string text_of(message_key key) {
                      key[0]);
 }
 
+std::string with_article(message_key key) {
+  // Names that one spells out, and that begin with a vowel's sound then.
+  constexpr auto as_an = std::to_array<std::string_view>(
+      {"IVIM", "SREM", "SSEM", "EVCSN", "IMZM", "RTCMEM", "MCM"});
+  const auto text = text_of(key);
+  const auto name = std::string_view{text}.substr(0, text.find(' '));
+  const auto is_an = std::ranges::find(as_an, name) != as_an.end();
+  return (is_an ? "an " : "a ") + text;
+}
+
 std::string explain(message_key found, message_key known) {
-  return fmt::format("this is a {}, and not a {}", text_of(found),
-                     text_of(known));
+  return fmt::format("this is {}, and not {}", with_article(found),
+                     with_article(known));
 }
 
 std::string explain(const finding& found) {

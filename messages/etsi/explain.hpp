@@ -13,6 +13,9 @@ namespace sofof::etsi {
 /// version 2" where the id has no name in ETSI TS 102 894-2.
 std::string text_of(message_key key);
 
+/// @returns the same after "a" or "an".
+std::string with_article(message_key key);
+
 /// What was found where.
 struct finding {
   std::string path;

@@ -28,6 +28,9 @@ inline constexpr bool is_bit_list = false;
 template <std::size_t a, std::size_t b, growth g>
 inline constexpr bool is_bit_list<sequence_of<bool, a, b, g>> = true;
 
+/// Deeper than any message goes, and no strain for who walks down.
+constexpr int deepest = 32;
+
 /// How far beyond its names an enumeration goes: what small numbers can say.
 constexpr std::int64_t most_unknown = (1 << small_width) - 1;
 
@@ -222,7 +225,10 @@ private:
 
   [[noreturn]] void refuse(const json& found, std::string_view wanted) const {
     constexpr std::size_t longest_quote = 40;
-    auto text = found.dump(-1, ' ', true, json::error_handler_t::replace);
+    auto text = found.is_array() ? "an array"
+                : found.is_object()
+                    ? "an object"
+                    : found.dump(-1, ' ', true, json::error_handler_t::replace);
     if (text.size() > longest_quote)
       text = text.substr(0, longest_quote) + "...";
     throw wrong{fmt::format("{} is {}, and {} is expected", path_.text(), text,
@@ -379,6 +385,17 @@ private:
   field_path path_;
 };
 
+json parse(std::string_view text) {
+  using event = json::parse_event_t;
+  return json::parse(text, [](int depth, event what, const json&) {
+    const auto opens =
+        what == event::array_start || what == event::object_start;
+    if (opens && depth >= deepest)
+      throw wrong{fmt::format("this is nested deeper than {} levels", deepest)};
+    return true;
+  });
+}
+
 } // namespace
 
 void append_json(std::string& out, const message& m) {
@@ -387,7 +404,7 @@ void append_json(std::string& out, const message& m) {
 
 outcome<message> message_from_json(std::string_view text) {
   try {
-    const auto from = json::parse(text);
+    const auto from = parse(text);
     json_reader in;
     const auto [version, id] = in.read_key(from);
     auto made = make_message(version, id);

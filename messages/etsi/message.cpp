@@ -34,7 +34,8 @@ outcome<message> make_message(std::uint8_t protocol_version,
       },
       kinds);
   if (!made.value)
-    made.error = fmt::format("a {} is not known, only {}", text_of(key), known);
+    made.error =
+        fmt::format("{} is not known, only {}", with_article(key), known);
   return made;
 }
 

@@ -22,8 +22,8 @@ constexpr std::uint8_t traffic_class_2 = 2;
 constexpr std::uint8_t mobile = 0x80;
 
 constexpr std::size_t btp_octets = 4;
-constexpr std::uint16_t accurate = 0x8000; // before the speed
-constexpr std::uint16_t fastest = 0x3fff;  // of 15 bits with a sign
+// Of 15 bits with a sign, below the position accuracy indicator.
+constexpr std::uint16_t fastest = 0x3fff;
 
 /// Big-endian, as the networks have it.
 void append(std::string& out, std::integral auto x) {
@@ -53,7 +53,7 @@ void append_frame(std::string& out, const geonet_sender& from,
   append(out, carries_btp_b);
   append(out, single_hop_broadcast);
   append(out, traffic_class_2);
-  append(out, mobile);
+  append(out, from.is_mobile ? mobile : std::uint8_t{0});
   append(out, static_cast<std::uint16_t>(btp_octets + message.size()));
   append(out, one_hop);
   append(out, std::uint8_t{0});
@@ -63,8 +63,7 @@ void append_frame(std::string& out, const geonet_sender& from,
   append(out, static_cast<std::uint32_t>(from.at_ms)); // modulo 2^32
   append(out, from.latitude);
   append(out, from.longitude);
-  append(out, static_cast<std::uint16_t>(accurate
-                                         | std::min(from.speed_cmps, fastest)));
+  append(out, std::min(from.speed_cmps, fastest));
   append(out, from.heading);
   append(out, std::uint32_t{0}); // what a station would tell of congestion
 

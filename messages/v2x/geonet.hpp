@@ -28,13 +28,15 @@ struct geonet_sender {
   std::int32_t longitude = 0; ///< 1e-7 °
   std::uint16_t speed_cmps = 0;
   std::uint16_t heading = 0; ///< 0.1 °, clockwise from north.
+  bool is_mobile = true;
 };
 
 /// What the lower layers add to a message on the air, without Ethernet:
 /// GeoNetworking and BTP-B.
 inline constexpr std::size_t geonet_octets = 4 + 8 + 28 + 4;
 
-/// Appends an Ethernet frame that carries one message by broadcast.
+/// Appends an Ethernet frame that carries one message by broadcast. Its
+/// position is not said to be accurate: nobody knows how good it is.
 void append_frame(std::string& out, const geonet_sender& from,
                   std::uint16_t port, std::span<const std::byte> message);
 

@@ -110,7 +110,7 @@ TEST_CASE("flags are zeros and ones, unknown names are numbers") {
 
 TEST_CASE("a mistake is told with its place, and what is expected") {
   CHECK(error_of("{") == "this is no JSON from character 2 on");
-  CHECK(error_of("[]") == "the message is [], and an object is expected");
+  CHECK(error_of("[]") == "the message is an array, and an object is expected");
   CHECK(error_of("{}") == "the message has no \"header\"");
   CHECK(error_of(R"({"header": 5})")
         == "header is 5, and an object is expected");
@@ -147,6 +147,22 @@ TEST_CASE("a mistake is told with its place, and what is expected") {
         == "cam.camParameters.highFrequencyContainer."
            "basicVehicleContainerHighFrequency.accelerationControl is \"012\", "
            "and a string of 7 zeros and ones is expected");
+}
+
+TEST_CASE("JSON is not followed into any depth") {
+  const auto nested = [](std::size_t levels) {
+    return std::string(levels, '[') + std::string(levels, ']');
+  };
+  const std::string too_deep = "this is nested deeper than 32 levels";
+  CHECK(error_of(nested(32))
+        == "the message is an array, and an object is expected");
+  CHECK(error_of(nested(33)) == too_deep);
+  CHECK(error_of(nested(100'000)) == too_deep);
+  CHECK(error_of(std::string(100'000, '[')) == too_deep);
+  CHECK(
+      error_of(cam_with(R"("stationType":0)", R"("stationType":)" + nested(20)))
+      == "cam.camParameters.basicContainer.stationType is an array, and a "
+         "whole number from 0 to 255 is expected");
 }
 
 TEST_CASE("a message with what another kind has is refused") {

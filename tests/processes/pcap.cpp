@@ -152,6 +152,17 @@ TEST_CASE("a capture holds the messages that the summary counts") {
   }
 }
 
+TEST_CASE("a frame says no more of its sender than is known") {
+  constexpr std::uint64_t roadside_unit = 15;
+  constexpr std::uint64_t faster_than_any_car = 5000; // cm/s
+  for (const auto& frame : frames()) {
+    REQUIRE(!frame.is_accurate);
+    REQUIRE(frame.is_mobile == (frame.station_type != roadside_unit));
+    REQUIRE(frame.speed < faster_than_any_car);
+    REQUIRE(frame.heading < 3600);
+  }
+}
+
 TEST_CASE("times in a capture rise and are those of the run") {
   constexpr std::uint64_t second = 1'000'000'000;
   constexpr auto start = 1'767'225'600 * second; // 2026-01-01T00:00:00Z
@@ -170,6 +181,33 @@ TEST_CASE("a run replaces an earlier capture") {
   at.write("air.pcap", std::string(1'000'000, 'x'));
   at.drive("out", {"--duration", "2s", "--pcap", "air.pcap"});
   CHECK(read_capture(read_file(at / "air.pcap")).size() > 20);
+}
+
+TEST_CASE("a capture never takes the place of what the run reads or writes") {
+  const workplace at;
+  at.write("trace.csv", "time_s,delay_ms\n0,20\n1,22\n2,21\n");
+  fs::create_symlink("config/ulm_lehr.toml", at / "link");
+  at.drive("old", {"--duration", "1s"});
+  const auto before = at.inventory();
+  const auto refuses = [&](const std::string& file, const std::string& why) {
+    CAPTURE(file);
+    const auto end =
+        at.run_sofof({"run", scenario_file, "--out", "old", "--force",
+                      "--duration", "1s", "--set", "network.profile=trace",
+                      "--set", "network.trace=../trace.csv", "--pcap", file});
+    CAPTURE(end.err);
+    CHECK(end.code == 2);
+    CHECK(end.err.find(why) != end.err.npos);
+    CHECK(at.inventory() == before);
+  };
+  for (const auto* input :
+       {"config/ulm_lehr.toml", "config/../config/ulm_lehr.toml", "link",
+        "config/maps/ulm_lehr.toml", "trace.csv"})
+    refuses(input, "the run reads this file; choose another file with --pcap");
+  for (const auto* result : {"old/summary.json", "config/../old/tracks.csv",
+                             "old/trace.txt.tmp", "./old/cycles.csv"})
+    refuses(result, "the run writes its results there; choose another file");
+  refuses("", "a file's name is expected");
 }
 
 TEST_CASE("a disk that gets full ends a captured run in one sentence") {

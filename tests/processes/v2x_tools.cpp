@@ -76,6 +76,41 @@ TEST_CASE("a bad line is told by its number, and the others go on") {
   CHECK(all[4].contains("cam"));
 }
 
+TEST_CASE("an input that cannot be read is an error in a sentence") {
+  const workplace at;
+  for (const std::string tool : {"decode", "encode"}) {
+    const auto end = run_shell(at, "\"$0\" " + tool + " - < .");
+    CHECK(end.code == 2);
+    CHECK(end.out == "");
+    CHECK(end.err.starts_with("sofof: standard input cannot be read: "));
+    CHECK(std::ranges::count(end.err, '\n') == 1);
+  }
+}
+
+TEST_CASE("a line without an end is told, and the others go on") {
+  const workplace at;
+  const std::string hex{cam_hex};
+  constexpr std::size_t limit = 16 * 1024 * 1024;
+  at.write("messages.hex",
+           hex + "\n" + std::string(limit + 1, '0') + "\n" + hex + "\n");
+  const auto end = run_shell(at, R"("$0" decode < "$1")", "messages.hex");
+  CHECK(end.code == 1);
+  CHECK(std::ranges::count(end.out, '\n') == 3);
+  CHECK(end.out.find("\n{\"error\":\"the line is longer than 16 MiB\","
+                     "\"line\":2}\n")
+        != end.out.npos);
+}
+
+TEST_CASE("brackets without an end are told") {
+  const workplace at;
+  at.write("deep.json", std::string(100'000, '['));
+  const auto end = run_shell(at, R"("$0" encode < "$1")", "deep.json");
+  CHECK(end.code == 1);
+  CHECK(end.out
+        == R"({"error":"this is nested deeper than 32 levels","line":1})"
+           "\n");
+}
+
 TEST_CASE("JSON that is no message is told by its line") {
   const workplace at;
   const auto end = at.run_sofof({"encode", "{\"header\":\"\n\xff\"}", "{}"});

@@ -1,10 +1,14 @@
 // The table in the end, and the line while one waits.
 #include "scenario/table.hpp"
 
+#include "messages/etsi/cam.hpp"
+#include "messages/etsi/mcm.hpp"
+#include "messages/v2x/encoded.hpp"
 #include "scenario/progress.hpp"
 #include "tests/scenario/made_up_run.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
@@ -78,6 +82,50 @@ TEST_CASE("the columns of a block end together within 80 columns") {
   CHECK(line_of(text, "requests").size() == width);
   CHECK(line_of(text, "t_off max").size() == width);
   CHECK(line_of(text, "latency").size() == width + 1); // ± has two bytes
+}
+
+TEST_CASE("columns never touch, however wide a figure is") {
+  auto info = run();
+  info.kinds = {"one", "two", "three"};
+  metrics m{info};
+  for (const auto& kind : info.kinds)
+    for (const auto latency : {1ms, 1'234'567ms})
+      m.take(result(running(101, 1, kind), 1, 10s, latency, 50ms));
+  m.finish(at(100s));
+  const auto text = table(m, info, {100, 2, false}, "out", false);
+  MESSAGE("\n" << text);
+  const auto figure = "617284.00 ± 872969.97 ms";
+  const auto line = line_of(text, "latency");
+  CHECK(contains(line, std::string{"  "} + figure + "  " + figure));
+  for (const auto width : widths(text))
+    CHECK(width <= 80);
+  CHECK(contains(line_of(text.substr(text.find("three")), "latency"), figure));
+}
+
+TEST_CASE("the table counts what was on the air, and what a capture holds") {
+  metrics m{run()};
+  CHECK_FALSE(contains(table_of(m), "on the air"));
+  const auto send = [&m](const auto& message) {
+    m.take(air_record{at(1s), encoded(message)});
+  };
+  send(etsi::cam{});
+  send(etsi::cam{});
+  etsi::mcm down;
+  down.header.station = 900'000'001; // a provider's
+  send(down);
+  const auto text = table_of(m);
+  MESSAGE("\n" << text);
+  CHECK(contains(line_of(text, "CAM"), " 2 "));
+  CHECK(contains(line_of(text, "CAM"),
+                 fmt::format(" {:.1f}", *m.air().cam.mean_octets())));
+  CHECK(line_of(text, "CPM").ends_with(" 0             -"));
+  CHECK(line_of(text, "MCM up").ends_with(" 0             -"));
+  CHECK(contains(line_of(text, "MCM down"), " 1 "));
+  CHECK_FALSE(contains(text, "messages in"));
+  auto info = run();
+  info.pcap = "air.pcap";
+  CHECK(table(m, info, {100, 2, false}, "out", false)
+            .ends_with("results in out\n3 messages in air.pcap\n"));
 }
 
 TEST_CASE("many services stand below each other") {

@@ -56,6 +56,7 @@ struct captured {
   std::uint32_t timestamp = 0;
   std::int32_t latitude = 0, longitude = 0;
   std::uint64_t speed = 0, heading = 0;
+  bool is_mobile = false, is_accurate = false;
   std::uint64_t port = 0;
   octets message;
 };
@@ -80,7 +81,8 @@ inline captured take_apart(std::string_view frame) {
   expect(in.big_endian(1), 1, "hop limit");
   expect(in.big_endian(1), 0x20, "header after the common one");
   expect(in.big_endian(1), 0x50, "kind of packet");
-  in.take(2); // traffic class, flags
+  in.take(1); // traffic class
+  const auto flags = in.big_endian(1);
   const auto payload = in.big_endian(2);
   expect(in.big_endian(1), 1, "largest hop limit");
   in.take(1);
@@ -89,7 +91,10 @@ inline captured take_apart(std::string_view frame) {
   x.timestamp = static_cast<std::uint32_t>(in.big_endian(4));
   x.latitude = static_cast<std::int32_t>(in.big_endian(4));
   x.longitude = static_cast<std::int32_t>(in.big_endian(4));
-  x.speed = in.big_endian(2) & 0x7fff;
+  const auto speed = in.big_endian(2);
+  x.is_mobile = flags == 0x80;
+  x.is_accurate = (speed & 0x8000) != 0;
+  x.speed = speed & 0x7fff;
   x.heading = in.big_endian(2);
   in.take(4);
 
