@@ -10,7 +10,7 @@
 namespace sofof {
 namespace {
 
-constexpr double shortest_knot_m = 1.5;
+constexpr double shortest_knot_m = 1;
 constexpr double shortest_m = 0.5; // also of a car that stands
 
 // Standard deviations that tell how plans of cars in a lane are: tuned for

@@ -20,7 +20,7 @@ struct density {
   double jump_mps3;
   int gap_ms;
 };
-constexpr density usual{0.7, 240};
+constexpr density usual{0.7, 200};
 constexpr density dense{4, 100};
 constexpr int densest_ms = 50;
 /// A waypoint may stand so far from where it is due, as a share of the gap.

@@ -225,6 +225,8 @@ TEST_CASE("a provider knows without a CAM that a vehicle brakes as it was told "
       s_m = plan->at(*there.now).s_m;
     there.ask = there.at("3-4-5", s_m, 8);
     there.ask.seen.stop_at_m = 45;
+    if (plan)
+      there.ask.own = on_plan(*plan, *there.now);
     const auto next = there.understood(there.run(there.word(there.ask)),
                                        there.ask, plan.get());
     REQUIRE(next);

@@ -2,7 +2,6 @@
 // time that a test sets.
 #pragma once
 
-#include "actors/planning/plan_in_use.hpp"
 #include "actors/planning/plan_request.hpp"
 #include "actors/service_kind.hpp"
 #include "messages/v2x/reception.hpp"
@@ -90,8 +89,15 @@ public:
   std::shared_ptr<const trajectory>
   understood(const service_output& result, const plan_request& of,
              const trajectory* before = nullptr) const {
-    const auto plan = plan_in_use(result.what, station, *way(of.way),
-                                  of.from.s_m, *setup.where, *now, before);
+    if (auto own = result.what.as<trajectory>())
+      return own;
+    auto vehicle = setup;
+    vehicle.remote = false;
+    const auto plan = kind->off_air(vehicle, result.what,
+                                    {running, of.from.at, payload::of(of),
+                                     before ? payload::of(*before) : payload{}},
+                                    *now)
+                          .as<trajectory>();
     REQUIRE((!plan || plan->is_sound()));
     return plan;
   }

@@ -38,8 +38,9 @@ struct managed_world : virtual_world {
     setup.on_air = [this](service_input input, bool takes_over) {
       return (speak ? *speak : kind).on_air({}, std::move(input), takes_over);
     };
-    setup.understands = [](const payload& result) {
-      return result.as<echo>() != nullptr;
+    setup.off_air = [](const payload& result, const service_input&,
+                       time_point) {
+      return result.as<echo>() ? result : payload{};
     };
     setup.local.function = kind.make_function({});
     setup.local.period = 50ms;

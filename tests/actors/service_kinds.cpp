@@ -212,17 +212,35 @@ TEST_CASE(
                             room, message));
     return encoded(message);
   };
-  CHECK(kind->understands(setup, payload::of(suggested_to(101))));
-  CHECK(!kind->understands(setup, payload::of(suggested_to(102))));
+  plan_request ask;
+  ask.way = setup.world->routes.front()->name();
+  ask.from.s_m = 100;
+  ask.own = {101, time_point{3s}, {100, 0}, 0, 8};
+  const auto means = [&](const payload& result) {
+    return kind
+        ->off_air(setup, result, {{}, ask.own.at, payload::of(ask)},
+                  time_point{3020ms})
+        .as<trajectory>();
+  };
+  CHECK(means(payload::of(suggested_to(101))));
+  CHECK(!means(payload::of(suggested_to(102))));
   auto cut = suggested_to(101);
   cut.octets.resize(cut.octets.size() / 2);
-  CHECK(!kind->understands(setup, payload::of(cut)));
-  CHECK(!kind->understands(setup, payload::of(its_pdu{})));
-  CHECK(!kind->understands(setup, {}));
-  CHECK(!kind->understands(setup, payload::of(echo{1})));
-  const cam own{101, time_point{3s}, {100, 0}, 0, 8};
-  CHECK(!kind->understands(setup, payload::of(pdu_of(own))));
-  CHECK(!kind->understands(setup, kind->farewell(setup, {}, own.at, &own)));
+  CHECK(!means(payload::of(cut)));
+  CHECK(!means(payload::of(its_pdu{})));
+  CHECK(!means({}));
+  CHECK(!means(payload::of(echo{1})));
+  CHECK(!means(payload::of(pdu_of(ask.own))));
+  CHECK(!means(kind->farewell(setup, {}, ask.own.at, &ask.own)));
+  // Nor what begins elsewhere, beside the vehicle or ahead of it, or with
+  // another speed.
+  for (const auto off : {point{3, 0}, point{60, 0}, point{0, 2}}) {
+    ask.own.position = point{100, 0} + off;
+    CHECK(!means(payload::of(suggested_to(101))));
+  }
+  ask.own.position = {100, 0};
+  ask.own.speed_mps = 5;
+  CHECK(!means(payload::of(suggested_to(101))));
 }
 
 TEST_CASE("planning ends with an MCM of who ends it") {

@@ -147,17 +147,6 @@ TEST_CASE_FIXTURE(driving_world,
 
 // -- down --------------------------------------------------------------------
 
-TEST_CASE_FIXTURE(driving_world, "a suggested plan is followed like one of "
-                                 "its own") {
-  run_for(1s);
-  const auto wanted = plan();
-  suggest(wanted, station);
-  run_for(4s);
-  const auto there = wanted.at(report_time());
-  CHECK(there.speed_mps > 3);
-  CHECK(distance_m(last_report().state.at, there.at) < 0.5);
-}
-
 TEST_CASE_FIXTURE(driving_world, "what is suggested to another station is not "
                                  "followed") {
   run_for(1s);

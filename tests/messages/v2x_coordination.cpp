@@ -274,7 +274,7 @@ TEST_CASE("a suggestion without speeds is no plan") {
   const auto fault = read_suggestion(sent(message), 101, *round(), 10,
                                      *in_ulm(), start, nullptr, out);
   REQUIRE(fault);
-  CHECK(*fault == maneuver_fault::out_of_range);
+  CHECK(*fault == maneuver_fault::not_understood);
 }
 
 TEST_CASE("a suggestion for elsewhere is no plan here") {
