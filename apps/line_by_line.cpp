@@ -44,16 +44,16 @@ int line_by_line(const std::vector<std::string>& words,
                  const std::function<turned_line(const std::string&)>& turn) {
   std::signal(SIGPIPE, SIG_DFL); // who reads no more ends us without a word
   auto exit_code = 0;
-  const auto print = [&](turned_line turned, std::uint64_t number) {
-    auto& [text, error] = turned;
-    if (!error.empty()) {
+  const auto print = [&](turned_line line, std::uint64_t number) {
+    if (!line.error.empty()) {
       exit_code = 1;
-      text.clear();
-      json_object object{text, json_object::layout::one_line};
-      object.member("error", error);
+      line.text.clear();
+      json_object object{line.text, json_object::layout::one_line};
+      object.member("error", line.error);
       object.member("line", number);
     }
-    std::cout << text << std::endl; // NOLINT(performance-avoid-endl): at once
+    std::cout << line.text
+              << std::endl; // NOLINT(performance-avoid-endl): at once
   };
   std::uint64_t number = 0;
   for (const auto& word : words) {

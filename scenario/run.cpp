@@ -104,7 +104,8 @@ void check_capture(const scenario& s, const run_options& options) {
   for (const auto& input : s.read_from)
     if (same_place(file, input))
       refuse("the run reads this file");
-  if (options.out && is_result(file, *options.out))
+  const auto& out = options.out;
+  if (out && (same_place(file, *out) || is_result(file, *out)))
     refuse("the run writes its results there");
   constexpr auto anything = "x";
   const auto in_results =

@@ -207,6 +207,10 @@ TEST_CASE("a capture never takes the place of what the run reads or writes") {
   for (const auto* result : {"old/summary.json", "config/../old/tracks.csv",
                              "old/trace.txt.tmp", "./old/cycles.csv"})
     refuses(result, "the run writes its results there; choose another file");
+  const auto end = at.run_sofof({"run", scenario_file, "--out", "new",
+                                 "--duration", "1s", "--pcap", "./new"});
+  CHECK(end.code == 2);
+  CHECK(at.inventory() == before);
   refuses("", "a file's name is expected");
 }
 
