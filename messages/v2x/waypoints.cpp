@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace sofof {
@@ -192,19 +195,25 @@ int writer::best_near(int ms, int window_ms) const {
              v1 = f(0.1 * p.accel_mps2), v2 = f(0.05 * jerk);
   const auto left_x = f(side.x_m), left_y = f(side.y_m);
 
-  std::array<float, 2 * widest_window_ms / look_ms + 1> cost;
-  const auto count = 2 * window_ms / look_ms + 1;
-  for (int i = 0; i < count; ++i) {
+  // The number of the look stands in the last bits of what it costs, so that
+  // the least of these numbers tells both.
+  constexpr std::int32_t looks = 64;
+  static_assert(2 * widest_window_ms / look_ms < looks);
+  auto best = std::numeric_limits<std::int32_t>::max();
+#pragma omp simd reduction(min : best)
+  for (int i = 0; i <= 2 * window_ms / look_ms; ++i) {
     const auto t = static_cast<float>(look_ms * i - window_ms);
     const auto x = miss(x0 + t * (x1 + t * x2));
     const auto y = miss(y0 + t * (y1 + t * y2));
     const auto v = miss(v0 + t * (v1 + t * v2));
     const auto beside = left_x * x + left_y * y;
     constexpr float tie = 1e-8F; // in the middle, if it is all the same
-    cost[static_cast<std::size_t>(i)] = beside * beside + v * v + tie * t * t;
+    const auto cost = beside * beside + v * v + tie * t * t;
+    const auto numbered =
+        (std::bit_cast<std::int32_t>(cost) & ~(looks - 1)) | i;
+    best = std::min(best, numbered);
   }
-  const auto best = std::min_element(cost.begin(), cost.begin() + count);
-  return ms - window_ms + look_ms * static_cast<int>(best - cost.begin());
+  return ms - window_ms + look_ms * (best & (looks - 1));
 }
 
 int writer::next_ms(int ms, int least_gap) const {
