@@ -27,7 +27,7 @@ drive_figures::take(const trajectory& in_use, const trajectory& next,
   if (emergency_)
     ++plans_.emergency;
   else
-    plans_.extremes.add(extremes_of(next));
+    plans_.extremes.add(report.extremes ? *report.extremes : extremes_of(next));
 
   const auto before = std::exchange(source_, running);
   if (!before || *before == running)

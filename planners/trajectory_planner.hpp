@@ -3,9 +3,11 @@
 
 #include "planners/ocp/status.hpp"
 #include "planners/planning_input.hpp"
+#include "world/comfort.hpp"
 #include "world/trajectory.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace sofof {
 
@@ -28,6 +30,8 @@ struct plan_report {
   std::uint32_t choice = 0;    ///< Which of them: sides and orders, as bits.
   double dwell_s = 0; ///< Until when it waits at a crossing, from its start.
   time_point input;   ///< When what it was made from held.
+  /// Of the plan as it was made; on the air it is rounded.
+  std::optional<motion_extremes> extremes;
 };
 
 /// Plans cycle by cycle: a plan continues the plan before.

@@ -31,9 +31,10 @@ plan_report plan_cycle::run(time_point now, planning_input from,
   from.others.stop_at_m = stop_at_m;
   const auto start = setup_.clock();
   const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
-  const auto report = planner_->plan(
-      now, from, plan_.empty() ? nullptr : &plan_, next_, ocp::budget{in_time});
+  auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
+                               next_, ocp::budget{in_time});
   std::swap(plan_, next_);
+  report.extremes = extremes_of(plan_);
   return report;
 }
 

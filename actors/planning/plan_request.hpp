@@ -63,9 +63,13 @@ void archive(auto& bytes, trajectory& x) {
   bytes(x.start, x.points);
 }
 
+void archive(auto& bytes, motion_extremes& x) {
+  bytes(x.lateral_accel_mps2, x.jerk_mps3, x.min_accel_mps2);
+}
+
 void archive(auto& bytes, plan_report& x) {
   bytes(x.origin, x.path, x.velocity, x.emergency, x.violation, x.iterations,
-        x.candidates, x.choice, x.dwell_s, x.input);
+        x.candidates, x.choice, x.dwell_s, x.input, x.extremes);
 }
 
 } // namespace sofof
