@@ -21,8 +21,11 @@ constexpr duration max_delay = 500ms;
 /// two of velocity), the quantile 0.999.
 constexpr auto gate = 18.47;
 
-/// Bodies at one time; who was not seen for longest makes room for more.
-constexpr std::size_t max_tracks = 128;
+/// Bodies at one time; who was not seen for longest makes room for more. A
+/// provider hears far more than a vehicle sees.
+constexpr std::size_t max_tracks = 1024;
+/// There is room for as many without heap.
+constexpr std::size_t usual_tracks = 128;
 
 /// Of a new value in the low-passed ones, where values come at 10 Hz or more
 /// often; all of one that comes after twice as long.
@@ -59,10 +62,10 @@ duration sighting_rhythm::silence(double speed_mps) const {
 environment_model::environment_model(sighting_noise noise,
                                      sighting_rhythm rhythm)
     : noise_{noise}, rhythm_{rhythm} {
-  tracks_.reserve(max_tracks);
-  sightings_.reserve(max_tracks);
-  pairs_.reserve(4 * max_tracks);
-  is_taken_.reserve(max_tracks);
+  tracks_.reserve(usual_tracks);
+  sightings_.reserve(usual_tracks);
+  pairs_.reserve(4 * usual_tracks);
+  is_taken_.reserve(usual_tracks);
 }
 
 void environment_model::update(time_point at,

@@ -109,6 +109,7 @@ inline int angle_to_wire(double angle_rad) {
   if (!(std::abs(tenths) < 1e12)) // also NaN
     return unavailable_angle;
   const auto laps = std::floor(tenths / circle);
+  // Not negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const auto rounded = static_cast<int>(tenths - laps * circle + 0.5);
   return rounded < 3600 ? rounded : 0;
 }

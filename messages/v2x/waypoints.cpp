@@ -40,6 +40,7 @@ std::int32_t whole(double x) {
 /// Distance to the nearest whole number; |x| < 1000.
 float miss(float x) {
   constexpr float offset = 1000; // truncation becomes rounding
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return x + offset - static_cast<float>(static_cast<int>(x + offset + 0.5F));
 }
 

@@ -498,11 +498,11 @@ TEST_CASE("nobody can tell of more bodies at once than a road shows") {
 TEST_CASE("who was not seen for longest makes room when there are too many") {
   environment_model model;
   see(model, start, car({-50, 0}));
-  for (auto i = 0; i < 200; ++i)
+  for (auto i = 0; i < 1100; ++i)
     see(model, start + 10ms, car({10.0 * i, 0}));
-  CHECK(model.tracks().size() == 128);
+  CHECK(model.tracks().size() == 1024);
   CHECK(model.tracks().front().id != 1);
-  CHECK(model.tracks().back().id == 201);
+  CHECK(model.tracks().back().id == 1101);
 }
 
 TEST_CASE("the order in which an observer lists bodies does not matter") {
