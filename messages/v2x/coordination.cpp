@@ -83,8 +83,7 @@ planned_points understood(const etsi::planned_trajectory& plan) {
 
 } // namespace
 
-// -- up
-// ------------------------------------------------------------------------
+// -- up -----------------------------------------------------------------------
 
 etsi::mcm make_word(const road_user_word& word, const vehicle_params& car,
                     const datum& where) {
@@ -141,8 +140,7 @@ std::optional<understood_word> read_word(const etsi::mcm& message,
   return word;
 }
 
-// -- down
-// ----------------------------------------------------------------------
+// -- down ---------------------------------------------------------------------
 
 namespace {
 

@@ -21,8 +21,7 @@ struct maneuver_name {
   std::uint16_t update = 0;   ///< Cycle of the plan.
 };
 
-// -- up: from the vehicle
-// -------------------------------------------------------
+// -- up: from the vehicle -----------------------------------------------------
 
 /// What a vehicle tells who plans for it.
 struct road_user_word {
@@ -55,8 +54,7 @@ struct understood_word {
 std::optional<understood_word> read_word(const etsi::mcm& message,
                                          const datum& where, time_point now);
 
-// -- down: from the provider
-// -----------------------------------------------------
+// -- down: from the provider --------------------------------------------------
 
 /// Who suggests, and to whom.
 struct suggestion {
