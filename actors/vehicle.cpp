@@ -269,7 +269,7 @@ struct vehicle_actor_state {
 
   // To everybody who is near enough.
   void send(const std::optional<its_pdu>& message) {
-    if (!message)
+    if (!message || message->octets.empty())
       return;
     note_on_air(self, setup.recorder, *message);
     for (const auto& a : setup.antennas)

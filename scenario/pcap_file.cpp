@@ -87,11 +87,8 @@ void describe(envelope& out, const etsi::mcm& message) {
 
 template <class Message>
 bool describe_if(envelope& out, const its_pdu& pdu) {
-  const auto octets = pdu.view();
   Message message;
-  if (octets.size() < 2 || octets[0] != std::byte{Message::protocol_version}
-      || octets[1] != std::byte{Message::message_id}
-      || !etsi::decode(octets, message))
+  if (!etsi::decode(pdu.view(), message))
     return false;
   out.from.station = message.header.station;
   describe(out, message);

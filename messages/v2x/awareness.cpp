@@ -2,27 +2,14 @@
 #include "messages/v2x/awareness.hpp"
 
 #include "messages/etsi/units.hpp"
+#include "messages/v2x/sighting.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sofof {
 
-namespace {
-
-point ahead(double heading_rad, double way_m) {
-  return way_m * point{std::cos(heading_rad), std::sin(heading_rad)};
-}
-
-template <class Number>
-Number wire(const auto& quantity, double si) {
-  return static_cast<Number>(quantity.to_wire(si));
-}
-
-} // namespace
-
 point front_of(const cam& own, const vehicle_params& car) {
-  return own.position + ahead(own.heading_rad, car.front_m);
+  return own.position + car.front_m * unit_vector(own.heading_rad);
 }
 
 etsi::cam make_cam(const cam& own, const vehicle_params& car,
@@ -96,7 +83,7 @@ std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
   own.station = message.header.station;
   own.at = where.unwrapped(body.generation, now);
   own.position =
-      *front - ahead(*heading, car.front_m * length_m / our_length_m);
+      *front - car.front_m * length_m / our_length_m * unit_vector(*heading);
   own.length_m = length_m;
   own.width_m =
       etsi::vehicle_width_m.to_si(motion->width).value_or(car.width_m);

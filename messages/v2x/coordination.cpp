@@ -213,10 +213,6 @@ const etsi::maneuver_constraints* suggested_to(station_id me,
 
 } // namespace
 
-bool suggests_plan(const etsi::mcm& message, station_id me) {
-  return suggested_to(me, message) != nullptr;
-}
-
 std::optional<maneuver_fault>
 read_suggestion(const etsi::mcm& message, station_id me, const route& way,
                 double s_guess_m, const datum& where, time_point now,

@@ -78,9 +78,6 @@ bool make_suggestion(const suggestion& what, const trajectory& plan,
 etsi::mcm make_termination(const suggestion& what, time_point at,
                            etsi::termination_status why, const datum& where);
 
-/// @returns whether a plan is suggested to this station.
-bool suggests_plan(const etsi::mcm& message, station_id me);
-
 /// A suggested plan, along the vehicle's route.
 /// @param me         What is suggested to others is nothing to this station.
 /// @param s_guess_m  About where it begins.
