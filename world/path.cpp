@@ -127,13 +127,29 @@ path::place path::locate(double s_m) const {
 }
 
 path_point path::at(double s_m) const {
-  const auto [low, high, t, laps] = locate(s_m);
+  return at(locate(s_m));
+}
+
+path_point path::at(const place& x) const {
+  const auto& [low, high, t, laps] = x;
   const hermite mix{t, step_m_};
   return {mix(low.at, low.tangent, high.at, high.tangent),
           mix(low.heading_rad, low.curvature_1pm, high.heading_rad,
               high.curvature_1pm)
               + laps * turn_rad_,
           (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
+
+path_frame path::frame(double s_m) const {
+  const auto x = locate(s_m);
+  const auto& [low, high, t, laps] = x;
+  const hermite mix{t, step_m_};
+  return {at(x), mix.slope(low.at, low.tangent, high.at, high.tangent)};
+}
+
+double path::curvature_1pm(double s_m) const {
+  const auto [low, high, t, laps] = locate(s_m);
+  return (1 - t) * low.curvature_1pm + t * high.curvature_1pm;
 }
 
 path::view path::look(point p, double s_m) const {
@@ -143,6 +159,14 @@ path::view path::look(point p, double s_m) const {
   const auto to = p - mix(low.at, low.tangent, high.at, high.tangent);
   return {dot(tangent, to), cross(tangent, to),
           (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
+
+/// @returns where the foot of the perpendicular is, seen from `s_m`.
+double path::next_to(const view& seen, double s_m) {
+  constexpr double least_slope = 0.1;
+  return s_m
+         + seen.along_m
+               / std::max(least_slope, 1 - seen.curvature_1pm * seen.left_m);
 }
 
 path_offset path::project(point p, double s_guess_m, double window_m) const {
@@ -159,19 +183,19 @@ path_offset path::project(point p, double s_guess_m, double window_m) const {
     s_guess_m = std::clamp(s_guess_m, low_m, high_m);
   }
   const auto seen = look(p, s_guess_m);
-  const auto start_m = std::clamp(s_guess_m + seen.along_m, low_m, high_m);
+  const auto start_m = std::clamp(next_to(seen, s_guess_m), low_m, high_m);
   if (is_nearest_about(seen, window_m)) {
     constexpr auto per_chord = 1.1; // of arcs that are not longer than that
     const auto reach_m = 2 * per_chord * std::abs(seen.left_m) + good_guess_m;
     const auto foot = refine(p, start_m, std::max(low_m, start_m - reach_m),
                              std::min(high_m, start_m + reach_m));
-    return {laps_m + foot.s_m, foot.d_m};
+    return {laps_m + foot.s_m, foot.d_m, foot.beyond_m};
   }
   const auto near_m = step_m_ * nearest_entry(p, start_m, low_m, high_m);
   const auto foot = refine(p, std::clamp(near_m, low_m, high_m),
                            std::max(low_m, near_m - step_m_),
                            std::min(high_m, near_m + step_m_));
-  return {laps_m + foot.s_m, foot.d_m};
+  return {laps_m + foot.s_m, foot.d_m, foot.beyond_m};
 }
 
 /// @returns whether a point that is seen like this from the guess is nearest
@@ -233,15 +257,14 @@ path_offset path::refine(point p, double s_m, double low_m,
   auto seen = look(p, s_m);
   for (auto i = 0; i < 20; ++i) {
     (seen.along_m > 0 ? low_m : high_m) = s_m;
-    const auto slope = std::max(0.1, 1 - seen.curvature_1pm * seen.left_m);
-    const auto next_m = std::clamp(s_m + seen.along_m / slope, low_m, high_m);
+    const auto next_m = std::clamp(next_to(seen, s_m), low_m, high_m);
     const auto moved_m = std::abs(next_m - s_m);
     s_m = next_m;
     if (moved_m < enough_m)
       break;
     seen = look(p, s_m);
   }
-  return {s_m, seen.left_m};
+  return {s_m, seen.left_m, seen.along_m};
 }
 
 } // namespace sofof

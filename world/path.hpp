@@ -15,10 +15,17 @@ struct path_point {
   double curvature_1pm = 0; ///< Positive to the left.
 };
 
+/// The same, with its tangent as a vector of unit length (to within 1e-5).
+struct path_frame : path_point {
+  point tangent;
+};
+
 /// A point seen from a path: arc length and signed offset.
 struct path_offset {
   double s_m = 0;
-  double d_m = 0; ///< Positive to the left.
+  double d_m = 0;      ///< Positive to the left.
+  double beyond_m = 0; ///< Along the tangent: beyond an end, or before it; 0
+                       ///< (to within 1e-5) for who is abreast of it.
 };
 
 /// A cubic spline over chord length (C2, so with continuous curvature)
@@ -44,6 +51,12 @@ public:
   /// path's whole turn (a multiple of 2 pi). Precondition: not empty.
   /// @param s_m  Any finite value: closed paths wrap, open ones clamp.
   path_point at(double s_m) const;
+
+  /// The same, with what `at` must not pay for.
+  path_frame frame(double s_m) const;
+
+  /// Of `at`, the curvature alone.
+  double curvature_1pm(double s_m) const;
 
   /// Nearest point within `window_m` of arc length around a guess; cheap when
   /// the guess is good. Precondition: not empty.
@@ -73,7 +86,9 @@ private:
     double along_m, left_m, curvature_1pm;
   };
   place locate(double s_m) const;
+  path_point at(const place& x) const;
   view look(point p, double s_m) const;
+  static double next_to(const view& seen, double s_m);
   bool is_nearest_about(const view& seen, double window_m) const;
   double nearest_entry(point p, double start_m, double low_m,
                        double high_m) const;

@@ -26,20 +26,24 @@ double hermite(double y0, double m0, double y1, double m1, double h, double x) {
          + h * x * rest * (m0 * rest - m1 * x);
 }
 
+double mix(double low, double high, double share) {
+  return low + share * (high - low);
+}
+
 trajectory_point between(const trajectory_point& a, const trajectory_point& b,
                          double x) {
   const auto h = b.t_s - a.t_s;
   const auto way = b.s_m - a.s_m;
   trajectory_point p;
-  p.t_s = std::lerp(a.t_s, b.t_s, x);
+  p.t_s = mix(a.t_s, b.t_s, x);
   p.s_m = hermite(a.s_m, a.speed_mps, b.s_m, b.speed_mps, h, x);
   p.speed_mps = std::max(
       0.0, hermite(a.speed_mps, a.accel_mps2, b.speed_mps, b.accel_mps2, h, x));
-  p.accel_mps2 = std::lerp(a.accel_mps2, b.accel_mps2, x);
+  p.accel_mps2 = mix(a.accel_mps2, b.accel_mps2, x);
 
   const auto along = way > 1e-9 ? (p.s_m - a.s_m) / way : x;
-  p.heading_rad = std::lerp(a.heading_rad, b.heading_rad, along);
-  p.curvature_1pm = std::lerp(a.curvature_1pm, b.curvature_1pm, along);
+  p.heading_rad = mix(a.heading_rad, b.heading_rad, along);
+  p.curvature_1pm = mix(a.curvature_1pm, b.curvature_1pm, along);
   // The arc lies on the outer side of its chord.
   const auto chord = b.at - a.at;
   const auto bulge =

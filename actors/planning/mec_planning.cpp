@@ -101,7 +101,7 @@ private:
     auto& points = plan.points;
     for (auto p = points.begin(); p != points.end(); ++p) {
       const auto foot = way.path().project(p->at, guess_m);
-      if (distance_m(way.path().at(foot.s_m).at, p->at) > same_way_m) {
+      if (std::hypot(foot.d_m, foot.beyond_m) > same_way_m) {
         points.erase(p, points.end());
         break;
       }

@@ -131,12 +131,11 @@ public:
   explicit bit_reader(std::span<const std::byte> in)
       : in_{in.data()}, octets_{in.size()}, end_{in.size() * 8} {}
 
+  /// Inline always: most widths are constants.
   /// @param width  At most 64.
-  std::uint64_t get(unsigned width) {
-    if (width > 32) {
-      const auto high = get(width - 32);
-      return high << 32 | get(32);
-    }
+  [[gnu::always_inline]] std::uint64_t get(unsigned width) {
+    if (width > at_once)
+      return get_long(width);
     if (width > end_ - at_) {
       fail(fault::ends_early);
       at_ = end_;
@@ -168,13 +167,24 @@ public:
   void leave() {}
 
 private:
+  /// What is left of a word that does not begin with an octet.
+  static constexpr unsigned at_once = 57;
+
+  [[gnu::noinline]] std::uint64_t get_long(unsigned width) {
+    const auto high = get(width - 32);
+    return high << 32 | get(32);
+  }
+
   // The 64 bits from an octet on, zeros beyond the end.
   std::uint64_t word(std::size_t octet) const {
+    if (octets_ - octet < 8)
+      return last_word(octet);
     std::uint64_t bits = 0;
-    if (octets_ - octet >= 8) {
-      std::memcpy(&bits, in_ + octet, 8);
-      return __builtin_bswap64(bits);
-    }
+    std::memcpy(&bits, in_ + octet, 8);
+    return __builtin_bswap64(bits);
+  }
+  [[gnu::noinline]] std::uint64_t last_word(std::size_t octet) const {
+    std::uint64_t bits = 0;
     for (std::size_t i = 0; i < 8; ++i)
       bits = bits << 8
              | (octet + i < octets_

@@ -38,10 +38,6 @@ constexpr double weight(double sigma) {
   return 1 / (sigma * sigma);
 }
 
-point direction(double heading_rad) {
-  return {std::cos(heading_rad), std::sin(heading_rad)};
-}
-
 } // namespace
 
 bool course::fit(const path& line, std::span<const sight> sights,
@@ -54,8 +50,7 @@ bool course::fit(const path& line, std::span<const sight> sights,
   steps_ = static_cast<std::size_t>(steps);
   step_m_ = length_m / steps;
   for (std::size_t k = 0; k <= steps_; ++k)
-    bend_[k] =
-        line.at(start_m_ + static_cast<double>(k) * step_m_).curvature_1pm;
+    bend_[k] = line.curvature_1pm(start_m_ + static_cast<double>(k) * step_m_);
 
   for (const auto freedom : {usual_freedom, great_freedom}) {
     offset_.begin(steps_, step_m_);
@@ -89,32 +84,53 @@ bool course::meets(std::span<const sight> sights) const {
   });
 }
 
+/// @returns how sharply the path bends at most, within reach of each knot.
+course::reachable course::sharpest_about() const {
+  const auto reach = static_cast<std::size_t>(std::ceil(reach_m / step_m_));
+  const auto width = 2 * reach + 1, count = steps_ + width;
+  reachable out;
+  std::fill_n(out.begin(), count, 0.0);
+  for (std::size_t k = 0; k <= steps_; ++k)
+    out[reach + k] = std::abs(bend_[k]);
+  // Each becomes the greatest of those up to `span` behind it, which doubles.
+  const auto widen = [&](std::size_t by) {
+#pragma omp simd
+    for (std::size_t i = 0; i < count - by; ++i)
+      out[i] = std::max(out[i], out[i + by]);
+  };
+  std::size_t span = 1;
+  for (; 2 * span <= width; span *= 2)
+    widen(span);
+  widen(width - span);
+  return out;
+}
+
 /// Without reason a car keeps to its lane and turns the wheel evenly.
 void course::expect_little(double freedom) {
-  const auto reach = static_cast<std::size_t>(std::ceil(reach_m / step_m_));
+  const auto sharpest = sharpest_about();
   offset_.observe_slope(0, 0, weight(freedom * sigma_slope));
-  for (std::size_t k = 0; k <= steps_; ++k) {
-    auto sharpest = 0.0;
-    for (auto i = k - std::min(k, reach); i <= std::min(k + reach, steps_); ++i)
-      sharpest = std::max(sharpest, std::abs(bend_[i]));
-    offset_.observe_bend(
-        k, 0,
-        weight(freedom * (sigma_bend_1pm + sigma_bend_per_bend * sharpest)));
-    if (k == 0 || k == steps_)
-      continue;
-    const auto kink =
-        (2 * bend_[k] - bend_[k + 1] - bend_[k - 1]) / (step_m_ * step_m_);
-    const auto sigma = sigma_kink_1pm3 + sigma_kink_per_bend * sharpest
+  column kinks, weights;
+  for (std::size_t k = 0; k <= steps_; ++k)
+    weights[k] =
+        weight(freedom * (sigma_bend_1pm + sigma_bend_per_bend * sharpest[k]));
+  offset_.expect_no_bends({weights.data(), steps_ + 1});
+
+  const auto per_step2 = 1 / (step_m_ * step_m_);
+  for (std::size_t k = 1; k < steps_; ++k) {
+    const auto kink = per_step2 * (2 * bend_[k] - bend_[k + 1] - bend_[k - 1]);
+    const auto sigma = sigma_kink_1pm3 + sigma_kink_per_bend * sharpest[k]
                        + sigma_kink_per_kink * std::abs(kink);
-    offset_.observe_kink(k, step_m_ * kink, weight(freedom * step_m_ * sigma));
+    kinks[k - 1] = step_m_ * kink;
+    weights[k - 1] = weight(freedom * step_m_ * sigma);
   }
+  offset_.expect_kinks({weights.data(), steps_ - 1}, kinks);
 }
 
 void course::expect(const joint& before) {
-  const auto centre = line_->at(start_m_);
+  const auto centre = line_->frame(start_m_);
   const auto bend = bend_[0], bend_slope = (bend_[1] - bend_[0]) / step_m_;
   const auto turned = wrap_angle(before.heading_rad - centre.heading_rad);
-  const auto d = cross(direction(centre.heading_rad), before.at - centre.at);
+  const auto d = cross(centre.tangent, before.at - centre.at);
   const auto inner = std::max(least_inner, 1 - bend * d);
   const auto cosine = std::cos(turned), tangent = std::tan(turned);
   const auto slope = tangent * inner;
@@ -159,7 +175,7 @@ double course::s_m(double way_m) const {
 }
 
 path_point course::at(double s_m) const {
-  const auto centre = line_->at(s_m);
+  const auto centre = line_->frame(s_m);
   const auto along_m =
       std::clamp(s_m - start_m_, 0.0, static_cast<double>(steps_) * step_m_);
   const auto k =
@@ -169,15 +185,13 @@ path_point course::at(double s_m) const {
   const auto bend_slope = (bend_[k + 1] - bend_[k]) / step_m_;
   const auto inner = std::max(least_inner, 1 - bend * x.value);
   const auto tangent = x.slope / inner;
-  const auto stretch = std::sqrt(inner * inner + x.slope * x.slope);
-  const auto cosine = inner / stretch;
-  const auto along = direction(centre.heading_rad);
-  return {centre.at + x.value * point{-along.y_m, along.x_m},
+  const auto per_stretch2 = 1 / (inner * inner + x.slope * x.slope);
+  return {centre.at + x.value * point{-centre.tangent.y_m, centre.tangent.x_m},
           centre.heading_rad + std::atan(tangent),
-          ((x.bend + (bend_slope * x.value + bend * x.slope) * tangent) * cosine
-               * cosine / inner
+          ((x.bend + (bend_slope * x.value + bend * x.slope) * tangent) * inner
+               * per_stretch2
            + bend)
-              / stretch};
+              * std::sqrt(per_stretch2)};
 }
 
 } // namespace sofof

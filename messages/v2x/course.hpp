@@ -44,14 +44,17 @@ public:
   path_point at(double s_m) const;
 
 private:
+  static constexpr std::size_t most_knots = smooth_curve::most_steps + 1;
+  static constexpr std::size_t most_reach = 12;
+  using column = std::array<double, most_knots>;
+  using reachable = std::array<double, most_knots + 2 * most_reach>;
+
   void see(std::span<const sight> sights);
+  reachable sharpest_about() const;
   void expect_little(double freedom);
   void expect(const joint& before);
   bool meets(std::span<const sight> sights) const;
   void measure();
-
-  static constexpr std::size_t most_knots = smooth_curve::most_steps + 1;
-  using column = std::array<double, most_knots>;
 
   const path* line_ = nullptr;
   smooth_curve offset_;

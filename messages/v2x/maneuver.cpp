@@ -113,12 +113,12 @@ private:
       auto& sight = sights_[i];
       sight.at =
           way_.path().project(x.at, guess_m, i > 0 ? window_m : first_window_m);
+      const point away{sight.at.beyond_m, sight.at.d_m};
+      if (!(dot(away, away) <= farthest_m * farthest_m))
+        return false;
       // Forwards: rounding can set a car back that hardly moves.
       if (i > 0)
         sight.at.s_m = std::max(sight.at.s_m, sights_[i - 1].at.s_m);
-      // Also of what lies before or behind the window.
-      if (!(distance_m(way_.path().at(sight.at.s_m).at, x.at) <= farthest_m))
-        return false;
       if (x.heading_rad < no_heading)
         see_slope(sight, x.heading_rad);
     }

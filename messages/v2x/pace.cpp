@@ -7,14 +7,18 @@
 namespace sofof {
 namespace {
 
+constexpr double weight(double sigma) {
+  return 1 / (sigma * sigma);
+}
+
 // What rounding leaves when waypoints are well chosen.
 constexpr double sigma_way_m = 0.004;
 constexpr double sigma_speed_mps = 0.0025;
 
 /// How much jerk changes from step to step, by how far moments are apart: their
 /// sender sets them close where it changes.
-double sigma_kink_mps3(double gap_s) {
-  return gap_s > 0.15 ? 0.3 : gap_s > 0.07 ? 1.2 : 20;
+double weight_of_kink(double gap_s) {
+  return gap_s > 0.15 ? weight(0.3) : gap_s > 0.07 ? weight(1.2) : weight(20);
 }
 constexpr double widest_gap_s = 1;
 constexpr double sigma_accel_mps2 = 3; // of anybody, any time
@@ -23,10 +27,6 @@ constexpr double sigma_before_mps = 0.003;
 constexpr double sigma_before_mps2 = 0.02;
 
 constexpr double slack = 0.02; // of a step: times are whole milliseconds
-
-constexpr double weight(double sigma) {
-  return 1 / (sigma * sigma);
-}
 
 } // namespace
 
@@ -137,11 +137,12 @@ void pace::limit_jerk(std::size_t from, std::size_t to, double start_s,
          k <= static_cast<std::size_t>(std::clamp(end, 0.0, most)); ++k)
       gap_s[k] = std::min(gap_s[k], gap);
   }
-  for (std::size_t k = 0; k <= steps; ++k) {
-    way_.observe_bend(k, 0, weight(sigma_accel_mps2));
-    if (k > 0 && k < steps)
-      way_.observe_kink(k, 0, weight(sigma_kink_mps3(gap_s[k])));
-  }
+  way_.observe_bend(0, 0, weight(sigma_accel_mps2));
+  way_.observe_bend(steps, 0, weight(sigma_accel_mps2));
+  std::array<double, most_steps> weights;
+  for (std::size_t k = 1; k < steps; ++k)
+    weights[k - 1] = weight_of_kink(gap_s[k]);
+  way_.expect_no_kinks({weights.data(), steps - 1});
 }
 
 /// The one knot of a motion shorter than a step.

@@ -26,11 +26,10 @@ struct density {
 constexpr density usual{0.7, 200};
 constexpr density dense{4, 100};
 constexpr int densest_ms = 50;
-/// A waypoint may stand so far from where it is due, as a share of the gap.
-constexpr int window_share = 8;
-/// So often is looked for the best place in there.
-constexpr int look_ms = 2;
-constexpr int widest_window_ms = usual.gap_ms / window_share;
+/// A waypoint may stand an eighth of the gap from where it is due: so many
+/// places are looked at.
+constexpr int looks = 16;
+constexpr int looks_per_gap = 8 * looks / 2;
 
 /// @returns the nearest whole number, ties up; of |x| > 1e9 that.
 std::int32_t whole(double x) {
@@ -139,7 +138,22 @@ private:
     return {};
   }
 
-  int best_near(int ms, int window_ms) const;
+  int best_near(int ms, int look_ms) const;
+
+  /// @returns the unit vector of a heading between two points of the plan,
+  /// from their chord: sine and cosine would take longer.
+  point direction(const trajectory_point& p, std::size_t k) const {
+    const auto& a = plan_.points[k];
+    const auto& b = plan_.points[k + 1];
+    const auto chord_m = distance_m(a.at, b.at);
+    constexpr double shortest_m = 0.01;
+    if (chord_m < shortest_m)
+      return {std::cos(p.heading_rad), std::sin(p.heading_rad)};
+    const auto along = 1 / chord_m * (b.at - a.at);
+    const auto turned = p.heading_rad - (a.heading_rad + b.heading_rad) / 2;
+    return (1 - turned * turned / 2) * along
+           + turned * point{-along.y_m, along.x_m};
+  }
 
   /// In cm to the east and north of the reference.
   point east_north(point v) const { return {dot(east_, v), dot(north_, v)}; }
@@ -172,11 +186,11 @@ private:
 };
 
 /// @returns the moment about `ms` at which rounding costs least: the plan as a
-/// polynomial in time, compared with whole numbers every `look_ms`.
-int writer::best_near(int ms, int window_ms) const {
+/// polynomial in time, compared with whole numbers every `look_ms`
+int writer::best_near(int ms, int look_ms) const {
   const auto p = moment(ms);
   const auto k = std::min(knot(ms), size() - 2);
-  const point tangent{std::cos(p.heading_rad), std::sin(p.heading_rad)};
+  const auto tangent = direction(p, k);
   const point left{-tangent.y_m, tangent.x_m};
   const auto at = offset(p);
   const auto velocity = p.speed_mps * tangent;
@@ -198,12 +212,11 @@ int writer::best_near(int ms, int window_ms) const {
 
   // The number of the look stands in the last bits of what it costs, so that
   // the least of these numbers tells both.
-  constexpr std::int32_t looks = 64;
-  static_assert(2 * widest_window_ms / look_ms < looks);
+  static_assert(std::has_single_bit(unsigned{looks}));
   auto best = std::numeric_limits<std::int32_t>::max();
 #pragma omp simd reduction(min : best)
-  for (int i = 0; i <= 2 * window_ms / look_ms; ++i) {
-    const auto t = static_cast<float>(look_ms * i - window_ms);
+  for (int i = 0; i < looks; ++i) {
+    const auto t = static_cast<float>(look_ms * (i - looks / 2));
     const auto x = miss(x0 + t * (x1 + t * x2));
     const auto y = miss(y0 + t * (y1 + t * y2));
     const auto v = miss(v0 + t * (v1 + t * v2));
@@ -214,21 +227,22 @@ int writer::best_near(int ms, int window_ms) const {
         (std::bit_cast<std::int32_t>(cost) & ~(looks - 1)) | i;
     best = std::min(best, numbered);
   }
-  return ms - window_ms + look_ms * (best & (looks - 1));
+  return ms + look_ms * ((best & (looks - 1)) - looks / 2);
 }
 
 int writer::next_ms(int ms, int least_gap) const {
   if (const auto rested = rest_until_ms(ms); rested > ms)
     return rested;
   const auto gap = std::max(gap_ms(ms), least_gap);
-  const auto window = std::min(gap / window_share, widest_window_ms);
+  const auto look_ms = std::max(1, std::min(gap, usual.gap_ms) / looks_per_gap);
   const auto next = ms + gap;
-  if (const auto last = last_before_rest_ms(ms, next + window);
-      last && *last <= next + window)
+  const auto latest = next + look_ms * looks / 2;
+  if (const auto last = last_before_rest_ms(ms, latest);
+      last && *last <= latest)
     return std::clamp(*last, ms + 1, length_ms_);
   if (next + gap / 2 >= length_ms_)
     return length_ms_;
-  return best_near(next, window);
+  return best_near(next, look_ms);
 }
 
 } // namespace
