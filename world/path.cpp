@@ -172,7 +172,8 @@ double path::next_to(const view& seen, double s_m) {
 path_offset path::project(point p, double s_guess_m, double window_m) const {
   auto laps_m = 0.0;
   if (closed_) {
-    laps_m = std::floor(s_guess_m / length_m_) * length_m_;
+    if (!(0 <= s_guess_m && s_guess_m < length_m_))
+      laps_m = std::floor(s_guess_m / length_m_) * length_m_;
     s_guess_m -= laps_m;
     window_m = std::min(window_m, length_m_ / 2);
   }
@@ -253,7 +254,7 @@ path_offset path::project(point p) const {
 /// Newton's method for the foot of the perpendicular, kept in its bracket.
 path_offset path::refine(point p, double s_m, double low_m,
                          double high_m) const {
-  constexpr auto enough_m = 1e-5; // the next step would be its square
+  constexpr auto enough_m = 1e-3; // the next step would be its square
   auto seen = look(p, s_m);
   for (auto i = 0; i < 20; ++i) {
     (seen.along_m > 0 ? low_m : high_m) = s_m;

@@ -25,7 +25,7 @@ struct path_offset {
   double s_m = 0;
   double d_m = 0;      ///< Positive to the left.
   double beyond_m = 0; ///< Along the tangent: beyond an end, or before it; 0
-                       ///< (to within 1e-5) for who is abreast of it.
+                       ///< (to within 1 mm) for who is abreast of it.
 };
 
 /// A cubic spline over chord length (C2, so with continuous curvature)

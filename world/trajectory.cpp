@@ -81,8 +81,7 @@ bool trajectory::is_sound() const {
   return true;
 }
 
-trajectory_point trajectory::at(time_point t) const {
-  const auto t_s = to_seconds(t - start);
+trajectory_point trajectory::at(double t_s) const {
   if (t_s <= 0 || points.size() == 1)
     return points.front();
   if (t_s >= points.back().t_s)

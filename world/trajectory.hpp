@@ -39,7 +39,11 @@ struct trajectory {
   /// time; speed and arc length are its integrals; curvature and heading are
   /// linear in arc length. Clamped at both ends.
   /// Precondition: not empty.
-  trajectory_point at(time_point t) const;
+  trajectory_point at(time_point t) const { return at(to_seconds(t - start)); }
+
+  /// The same.
+  /// @param t_s  Since the start.
+  trajectory_point at(double t_s) const;
 };
 
 } // namespace sofof

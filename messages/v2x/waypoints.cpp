@@ -49,10 +49,11 @@ public:
       : plan_{plan}, origin_{frame.reference}, east_{frame.earth.to_map_axes(
                                                    {100, 0}, frame.reference)},
         north_{frame.earth.to_map_axes({0, 100}, frame.reference)},
-        generated_{frame.generated},
-        first_ms_{std::chrono::ceil<std::chrono::milliseconds>(plan.start
-                                                               - generated_)
+        first_ms_{std::chrono::ceil<std::chrono::milliseconds>(
+                      plan.start - frame.generated)
                       .count()},
+        late_s_{to_seconds(std::chrono::milliseconds{first_ms_}
+                           - (plan.start - frame.generated))},
         step_ms_{1e3 * plan.points[1].t_s}, length_ms_{whole(
                                                 1e3 * plan.points.back().t_s)} {
   }
@@ -66,10 +67,10 @@ public:
 
   /// @param ms  Since the first whole millisecond.
   trajectory_point moment(int ms) const {
-    const auto t = generated_ + std::chrono::milliseconds{first_ms_ + ms};
-    auto p = plan_.at(t);
+    const auto t_s = late_s_ + 1e-3 * ms;
+    auto p = plan_.at(t_s);
     // The last waypoint may be half a millisecond later than the plan's end.
-    const auto beyond_s = to_seconds(t - plan_.end());
+    const auto beyond_s = t_s - plan_.points.back().t_s;
     if (beyond_s > 0)
       p.at = p.at
              + beyond_s * p.speed_mps
@@ -179,8 +180,8 @@ private:
 
   const trajectory& plan_;
   point origin_, east_, north_;
-  time_point generated_;
-  std::int64_t first_ms_;
+  std::int64_t first_ms_; // since the message was generated
+  double late_s_;         // ... which is so long after the plan's start
   double step_ms_;
   int length_ms_;
 };
