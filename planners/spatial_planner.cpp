@@ -50,17 +50,18 @@ void spatial_params::fields(settings& s) {
   s.field("cautious_sight_m", cautious_sight_m, {0, 200});
 }
 
-spatial_planner::spatial_planner(route_ptr way, const driving_style& style,
+spatial_planner::spatial_planner(route_profile_ptr way,
+                                 const driving_style& style,
                                  const spatial_params& params)
-    : route_{std::move(way)}, style_{style}, params_{params}, line_{route_},
-      path_{
-          std::make_unique<path_planner>(line_, grid_of<path_planner>(params))},
-      other_path_{
-          std::make_unique<path_planner>(line_, grid_of<path_planner>(params))},
-      speed_{std::make_unique<speed_planner>(line_, style,
+    : way_{std::move(way)}, style_{style}, params_{params},
+      path_{std::make_unique<path_planner>(way_->line,
+                                           grid_of<path_planner>(params))},
+      other_path_{std::make_unique<path_planner>(
+          way_->line, grid_of<path_planner>(params))},
+      speed_{std::make_unique<speed_planner>(way_, style,
                                              grid_of<speed_planner>(params))},
       other_speed_{std::make_unique<speed_planner>(
-          line_, style, grid_of<speed_planner>(params))} {}
+          way_, style, grid_of<speed_planner>(params))} {}
 
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
                                   const trajectory* previous, trajectory& out,
@@ -70,7 +71,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   made_ = now;
   plan_report report;
   report.input = input.at;
-  const scene at{now, joined(*route_, now, input, previous), input.others,
+  const scene at{now, joined(lane(), now, input, previous), input.others,
                  to_seconds(now - input.others.at)};
   s_m_ = at.start.s_m;
   auto done = false;
@@ -96,7 +97,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
     report.origin = plan_origin::stop;
     report.emergency = true;
     if (path_->path().empty()) {
-      out = safe_stop(*route_, now, at.start);
+      out = safe_stop(lane(), now, at.start);
     } else {
       speed_->brake_only(task(at));
       publish(now, out);
@@ -105,7 +106,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   if (!out.is_sound()) { // for what was no number
     report.origin = plan_origin::stop;
     report.emergency = true;
-    out = safe_stop(*route_, now, at.start);
+    out = safe_stop(lane(), now, at.start);
   }
   return report;
 }
@@ -179,7 +180,8 @@ void spatial_planner::list_bodies(const scene& at) {
 }
 
 double spatial_planner::lane_m(double s_m) const {
-  return line_.half_width_m(bodies_.empty() ? s_m : bodies_.front().from_m);
+  return way_->line.half_width_m(bodies_.empty() ? s_m
+                                                 : bodies_.front().from_m);
 }
 
 bool spatial_planner::meets(const lane_obstacle& body) const {
@@ -228,8 +230,8 @@ speed_task spatial_planner::task(const scene& at) const {
   t.speed_mps = at.start.speed_mps;
   t.accel_mps2 = at.start.accel_mps2;
   auto stop_s = blocked_s_m_;
-  if (!route_->closed())
-    stop_s = std::min(stop_s, route_->length_m());
+  if (!lane().closed())
+    stop_s = std::min(stop_s, lane().length_m());
   if (at.others.stop_at_m)
     stop_s = std::min(stop_s, *at.others.stop_at_m);
   if (std::isfinite(stop_s))
@@ -263,7 +265,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       users_.push_back(user);
   }
   const crossing_car car{style_.front_m, car_.rear_m, at.start.speed_mps,
-                         line_.limit_mps(at.start.s_m), style_.max_accel_mps2};
+                         way_->line.limit_mps(at.start.s_m),
+                         style_.max_accel_mps2};
   list_orders(
       users_, car, [this](double s) { return way_from_car(s); }, order_, most(),
       all_orders_);
@@ -357,7 +360,7 @@ bool spatial_planner::passes(const trajectory& plan,
       if (p.s_m < body.from_m - style_.front_m
           || p.s_m > body.to_m + car_.rear_m)
         return false;
-      const auto d = seen_from(*route_, p).d_m;
+      const auto d = seen_from(lane(), p).d_m;
       return d - half_m < body.high_m && d + half_m > body.low_m;
     });
   });
@@ -371,7 +374,7 @@ void spatial_planner::publish(time_point now, trajectory& out) const {
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto& x = motion[i];
     const auto place = path.at_way(way_m_ + x.s_m);
-    const auto centre = route_->path().at(place.s_m);
+    const auto centre = lane().path().at(place.s_m);
     const point left{-std::sin(centre.heading_rad),
                      std::cos(centre.heading_rad)};
     out.points[i] = {static_cast<double>(i) * style_.step_s,

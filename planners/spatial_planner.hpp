@@ -33,7 +33,8 @@ struct spatial_params {
 /// Source: docs/planner.md.
 class spatial_planner final : public trajectory_planner {
 public:
-  spatial_planner(route_ptr way, const driving_style& style,
+  /// @param way  Of the same style.
+  spatial_planner(route_profile_ptr way, const driving_style& style,
                   const spatial_params& params);
 
   plan_report plan(time_point now, const planning_input& input,
@@ -69,11 +70,12 @@ private:
   }
   lane_obstacle met(const lane_obstacle& body, double age_s) const;
 
-  route_ptr route_;
+  const route& lane() const { return way_->line.way(); }
+
+  route_profile_ptr way_;
   driving_style style_;
   spatial_params params_;
   vehicle_params car_;
-  reference_line line_;
   // The plan in use and one to try others with.
   std::unique_ptr<path_planner> path_, other_path_;
   std::unique_ptr<speed_planner> speed_, other_speed_;

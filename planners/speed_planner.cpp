@@ -96,9 +96,9 @@ bool keeps_windows(const time_motion& motion, double step_s,
 
 } // namespace
 
-speed_planner::speed_planner(const reference_line& line,
-                             const driving_style& style, grid horizon)
-    : line_{&line}, style_{style}, envelope_{line.way(), style}, grid_{horizon},
+speed_planner::speed_planner(route_profile_ptr way, const driving_style& style,
+                             grid horizon)
+    : way_{std::move(way)}, style_{style}, grid_{horizon},
       steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
   motion_.reserve(static_cast<std::size_t>(steps_) + 1);
 }
@@ -287,10 +287,11 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
     s = path.s_m(from_m + static_cast<double>(k) * ds_m);
     bends_[k] = path.curvature_1pm(s);
     const auto bend = std::max(path.sharpest_1pm(s), least_curvature_1pm);
-    w_max_[k] = std::min(square(line_->limit_mps(s)), lateral / bend) / 2;
+    w_max_[k] = std::min(square(way_->line.limit_mps(s)), lateral / bend) / 2;
   }
   // What comes behind the horizon must not find the car too fast.
-  w_max_.back() = std::min(w_max_.back(), square(envelope_.limit_mps(s)) / 2);
+  w_max_.back() =
+      std::min(w_max_.back(), square(way_->envelope.limit_mps(s)) / 2);
 }
 
 void speed_planner::be_cautious(const speed_task& task, double from_m,
@@ -386,7 +387,7 @@ double speed_planner::price(const planned_path& path, double way_m) const {
   auto sum = 0.0;
   for (std::size_t i = 1; i < motion_.size(); ++i) {
     const auto &x = motion_[i], &before = motion_[i - 1];
-    const auto limit = line_->limit_mps(path.s_m(way_m + x.s_m));
+    const auto limit = way_->line.limit_mps(path.s_m(way_m + x.s_m));
     const auto jerk = (x.accel_mps2 - before.accel_mps2) / style_.step_s;
     sum += weigh.speed * square(limit - x.speed_mps)
            + weigh.accel * square(x.accel_mps2) + weigh.jerk * square(jerk);

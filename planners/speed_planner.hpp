@@ -4,8 +4,7 @@
 
 #include "planners/driving_style.hpp"
 #include "planners/planned_path.hpp"
-#include "planners/reference_line.hpp"
-#include "planners/speed_envelope.hpp"
+#include "planners/route_profile.hpp"
 #include "planners/speed_task.hpp"
 #include "planners/time_motion.hpp"
 #include "planners/velocity_ocp.hpp"
@@ -39,8 +38,8 @@ public:
     double price = 0; ///< What its motion costs, to compare plans.
   };
 
-  /// @param line  Must outlive this.
-  speed_planner(const reference_line& line, const driving_style& style,
+  /// @param way  Kept.
+  speed_planner(route_profile_ptr way, const driving_style& style,
                 grid horizon);
 
   /// @param path   Where the car drives.
@@ -76,9 +75,8 @@ private:
                         double decel_mps2);
   double price(const planned_path& path, double way_m) const;
 
-  const reference_line* line_;
+  route_profile_ptr way_;
   driving_style style_;
-  speed_envelope envelope_; // of the whole route
   grid grid_;
   velocity_ocp solver_;
   bool solved_ = false;      // the solver has a plan that can be carried over

@@ -12,6 +12,12 @@ constexpr double resting_mps = 0.05;
 constexpr int newton_steps = 2;
 constexpr double short_s = 1e-9;
 
+/// 1 + z/a (1 + z/b (1 + z/c)), without a division.
+[[gnu::always_inline]] inline double series(double z, double a, double b,
+                                            double c) {
+  return 1 + 1 / a * z * (1 + 1 / b * z * (1 + 1 / c * z));
+}
+
 /// Within one interval: x'' = a + u x from x = 0.
 struct interval {
   double speed_mps, accel_mps2, u_1ps2;
@@ -19,16 +25,17 @@ struct interval {
   /// After `t` seconds, |u| t² small.
   lane_motion at(double t) const {
     const auto z = u_1ps2 * t * t;
-    const auto even = 1 + z / 2 * (1 + z / 12 * (1 + z / 30));      // cosh
-    const auto odd = t * (1 + z / 6 * (1 + z / 20 * (1 + z / 42))); // sinh
-    const auto twice = t * t / 2 * (1 + z / 12 * (1 + z / 30 * (1 + z / 56)));
+    const auto even = series(z, 2, 12, 30);    // cosh
+    const auto odd = t * series(z, 6, 20, 42); // sinh
+    const auto twice = t * t / 2 * series(z, 12, 30, 56);
     const auto x = speed_mps * odd + accel_mps2 * twice;
     return {x, speed_mps * even + accel_mps2 * odd, accel_mps2 + u_1ps2 * x};
   }
 
   /// When x is reached, between 0 and `most`, where it is passed.
-  double when(double x, double most) const {
-    auto t = most * x / at(most).s_m;
+  /// @param far  The way after `most`.
+  double when(double x, double most, double far) const {
+    auto t = most * x / far;
     for (int i = 0; i < newton_steps; ++i) {
       const auto y = at(t);
       t = std::clamp(t + (x - y.s_m) / std::max(y.speed_mps, resting_mps / 2),
@@ -62,7 +69,7 @@ void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
         now = {now.s_m + then.s_m, then.speed_mps, then.accel_mps2};
         t += dt;
       } else {
-        t += here.when(left_m, dt);
+        t += here.when(left_m, dt, then.s_m);
         ++k; // and begin anew: errors do not add up
         now = {0, std::sqrt(2 * std::max(0.0, w[k])), a[k]};
         rests = now.speed_mps < resting_mps && now.accel_mps2 <= 0;

@@ -20,10 +20,9 @@ namespace {
 class mec_planning final : public service_function {
 public:
   mec_planning(service_setup setup, planner_options options,
-               std::shared_ptr<const lane_network> lanes,
-               std::shared_ptr<planning_site> site)
+               known_roads_ptr roads, std::shared_ptr<planning_site> site)
       : setup_{std::move(setup)}, options_{std::move(options)},
-        lanes_{std::move(lanes)}, site_{std::move(site)} {}
+        roads_{std::move(roads)}, site_{std::move(site)} {}
 
   service_output run(time_point now, const service_input& input) override {
     if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
@@ -89,7 +88,7 @@ private:
   // Of what was planned along another way that goes on which both share.
   void begin(const route_ptr& way) {
     const auto shared = cycle_ ? along(*way, cycle_->plan()) : trajectory{};
-    cycle_.emplace(setup_, options_, lanes_, way);
+    cycle_.emplace(setup_, options_, *roads_, way);
     ego_.emplace(way, from_m_);
     if (shared.is_sound())
       follow(shared);
@@ -146,7 +145,7 @@ private:
 
   service_setup setup_;
   planner_options options_;
-  std::shared_ptr<const lane_network> lanes_;
+  known_roads_ptr roads_;
   std::shared_ptr<planning_site> site_;
   std::shared_ptr<const its_pdu> heard_; // last, ...
   time_point heard_at_;                  // and when it was said
@@ -165,10 +164,9 @@ private:
 
 std::shared_ptr<service_function>
 make_mec_planning(service_setup setup, planner_options options,
-                  std::shared_ptr<const lane_network> lanes,
-                  std::shared_ptr<planning_site> site) {
+                  known_roads_ptr roads, std::shared_ptr<planning_site> site) {
   return std::make_shared<mec_planning>(std::move(setup), std::move(options),
-                                        std::move(lanes), std::move(site));
+                                        std::move(roads), std::move(site));
 }
 
 } // namespace sofof

@@ -1,10 +1,10 @@
 // Planning at a provider: from what vehicles and its own sensors tell it.
 #pragma once
 
+#include "actors/planning/known_roads.hpp"
 #include "actors/planning/planner_options.hpp"
 #include "actors/planning/planning_site.hpp"
 #include "actors/service_kind.hpp"
-#include "planners/lane_network.hpp"
 
 #include <memory>
 
@@ -17,7 +17,6 @@ namespace sofof {
 /// suggests a plan, about it a `plan_report`.
 std::shared_ptr<service_function>
 make_mec_planning(service_setup setup, planner_options options,
-                  std::shared_ptr<const lane_network> lanes,
-                  std::shared_ptr<planning_site> site);
+                  known_roads_ptr roads, std::shared_ptr<planning_site> site);
 
 } // namespace sofof

@@ -16,9 +16,9 @@ namespace {
 class onboard_planning final : public service_function {
 public:
   onboard_planning(service_setup setup, planner_options options,
-                   std::shared_ptr<const lane_network> lanes)
+                   known_roads_ptr roads)
       : setup_{std::move(setup)}, options_{std::move(options)},
-        lanes_{std::move(lanes)} {}
+        roads_{std::move(roads)} {}
 
   service_output run(time_point now, const service_input& input) override {
     const auto request = input.what.as<plan_request>();
@@ -42,7 +42,7 @@ private:
       return true;
     const auto way = setup_.world->find(name);
     if (way)
-      cycle_.emplace(setup_, options_, lanes_, way);
+      cycle_.emplace(setup_, options_, *roads_, way);
     return way != nullptr;
   }
 
@@ -56,7 +56,7 @@ private:
 
   service_setup setup_;
   planner_options options_;
-  std::shared_ptr<const lane_network> lanes_;
+  known_roads_ptr roads_;
   environment_model model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
@@ -64,11 +64,11 @@ private:
 
 } // namespace
 
-std::shared_ptr<service_function>
-make_onboard_planning(service_setup setup, planner_options options,
-                      std::shared_ptr<const lane_network> lanes) {
+std::shared_ptr<service_function> make_onboard_planning(service_setup setup,
+                                                        planner_options options,
+                                                        known_roads_ptr roads) {
   return std::make_shared<onboard_planning>(
-      std::move(setup), std::move(options), std::move(lanes));
+      std::move(setup), std::move(options), std::move(roads));
 }
 
 } // namespace sofof

@@ -15,13 +15,13 @@ constexpr duration deadline = 2ms;
 } // namespace
 
 plan_cycle::plan_cycle(const service_setup& setup,
-                       const planner_options& options,
-                       std::shared_ptr<const lane_network> lanes, route_ptr way)
-    : setup_{setup}, way_{std::move(way)}, planner_{options.make(way_,
+                       const planner_options& options, known_roads& roads,
+                       route_ptr way)
+    : setup_{setup}, way_{std::move(way)}, planner_{options.make(way_, roads,
                                                                  setup.remote)},
-      outlook_{std::move(lanes),
-               way_,
-               {.judges_crossings = !setup.crossings_granted}} {}
+      outlook_{
+          roads.lanes(), way_, {.judges_crossings = !setup.crossings_granted}} {
+}
 
 plan_report plan_cycle::run(time_point now, planning_input from,
                             std::span<const track> others) {

@@ -1,9 +1,9 @@
 // One planner at work, cycle by cycle, along one route.
 #pragma once
 
+#include "actors/planning/known_roads.hpp"
 #include "actors/planning/planner_options.hpp"
 #include "actors/service_kind.hpp"
-#include "planners/lane_network.hpp"
 #include "planners/outlook.hpp"
 #include "planners/track.hpp"
 
@@ -18,7 +18,7 @@ namespace sofof {
 class plan_cycle {
 public:
   plan_cycle(const service_setup& setup, const planner_options& options,
-             std::shared_ptr<const lane_network> lanes, route_ptr way);
+             known_roads& roads, route_ptr way);
 
   const route_ptr& way() const { return way_; }
 

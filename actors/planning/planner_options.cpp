@@ -27,10 +27,12 @@ void planner_options::fields(settings& s) {
 }
 
 std::unique_ptr<trajectory_planner> planner_options::make(const route_ptr& way,
+                                                          known_roads& roads,
                                                           bool remote) const {
   if (name == simple_planner)
     return std::make_unique<lane_follow>(way, style);
-  return std::make_unique<spatial_planner>(way, style, remote ? mec : onboard);
+  return std::make_unique<spatial_planner>(roads.profile(way), style,
+                                           remote ? mec : onboard);
 }
 
 } // namespace sofof

@@ -1,6 +1,7 @@
 // Which planner plans, and how.
 #pragma once
 
+#include "actors/planning/known_roads.hpp"
 #include "planners/driving_style.hpp"
 #include "planners/spatial_planner.hpp"
 #include "planners/trajectory_planner.hpp"
@@ -22,8 +23,8 @@ struct planner_options {
 
   void fields(settings& s);
 
-  std::unique_ptr<trajectory_planner> make(const route_ptr& way,
-                                           bool remote) const;
+  std::unique_ptr<trajectory_planner>
+  make(const route_ptr& way, known_roads& roads, bool remote) const;
 };
 
 } // namespace sofof

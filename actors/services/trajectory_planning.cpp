@@ -92,11 +92,11 @@ public:
 
   std::shared_ptr<service_function>
   make_function(const service_setup& setup) const override {
-    auto lanes = this->lanes(setup.world->map);
+    auto roads = this->roads(setup.world->map);
     if (!setup.remote)
-      return make_onboard_planning(setup, planner_, std::move(lanes));
+      return make_onboard_planning(setup, planner_, std::move(roads));
     return make_mec_planning(
-        setup, planner_, std::move(lanes),
+        setup, planner_, std::move(roads),
         std::dynamic_pointer_cast<planning_site>(setup.site));
   }
 
@@ -170,16 +170,16 @@ public:
 
 private:
   // Found once for all functions, which vehicles make in their own threads.
-  std::shared_ptr<const lane_network> lanes(const road_map& map) const {
+  known_roads_ptr roads(const road_map& map) const {
     const std::lock_guard lock{mutex_};
-    if (!lanes_)
-      lanes_ = std::make_shared<const lane_network>(map);
-    return lanes_;
+    if (!roads_)
+      roads_ = std::make_shared<known_roads>(map, planner_.style);
+    return roads_;
   }
 
   planner_options planner_;
   mutable std::mutex mutex_;
-  mutable std::shared_ptr<const lane_network> lanes_;
+  mutable known_roads_ptr roads_;
 };
 
 } // namespace

@@ -59,7 +59,10 @@ void follow_lane(benchmark::State& state, bool with_lead) {
 void optimise(benchmark::State& state, const spatial_params& params,
               bool with_lead) {
   const auto s = bench::ulm_lehr();
-  spatial_planner planner{s.world->find("round_trip"), {}, params};
+  spatial_planner planner{std::make_shared<route_profile>(
+                              s.world->find("round_trip"), driving_style{}),
+                          {},
+                          params};
   drive_round(state, planner, with_lead);
 }
 

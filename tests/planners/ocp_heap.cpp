@@ -45,7 +45,9 @@ TEST_CASE("planning takes nothing from the heap") {
 TEST_CASE("a round in traffic takes nothing from the heap but at its start") {
   using namespace std::chrono_literals;
   const auto way = test::oval({{0, 13.9}});
-  spatial_planner planner{way, {}, {.candidates = 16, .alternations = 2}};
+  spatial_planner planner{std::make_shared<route_profile>(way, driving_style{}),
+                          {},
+                          {.candidates = 16, .alternations = 2}};
   trajectory plan, before;
   planning_input x;
   auto replaced = 0;

@@ -34,17 +34,17 @@ planned_path middle(const reference_line& line, double s_m, double length_m) {
 /// A street and who plans on it.
 struct street {
   explicit street(route_ptr way, double length_m = 400)
-      : line{std::move(way)}, path{middle(line, 0, length_m)}, planner{
-                                                                   line,
-                                                                   style,
-                                                                   {1, 80}} {}
+      : way{std::make_shared<route_profile>(std::move(way), style)},
+        path{middle(this->way->line, 0, length_m)}, planner{this->way,
+                                                            style,
+                                                            {1, 80}} {}
 
   speed_planner::result plan(const speed_task& task, double way_m = 5) {
     return planner.plan(path, way_m, task);
   }
   const time_motion& motion() const { return planner.motion(); }
 
-  reference_line line;
+  route_profile_ptr way;
   planned_path path;
   speed_planner planner;
 };

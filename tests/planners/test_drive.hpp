@@ -100,7 +100,8 @@ inline planner_ptr follower(route_ptr way, driving_style style = {}) {
 
 inline planner_ptr optimiser(route_ptr way, spatial_params params = {},
                              driving_style style = {}) {
-  return std::make_unique<spatial_planner>(std::move(way), style, params);
+  return std::make_unique<spatial_planner>(
+      std::make_shared<route_profile>(std::move(way), style), style, params);
 }
 
 class test_drive {
