@@ -7,8 +7,10 @@
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
 
 #include <optional>
+#include <string>
 
 namespace sofof {
 
@@ -19,10 +21,15 @@ struct remote_source {
   running_service running;
   provider_manager_actor manager;
   bool in_use = false;
+  bool in_doubt = false; // latencies cannot be judged
   std::optional<std::uint64_t> last_cycle;
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
 };
+
+std::string in_ms(duration d) {
+  return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
+}
 
 struct manager_state {
   static inline const char* name = "requester_manager";
@@ -75,7 +82,7 @@ struct manager_state {
   void await(const running_service& running,
              const provider_manager_actor& manager) {
     be_local();
-    remote = remote_source{running, manager, false, {}, {}, {}};
+    remote = remote_source{running, manager, false, false, {}, {}, {}};
     feed_remote();
   }
 
@@ -90,19 +97,21 @@ struct manager_state {
           now(self));
       if (!meant.type().empty())
         take_remote({result.running, result.cycle, result.created,
-                     std::move(meant), result.about});
+                     std::move(meant), result.about, result.doubt});
     }
   }
 
   void take_remote(const service_result& result) {
     const auto t = now(self);
     const auto usable =
-        in_time(result.created, t, setup.options.limits.max_latency);
+        can_judge(result)
+        && in_time(result.created, t, setup.options.limits.max_latency);
     std::optional<duration> gap; // only while in use
     if (remote->last_received)
       gap = t - *remote->last_received;
-    self->send(setup.recorder, cycle_record{result.running, result.cycle,
-                                            result.created, t, gap, usable});
+    self->send(setup.recorder,
+               cycle_record{result.running, result.cycle, result.created, t,
+                            gap, usable, result.doubt});
     remote->last_cycle = result.cycle;
     if (remote->in_use || usable)
       remote->last_received = t;
@@ -112,6 +121,20 @@ struct manager_state {
       self->send(watchdog, arrival{result.running, result.created, t});
     if (usable)
       use(result);
+  }
+
+  // Whose clock is not known well enough is not trusted with a latency.
+  bool can_judge(const service_result& result) {
+    const auto can = result.doubt <= setup.options.limits.max_latency / 2;
+    if (can == remote->in_doubt) {
+      remote->in_doubt = !can;
+      self->send(setup.recorder,
+                 event_record{now(self), can ? "clock_known" : "clock_in_doubt",
+                              setup.station, result.running.provider,
+                              setup.kind, result.running.counter,
+                              in_ms(result.doubt)});
+    }
+    return can;
   }
 
   void use(const service_result& result) {

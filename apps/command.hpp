@@ -8,6 +8,8 @@ namespace sofof {
 /// Each adds itself to the command line; when it was chosen, `exit_code` gets
 /// what the process shall exit with.
 void add_run(CLI::App& app, int& exit_code);
+void add_provide(CLI::App& app, int& exit_code);
+void add_drive(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);

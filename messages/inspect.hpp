@@ -4,6 +4,10 @@
 #include "world/geometry.hpp"
 #include "world/time.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
 #include <type_traits>
 
 namespace sofof {
@@ -32,9 +36,21 @@ bool inspect(Inspector& f, time_point& x) {
   return f.apply(get, set);
 }
 
+/// A finite number as its bits: CAF 0.18 breaks those next to zero.
+template <class Inspector>
+auto exact_field(Inspector& f, std::string_view name, double& x) {
+  auto get = [&x] { return std::bit_cast<std::uint64_t>(x); };
+  auto set = [&x](std::uint64_t bits) {
+    x = std::bit_cast<double>(bits);
+    return std::isfinite(x);
+  };
+  return f.field({name.data(), name.size()}, get, set);
+}
+
 template <class Inspector>
 bool inspect(Inspector& f, point& x) {
-  return f.object(x).fields(f.field("x_m", x.x_m), f.field("y_m", x.y_m));
+  return f.object(x).fields(exact_field(f, "x_m", x.x_m),
+                            exact_field(f, "y_m", x.y_m));
 }
 
 } // namespace sofof

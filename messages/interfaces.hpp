@@ -6,11 +6,14 @@
 #include "messages/motion.hpp"
 #include "messages/qos.hpp"
 #include "messages/record.hpp"
+#include "messages/remote.hpp"
 #include "messages/service.hpp"
 
 #include <caf/result.hpp>
 #include <caf/typed_actor.hpp>
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sofof {
@@ -106,6 +109,43 @@ using link_actor = requester_actor::extend<
     // As provider_actor and provider_manager_actor take them.
     takes<its_pdu, requester_actor>, takes<service_request, requester_actor>,
     takes<service_input>>;
+
+/// The far end of a connection to a provider on another host: what it says to
+/// the vehicles of this process.
+using uplink_actor = caf::typed_actor<
+    // As requester_actor takes them; offers, with the station they are for.
+    takes<station_id, service_offer>, takes<service_response>,
+    takes<service_result>, takes<service_end>,
+    // The connection lives; whose clock says what.
+    takes<life_sign>, takes<life_echo>,
+    // The latest message of this stream has come: the next one may follow.
+    takes<stream_id>>;
+
+/// The far end of a connection to vehicles on another host: what they say to
+/// the provider of this process.
+using session_actor = caf::typed_actor<
+    // As provider_actor and provider_manager_actor take them; what a station
+    // tells everybody, with the station.
+    takes<station_id, its_pdu>, takes<service_request>, takes<service_input>,
+    takes<service_end>,
+    // The connection lives; whose clock says what.
+    takes<life_sign>, takes<life_echo>,
+    // The latest message of this stream has come: the next one may follow.
+    takes<stream_id>>;
+
+/// Where one process of vehicles introduces itself, once.
+using entrance_actor = caf::typed_actor<
+    // It is welcome, or refused by an error that says why.
+    caf::result<peer_welcome, session_actor>(peer_hello, uplink_actor)>;
+
+/// All that a provider's process makes public. It never changes, so that
+/// programs of different age can tell each other that they are.
+using gate_actor = caf::typed_actor<
+    // Protocol version and fingerprint of the types of who asks. Answered by
+    // the own ones, and, if they are the same, a number to sign and the
+    // entrance.
+    caf::result<std::uint32_t, std::uint64_t, std::string,
+                caf::strong_actor_ptr>(std::uint32_t, std::uint64_t)>;
 
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<

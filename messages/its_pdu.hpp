@@ -3,8 +3,11 @@
 #pragma once
 
 #include "messages/payload.hpp"
+#include "world/ids.hpp"
+#include "world/time.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +16,22 @@ namespace sofof {
 /// A CAM, CPM or MCM in UPER (messages/etsi). May come from a stranger.
 struct its_pdu {
   std::vector<std::byte> octets;
+  /// How far its sender's time of day is ahead of ours. Does not travel: who
+  /// gets it from another host fills it in.
+  duration ahead{};
 
   std::span<const std::byte> view() const { return octets; }
+
+  /// @returns whose message it says it is; nothing if it is too short.
+  std::optional<station_id> station() const {
+    constexpr std::size_t begin = 2, end = 6; // of its header
+    if (octets.size() < end)
+      return std::nullopt;
+    station_id id = 0;
+    for (auto i = begin; i < end; ++i)
+      id = id << 8 | std::to_integer<station_id>(octets[i]);
+    return id;
+  }
 };
 
 template <>

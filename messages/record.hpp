@@ -40,6 +40,7 @@ struct cycle_record {
   time_point received;
   std::optional<duration> interarrival; ///< None for the first in use.
   bool used = false;
+  duration doubt{}; ///< `created` may be off by this.
 };
 
 /// One side has closed a running service.
@@ -120,7 +121,8 @@ bool inspect(Inspector& f, cycle_record& x) {
   return f.object(x).fields(
       f.field("running", x.running), f.field("cycle", x.cycle),
       f.field("created", x.created), f.field("received", x.received),
-      f.field("interarrival", x.interarrival), f.field("used", x.used));
+      f.field("interarrival", x.interarrival), f.field("used", x.used),
+      f.field("doubt", x.doubt));
 }
 
 template <class Inspector>

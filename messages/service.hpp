@@ -5,6 +5,7 @@
 #include "messages/payload.hpp"
 #include "messages/service_name.hpp"
 #include "world/ids.hpp"
+#include "world/time.hpp"
 
 #include <cstdint>
 #include <string>
@@ -86,6 +87,8 @@ struct service_result {
   time_point created; ///< Start of the cycle (t_creation).
   payload what;
   payload about{}; ///< How it came about, for records; often empty.
+  /// `created` may be off by this: clocks of two hosts never quite agree.
+  duration doubt{};
 };
 
 /// Why an offloading ended.
@@ -146,7 +149,7 @@ bool inspect(Inspector& f, service_request& x) {
   return f.object(x).fields(
       f.field("provider", x.provider), f.field("station", x.station),
       f.field("number", x.number), f.field("kinds", x.kinds),
-      f.field("route", x.route), f.field("speed_mps", x.speed_mps));
+      f.field("route", x.route), exact_field(f, "speed_mps", x.speed_mps));
 }
 
 template <class Inspector>
@@ -172,10 +175,10 @@ bool inspect(Inspector& f, service_input& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, service_result& x) {
-  return f.object(x).fields(f.field("running", x.running),
-                            f.field("cycle", x.cycle),
-                            f.field("created", x.created),
-                            f.field("what", x.what), f.field("about", x.about));
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("cycle", x.cycle),
+      f.field("created", x.created), f.field("what", x.what),
+      f.field("about", x.about), f.field("doubt", x.doubt));
 }
 
 template <class Inspector>

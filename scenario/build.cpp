@@ -3,6 +3,7 @@
 
 #include "actors/network_link.hpp"
 #include "actors/recorder.hpp"
+#include "actors/remote/uplink.hpp"
 #include "actors/road.hpp"
 #include "actors/service_provider.hpp"
 #include "actors/service_requester.hpp"
@@ -26,8 +27,12 @@ random_stream noise_of(const scenario& s, std::string_view what) {
   return random_stream{static_cast<std::uint64_t>(s.seed), what};
 }
 
+/// So long what was said last may take to leave this process.
+constexpr duration last_words = std::chrono::milliseconds{200};
+
 /// A provider and the radio cell round it.
 struct site {
+  std::uint32_t place; // in the file
   roadside_provider_actor provider;
   const provider_options* options;
   std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
@@ -61,10 +66,10 @@ roadside_provider_actor spawn_provider(caf::actor_system& sys,
                                        const scenario& s, std::uint32_t number,
                                        const datum_ptr& where,
                                        const recorder_actor& recorder,
-                                       bool virtual_time) {
+                                       std::uint64_t start, bool virtual_time) {
   const auto& options = s.providers[number];
   provider_setup setup;
-  setup.boot = number + 1;
+  setup.boot = boot_of(number + 1, start);
   setup.position = options.position_m;
   setup.area = options.area();
   setup.world = s.world;
@@ -86,8 +91,9 @@ std::vector<roadside_sensor> sensors_beside(const scenario& s,
   std::vector<roadside_sensor> beside;
   for (std::size_t p = 0; p < sites.size(); ++p) {
     const auto& own = sites[p].options->sensors;
+    const auto drawn = noise.part(sites[p].place);
     for (std::size_t k = 0; k < own.size(); ++k)
-      beside.push_back({sites[p].provider, own[k].make(noise.part(p).part(k))});
+      beside.push_back({sites[p].provider, own[k].make(drawn.part(k))});
   }
   return beside;
 }
@@ -100,14 +106,23 @@ std::vector<oriented_box> obstacles(const scenario& s) {
 }
 
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                std::uint32_t number, const site& at) {
+                const site& at) {
   const channel draws{s.network.channel, noise_of(s, "network"), station,
-                      number};
+                      at.place};
   return {spawn_network_link(sys, at.provider,
                              {{draws, way::up, at.cell_up},
                               {draws, way::down, at.cell_down},
                               std::nullopt}),
           at.options->position_m, at.options->range_m};
+}
+
+// Real delays take the place of modelled ones.
+antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
+                const part::remote_provider& to, const uplink_mouth& uplink) {
+  auto far = spawn_far_provider(sys, station, uplink);
+  introduce(uplink, station, far);
+  const auto& at = s.providers[to.place];
+  return {std::move(far), at.position_m, at.range_m};
 }
 
 // The vehicle calls it later, from its own thread: nothing is borrowed.
@@ -125,26 +140,12 @@ auto requester_maker(caf::actor_system& sys, const scenario& s,
       };
 }
 
-std::vector<std::pair<caf::actor, std::string>>
-named(const world_actors& world, const scenario& s,
-      const std::vector<placed_vehicle>& placed) {
-  std::vector<std::pair<caf::actor, std::string>> names{
-      {caf::actor_cast<caf::actor>(world.recorder), "the recorder"},
-      {caf::actor_cast<caf::actor>(world.road), "the road"}};
-  for (std::size_t k = 0; k < world.providers.size(); ++k)
-    names.emplace_back(caf::actor_cast<caf::actor>(world.providers[k]),
-                       fmt::format("provider {}", s.providers[k].name));
-  for (std::size_t k = 0; k < world.vehicles.size(); ++k)
-    names.emplace_back(caf::actor_cast<caf::actor>(world.vehicles[k]),
-                       fmt::format("vehicle {}", placed[k].station));
-  auto link = world.links.begin();
-  for (const auto& v : placed)
-    if (s.fleets[v.fleet].connected)
-      for (const auto& p : s.providers)
-        names.emplace_back(caf::actor_cast<caf::actor>(*link++),
-                           fmt::format("the link of vehicle {} to provider {}",
-                                       v.station, p.name));
-  return names;
+/// Actors that must live as long as the run, and what they are called.
+using names = std::vector<std::pair<caf::actor, std::string>>;
+
+template <class Handle>
+void name(names& all, const Handle& actor, std::string what) {
+  all.emplace_back(caf::actor_cast<caf::actor>(actor), std::move(what));
 }
 
 void end(const std::vector<caf::actor>& leaving, runtime& time) {
@@ -166,27 +167,43 @@ void end(const std::vector<Handle>& leaving, runtime& time) {
 world_actors build(caf::actor_system& sys, const scenario& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
-                   std::function<void(const std::string&)> on_loss) {
+                   std::function<void(const std::string&)> on_loss,
+                   const part& here) {
   world_actors world;
   const vehicle_params car;
   const auto where =
       std::make_shared<const datum>(geo_frame{s.world->map.origin()}, clock);
-  const auto placed = place_vehicles(s);
+  std::vector<placed_vehicle> placed;
   station_routes ways;
-  for (const auto& v : placed)
-    ways[v.station] = v.way;
+  for (auto& v : place_vehicles(s))
+    if (here.drives(v.station)) {
+      ways[v.station] = v.way;
+      placed.push_back(std::move(v));
+    }
+  names watched;
   world.recorder = spawn_recorder(sys, std::move(sink));
+  name(watched, world.recorder, "the recorder");
   std::vector<site> sites;
-  for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    sites.push_back(
-        {spawn_provider(sys, s, k, where, world.recorder, virtual_time),
-         &s.providers[k]});
-    world.providers.push_back(sites.back().provider);
+  for (std::uint32_t k = 0; k < s.providers.size(); ++k)
+    if (here.provides(k)) {
+      sites.push_back({k,
+                       spawn_provider(sys, s, k, where, world.recorder,
+                                      here.start, virtual_time),
+                       &s.providers[k]});
+      world.providers.push_back(sites.back().provider);
+      name(watched, world.providers.back(),
+           fmt::format("provider {}", s.providers[k].name));
+    }
+  for (const auto& to : here.remotes) {
+    world.uplinks.push_back(to.spawn_uplink(world.recorder));
+    name(watched, world.uplinks.back(),
+         fmt::format("the uplink to provider {}", s.providers[to.place].name));
   }
   world.road =
       spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
                        sensors_beside(s, sites), obstacles(s), world.recorder,
                        s.traffic.grants_crossings()});
+  name(watched, world.road, "the road");
   for (const auto& v : placed) {
     vehicle_setup setup;
     setup.station = v.station;
@@ -200,20 +217,26 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
     if (s.fleets[v.fleet].connected) {
       setup.v2x = s.v2x;
-      for (std::uint32_t k = 0; k < sites.size(); ++k)
-        setup.antennas.push_back(connect(sys, s, v.station, k, sites[k]));
+      for (const auto& at : sites)
+        setup.antennas.push_back(connect(sys, s, v.station, at));
+      for (std::size_t k = 0; k < here.remotes.size(); ++k)
+        setup.antennas.push_back(
+            connect(sys, s, v.station, here.remotes[k], world.uplinks[k]));
     }
-    for (const auto& a : setup.antennas)
+    for (const auto& a : setup.antennas) {
       world.links.push_back(a.link);
+      name(watched, a.link, fmt::format("a link of vehicle {}", v.station));
+    }
     setup.road = world.road;
     setup.recorder = world.recorder;
     setup.spawn_requester =
         requester_maker(sys, s, v, where, world.recorder, virtual_time);
     world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
+    name(watched, world.vehicles.back(), fmt::format("vehicle {}", v.station));
   }
   if (on_loss)
     world.supervisor =
-        spawn_supervisor(sys, named(world, s, placed), std::move(on_loss));
+        spawn_supervisor(sys, std::move(watched), std::move(on_loss));
   return world;
 }
 
@@ -222,7 +245,10 @@ void dismiss(const world_actors& actors, runtime& time) {
     end(std::vector{actors.supervisor}, time);
   end(actors.vehicles, time);
   end(actors.providers, time);
+  if (!actors.uplinks.empty())
+    time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
+  end(actors.uplinks, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

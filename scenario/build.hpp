@@ -1,6 +1,7 @@
 // From a scenario to actors.
 #pragma once
 
+#include "actors/remote/far_provider.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/runtime.hpp"
@@ -15,27 +16,48 @@
 
 namespace sofof {
 
+/// Which part of a scenario lives in this process: without changes, all of it.
+struct part {
+  /// Whether this process drives a vehicle.
+  std::function<bool(station_id)> drives = [](station_id) { return true; };
+  /// Whether it runs a provider, by its place in the file, counting from 0.
+  std::function<bool(std::size_t)> provides = [](std::size_t) { return true; };
+  /// When the process started; tells boots of one provider apart.
+  std::uint64_t start = 0;
+
+  /// A provider that another process runs.
+  struct remote_provider {
+    std::size_t place; ///< In the file, counting from 0.
+    std::function<uplink_mouth(const recorder_actor&)> spawn_uplink;
+  };
+  std::vector<remote_provider> remotes;
+};
+
 /// Everything that lives in a run, in the order in which it was spawned.
 struct world_actors {
   recorder_actor recorder;
   road_actor road;
   std::vector<provider_actor> providers;
   std::vector<link_actor> links;
+  std::vector<uplink_mouth> uplinks;
   std::vector<vehicle_actor> vehicles;
   caf::actor supervisor;
 };
 
-/// Spawns a scenario's actors. Each provider gets the boot id of its place in
-/// the file, counting from 1; each vehicle a link to each provider.
+/// Spawns the actors of a scenario, or of a part of it. Each provider gets the
+/// boot id of its place in the file, counting from 1; each vehicle a link to
+/// each provider.
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.
 /// @param clock  Tells the time of day of the run.
 /// @param virtual_time  Model computing times instead of taking time.
+/// @param here  What of it.
 /// @param on_loss  Called with a sentence when one of them dies.
 world_actors build(caf::actor_system& sys, const scenario& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
-                   std::function<void(const std::string&)> on_loss = {});
+                   std::function<void(const std::string&)> on_loss = {},
+                   const part& here = {});
 
 /// Ends all actors, group by group, so that what still runs is closed on both
 /// sides and recorded: the vehicles with their requesters first, the recorder

@@ -18,7 +18,7 @@ constexpr std::string_view episodes_header =
     "first_data_s,ended_s,t_off_s,reason,fallback";
 constexpr std::string_view cycles_header =
     "station,provider,provider_id,service,counter,cycle,created_s,received_s,"
-    "latency_ms,interarrival_ms,used";
+    "latency_ms,interarrival_ms,used,doubt_ms";
 constexpr std::string_view tracks_header =
     "t_s,station,x_m,y_m,heading_rad,speed_mps,accel_mps2,s_m,lateral_m,"
     "plan_age_ms,source";
@@ -95,7 +95,7 @@ void results::take(const cycle_record& x) {
                id.counter, x.cycle, seconds(x.created - run_.start),
                seconds(x.received - run_.start),
                milliseconds(x.received - x.created),
-               milliseconds(x.interarrival), x.used);
+               milliseconds(x.interarrival), x.used, milliseconds(x.doubt));
 }
 
 void results::take(const episode_record& x) {
@@ -197,7 +197,9 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
 }
 
 std::string_view results::name_of(boot_id provider) const {
-  const auto found = names_.find(provider);
+  auto found = names_.find(provider);
+  if (found == names_.end()) // of a process of its own
+    found = names_.find(place_of(provider));
   return found != names_.end() ? std::string_view{found->second} : "";
 }
 

@@ -37,7 +37,8 @@ scenario with_own_files(scenario s) {
   return s;
 }
 
-run_info describe(const scenario& s, const run_options& options) {
+run_info describe(const scenario& s, const run_options& options,
+                  const part& here) {
   run_info info;
   info.scenario = s.name;
   info.version = options.version;
@@ -51,7 +52,10 @@ run_info describe(const scenario& s, const run_options& options) {
   info.map_toml = s.map_text;
   info.trace_text = s.trace_text;
   info.seed = s.seed;
-  info.vehicles = place_vehicles(s).size();
+  info.vehicles = static_cast<std::size_t>(
+      std::ranges::count_if(place_vehicles(s), [&here](const auto& v) {
+        return here.drives(v.station);
+      }));
   info.obstacles = static_cast<std::uint32_t>(s.obstacles.size());
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     info.provider_names.emplace_back(k + 1, s.providers[k].name);
@@ -63,18 +67,29 @@ run_info describe(const scenario& s, const run_options& options) {
   return info;
 }
 
+void tell_news(const run_options& options, progress& shown,
+               std::ostream& console) {
+  for (const auto& line : options.news()) {
+    shown.clear();
+    console << line << std::endl;
+  }
+}
+
 /// Moves the run to its end, or to where it was interrupted.
 time_point advance(runtime& time, time_point end, const run_options& options,
                    const std::atomic<bool>& interrupted, record_keeper& keeper,
-                   progress& shown, const stopwatch& watch) {
+                   progress& shown, const stopwatch& watch,
+                   std::ostream& console) {
   const auto start = time.now();
-  const auto total_s = to_seconds(end - start);
+  const auto total_s = options.endless ? 0 : to_seconds(end - start);
   const auto slice = options.realtime ? wall_slice : virtual_slice;
   double flushed_s = 0;
   auto t = start;
   while (t < end && !interrupted) {
     t = std::min(t + slice, end);
     time.run_until(t);
+    if (options.news)
+      tell_news(options, shown, console);
     const auto wall_s = watch.elapsed_s();
     const auto flush = wall_s - flushed_s > flush_every_s;
     if (flush)
@@ -84,7 +99,8 @@ time_point advance(runtime& time, time_point end, const run_options& options,
         r.flush();
       return r.so_far().offloaded_now();
     });
-    shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
+    if (!options.endless)
+      shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
   }
   shown.clear();
   return t;
@@ -121,33 +137,44 @@ run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
   const auto time =
       options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
+  return run_part(s, options, {}, *time, interrupted, console);
+}
+
+run_outcome run_part(const scenario& s, const run_options& options,
+                     const part& here, runtime& time,
+                     const std::atomic<bool>& interrupted,
+                     std::ostream& console,
+                     const std::function<void(const world_actors&)>& on_start) {
   check_capture(s, options);
-  auto info = describe(s, options);
-  info.time_of_day = time->clock();
+  auto info = describe(s, options, here);
+  info.time_of_day = time.clock();
   const auto folder =
       make_results_folder(options.out, s.name, s.seed, options.force);
-  info.start = time->now();
+  info.start = time.now();
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};
   const stopwatch watch;
-  const auto actors =
-      build(time->system(), s, keeper, time->clock(), !options.realtime,
-            [keeper](const auto& why) { keeper->fail(why); });
+  const auto actors = build(
+      time.system(), s, keeper, time.clock(), !options.realtime,
+      [keeper](const auto& why) { keeper->fail(why); }, here);
+  const auto end = options.endless ? time_point::max() : info.start + s.length;
   time_point ended;
   try {
-    ended = advance(*time, info.start + s.length, options, interrupted, *keeper,
-                    shown, watch);
+    if (on_start)
+      on_start(actors);
+    ended = advance(time, end, options, interrupted, *keeper, shown, watch,
+                    console);
   } catch (...) { // the disk is full, say
-    dismiss(actors, *time);
+    dismiss(actors, time);
     throw;
   }
-  dismiss(actors, *time);
+  dismiss(actors, time);
   return keeper->with([&](results& r) {
-    const auto end =
-        r.finish(ended, watch.elapsed_s(), ended < info.start + s.length);
+    const auto last =
+        r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
     if (options.show != progress::output::quiet)
-      console << table(r.so_far(), info, end, folder, options.colour);
-    if (end.interrupted)
+      console << table(r.so_far(), info, last, folder, options.colour);
+    if (last.interrupted)
       return run_outcome::interrupted;
     return r.so_far().safety().ok() ? run_outcome::good : run_outcome::unsafe;
   });

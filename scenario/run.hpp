@@ -1,14 +1,18 @@
 // Runs a scenario from its first moment to its last, and keeps the results.
 #pragma once
 
+#include "scenario/build.hpp"
 #include "scenario/progress.hpp"
+#include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sofof {
 
@@ -18,8 +22,12 @@ struct run_options {
   bool force = false;    ///< Write into a folder that is not empty.
   bool realtime = false; ///< On the wall clock instead of in virtual time.
   progress::output show = progress::output::quiet;
-  bool colour = false; ///< The console is a terminal.
+  bool colour = false;  ///< The console is a terminal.
+  bool endless = false; ///< Until it is interrupted, which is a good end.
   std::string version;
+  /// Called ten times a second of a run on the wall clock.
+  /// @returns lines to show. What it throws ends the run.
+  std::function<std::vector<std::string>()> news;
 };
 
 /// How a run ended; the values are the command's exit codes.
@@ -37,5 +45,13 @@ enum class run_outcome {
 ///         capture cannot be written.
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console);
+
+/// The same for a part of a scenario, in a runtime of the caller's.
+/// @param on_start  Called once the actors live, before time passes.
+run_outcome
+run_part(const scenario& s, const run_options& options, const part& here,
+         runtime& time, const std::atomic<bool>& interrupted,
+         std::ostream& console,
+         const std::function<void(const world_actors&)>& on_start = {});
 
 } // namespace sofof

@@ -2,11 +2,16 @@
 #include "scenario/runtime.hpp"
 
 #include "actors/des_scheduler.hpp"
+#include "actors/time.hpp"
 #include "messages/type_ids.hpp"
+#include "scenario/input_error.hpp"
+#include "world/protocol.hpp"
 
 #include <caf/actor_system_config.hpp>
 #include <caf/init_global_meta_objects.hpp>
+#include <caf/io/middleman.hpp>
 #include <caf/scoped_actor.hpp>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <thread>
@@ -37,19 +42,21 @@ private:
   des_scheduler& scheduler_ = dynamic_cast<des_scheduler&>(system_.scheduler());
 };
 
-class wall_clock_runtime final : public runtime {
+/// The machine's clocks.
+template <class Runtime>
+class on_the_wall : public Runtime {
 public:
-  caf::actor_system& system() override { return system_; }
   time_point now() const override {
-    return time_point{std::chrono::steady_clock::now().time_since_epoch()};
+    return test_clock.shown(
+        time_point{std::chrono::steady_clock::now().time_since_epoch()});
   }
   etsi::its_clock clock() const override { return clock_; }
   void run_until(time_point end) override {
-    std::this_thread::sleep_until(
-        std::chrono::steady_clock::time_point{end.time_since_epoch()});
+    std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
+        test_clock.meant(end).time_since_epoch()});
   }
   void await_end(const std::vector<caf::actor>& leaving) override {
-    caf::scoped_actor self{system_};
+    caf::scoped_actor self{this->system()};
     self->wait_for(leaving);
   }
 
@@ -63,7 +70,55 @@ private:
   }
 
   etsi::its_clock clock_{epoch_unix_ms()};
+};
+
+class wall_clock_runtime final : public on_the_wall<runtime> {
+public:
+  caf::actor_system& system() override { return system_; }
+
+private:
   caf::actor_system_config config_;
+  caf::actor_system system_{config_};
+};
+
+struct network_config : caf::actor_system_config {
+  network_config() {
+    load<caf::io::middleman>();
+    set("caf.middleman.heartbeat-interval",
+        caf::timespan{2 * protocol::life_sign_period});
+    set("caf.middleman.connection-timeout",
+        caf::timespan{protocol::silence_limit});
+  }
+};
+
+class connected_runtime final : public on_the_wall<network_runtime> {
+public:
+  // Sessions of others live as long as their peers.
+  connected_runtime() { system_.await_actors_before_shutdown(false); }
+
+  caf::actor_system& system() override { return system_; }
+
+  std::uint16_t publish(const gate_actor& gate, std::uint16_t port) override {
+    const auto open = system_.middleman().publish(gate, port, this_machine);
+    if (!open)
+      throw input_error(fmt::format(
+          "cannot listen on port {}: {}; choose another one with --listen",
+          port, caf::to_string(open.error())));
+    return *open;
+  }
+
+  std::variant<gate_actor, std::string> connect(std::uint16_t port) override {
+    auto gate =
+        system_.middleman().remote_actor<gate_actor>(this_machine, port);
+    if (!gate)
+      return caf::to_string(gate.error());
+    return std::move(*gate);
+  }
+
+private:
+  static constexpr auto this_machine = "127.0.0.1";
+
+  network_config config_;
   caf::actor_system system_{config_};
 };
 
@@ -77,8 +132,13 @@ std::unique_ptr<runtime> make_wall_clock_runtime() {
   return std::make_unique<wall_clock_runtime>();
 }
 
+std::unique_ptr<network_runtime> make_network_runtime() {
+  return std::make_unique<connected_runtime>();
+}
+
 void init_messages() {
   caf::init_global_meta_objects<caf::id_block::sofof>();
+  caf::io::middleman::init_global_meta_objects();
   caf::core::init_global_meta_objects();
 }
 

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "messages/etsi/its_time.hpp"
+#include "messages/type_ids.hpp"
 #include "world/time.hpp"
 
 #include <caf/actor.hpp>
 #include <caf/actor_system.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace sofof {
@@ -32,11 +36,29 @@ public:
   virtual void await_end(const std::vector<caf::actor>& leaving) = 0;
 };
 
+/// A wall-clock runtime that talks to other processes.
+class network_runtime : public runtime {
+public:
+  /// Makes a gate public on this machine alone.
+  /// @param port  0: any.
+  /// @returns the port.
+  /// @throws input_error when that is not possible.
+  virtual std::uint16_t publish(const gate_actor& gate, std::uint16_t port) = 0;
+
+  /// May take a while; for several threads.
+  /// @param port  On this machine.
+  /// @returns the gate, or why there is none.
+  virtual std::variant<gate_actor, std::string> connect(std::uint16_t port) = 0;
+};
+
 /// A discrete-event world; begins at time zero, deterministic.
 std::unique_ptr<runtime> make_virtual_runtime();
 
 /// CAF's own scheduler and the machine's steady clock.
 std::unique_ptr<runtime> make_wall_clock_runtime();
+
+/// The same, for one process of several.
+std::unique_ptr<network_runtime> make_network_runtime();
 
 /// Makes CAF know our messages; once per process, before any runtime.
 void init_messages();

@@ -24,6 +24,13 @@ inline constexpr duration ego_period = 100ms;
 /// Between two answers to results of unknown running services.
 inline constexpr duration unknown_result_period = 200ms;
 
+/// Between two life signs on a connection between hosts.
+inline constexpr duration life_sign_period = 50ms;
+/// Who has been silent for longer is cut off.
+inline constexpr duration silence_limit = 1s;
+/// For every step of an introduction.
+inline constexpr duration introduction_timeout = 2s;
+
 /// Clocks of vehicles, sensors and providers agree within this.
 inline constexpr duration clock_tolerance = 200ms;
 

@@ -1,6 +1,8 @@
 // A hash of (key, counter, lane) instead of a generator with a state.
 #include "world/random.hpp"
 
+#include "world/fingerprint.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -20,14 +22,6 @@ constexpr std::uint64_t mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
   z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
   return z ^ (z >> 31);
-}
-
-// FNV-1a, 64 bits (Fowler, Noll & Vo).
-constexpr std::uint64_t hash(std::string_view name) {
-  std::uint64_t h = 0xcbf29ce484222325;
-  for (const unsigned char c : name)
-    h = (h ^ c) * 0x100000001b3;
-  return h;
 }
 
 // The bits of one (counter, lane): as many words as a draw asks for.
@@ -79,10 +73,10 @@ private:
 } // namespace
 
 random_stream::random_stream(std::uint64_t seed, std::string_view name)
-    : key_{mix(mix(seed + counter_step) ^ hash(name))} {}
+    : key_{mix(mix(seed + counter_step) ^ fingerprint(name))} {}
 
 random_stream random_stream::part(std::string_view name) const {
-  return part(hash(name));
+  return part(fingerprint(name));
 }
 
 random_stream random_stream::part(std::uint64_t number) const {

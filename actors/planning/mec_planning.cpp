@@ -51,7 +51,8 @@ private:
     if (!etsi::decode(message.view(), word_)
         || word_.header.station != setup_.station)
       return;
-    const auto word = read_word(word_, *setup_.where, now);
+    const auto word =
+        read_word(word_, setup_.where->ahead_by(message.ahead), now);
     if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
       return;
     heard_at_ = word->at;

@@ -145,9 +145,9 @@ public:
       return {};
     const auto before = latest.in_use.as<trajectory>();
     trajectory plan;
-    const auto fault =
-        read_suggestion(suggestion, setup.station, *way, request->from.s_m,
-                        *setup.where, now, before.get(), plan);
+    const auto fault = read_suggestion(
+        suggestion, setup.station, *way, request->from.s_m,
+        setup.where->ahead_by(message->ahead), now, before.get(), plan);
     if (fault != maneuver_fault::none || !begins_at(plan, request->own))
       return {};
     return payload::of(std::move(plan));

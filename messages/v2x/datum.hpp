@@ -14,6 +14,9 @@ struct datum {
   geo_frame frame;
   etsi::its_clock clock;
 
+  /// @returns the same as a sender has it whose time of day is ahead of ours.
+  datum ahead_by(duration d) const { return {frame, clock.ahead_by(d)}; }
+
   /// @returns the moment that a message tells in its 16 bits: the nearest to
   /// `now` there is.
   time_point unwrapped(etsi::wrapped_ms ms, time_point now) const {

@@ -21,6 +21,9 @@ broadcast_word word_of(std::optional<Word> word) {
 
 broadcast_word understand(const its_pdu& message, const datum& where,
                           time_point now) {
+  if (message.ahead != duration{})
+    return understand(its_pdu{message.octets}, where.ahead_by(message.ahead),
+                      now);
   const auto octets = message.view();
   if (etsi::cam in; etsi::decode(octets, in))
     return word_of(read_cam(in, {}, where, now));

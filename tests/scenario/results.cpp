@@ -200,7 +200,7 @@ TEST_CASE("times in files count from the start and are exact to the ns") {
   REQUIRE(all.size() == 3);
   CHECK(all[0]
         == "station,provider,provider_id,service,counter,cycle,created_s,"
-           "received_s,latency_ms,interarrival_ms,used");
+           "received_s,latency_ms,interarrival_ms,used,doubt_ms");
   CHECK(all[1]
         == "101,mec,18000000000000000000,trajectory_planning,1,3,"
            "60.000000000,60.012345678,12.345678,,1");

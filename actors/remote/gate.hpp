@@ -1,0 +1,36 @@
+// Where processes of vehicles come in.
+#pragma once
+
+#include "messages/etsi/its_time.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace sofof {
+
+/// What a gate is made of. The functions are called from its threads.
+struct gate_setup {
+  provider_actor provider;
+  boot_id boot = 0;
+  std::string name;        ///< Of the provider.
+  std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
+  etsi::its_clock clock;
+  recorder_actor recorder;
+  /// @returns a number that nobody can guess, new every time.
+  std::function<std::string()> draw_nonce;
+  /// @returns why a peer must not speak for its stations; nothing if it may.
+  std::function<std::optional<std::string>(const peer_hello&,
+                                           const std::string& nonce)>
+      doubt;
+};
+
+/// Lets those in who speak the same language, drive on the same map and have
+/// proved for whom they speak, each into a session of its own. All that a
+/// process publishes.
+gate_actor spawn_gate(caf::actor_system& sys, gate_setup setup);
+
+} // namespace sofof

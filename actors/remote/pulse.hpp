@@ -1,0 +1,53 @@
+// Keeps a connection to another host alive, and knows how its clock stands.
+#pragma once
+
+#include "messages/remote.hpp"
+#include "policies/clock_estimate.hpp"
+#include "world/protocol.hpp"
+
+#include <optional>
+
+namespace sofof {
+
+/// One side of a connection; both ask and answer alike.
+class pulse {
+public:
+  /// @param now              When the connection was made.
+  /// @param time_of_day_gap  How much later the peer's clock stood at 0 than
+  ///                         ours, as their times of day tell.
+  pulse(time_point now, duration time_of_day_gap)
+      : heard_{now}, time_of_day_gap_{time_of_day_gap} {}
+
+  life_sign beat(time_point now) { return {++beats_, now}; }
+  static life_echo answer(const life_sign& sign, time_point now) {
+    return {sign, now, now};
+  }
+
+  /// Whatever came from the peer.
+  void hear(time_point now) { heard_ = now; }
+  void take(const life_echo& echo, time_point now) {
+    clocks_.add(echo.of.sent, echo.received, echo.answered, now);
+  }
+
+  bool is_lost(time_point now) const {
+    return now - heard_ > protocol::silence_limit;
+  }
+
+  /// @returns how far the peer's clock is ahead of ours; nothing at first.
+  std::optional<clock_offset> clock(time_point now) const {
+    return clocks_.at(now);
+  }
+
+  /// @returns how far its time of day is ahead of ours, given the former.
+  duration time_of_day(const clock_offset& clock) const {
+    return clock.ahead + time_of_day_gap_;
+  }
+
+private:
+  time_point heard_;
+  duration time_of_day_gap_;
+  std::uint64_t beats_ = 0;
+  clock_estimate clocks_;
+};
+
+} // namespace sofof

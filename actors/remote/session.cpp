@@ -1,0 +1,285 @@
+// The provider's end of a connection to vehicles on another host.
+#include "actors/remote/session.hpp"
+
+#include "actors/remote/far_requester.hpp"
+#include "actors/remote/pulse.hpp"
+#include "actors/time.hpp"
+#include "policies/latest_value.hpp"
+#include "policies/rate_limit.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// It is a session_mouth, too.
+using session_impl = session_actor::extend<
+    takes<station_id, service_offer>,
+    takes<service_response, std::vector<provider_manager_actor>>,
+    takes<service_result>, takes<tick_atom>>;
+
+/// What a station may say a second: CAMs, CPMs and inputs at 10 Hz or 20, and
+/// the protocol's few words.
+constexpr double words_per_station_s = 100;
+/// For what was held up and comes at once.
+constexpr double burst_s = 2;
+constexpr std::size_t streams_per_station = 8;
+constexpr std::size_t longest_route = 1000;
+constexpr std::size_t most_kinds = 64;
+/// Between two notes of what was dropped.
+constexpr duration complaint_period = 1s;
+
+struct session_state {
+  static inline const char* name = "session";
+
+  session_impl::stateful_pointer<session_state> self;
+  session_setup setup;
+  std::optional<pulse> life;
+  std::optional<rate_limit> allowance;
+  std::map<station_id, requester_actor> voices;
+  std::map<running_service, provider_manager_actor> managers;
+  std::optional<latest_values<stream_id, service_result>> results;
+  time_point next_complaint;
+  std::uint64_t dropped = 0;
+
+  void start() {
+    const auto t = now(self);
+    const auto stations = static_cast<double>(setup.stations.size());
+    life.emplace(t, std::chrono::milliseconds{setup.peer_clock.epoch_unix_ms()
+                                              - setup.clock.epoch_unix_ms()});
+    allowance.emplace(words_per_station_s * stations,
+                      burst_s * words_per_station_s * stations);
+    results.emplace(streams_per_station * setup.stations.size());
+    self->monitor(setup.peer);
+    self->monitor(setup.provider);
+    note("peer_connected", 0,
+         fmt::format("{} stations", setup.stations.size()));
+    tick();
+  }
+
+  // -- who speaks -----------------------------------------------------------
+
+  bool is_from_here() const {
+    const auto& sender = self->current_sender();
+    return sender && sender->node() == self->node();
+  }
+
+  bool is_from_peer() const {
+    return self->current_sender()
+           == caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
+  }
+
+  /// Whether the peer may say this now, for this station.
+  bool may_say(station_id station) {
+    if (!is_from_peer())
+      return false;
+    const auto t = now(self);
+    life->hear(t);
+    if (!setup.stations.contains(station)) {
+      drop(station, "speaks for another station");
+      return false;
+    }
+    if (!allowance->take(t)) {
+      drop(station, "says too much");
+      return false;
+    }
+    return true;
+  }
+
+  void drop(station_id station, std::string_view why) {
+    ++dropped;
+    const auto t = now(self);
+    if (t < next_complaint)
+      return;
+    next_complaint = t + complaint_period;
+    note("peer_ignored", station, fmt::format("{}; {} so far", why, dropped));
+  }
+
+  const requester_actor& voice_of(station_id station) {
+    auto& voice = voices[station];
+    if (!voice)
+      voice = spawn_far_requester(self->system(), station, session_impl{self});
+    return voice;
+  }
+
+  // -- what the peer says ---------------------------------------------------
+
+  void take(station_id station, const its_pdu& message) {
+    if (!may_say(station))
+      return;
+    self->send(setup.peer, stream_of(station, message));
+    if (message.station() != station) {
+      drop(station, "carries another station's message");
+      return;
+    }
+    if (const auto clock = life->clock(now(self)))
+      self->send(setup.provider,
+                 its_pdu{message.octets, life->time_of_day(*clock)},
+                 voice_of(station));
+  }
+
+  void take(const service_request& request) {
+    if (!may_say(request.station))
+      return;
+    if (request.route.size() > longest_route
+        || request.kinds.size() > most_kinds)
+      drop(request.station, "asks for too much");
+    else
+      self->send(setup.provider, request, voice_of(request.station));
+  }
+
+  void take(const service_input& input) {
+    if (!may_say(input.running.station))
+      return;
+    self->send(setup.peer, stream_of(input.running, stream_id::what::input));
+    const auto manager = managers.find(input.running);
+    const auto clock = life->clock(now(self));
+    if (manager == managers.end() || !clock)
+      return;
+    auto here = input;
+    here.at -= clock->ahead;
+    if (const auto message = input.what.as<its_pdu>())
+      here.what =
+          payload::of(its_pdu{message->octets, life->time_of_day(*clock)});
+    self->send(manager->second, std::move(here));
+  }
+
+  void end(const service_end& e) {
+    if (!may_say(e.running.station) || e.from != side::requester)
+      return;
+    forget(e.running);
+    self->send(setup.provider, e);
+  }
+
+  // -- what the provider says -----------------------------------------------
+
+  void take(const service_response& response,
+            const std::vector<provider_manager_actor>& given) {
+    auto manager = given.begin();
+    for (const auto& v : response.verdicts)
+      if (v.accepted && manager != given.end())
+        managers.insert_or_assign(v.running, *manager++);
+    self->send(setup.peer, response);
+  }
+
+  void take(const service_result& result) {
+    const auto stream = stream_of(result.running, stream_id::what::result);
+    if (const auto next = results->offer(stream, result))
+      self->send(setup.peer, *next);
+  }
+
+  void acknowledge(const stream_id& stream) {
+    life->hear(now(self));
+    if (const auto next = results->acknowledge(stream))
+      self->send(setup.peer, *next);
+  }
+
+  void tell_end(const service_end& e) {
+    forget(e.running);
+    self->send(setup.peer, e);
+  }
+
+  void forget(const running_service& running) {
+    managers.erase(running);
+    results->forget(stream_of(running, stream_id::what::result));
+  }
+
+  // -- the connection -------------------------------------------------------
+
+  void tick() {
+    const auto t = now(self);
+    if (life->is_lost(t)) {
+      leave("silent");
+      return;
+    }
+    self->send(setup.peer, life->beat(t));
+    send_after(self, self, protocol::life_sign_period, tick_atom_v);
+  }
+
+  void leave(std::string_view why) {
+    note("peer_lost", 0, why);
+    self->quit(caf::exit_reason::remote_link_unreachable);
+  }
+
+  void note(std::string what, station_id station, std::string_view detail) {
+    self->send(setup.recorder, event_record{now(self),
+                                            std::move(what),
+                                            station,
+                                            0,
+                                            {},
+                                            0,
+                                            std::string{detail}});
+  }
+};
+
+session_impl::behavior_type
+session(session_impl::stateful_pointer<session_state> self,
+        session_setup setup) {
+  self->state.self = self;
+  self->state.setup = std::move(setup);
+  self->state.start();
+  self->set_down_handler(
+      [self](const caf::down_msg&) { self->state.leave("gone"); });
+  return {
+      [self](station_id station, const its_pdu& message) {
+        self->state.take(station, message);
+      },
+      [self](const service_request& request) { self->state.take(request); },
+      [self](const service_input& input) { self->state.take(input); },
+      [self](const service_end& e) {
+        if (self->state.is_from_here())
+          self->state.tell_end(e);
+        else
+          self->state.end(e);
+      },
+      [self](const life_sign& sign) {
+        if (!self->state.is_from_peer())
+          return;
+        self->state.life->hear(now(self));
+        self->send(self->state.setup.peer, pulse::answer(sign, now(self)));
+      },
+      [self](const life_echo& echo) {
+        if (self->state.is_from_peer())
+          self->state.life->take(echo, now(self));
+      },
+      [self](const stream_id& stream) {
+        if (self->state.is_from_peer())
+          self->state.acknowledge(stream);
+      },
+      [self](station_id station, const service_offer& offer) {
+        if (self->state.is_from_here())
+          self->send(self->state.setup.peer, station, offer);
+      },
+      [self](const service_response& response,
+             const std::vector<provider_manager_actor>& managers) {
+        if (self->state.is_from_here())
+          self->state.take(response, managers);
+      },
+      [self](const service_result& result) {
+        if (self->state.is_from_here())
+          self->state.take(result);
+      },
+      [self](tick_atom) {
+        if (self->state.is_from_here())
+          self->state.tick();
+      },
+  };
+}
+
+} // namespace
+
+session_actor spawn_session(caf::actor_system& sys, session_setup setup) {
+  return sys.spawn(session, std::move(setup));
+}
+
+} // namespace sofof

@@ -1,0 +1,365 @@
+// The vehicles' end of a connection to a provider on another host.
+#include "actors/remote/uplink.hpp"
+
+#include "actors/remote/pulse.hpp"
+#include "actors/remote/type_block.hpp"
+#include "actors/time.hpp"
+#include "policies/back_off.hpp"
+#include "policies/latest_value.hpp"
+
+#include <caf/event_based_actor.hpp>
+#include <caf/send.hpp>
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
+
+#include <optional>
+#include <set>
+
+namespace sofof {
+
+namespace {
+
+// It is an uplink_mouth, too.
+using uplink_impl = uplink_actor::extend<
+    takes<station_id, its_pdu>, takes<service_request>, takes<service_input>,
+    // This station's messages go there.
+    takes<station_id, link_actor>,
+    // Something may be due.
+    takes<tick_atom>,
+    // An attempt has got through, or has failed for this reason.
+    takes<tick_atom, gate_actor>, takes<tick_atom, std::string>>;
+
+constexpr std::size_t streams_per_station = 8;
+
+struct uplink_state {
+  static inline const char* name = "uplink";
+
+  uplink_impl::stateful_pointer<uplink_state> self;
+  uplink_setup setup;
+  std::uint64_t types = fingerprint_of_types();
+  std::map<station_id, link_actor> vehicles;
+  // -- while connected
+  session_actor session;
+  std::optional<pulse> life;
+  std::set<running_service> running;
+  using word = std::variant<its_pdu, service_input>;
+  std::optional<latest_values<stream_id, word>> words;
+  // -- while not
+  back_off pauses;
+  std::uint64_t attempts = 0;
+  time_point next_attempt;
+  bool introducing = false;
+  bool was_connected = false;
+  std::string last_news;
+
+  void start() {
+    words.emplace(streams_per_station * setup.stations.size());
+    plan_attempt();
+    tick();
+  }
+
+  void tick() {
+    const auto t = now(self);
+    if (session) {
+      if (life->is_lost(t))
+        disconnected("it has been silent for a second");
+      else
+        self->send(session, life->beat(t));
+    }
+    if (!session && t >= next_attempt)
+      attempt();
+    send_after(self, self, protocol::life_sign_period, tick_atom_v);
+  }
+
+  // -- connecting -----------------------------------------------------------
+
+  void plan_attempt() {
+    next_attempt = now(self) + pauses.next_wait(setup.noise.uniform(attempts));
+    ++attempts;
+  }
+
+  void attempt() {
+    plan_attempt();
+    self->system().spawn<caf::detached>(
+        [connect = setup.connect,
+         uplink = uplink_impl{self}](caf::event_based_actor* helper) {
+          const auto found = connect();
+          if (const auto* gate = std::get_if<gate_actor>(&found))
+            helper->send(uplink, tick_atom_v, *gate);
+          else
+            helper->send(uplink, tick_atom_v, std::get<std::string>(found));
+        });
+  }
+
+  void failed(const std::string& why) {
+    if (!session)
+      tell(fmt::format("no connection to provider {} at {}: {}; trying again",
+                       setup.provider, setup.address, why));
+  }
+
+  void introduce_to(const gate_actor& gate) {
+    if (session || introducing)
+      return; // another attempt was faster
+    introducing = true;
+    self->request(gate, protocol::introduction_timeout, remote_protocol, types)
+        .then(
+            [this](std::uint32_t protocol, std::uint64_t theirs,
+                   const std::string& nonce, const caf::strong_actor_ptr& in) {
+              if (protocol != remote_protocol || theirs != types)
+                refused(fmt::format("it speaks {}, this program {}; install "
+                                    "the same version on both sides",
+                                    spoken(protocol, theirs),
+                                    spoken(remote_protocol, types)));
+              else if (!in)
+                not_now("too many are introducing themselves there");
+              else
+                introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
+            },
+            [this](const caf::error& error) { not_now(sentence(error)); });
+  }
+
+  void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
+    peer_hello hello{
+        setup.stations, setup.world, setup.clock.epoch_unix_ms(), {}, {}};
+    setup.prove(hello, nonce);
+    self->request(entrance, protocol::introduction_timeout, std::move(hello),
+                  uplink_actor{uplink_impl{self}})
+        .then(
+            [this](const peer_welcome& welcome, const session_actor& with) {
+              if (welcome.name != setup.provider)
+                refused(fmt::format("it is provider {}", welcome.name));
+              else
+                connected(welcome, with);
+            },
+            [this](const caf::error& error) {
+              if (error == caf::sec::invalid_argument)
+                refused(sentence(error));
+              else
+                not_now(sentence(error));
+            });
+  }
+
+  void not_now(const std::string& why) {
+    introducing = false;
+    failed(why);
+  }
+
+  // Whoever drives goes on driving, even if nobody will ever plan for it.
+  void refused(const std::string& why) {
+    introducing = false;
+    const auto news = fmt::format("provider {} at {} refuses: {}",
+                                  setup.provider, setup.address, why);
+    if (was_connected)
+      tell(news);
+    else
+      setup.on_refusal(news);
+  }
+
+  static std::string sentence(const caf::error& error) {
+    if (error.context().match_elements<std::string>())
+      return error.context().get_as<std::string>(0);
+    return to_string(error);
+  }
+
+  void connected(const peer_welcome& welcome, const session_actor& with) {
+    introducing = false;
+    was_connected = true;
+    session = with;
+    const auto t = now(self);
+    life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
+                                              - setup.clock.epoch_unix_ms()});
+    pauses.succeeded();
+    self->monitor(session);
+    self->send(session, life->beat(t));
+    note("provider_connected", welcome.boot, setup.address);
+    tell(fmt::format("connected to provider {} at {}", setup.provider,
+                     setup.address));
+  }
+
+  void disconnected(std::string_view why) {
+    self->demonitor(session);
+    session = nullptr;
+    life.reset();
+    words->clear();
+    plan_attempt();
+    for (const auto& x : running)
+      down(x.station, service_end{x, end_reason::peer_lost, side::provider});
+    running.clear();
+    note("provider_lost", 0, why);
+    tell(fmt::format("lost provider {} at {}: {}; vehicles plan for themselves",
+                     setup.provider, setup.address, why));
+  }
+
+  // -- what vehicles say ----------------------------------------------------
+
+  void say(const stream_id& stream, word what) {
+    if (!session)
+      return;
+    if (auto next = words->offer(stream, std::move(what)))
+      send(stream, *next);
+  }
+
+  void send(const stream_id& stream, const word& what) {
+    if (const auto* message = std::get_if<its_pdu>(&what))
+      self->send(session, stream.station, *message);
+    else
+      self->send(session, std::get<service_input>(what));
+  }
+
+  void acknowledge(const stream_id& stream) {
+    if (auto next = words->acknowledge(stream))
+      send(stream, *next);
+  }
+
+  template <class Message>
+  void up(const Message& message) {
+    if (session)
+      self->send(session, message);
+  }
+
+  void end(const service_end& e) {
+    forget(e.running);
+    up(e);
+  }
+
+  void forget(const running_service& x) {
+    running.erase(x);
+    words->forget(stream_of(x, stream_id::what::input));
+  }
+
+  // -- what the provider says -----------------------------------------------
+
+  bool is_from_session() {
+    const auto is = session
+                    && self->current_sender()
+                           == caf::actor_cast<caf::strong_actor_ptr>(session);
+    if (is)
+      life->hear(now(self));
+    return is;
+  }
+
+  template <class Message>
+  void down(station_id station, const Message& message) {
+    if (const auto i = vehicles.find(station); i != vehicles.end())
+      self->send(i->second, message);
+  }
+
+  void take(const service_response& response) {
+    for (const auto& v : response.verdicts)
+      if (v.accepted && v.running.station == response.station)
+        running.insert(v.running);
+    // Of the link type: how many managers there are is told by the verdicts.
+    if (const auto i = vehicles.find(response.station); i != vehicles.end())
+      self->send(i->second, response, std::vector<provider_manager_actor>{});
+  }
+
+  void take(const service_result& result) {
+    self->send(session, stream_of(result.running, stream_id::what::result));
+    const auto t = now(self);
+    const auto clock = life->clock(t);
+    if (!clock)
+      return;
+    auto here = result;
+    here.doubt = clock->doubt;
+    here.created -= clock->ahead;
+    // By less than our doubt, it may seem to come from the future.
+    if (here.created > t && here.created - t <= clock->doubt)
+      here.created = t;
+    if (const auto message = result.what.as<its_pdu>())
+      here.what =
+          payload::of(its_pdu{message->octets, life->time_of_day(*clock)});
+    down(here.running.station, here);
+  }
+
+  void tell_end(const service_end& e) {
+    forget(e.running);
+    down(e.running.station, e);
+  }
+
+  // -- news -----------------------------------------------------------------
+
+  void tell(const std::string& news) {
+    if (news != last_news)
+      setup.on_news(news);
+    last_news = news;
+  }
+
+  void note(std::string what, boot_id boot, std::string_view detail) {
+    self->send(
+        setup.recorder,
+        event_record{
+            now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
+  }
+};
+
+uplink_impl::behavior_type
+uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
+  self->state.self = self;
+  self->state.setup = std::move(setup);
+  self->state.start();
+  self->set_down_handler([self](const caf::down_msg&) {
+    self->state.disconnected("the connection is gone");
+  });
+  return {
+      [self](station_id station, const service_offer& offer) {
+        if (self->state.is_from_session())
+          self->state.down(station, offer);
+      },
+      [self](const service_response& response) {
+        if (self->state.is_from_session())
+          self->state.take(response);
+      },
+      [self](const service_result& result) {
+        if (self->state.is_from_session())
+          self->state.take(result);
+      },
+      [self](const service_end& e) {
+        if (self->state.is_from_session())
+          self->state.tell_end(e);
+        else if (e.from == side::requester)
+          self->state.end(e);
+      },
+      [self](const life_sign& sign) {
+        if (self->state.is_from_session())
+          self->send(self->state.session, pulse::answer(sign, now(self)));
+      },
+      [self](const life_echo& echo) {
+        if (self->state.is_from_session())
+          self->state.life->take(echo, now(self));
+      },
+      [self](const stream_id& stream) {
+        if (self->state.is_from_session())
+          self->state.acknowledge(stream);
+      },
+      [self](station_id station, const its_pdu& message) {
+        self->state.say(stream_of(station, message), message);
+      },
+      [self](const service_request& request) { self->state.up(request); },
+      [self](const service_input& input) {
+        self->state.say(stream_of(input.running, stream_id::what::input),
+                        input);
+      },
+      [self](station_id station, const link_actor& vehicle) {
+        self->state.vehicles.insert_or_assign(station, vehicle);
+      },
+      [self](tick_atom) { self->state.tick(); },
+      [self](tick_atom, const gate_actor& gate) {
+        self->state.introduce_to(gate);
+      },
+      [self](tick_atom, const std::string& why) { self->state.failed(why); },
+  };
+}
+
+} // namespace
+
+uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup) {
+  return sys.spawn(uplink, std::move(setup));
+}
+
+void introduce(const uplink_mouth& uplink, station_id station,
+               const link_actor& far_provider) {
+  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, far_provider);
+}
+
+} // namespace sofof

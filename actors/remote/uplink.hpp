@@ -1,0 +1,53 @@
+// The vehicles' end of a connection to a provider on another host.
+#pragma once
+
+#include "actors/remote/far_provider.hpp"
+#include "messages/etsi/its_time.hpp"
+#include "messages/type_ids.hpp"
+#include "world/random.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sofof {
+
+/// What an uplink is made of. The functions are called from threads of their
+/// own.
+struct uplink_setup {
+  std::string provider; ///< The name that it must have.
+  std::string address;  ///< For people.
+  std::vector<station_id> stations;
+  std::uint64_t world = 0; ///< Fingerprint that the provider must have as well.
+  etsi::its_clock clock;
+  recorder_actor recorder;
+  random_stream noise{0, ""}; ///< For the pauses between attempts.
+  /// Connects, which may take a while.
+  /// @returns the gate, or why there is none.
+  std::function<std::variant<gate_actor, std::string>()> connect;
+  /// Adds the proof that we may speak for our stations, where one is needed.
+  std::function<void(peer_hello&, const std::string& nonce)> prove;
+  /// Called with a sentence when we will never be let in: before the first
+  /// connection, by a provider that refuses us.
+  std::function<void(const std::string&)> on_refusal;
+  /// The same for what may pass: once for every change.
+  std::function<void(const std::string&)> on_news;
+};
+
+/// Connects, introduces itself, and connects again whenever the connection is
+/// lost: with growing pauses, one attempt at least every second, each by a
+/// helper of its own, and the first that gets through counts. Meanwhile it
+/// loses what it is given, and ends what ran for its vehicles (peer_lost), so
+/// that they plan for themselves at once. CAMs, CPMs and inputs go out one at a
+/// time, always the latest. Translates the provider's times to ours.
+uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
+
+/// Tells an uplink who speaks and listens for a station.
+void introduce(const uplink_mouth& uplink, station_id station,
+               const link_actor& far_provider);
+
+} // namespace sofof

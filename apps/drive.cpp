@@ -1,0 +1,79 @@
+// sofof drive: runs vehicles, which providers of other processes plan for.
+#include "apps/command.hpp"
+#include "apps/run_arguments.hpp"
+#include "apps/signals.hpp"
+#include "scenario/hosts.hpp"
+#include "scenario/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include "network/station_list.hpp"
+#include <iostream>
+#include <memory>
+
+namespace sofof {
+
+namespace {
+
+/// [NAME=]HOST:PORT
+drive_options::provider to_provider(std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos)
+    return {"", to_host_port(text)};
+  return {std::string{text.substr(0, equals)},
+          to_host_port(text.substr(equals + 1))};
+}
+
+std::set<station_id> to_stations(const std::string& text) {
+  if (text.empty())
+    return {};
+  const auto all = parse_stations(text);
+  if (!all)
+    throw input_error(fmt::format(
+        "'{}' is no list of stations, like 101-106 or 101,104", text));
+  return {all->begin(), all->end()};
+}
+
+} // namespace
+
+void add_drive(CLI::App& app, int& exit_code) {
+  struct arguments {
+    run_arguments run;
+    drive_options what;
+    std::vector<std::string> providers;
+    std::string stations;
+  };
+  auto* command = app.add_subcommand("drive", "Run vehicles, in a car");
+  auto args = std::make_shared<arguments>();
+  args->run.add_to(*command);
+  command
+      ->add_option("--provider", args->providers,
+                   "Where a provider listens; NAME is the scenario's, needed "
+                   "if it has several; may be given several times")
+      ->type_name("[NAME=]HOST:PORT")
+      ->required()
+      ->take_all()
+      ->expected(1);
+  command
+      ->add_option("--station", args->stations,
+                   "Which vehicles, e.g. 101-106 (default all)")
+      ->type_name("LIST");
+  command
+      ->add_option("--keys", args->what.keys,
+                   "Folder of the vehicles' certificate, see `sofof keys`")
+      ->type_name("DIR");
+  command->footer(
+      "Example:\n  sofof drive config/ulm_lehr.toml --provider 10.0.0.5:4711 "
+      "--station 101-103 --keys keys/station-101-103");
+  command->callback([args, &exit_code] {
+    const auto s = args->run.what.load();
+    for (const auto& text : args->providers)
+      args->what.providers.push_back(to_provider(text));
+    args->what.stations = to_stations(args->stations);
+    catch_signals();
+    exit_code = static_cast<int>(
+        drive(s, args->what, args->run.given(), interrupted, std::cout));
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,49 @@
+// sofof provide: runs a provider for vehicles of other processes.
+#include "apps/command.hpp"
+#include "apps/run_arguments.hpp"
+#include "apps/signals.hpp"
+#include "scenario/hosts.hpp"
+
+#include <iostream>
+#include <memory>
+
+namespace sofof {
+
+void add_provide(CLI::App& app, int& exit_code) {
+  struct arguments {
+    run_arguments run;
+    provide_options what;
+    std::string listen = "127.0.0.1:4711";
+  };
+  auto* command =
+      app.add_subcommand("provide", "Run a provider, on an edge server");
+  auto args = std::make_shared<arguments>();
+  args->run.add_to(*command);
+  command
+      ->add_option("--listen", args->listen,
+                   "Where vehicles connect to (default 127.0.0.1:4711)")
+      ->type_name("HOST:PORT");
+  command
+      ->add_option("--name", args->what.name,
+                   "Which provider of the scenario, if it has several")
+      ->type_name("NAME");
+  command
+      ->add_option("--keys", args->what.keys,
+                   "Folder of the provider's certificate, see `sofof keys`")
+      ->type_name("DIR");
+  command->footer(
+      "It runs until it is stopped, or for --duration.\nExample:\n  sofof "
+      "provide config/ulm_lehr.toml --listen 0.0.0.0:4711 --keys "
+      "keys/provider-mec");
+  command->callback([args, &exit_code] {
+    const auto s = args->run.what.load();
+    args->what.listen = to_host_port(args->listen);
+    auto options = args->run.given();
+    options.endless = args->run.what.length.empty();
+    catch_signals();
+    exit_code = static_cast<int>(
+        provide(s, args->what, options, interrupted, std::cout));
+  });
+}
+
+} // namespace sofof
