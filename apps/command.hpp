@@ -14,5 +14,6 @@ void add_check(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);
+void add_keys(CLI::App& app, int& exit_code);
 
 } // namespace sofof

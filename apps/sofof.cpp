@@ -36,6 +36,7 @@ int obey(int argc, char** argv) {
   sofof::add_solve(app, exit_code);
   sofof::add_decode(app, exit_code);
   sofof::add_encode(app, exit_code);
+  sofof::add_keys(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
