@@ -182,7 +182,8 @@ double clock_estimate::fitted_drift() const {
     sum_tt += weight * t_s * t_s;
     sum_ty += weight * t_s * y_s;
   }
-  const auto about_t = sum_tt - sum_t * sum_t / weights;
+  // Rounding must not make a spread negative.
+  const auto about_t = std::max(sum_tt - sum_t * sum_t / weights, 0.0);
   const auto about_y = sum_ty - sum_t * sum_y / weights;
   const auto drift = about_y / (about_t + 1 / (usual_drift * usual_drift));
   return std::clamp(drift, -largest_drift, largest_drift);

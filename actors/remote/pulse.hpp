@@ -26,7 +26,7 @@ public:
   /// Whatever came from the peer.
   void hear(time_point now) { heard_ = now; }
   void take(const life_echo& echo, time_point now) {
-    clocks_.add(echo.of.sent, echo.received, echo.answered, now);
+    clocks_.add({echo.of.sent, echo.received, echo.answered, now});
   }
 
   bool is_lost(time_point now) const {
