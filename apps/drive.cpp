@@ -1,13 +1,14 @@
 // sofof drive: runs vehicles, which providers of other processes plan for.
 #include "apps/command.hpp"
+#include "apps/host_arguments.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
+#include "network/station_list.hpp"
 #include "scenario/hosts.hpp"
 #include "scenario/input_error.hpp"
 
 #include <fmt/format.h>
 
-#include "network/station_list.hpp"
 #include <iostream>
 #include <memory>
 
@@ -39,6 +40,7 @@ std::set<station_id> to_stations(const std::string& text) {
 void add_drive(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
+    host_arguments host;
     drive_options what;
     std::vector<std::string> providers;
     std::string stations;
@@ -58,10 +60,7 @@ void add_drive(CLI::App& app, int& exit_code) {
       ->add_option("--station", args->stations,
                    "Which vehicles, e.g. 101-106 (default all)")
       ->type_name("LIST");
-  command
-      ->add_option("--keys", args->what.keys,
-                   "Folder of the vehicles' certificate, see `sofof keys`")
-      ->type_name("DIR");
+  args->host.add_to(*command);
   command->footer(
       "Example:\n  sofof drive config/ulm_lehr.toml --provider 10.0.0.5:4711 "
       "--station 101-103 --keys keys/station-101-103");
@@ -70,6 +69,7 @@ void add_drive(CLI::App& app, int& exit_code) {
     for (const auto& text : args->providers)
       args->what.providers.push_back(to_provider(text));
     args->what.stations = to_stations(args->stations);
+    args->host.give(args->what);
     catch_signals();
     exit_code = static_cast<int>(
         drive(s, args->what, args->run.given(), interrupted, std::cout));

@@ -1,5 +1,6 @@
 // sofof provide: runs a provider for vehicles of other processes.
 #include "apps/command.hpp"
+#include "apps/host_arguments.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
 #include "scenario/hosts.hpp"
@@ -12,6 +13,7 @@ namespace sofof {
 void add_provide(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
+    host_arguments host;
     provide_options what;
     std::string listen = "127.0.0.1:4711";
   };
@@ -27,10 +29,7 @@ void add_provide(CLI::App& app, int& exit_code) {
       ->add_option("--name", args->what.name,
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
-  command
-      ->add_option("--keys", args->what.keys,
-                   "Folder of the provider's certificate, see `sofof keys`")
-      ->type_name("DIR");
+  args->host.add_to(*command);
   command->footer(
       "It runs until it is stopped, or for --duration.\nExample:\n  sofof "
       "provide config/ulm_lehr.toml --listen 0.0.0.0:4711 --keys "
@@ -40,6 +39,7 @@ void add_provide(CLI::App& app, int& exit_code) {
     args->what.listen = to_host_port(args->listen);
     auto options = args->run.given();
     options.endless = args->run.what.length.empty();
+    args->host.give(args->what);
     catch_signals();
     exit_code = static_cast<int>(
         provide(s, args->what, options, interrupted, std::cout));

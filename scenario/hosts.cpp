@@ -148,9 +148,10 @@ run_outcome provide(const scenario& s, const provide_options& what,
   const auto place = find_provider(s, what.name, "--name");
   const auto& name = s.providers[place].name;
   check_secured(what.listen, what.keys, "--listen");
-  const auto time = make_network_runtime();
+  const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
+  options.network = "real";
   options.news = [board] { return board->take(); };
   part here;
   here.drives = [](station_id) { return false; };
@@ -185,9 +186,10 @@ run_outcome drive(const scenario& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console) {
   check_stations(s, what.stations);
-  const auto time = make_network_runtime();
+  const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
+  options.network = "real";
   options.news = [board] { return board->take(); };
   part here;
   here.drives = [stations = what.stations](station_id x) {
@@ -204,6 +206,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
     setup.stations = stations;
     setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
+    setup.protocol = what.protocol;
     setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                       .part(place)
                       .part(stations.empty() ? 0 : stations.front());

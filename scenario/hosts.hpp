@@ -1,6 +1,8 @@
 // A scenario on several hosts: providers here, vehicles there.
 #pragma once
 
+#include "actors/time.hpp"
+#include "messages/remote.hpp"
 #include "scenario/run.hpp"
 
 #include <cstdint>
@@ -23,20 +25,25 @@ struct host_port {
 /// @throws input_error.
 host_port to_host_port(std::string_view text);
 
-struct provide_options {
-  std::string name; ///< Of the provider; empty: the only one.
-  host_port listen;
-  std::string keys; ///< Folder with certificate and key; empty on loopback.
+/// What both sides have in common.
+struct host_options {
+  std::string keys;  ///< Folder with certificate and key; empty on loopback.
+  clock_error clock; ///< For tests: how far the own clock is off, ...
+  std::uint32_t protocol = remote_protocol; ///< ... and what it speaks.
 };
 
-struct drive_options {
+struct provide_options : host_options {
+  std::string name; ///< Of the provider; empty: the only one.
+  host_port listen;
+};
+
+struct drive_options : host_options {
   struct provider {
     std::string name; ///< Empty: the only one.
     host_port at;
   };
   std::vector<provider> providers;
   std::set<station_id> stations; ///< Empty: all.
-  std::string keys; ///< Folder with certificate and key; empty on loopback.
 };
 
 /// Runs one provider, for vehicles of other processes.

@@ -43,7 +43,7 @@ run_info describe(const scenario& s, const run_options& options,
   info.scenario = s.name;
   info.version = options.version;
   info.clock = options.realtime ? "wall" : "virtual";
-  info.profile = s.network.profile;
+  info.profile = options.network.empty() ? s.network.profile : options.network;
   info.lodm = s.policies.lodm->name();
   info.codm = s.policies.codm->name();
   info.config_toml =

@@ -25,6 +25,7 @@ struct run_options {
   bool colour = false;  ///< The console is a terminal.
   bool endless = false; ///< Until it is interrupted, which is a good end.
   std::string version;
+  std::string network; ///< What messages cross, if not the modelled channel.
   /// Called ten times a second of a run on the wall clock.
   /// @returns lines to show. What it throws ends the run.
   std::function<std::vector<std::string>()> news;

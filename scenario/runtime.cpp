@@ -2,7 +2,6 @@
 #include "scenario/runtime.hpp"
 
 #include "actors/des_scheduler.hpp"
-#include "actors/time.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/input_error.hpp"
 #include "world/protocol.hpp"
@@ -11,6 +10,7 @@
 #include <caf/init_global_meta_objects.hpp>
 #include <caf/io/middleman.hpp>
 #include <caf/scoped_actor.hpp>
+#include <caf/send.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -93,8 +93,11 @@ struct network_config : caf::actor_system_config {
 
 class connected_runtime final : public on_the_wall<network_runtime> {
 public:
-  // Sessions of others live as long as their peers.
-  connected_runtime() { system_.await_actors_before_shutdown(false); }
+  ~connected_runtime() override {
+    for (const auto& gate : gates_)
+      caf::anon_send_exit(gate, caf::exit_reason::user_shutdown);
+    await_end(gates_);
+  }
 
   caf::actor_system& system() override { return system_; }
 
@@ -104,6 +107,7 @@ public:
       throw input_error(fmt::format(
           "cannot listen on port {}: {}; choose another one with --listen",
           port, caf::to_string(open.error())));
+    gates_.push_back(caf::actor_cast<caf::actor>(gate));
     return *open;
   }
 
@@ -120,6 +124,7 @@ private:
 
   network_config config_;
   caf::actor_system system_{config_};
+  std::vector<caf::actor> gates_;
 };
 
 } // namespace
@@ -132,7 +137,9 @@ std::unique_ptr<runtime> make_wall_clock_runtime() {
   return std::make_unique<wall_clock_runtime>();
 }
 
-std::unique_ptr<network_runtime> make_network_runtime() {
+std::unique_ptr<network_runtime> make_network_runtime(clock_error clock) {
+  clock.from = time_point{std::chrono::steady_clock::now().time_since_epoch()};
+  test_clock = clock;
   return std::make_unique<connected_runtime>();
 }
 

@@ -1,6 +1,7 @@
 // The time that a run lives in: virtual or wall clock, around one CAF system.
 #pragma once
 
+#include "actors/time.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 #include "world/time.hpp"
@@ -58,7 +59,8 @@ std::unique_ptr<runtime> make_virtual_runtime();
 std::unique_ptr<runtime> make_wall_clock_runtime();
 
 /// The same, for one process of several.
-std::unique_ptr<network_runtime> make_network_runtime();
+/// @param clock  For tests: how far its clock is off, from now on.
+std::unique_ptr<network_runtime> make_network_runtime(clock_error clock = {});
 
 /// Makes CAF know our messages; once per process, before any runtime.
 void init_messages();

@@ -98,6 +98,7 @@ gate_actor::behavior_type gate(gate_actor::stateful_pointer<gate_state> self,
         auto nonce = state.setup->draw_nonce();
         const auto in = self->spawn(entrance, state.setup, nonce);
         self->monitor(in);
+        self->link_to(in);
         ++state.open;
         return {remote_protocol, state.types, std::move(nonce),
                 caf::actor_cast<caf::strong_actor_ptr>(in)};

@@ -155,7 +155,7 @@ struct session_state {
   }
 
   void end(const service_end& e) {
-    if (!may_say(e.running.station) || e.from != side::requester)
+    if (!may_say(e.running.station))
       return;
     forget(e.running);
     self->send(setup.provider, e);
@@ -237,10 +237,10 @@ session(session_impl::stateful_pointer<session_state> self,
       [self](const service_request& request) { self->state.take(request); },
       [self](const service_input& input) { self->state.take(input); },
       [self](const service_end& e) {
-        if (self->state.is_from_here())
-          self->state.tell_end(e);
-        else
+        if (e.from == side::requester)
           self->state.end(e);
+        else if (self->state.is_from_here())
+          self->state.tell_end(e);
       },
       [self](const life_sign& sign) {
         if (!self->state.is_from_peer())

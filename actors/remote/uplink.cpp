@@ -81,15 +81,18 @@ struct uplink_state {
 
   void attempt() {
     plan_attempt();
-    self->system().spawn<caf::detached>(
-        [connect = setup.connect,
-         uplink = uplink_impl{self}](caf::event_based_actor* helper) {
-          const auto found = connect();
-          if (const auto* gate = std::get_if<gate_actor>(&found))
-            helper->send(uplink, tick_atom_v, *gate);
-          else
-            helper->send(uplink, tick_atom_v, std::get<std::string>(found));
-        });
+    const auto help = [connect = setup.connect, uplink = uplink_impl{self}](
+                          caf::event_based_actor* helper) {
+      const auto found = connect();
+      if (const auto* gate = std::get_if<gate_actor>(&found))
+        helper->send(uplink, tick_atom_v, *gate);
+      else
+        helper->send(uplink, tick_atom_v, std::get<std::string>(found));
+    };
+    if (setup.takes_time)
+      self->system().spawn<caf::detached>(help);
+    else
+      self->system().spawn(help);
   }
 
   void failed(const std::string& why) {
@@ -102,15 +105,15 @@ struct uplink_state {
     if (session || introducing)
       return; // another attempt was faster
     introducing = true;
-    self->request(gate, protocol::introduction_timeout, remote_protocol, types)
+    self->request(gate, protocol::introduction_timeout, setup.protocol, types)
         .then(
             [this](std::uint32_t protocol, std::uint64_t theirs,
                    const std::string& nonce, const caf::strong_actor_ptr& in) {
-              if (protocol != remote_protocol || theirs != types)
+              if (protocol != setup.protocol || theirs != types)
                 refused(fmt::format("it speaks {}, this program {}; install "
                                     "the same version on both sides",
                                     spoken(protocol, theirs),
-                                    spoken(remote_protocol, types)));
+                                    spoken(setup.protocol, types)));
               else if (!in)
                 not_now("too many are introducing themselves there");
               else
@@ -315,10 +318,10 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
           self->state.take(result);
       },
       [self](const service_end& e) {
-        if (self->state.is_from_session())
-          self->state.tell_end(e);
-        else if (e.from == side::requester)
+        if (e.from == side::requester)
           self->state.end(e);
+        else if (self->state.is_from_session())
+          self->state.tell_end(e);
       },
       [self](const life_sign& sign) {
         if (self->state.is_from_session())

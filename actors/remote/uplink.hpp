@@ -29,6 +29,9 @@ struct uplink_setup {
   /// Connects, which may take a while.
   /// @returns the gate, or why there is none.
   std::function<std::variant<gate_actor, std::string>()> connect;
+  /// Whether connecting keeps a thread busy for a while.
+  bool takes_time = true;
+  std::uint32_t protocol = remote_protocol;
   /// Adds the proof that we may speak for our stations, where one is needed.
   std::function<void(peer_hello&, const std::string& nonce)> prove;
   /// Called with a sentence when we will never be let in: before the first
