@@ -49,6 +49,8 @@ ssl_context_ptr make_tls_context(const credentials& own) {
   SSL_CTX_set_mode(c, SSL_MODE_ENABLE_PARTIAL_WRITE
                           | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER
                           | SSL_MODE_RELEASE_BUFFERS);
+  // Else one call would read as long as a peer sends what is no data.
+  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);
   return context;
 }
 
