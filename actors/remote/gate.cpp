@@ -24,14 +24,21 @@ using entrance_impl = entrance_actor::extend<takes<tick_atom>>;
 struct entrance_state {
   static inline const char* name = "entrance";
 
-  entrance_impl::stateful_pointer<entrance_state> self;
+  entrance_impl::stateful_pointer<entrance_state> self = nullptr;
+  caf::actor_addr gate;
   std::shared_ptr<const gate_setup> setup;
   std::string nonce;
+
+  // A gate lives long, and does not forget by itself who watched it.
+  ~entrance_state() {
+    if (self)
+      self->demonitor(gate);
+  }
 
   caf::result<peer_welcome, session_actor> take(const peer_hello& hello,
                                                 const uplink_actor& peer) {
     self->quit(); // whoever fails begins anew
-    if (const auto why = objection(hello)) {
+    if (const auto why = objection(hello, peer)) {
       self->send(
           setup->recorder,
           event_record{now(self), "peer_refused", 0, setup->boot, {}, 0, *why});
@@ -47,10 +54,17 @@ struct entrance_state {
         session};
   }
 
-  std::optional<std::string> objection(const peer_hello& hello) const {
+  std::optional<std::string> objection(const peer_hello& hello,
+                                       const uplink_actor& peer) const {
+    // It must not let a session of ours speak to our own actors.
+    const auto& sender = self->current_sender();
+    if (!peer || !sender || peer.node() != sender->node())
+      return "it has no end of its own";
     if (hello.stations.empty() || hello.stations.size() > most_stations)
       return fmt::format("speaks for {} stations; 1 to {} are possible",
                          hello.stations.size(), most_stations);
+    if (!is_time_of_day(hello.epoch_unix_ms))
+      return "its clock shows no time of day";
     if (hello.world != setup->world)
       return fmt::format("provider {} has another map or other services; start "
                          "both sides with the same scenario file",
@@ -61,10 +75,15 @@ struct entrance_state {
 
 entrance_impl::behavior_type
 entrance(entrance_impl::stateful_pointer<entrance_state> self,
-         std::shared_ptr<const gate_setup> setup, std::string nonce) {
+         const gate_actor& gate, std::shared_ptr<const gate_setup> setup,
+         std::string nonce) {
   self->state.self = self;
+  self->state.gate = gate.address();
   self->state.setup = std::move(setup);
   self->state.nonce = std::move(nonce);
+  // It dies with the gate, but the gate not with it.
+  self->monitor(gate);
+  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   send_after(self, self, protocol::introduction_timeout, tick_atom_v);
   return {
       [self](const peer_hello& hello, const uplink_actor& peer) {
@@ -96,9 +115,9 @@ gate_actor::behavior_type gate(gate_actor::stateful_pointer<gate_state> self,
           return {remote_protocol, state.types, std::string{},
                   caf::strong_actor_ptr{}};
         auto nonce = state.setup->draw_nonce();
-        const auto in = self->spawn(entrance, state.setup, nonce);
+        const auto in =
+            self->spawn(entrance, gate_actor{self}, state.setup, nonce);
         self->monitor(in);
-        self->link_to(in);
         ++state.open;
         return {remote_protocol, state.types, std::move(nonce),
                 caf::actor_cast<caf::strong_actor_ptr>(in)};
