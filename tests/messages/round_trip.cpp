@@ -66,8 +66,13 @@ TEST_CASE("numbers arrive to the last bit") {
   check(-0.0);
   check(std::numeric_limits<double>::min());
   check(std::numeric_limits<double>::max());
-  check(std::numeric_limits<double>::infinity());
-  check(std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST_CASE("a point that is nowhere is refused") {
+  constexpr auto infinity = std::numeric_limits<double>::infinity();
+  CHECK(!load<point>(save(point{infinity, 0})));
+  CHECK(!load<point>(save(point{0, -infinity})));
+  CHECK(!load<point>(save(point{std::numeric_limits<double>::quiet_NaN(), 0})));
 }
 
 TEST_CASE("a message that was cut off is refused, wherever the cut is") {
