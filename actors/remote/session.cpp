@@ -45,7 +45,7 @@ struct session_state {
   session_impl::stateful_pointer<session_state> self;
   session_setup setup;
   std::optional<pulse> life;
-  std::optional<rate_limit> allowance;
+  std::map<station_id, rate_limit> allowances;
   std::map<station_id, requester_actor> voices;
   std::map<running_service, provider_manager_actor> managers;
   std::optional<latest_values<stream_id, service_result>> results;
@@ -54,11 +54,11 @@ struct session_state {
 
   void start() {
     const auto t = now(self);
-    const auto stations = static_cast<double>(setup.stations.size());
     life.emplace(t, std::chrono::milliseconds{setup.peer_clock.epoch_unix_ms()
                                               - setup.clock.epoch_unix_ms()});
-    allowance.emplace(words_per_station_s * stations,
-                      burst_s * words_per_station_s * stations);
+    for (const auto station : setup.stations)
+      allowances.try_emplace(station, words_per_station_s,
+                             burst_s * words_per_station_s);
     results.emplace(streams_per_station * setup.stations.size());
     self->monitor(setup.peer);
     self->monitor(setup.provider);
@@ -98,7 +98,7 @@ struct session_state {
   }
 
   bool is_allowed(station_id station) {
-    const auto is = allowance->take(now(self));
+    const auto is = allowances.at(station).take(now(self));
     if (!is)
       drop(station, "says too much");
     return is;

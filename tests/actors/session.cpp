@@ -175,14 +175,26 @@ TEST_CASE_FIXTURE(session_world,
   forget();
   for (int k = 0; k < 1000; ++k)
     say_cam();
-  CHECK(provider->count<its_pdu>() == 400); // 2 s of 100 a station and second
+  CHECK(provider->count<its_pdu>() == 200); // 2 s of 100 a second
   CHECK(was_ignored("says too much"));
   CHECK(peer->count<stream_id>() == 1000); // its streams do not stop
   live(500ms);
   forget();
   for (int k = 0; k < 1000; ++k)
     say_cam();
-  CHECK(provider->count<its_pdu>() == 100);
+  CHECK(provider->count<its_pdu>() == 50);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "other stations of a peer do not notice a loud one") {
+  live(1s);
+  for (int k = 0; k < 1000; ++k)
+    say_cam(station);
+  forget();
+  say_cam(neighbour);
+  say(request_of(neighbour));
+  CHECK(provider->count<its_pdu>() == 1);
+  CHECK(provider->count<service_request>() == 1);
 }
 
 TEST_CASE_FIXTURE(session_world, "who does it again and again is noted once a "
