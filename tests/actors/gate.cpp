@@ -186,7 +186,19 @@ TEST_CASE_FIXTURE(gate_world, "who is refused is told why, and never gets a "
   CHECK(in.error == why);
   CHECK(peer->entries().empty());
   REQUIRE(refusals().size() == 1);
-  CHECK(refusals().front().detail == why);
+  CHECK(refusals().front().detail == why + "; 1 so far");
+}
+
+TEST_CASE_FIXTURE(gate_world, "those who are refused again and again are noted "
+                              "once a second") {
+  doubt = "no";
+  for (int k = 0; k < 100; ++k) {
+    enter(knock(), hello);
+    run_for(50ms);
+  }
+  const auto all = refusals();
+  REQUIRE(all.size() == 5);
+  CHECK(all.back().detail == "no; 81 so far");
 }
 
 TEST_CASE_FIXTURE(gate_world, "an entrance is used once, whoever fails") {
