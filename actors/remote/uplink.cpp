@@ -269,12 +269,17 @@ struct uplink_state {
   }
 
   void take(const service_response& response) {
+    const auto vehicle = vehicles.find(response.station);
+    if (vehicle == vehicles.end())
+      return;
+    const auto most = streams_per_station * setup.stations.size();
     for (const auto& v : response.verdicts)
-      if (v.accepted && v.running.station == response.station)
+      if (v.accepted && v.running.station == response.station
+          && running.size() < most)
         running.insert(v.running);
     // Of the link type: how many managers there are is told by the verdicts.
-    if (const auto i = vehicles.find(response.station); i != vehicles.end())
-      self->send(i->second, response, std::vector<provider_manager_actor>{});
+    self->send(vehicle->second, response,
+               std::vector<provider_manager_actor>{});
   }
 
   void take(const service_result& result) {

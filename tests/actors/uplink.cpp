@@ -288,6 +288,18 @@ TEST_CASE_FIXTURE(uplink_world, "each vehicle gets what is meant for it, as if "
   CHECK(!is_gone(uplink));
 }
 
+TEST_CASE_FIXTURE(uplink_world, "a provider that accepts without end is not "
+                                "remembered without end") {
+  connect();
+  for (std::uint32_t k = 1; k <= 1000; ++k) {
+    accept({boot, station, "one", k});
+    accept({boot, 999, "one", k}); // for nobody
+  }
+  CHECK(requester->count<service_response>() == 1000);
+  kill(session.handle);
+  CHECK(requester->count<service_end>() == 16); // 8 a station
+}
+
 // -- back-pressure -----------------------------------------------------------
 
 TEST_CASE_FIXTURE(uplink_world, "while the provider acknowledges nothing, one "
