@@ -99,6 +99,9 @@ public:
 
   void send(int signal) { kill(pid_, signal); }
 
+  /// @returns what it has printed so far.
+  std::string printed() const { return read_file(out_); }
+
   bool runs() {
     if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_)
       pid_ = 0;
