@@ -20,9 +20,9 @@ namespace {
 drive_options::provider to_provider(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos)
-    return {"", to_host_port(text)};
+    return {"", address_of(text)};
   return {std::string{text.substr(0, equals)},
-          to_host_port(text.substr(equals + 1))};
+          address_of(text.substr(equals + 1))};
 }
 
 std::set<station_id> to_stations(const std::string& text) {

@@ -6,11 +6,21 @@
 #include "scenario/units.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <string>
 
 namespace sofof {
+
+/// @throws input_error.
+inline network_address address_of(std::string_view text) {
+  auto address = parse_address(text);
+  if (!address)
+    throw input_error(fmt::format(
+        "'{}' is no HOST:PORT, like 10.0.0.5:4711 or [::1]:4711", text));
+  return *address;
+}
 
 struct host_arguments {
   std::string keys;

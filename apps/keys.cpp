@@ -1,7 +1,6 @@
 // sofof keys: a private CA, and certificates for vehicles and providers.
 #include "apps/command.hpp"
 #include "network/key_store.hpp"
-#include "network/network_error.hpp"
 #include "network/station_list.hpp"
 #include "scenario/input_error.hpp"
 
@@ -54,16 +53,6 @@ void issue(const issue_arguments& args) {
                            written.string(), describe(who), args.days);
 }
 
-/// What cannot be done was asked for in the wrong way.
-template <class Task>
-void obey(Task task) {
-  try {
-    task();
-  } catch (const network_error& e) {
-    throw input_error{e.what()};
-  }
-}
-
 } // namespace
 
 void add_keys(CLI::App& app, int&) {
@@ -79,7 +68,7 @@ void add_keys(CLI::App& app, int&) {
   init_command->add_option("DIR", *folder, "Folder for the CA")
       ->required()
       ->type_name(" ");
-  init_command->callback([folder] { obey([&] { init(*folder); }); });
+  init_command->callback([folder] { init(*folder); });
 
   auto* issue_command =
       keys->add_subcommand("issue", "Make a key and its certificate");
@@ -102,7 +91,7 @@ void add_keys(CLI::App& app, int&) {
       ->add_option("--out", args->out,
                    "Folder to write; otherwise one in DIR, named after them")
       ->type_name("DIR");
-  issue_command->callback([args] { obey([&] { issue(*args); }); });
+  issue_command->callback([args] { issue(*args); });
 }
 
 } // namespace sofof

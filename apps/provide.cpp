@@ -36,7 +36,7 @@ void add_provide(CLI::App& app, int& exit_code) {
       "keys/provider-mec");
   command->callback([args, &exit_code] {
     const auto s = args->run.what.load();
-    args->what.listen = to_host_port(args->listen);
+    args->what.listen = address_of(args->listen);
     auto options = args->run.given();
     options.endless = args->run.what.length.empty();
     args->host.give(args->what);

@@ -1,5 +1,6 @@
 // The `sofof` command.
 #include "apps/command.hpp"
+#include "network/network_error.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/runtime.hpp"
 
@@ -62,6 +63,8 @@ int main(int argc, char** argv) {
                       failed);
     return exit_code;
   } catch (const sofof::input_error& e) {
+    return complain(e.what(), wrong_input);
+  } catch (const sofof::network_error& e) {
     return complain(e.what(), wrong_input);
   } catch (const std::exception& e) {
     return complain(e.what(), failed);

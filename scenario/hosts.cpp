@@ -3,14 +3,19 @@
 
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
+#include "network/credentials.hpp"
+#include "network/nonce.hpp"
+#include "network/tls_dialer.hpp"
+#include "network/tls_door.hpp"
 #include "scenario/input_error.hpp"
 #include "world/fingerprint.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <ostream>
 #include <utility>
 
@@ -79,14 +84,79 @@ std::size_t find_provider(const scenario& s, std::string_view name,
 }
 
 /// Nobody outside may hear or say anything in plain words.
-void check_secured(const host_port& at, const std::string& keys,
-                   std::string_view option) {
-  if (keys.empty() && !at.is_loopback())
+/// @returns what to show to others; nothing on this machine alone, unless it is
+/// asked for.
+std::optional<credentials> load_keys(const network_address& at,
+                                     const std::string& folder,
+                                     std::string_view option) {
+  if (!folder.empty())
+    return credentials{folder};
+  if (!is_loopback(at))
     throw input_error(fmt::format(
-        "{} {}:{} is not on this machine alone, and connections beyond it must "
-        "be secured; make certificates with `sofof keys` and name their folder "
+        "{} {} is not on this machine alone, and connections beyond it must be "
+        "secured; make certificates with `sofof keys` and name their folder "
         "with --keys",
-        option, at.host, at.port));
+        option, print_address(at)));
+  return std::nullopt;
+}
+
+/// Where the bytes of a gate come in: it listens in plain words on this
+/// machine, and in front of it, if it is secured, a door.
+class front {
+public:
+  front(const std::optional<credentials>& own, network_address listen)
+      : own_{own}, listen_{std::move(listen)} {}
+
+  /// @returns the address that others reach the gate at.
+  network_address open(network_runtime& time, const gate_actor& gate,
+                       std::function<void(const std::string&)> on_refusal) {
+    const auto port = time.publish(gate, own_ ? 0 : listen_.port);
+    if (!own_)
+      return {listen_.host, port};
+    door_.emplace(*own_, door_options{.listen = listen_,
+                                      .inner_port = port,
+                                      .on_refusal = std::move(on_refusal)});
+    return {listen_.host, door_->port()};
+  }
+
+private:
+  const std::optional<credentials>& own_;
+  network_address listen_;
+  std::optional<tls_door> door_;
+};
+
+/// @returns why a peer must not speak for its stations.
+std::optional<std::string> doubt(const credentials& own,
+                                 const peer_hello& hello,
+                                 const std::string& nonce) {
+  const auto proved = own.prove(
+      hello.certificate, proof_of(nonce, hello.stations), hello.signature);
+  if (!proved.who)
+    return proved.refusal;
+  for (const auto station : hello.stations)
+    if (!proved.who->has(station))
+      return fmt::format("its certificate is for {}, not for station {}",
+                         describe(*proved.who), station);
+  return std::nullopt;
+}
+
+void check_identity(const credentials& own, const std::string& folder,
+                    const std::string& provider) {
+  if (own.identity().provider != provider)
+    throw input_error(fmt::format(
+        "the certificate in {} is for {}, not for provider {}; issue one with "
+        "`sofof keys issue`",
+        folder, describe(own.identity()), provider));
+}
+
+void check_identity(const credentials& own, const std::string& folder,
+                    const std::vector<station_id>& stations) {
+  for (const auto station : stations)
+    if (!own.identity().has(station))
+      throw input_error(fmt::format(
+          "the certificate in {} is for {}, not for station {}; choose others "
+          "with --station, or issue one with `sofof keys issue`",
+          folder, describe(own.identity()), station));
 }
 
 void check_stations(const scenario& s, const std::set<station_id>& wanted) {
@@ -114,40 +184,15 @@ std::vector<station_id> connected_stations(const scenario& s,
 
 } // namespace
 
-bool host_port::is_loopback() const {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
-
-host_port to_host_port(std::string_view text) {
-  const auto colon = text.rfind(':');
-  const auto refuse = [text]() -> host_port {
-    throw input_error(fmt::format("'{}' is no HOST:PORT, like 10.0.0.5:4711 or "
-                                  "[::1]:4711",
-                                  text));
-  };
-  if (colon == std::string_view::npos)
-    return refuse();
-  auto host = text.substr(0, colon);
-  const auto bracketed = host.starts_with('[') && host.ends_with(']');
-  if (bracketed)
-    host = host.substr(1, host.size() - 2);
-  if (host.empty() || (!bracketed && host.find(':') != std::string_view::npos))
-    return refuse();
-  host_port found{std::string{host}, 0};
-  const auto digits = text.substr(colon + 1);
-  const auto* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, found.port);
-  if (error != std::errc{} || stop != end)
-    return refuse();
-  return found;
-}
-
 run_outcome provide(const scenario& s, const provide_options& what,
                     run_options options, const std::atomic<bool>& interrupted,
                     std::ostream& console) {
   const auto place = find_provider(s, what.name, "--name");
   const auto& name = s.providers[place].name;
-  check_secured(what.listen, what.keys, "--listen");
+  const auto own = load_keys(what.listen, what.keys, "--listen");
+  if (own)
+    check_identity(*own, what.keys, name);
+  front door{own, what.listen};
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
@@ -168,15 +213,16 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
     setup.recorder = actors.recorder;
-    setup.draw_nonce = [] { return std::string{}; };
-    setup.doubt = [](const peer_hello&,
-                     const std::string&) -> std::optional<std::string> {
-      return std::nullopt;
+    setup.draw_nonce = &draw_nonce;
+    setup.doubt = [&own](const peer_hello& hello, const std::string& nonce) {
+      return own ? doubt(*own, hello, nonce) : std::nullopt;
     };
-    const auto port = time->publish(
-        spawn_gate(time->system(), std::move(setup)), what.listen.port);
-    console << fmt::format("provider {} listens on {}:{}", name,
-                           what.listen.host, port)
+    const auto at = door.open(
+        *time, spawn_gate(time->system(), std::move(setup)),
+        [board](const std::string& why) { board->tell("refused: " + why); });
+    console << fmt::format("provider {} listens on {}{}", name,
+                           print_address(at),
+                           own ? "" : ", for this machine alone")
             << std::endl;
   };
   return run_part(s, options, here, *time, interrupted, console, open);
@@ -186,23 +232,28 @@ run_outcome drive(const scenario& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console) {
   check_stations(s, what.stations);
-  const auto time = make_network_runtime(what.clock);
-  const auto board = std::make_shared<news_board>();
-  options.realtime = true;
-  options.network = "real";
-  options.news = [board] { return board->take(); };
   part here;
   here.drives = [stations = what.stations](station_id x) {
     return stations.empty() || stations.contains(x);
   };
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
+  std::optional<credentials> own;
+  std::vector<std::unique_ptr<tls_dialer>> dialers; // outlive what uses them
+  const auto time = make_network_runtime(what.clock);
+  const auto board = std::make_shared<news_board>();
+  options.realtime = true;
+  options.network = "real";
+  options.news = [board] { return board->take(); };
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
-    check_secured(to.at, what.keys, "--provider");
+    if (auto keys = load_keys(to.at, what.keys, "--provider"); keys && !own) {
+      check_identity(*keys, what.keys, stations);
+      own = std::move(keys);
+    }
     uplink_setup setup;
     setup.provider = s.providers[place].name;
-    setup.address = fmt::format("{}:{}", to.at.host, to.at.port);
+    setup.address = print_address(to.at);
     setup.stations = stations;
     setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
@@ -210,10 +261,27 @@ run_outcome drive(const scenario& s, const drive_options& what,
     setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                       .part(place)
                       .part(stations.empty() ? 0 : stations.front());
-    setup.connect = [&time = *time, port = to.at.port] {
-      return time.connect(port);
-    };
-    setup.prove = [](peer_hello&, const std::string&) {};
+    if (own) {
+      dialers.push_back(
+          std::make_unique<tls_dialer>(&*own, dialer_options{.remote = to.at}));
+      setup.connect = [&time = *time, &dialer = *dialers.back()]()
+          -> std::variant<gate_actor, std::string> {
+        auto gate = time.connect(dialer.port());
+        const auto why = dialer.last_error();
+        if (std::holds_alternative<std::string>(gate) && !why.empty())
+          return why;
+        return gate;
+      };
+      setup.prove = [&own = *own](peer_hello& hello, const std::string& nonce) {
+        hello.certificate = own.certificate_pem();
+        hello.signature = own.sign(proof_of(nonce, hello.stations));
+      };
+    } else {
+      setup.connect = [&time = *time, port = to.at.port] {
+        return time.connect(port);
+      };
+      setup.prove = [](peer_hello&, const std::string&) {};
+    }
     setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
     setup.on_news = [board](const std::string& news) { board->tell(news); };
     here.remotes.push_back(

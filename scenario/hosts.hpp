@@ -3,6 +3,7 @@
 
 #include "actors/time.hpp"
 #include "messages/remote.hpp"
+#include "network/network_address.hpp"
 #include "scenario/run.hpp"
 
 #include <cstdint>
@@ -11,19 +12,6 @@
 #include <vector>
 
 namespace sofof {
-
-/// A place on the network.
-struct host_port {
-  std::string host;
-  std::uint16_t port = 0;
-
-  /// @returns whether it is on this machine, by its name.
-  bool is_loopback() const;
-};
-
-/// @param text  HOST:PORT, or [IPv6]:PORT.
-/// @throws input_error.
-host_port to_host_port(std::string_view text);
 
 /// What both sides have in common.
 struct host_options {
@@ -34,13 +22,13 @@ struct host_options {
 
 struct provide_options : host_options {
   std::string name; ///< Of the provider; empty: the only one.
-  host_port listen;
+  network_address listen;
 };
 
 struct drive_options : host_options {
   struct provider {
     std::string name; ///< Empty: the only one.
-    host_port at;
+    network_address at;
   };
   std::vector<provider> providers;
   std::set<station_id> stations; ///< Empty: all.

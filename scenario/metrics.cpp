@@ -62,9 +62,12 @@ void metrics::take(const cycle_record& x) {
 }
 
 void metrics::take(const episode_record& x) {
-  if (x.of != side::requester)
-    return;
   auto& service = of(x.running.kind);
+  if (x.of == side::provider) {
+    service.served_s.add(to_seconds(x.ended - x.accepted));
+    ++service.served_until[static_cast<std::size_t>(x.reason)];
+    return;
+  }
   ++service.ended_by[static_cast<std::size_t>(x.reason)];
   service.fallbacks += x.fallback;
   if (!x.got_data) {

@@ -18,6 +18,9 @@ namespace sofof {
 inline constexpr std::size_t end_reason_count =
     static_cast<std::size_t>(end_reason::shutdown) + 1;
 
+/// How often something ended why.
+using end_counts = std::array<std::uint64_t, end_reason_count>;
+
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
   service_name kind;
@@ -31,8 +34,12 @@ struct service_metrics {
   std::uint64_t no_data = 0;        ///< Offloadings that ended without any.
   std::uint64_t fallbacks = 0;
   /// Reasons of all that ended, with data or without.
-  std::array<std::uint64_t, end_reason_count> ended_by{};
+  end_counts ended_by{};
   statistics t_off_s; ///< Switch to remote → switch back, of each episode.
+
+  // As the providers see it.
+  statistics served_s; ///< Acceptance → end, of all that ran there.
+  end_counts served_until{};
 
   std::uint64_t results_used = 0; ///< Of those that `latency` counts.
   distribution latency;           ///< t_receiving − t_creation.

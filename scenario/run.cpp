@@ -56,6 +56,10 @@ run_info describe(const scenario& s, const run_options& options,
       std::ranges::count_if(place_vehicles(s), [&here](const auto& v) {
         return here.drives(v.station);
       }));
+  if (info.vehicles == 0)
+    for (std::size_t k = 0; k < s.providers.size(); ++k)
+      if (here.provides(k))
+        info.provider = s.providers[k].name;
   info.obstacles = static_cast<std::uint32_t>(s.obstacles.size());
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     info.provider_names.emplace_back(k + 1, s.providers[k].name);

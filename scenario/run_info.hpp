@@ -27,6 +27,7 @@ struct run_info {
   std::string trace_text;  ///< The trace that it names; empty for none.
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
+  std::string provider; ///< The one that is all that runs here; often empty.
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
   std::vector<std::pair<boot_id, std::string>> provider_names;
   std::vector<std::string> kinds; ///< Of services, in the order of reports.

@@ -54,10 +54,18 @@ void counts_and_times(json_object& to, const service_metrics& service,
   distribution_of(to, "interarrival_ms", service.interarrival);
 }
 
-void endings(json_object& to, const service_metrics& service) {
+void endings(json_object& to, const end_counts& counts) {
   auto object = to.object("ended_by");
   for (std::size_t i = 0; i < end_reason_count; ++i)
-    object.member(name_of(static_cast<end_reason>(i)), service.ended_by[i]);
+    object.member(name_of(static_cast<end_reason>(i)), counts[i]);
+}
+
+/// The provider's view.
+void served(json_object& to, const service_metrics& service) {
+  auto object = to.object("served");
+  object.member("count", service.served_s.count());
+  mean_and_max(object, "time_s", service.served_s);
+  endings(object, service.served_until);
 }
 
 void safety_of(json_object& to, const safety_metrics& safety) {
@@ -159,13 +167,14 @@ std::string summary_json(const metrics& m, const run_info& run,
     driving_of(top, m.together());
     switches_of(top, m.switches());
     air_of(top, m.air());
-    endings(top, m.headline());
+    endings(top, m.headline().ended_by);
     {
       auto services = top.object("services");
       for (const auto& service : m.services()) {
         auto object = services.object(service.kind.view());
         counts_and_times(object, service, run, end);
-        endings(object, service);
+        endings(object, service.ended_by);
+        served(object, service);
       }
     }
     timing_of(top, end);

@@ -87,10 +87,10 @@ public:
     add({fmt::format("  {}", label), false, {}}, of);
   }
 
-  void endings() {
+  void endings(end_counts service_metrics::*of) {
     lines_.push_back({"  ended by", false, {}});
     for (std::size_t i = 0; i < end_reason_count; ++i) {
-      const auto count = [i](const auto& x) { return x.ended_by[i]; };
+      const auto count = [i, of](const auto& x) { return (x.*of)[i]; };
       if (std::ranges::any_of(services_, count))
         row(fmt::format("  {}", name_of(static_cast<end_reason>(i))), count);
     }
@@ -161,7 +161,7 @@ void offloading(block& to, const run_info& run, const run_end& end) {
   to.row("rejected", &service::rejected);
   to.row("no data", &service::no_data);
   to.row("episodes", &service::episodes);
-  to.endings();
+  to.endings(&service::ended_by);
   to.running();
   to.row("fallbacks", &service::fallbacks);
   to.row("t_off mean", [](const service& x) { return in_s(x.t_off_s.mean()); });
@@ -191,6 +191,16 @@ void remote_results(block& to) {
   });
   to.row("  max",
          [](const service& x) { return in_ms(x.interarrival.ms().max()); });
+}
+
+/// What a process has to say that only provides.
+void providing(block& to) {
+  using service = service_metrics;
+  to.names("providing");
+  to.row("services run", [](const service& x) { return x.served_s.count(); });
+  to.endings(&service::served_until);
+  to.row("time mean", [](const service& x) { return in_s(x.served_s.mean()); });
+  to.row("time max", [](const service& x) { return in_s(x.served_s.max()); });
 }
 
 void drive_line(std::string& out, std::string_view label,
@@ -274,20 +284,32 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   out += fmt::format("   (sofof {})\n", run.version);
   if (end.interrupted)
     out += "  " + paint.bad("INTERRUPTED, figures up to here") + '\n';
-  out += fmt::format("  {} vehicle{} for {:.1f} s in {:.1f} s", run.vehicles,
-                     run.vehicles == 1 ? "" : "s", end.virtual_s, end.wall_s);
+  if (run.provider.empty())
+    out += fmt::format("  {} vehicle{}", run.vehicles,
+                       run.vehicles == 1 ? "" : "s");
+  else
+    out += fmt::format("  provider {}", run.provider);
+  out += fmt::format(" for {:.1f} s in {:.1f} s", end.virtual_s, end.wall_s);
   if (const auto speed = end.x_real_time())
     out += fmt::format(", {:.1f} x real time", *speed);
-  out += fmt::format("; {} offer{}\n", m.offers(), m.offers() == 1 ? "" : "s");
+  if (run.provider.empty())
+    out += fmt::format("; {} offer{}", m.offers(), m.offers() == 1 ? "" : "s");
+  out += '\n';
   out += fmt::format("  {} clock, channel {}, LODM {}, CODM {}\n", run.clock,
                      run.profile, run.lodm, run.codm);
 
   block services{m.services()};
-  offloading(services, run, end);
-  remote_results(services);
+  if (run.provider.empty()) {
+    offloading(services, run, end);
+    remote_results(services);
+  } else {
+    providing(services);
+  }
   services.print(out, paint);
-  safety_lines(out, paint, m.safety());
-  comfort_lines(out, paint, m.together());
+  if (run.provider.empty()) {
+    safety_lines(out, paint, m.safety());
+    comfort_lines(out, paint, m.together());
+  }
   air_lines(out, paint, m.air());
   out += fmt::format("\nresults in {}\n", folder.string());
   if (!run.pcap.empty())

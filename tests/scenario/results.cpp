@@ -194,6 +194,7 @@ TEST_CASE("times in files count from the start and are exact to the ns") {
   r.take(result(running(), 3, 60s, 12'345'678ns, std::nullopt));
   auto late = result(running(), 4, 60s + 50ms + 1ns, 9ms, 46'654'323ns);
   late.used = false;
+  late.doubt = 250us;
   r.take(late);
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "cycles.csv");
@@ -203,10 +204,10 @@ TEST_CASE("times in files count from the start and are exact to the ns") {
            "received_s,latency_ms,interarrival_ms,used,doubt_ms");
   CHECK(all[1]
         == "101,mec,18000000000000000000,trajectory_planning,1,3,"
-           "60.000000000,60.012345678,12.345678,,1");
+           "60.000000000,60.012345678,12.345678,,1,");
   CHECK(all[2]
         == "101,mec,18000000000000000000,trajectory_planning,1,4,"
-           "60.050000001,60.059000001,9.000000,46.654323,0");
+           "60.050000001,60.059000001,9.000000,46.654323,0,0.250000");
 }
 
 TEST_CASE("each closed side is a line in episodes.csv") {

@@ -1,0 +1,150 @@
+// Tunnels are served in turns, as epoll says that there is something to do.
+#include "network/carrier.hpp"
+
+#include "network/network_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sys/epoll.h>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+/// The event of `wake_`; tunnels count from 1.
+constexpr std::uint64_t woken = 0;
+
+bool watch_fd(const descriptor& epoll, int how, int fd, std::uint64_t number,
+              std::uint32_t events) {
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = number;
+  return epoll_ctl(epoll.get(), how, fd, &event) == 0;
+}
+
+} // namespace
+
+carrier::carrier(std::chrono::milliseconds idle)
+    : idle_{idle}, epoll_{epoll_create1(EPOLL_CLOEXEC)} {
+  if (!epoll_ || !watch_fd(epoll_, EPOLL_CTL_ADD, wake_.fd(), woken, EPOLLIN))
+    throw network_error{"no more files can be opened: raise `ulimit -n`"};
+  thread_ = std::thread{[this] { run(); }};
+}
+
+carrier::~carrier() {
+  stops_ = true;
+  wake_.call();
+  thread_.join();
+  for (auto& [number, load] : loads_)
+    load.tunnel.end(tunnel_end::cause::stopped);
+  for (auto& tunnel : new_ones_)
+    tunnel.end(tunnel_end::cause::stopped);
+}
+
+void carrier::carry(tls_tunnel tunnel) {
+  {
+    const std::lock_guard lock{mutex_};
+    new_ones_.push_back(std::move(tunnel));
+  }
+  wake_.call();
+}
+
+void carrier::run() {
+  leave_signals_to_others();
+  using std::chrono::milliseconds;
+  // Tunnels are found idle at most a tenth late.
+  const auto look_around =
+      std::clamp(idle_ / 10, milliseconds{1}, milliseconds{200});
+  auto next_look = deadline_clock::now();
+  while (!stops_) {
+    wait_for_events(ready_.empty()
+                        ? milliseconds_until(next_look, deadline_clock::now())
+                        : 0);
+    const auto now = deadline_clock::now();
+    take_new_ones(now);
+    serve_ready_ones(now);
+    if (now >= next_look) {
+      close_idle_ones(now);
+      next_look = now + look_around;
+    }
+  }
+}
+
+void carrier::take_new_ones(deadline now) {
+  const std::lock_guard lock{mutex_};
+  for (auto& tunnel : new_ones_) {
+    ready_.push_back(++last_number_);
+    loads_.emplace(last_number_, load{std::move(tunnel), now});
+  }
+  new_ones_.clear();
+}
+
+void carrier::wait_for_events(int timeout_ms) {
+  std::array<epoll_event, 64> events{};
+  const auto count =
+      epoll_wait(epoll_.get(), events.data(), events.size(), timeout_ms);
+  for (int i = 0; i < count; ++i) {
+    const auto number = events[static_cast<std::size_t>(i)].data.u64;
+    if (number == woken)
+      wake_.answer();
+    else
+      make_ready(number);
+  }
+}
+
+void carrier::make_ready(load_number number) {
+  auto& load = loads_.at(number);
+  if (std::exchange(load.is_ready, true))
+    return;
+  ready_.push_back(number);
+}
+
+void carrier::serve_ready_ones(deadline now) {
+  for (const auto number : std::exchange(ready_, {})) {
+    auto& load = loads_.at(number);
+    auto& tunnel = load.tunnel;
+    const auto turn = tunnel.move();
+    if (turn.ended) {
+      tunnel.end(tunnel.who_closed());
+      loads_.erase(number);
+      continue;
+    }
+    load.is_ready = turn.more;
+    if (turn.moved)
+      load.last_moved = now;
+    if (turn.more) {
+      ready_.push_back(number);
+    } else {
+      watch(tunnel.far_fd(), number, load.far_events, tunnel.far_events());
+      watch(tunnel.near_fd(), number, load.near_events, tunnel.near_events());
+    }
+  }
+}
+
+void carrier::watch(int fd, load_number number, std::uint32_t& watched,
+                    std::uint32_t wanted) {
+  if (watched == wanted)
+    return;
+  // What waits for nothing is not watched: epoll tells of errors unasked, again
+  // and again.
+  const auto how = watched == 0  ? EPOLL_CTL_ADD
+                   : wanted == 0 ? EPOLL_CTL_DEL
+                                 : EPOLL_CTL_MOD;
+  watch_fd(epoll_, how, fd, number, wanted);
+  watched = wanted;
+}
+
+void carrier::close_idle_ones(deadline now) {
+  for (auto at = loads_.begin(); at != loads_.end();) {
+    auto& load = at->second;
+    if (load.is_ready || now - load.last_moved < idle_) {
+      ++at;
+      continue;
+    }
+    load.tunnel.end(tunnel_end::cause::idle);
+    at = loads_.erase(at);
+  }
+}
+
+} // namespace sofof

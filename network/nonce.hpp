@@ -1,0 +1,12 @@
+// Numbers that nobody can guess.
+#pragma once
+
+#include <string>
+
+namespace sofof {
+
+/// @returns 32 octets from the system's source of randomness, never the same.
+/// @throws network_error when there is none.
+std::string draw_nonce();
+
+} // namespace sofof

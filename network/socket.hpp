@@ -1,0 +1,103 @@
+// TCP sockets that never block, and their owner.
+#pragma once
+
+#include "network/network_address.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <sys/socket.h>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+/// Owns a file descriptor.
+class descriptor {
+public:
+  descriptor() = default;
+  explicit descriptor(int fd) : fd_{fd} {}
+  descriptor(descriptor&& other) noexcept
+      : fd_{std::exchange(other.fd_, none)} {}
+  descriptor& operator=(descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~descriptor();
+
+  int get() const { return fd_; }
+  explicit operator bool() const { return fd_ != none; }
+
+private:
+  static constexpr int none = -1;
+  int fd_ = none;
+};
+
+/// An address as the system wants it.
+struct socket_address {
+  sockaddr_storage storage{};
+  socklen_t size = 0;
+};
+
+/// @returns e.g. "10.0.0.1:4711"; without the port: "10.0.0.1".
+std::string print_address(const socket_address& address, bool with_port);
+
+/// Listens at the first address that the host has.
+/// @throws network_error when that cannot be.
+descriptor listen_at(const network_address& address);
+
+/// @returns the port that a listening socket got.
+std::uint16_t port_of(const descriptor& listener);
+
+/// A connection that somebody opened, or why there is none.
+struct accepted_socket {
+  descriptor socket; ///< None: nobody waits, or the system has no more.
+  socket_address peer;
+  int error = 0; ///< EAGAIN: nobody waits.
+};
+
+/// Takes the next connection; it sends small messages at once.
+accepted_socket accept_from(const descriptor& listener);
+
+/// Asks the resolver, which may take seconds unless the host is a number.
+/// @returns all addresses of a host, best first; none when it has none.
+std::vector<socket_address> resolve(const network_address& address);
+
+/// A connection on its way, or why there is none.
+struct started_connection {
+  descriptor socket; ///< Writable as soon as it is decided.
+  int error = 0;
+};
+
+/// Begins to connect; the connection will send small messages at once.
+started_connection start_connecting(const socket_address& address);
+
+/// @returns the address of a port of this machine, for its own processes.
+socket_address loopback_port(std::uint16_t port);
+
+/// @returns how a started connection was decided: 0, or what was wrong.
+int connection_error(const descriptor& socket);
+
+/// Gives a connection up when the peer has not taken what was sent to it for
+/// so long; otherwise the system tries for a quarter of an hour.
+void give_up_after(const descriptor& socket, std::chrono::milliseconds silence);
+
+/// Signals go to other threads, and a write to a closed connection is an error
+/// and no signal: to be called first by each thread that has sockets.
+void leave_signals_to_others();
+
+/// Wakes a thread that polls.
+class wake_up {
+public:
+  wake_up();
+  /// Makes `fd` readable.
+  void call();
+  /// Makes it unreadable again.
+  void answer();
+  int fd() const { return event_.get(); }
+
+private:
+  descriptor event_;
+};
+
+} // namespace sofof

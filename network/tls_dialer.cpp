@@ -1,0 +1,294 @@
+// Connecting and shaking hands, one step at a time; then the carrier takes
+// over.
+#include "network/tls_dialer.hpp"
+
+#include "network/carrier.hpp"
+#include "network/network_error.hpp"
+#include "network/tls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <poll.h>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+/// A pause when the system has no more files.
+constexpr std::chrono::milliseconds breather{100};
+
+ssl_context_ptr context_for(const credentials* own) {
+  if (!own)
+    return nullptr;
+  if (own->identity().is_provider())
+    throw network_error{fmt::format(
+        "the certificate names {}, but vehicles need one of their stations: "
+        "`sofof keys issue --station` makes it",
+        describe(own->identity()))};
+  return make_tls_context(*own);
+}
+
+std::string explain_connect_error(int error) {
+  switch (error) {
+    case ECONNREFUSED:
+      return "nobody listens there";
+    case EHOSTUNREACH:
+    case ENETUNREACH:
+      return "there is no route to it";
+    case ETIMEDOUT:
+      return "it does not answer";
+    default:
+      return std::generic_category().message(error);
+  }
+}
+
+} // namespace
+
+class tls_dialer::switchboard {
+public:
+  switchboard(const credentials* own, dialer_options options)
+      : options_{std::move(options)}, context_{context_for(own)},
+        listener_{listen_at({"127.0.0.1", 0})}, port_{port_of(listener_)},
+        carrier_{options_.idle} {
+    thread_ = std::thread{[this] { run(); }};
+  }
+
+  ~switchboard() {
+    stops_ = true;
+    wake_.call();
+    thread_.join();
+  }
+
+  std::uint16_t port() const { return port_; }
+
+  std::string last_error() const {
+    const std::lock_guard lock{mutex_};
+    return last_error_;
+  }
+
+private:
+  /// A connection that is not carried yet.
+  struct call {
+    descriptor near;
+    deadline until;
+    std::vector<socket_address> addresses; ///< The next one to try is last.
+    descriptor far;
+    std::optional<tls_handshake> handshake; ///< Once connected.
+    short waits_for = POLLOUT;
+  };
+  using call_list = std::list<call>;
+
+  void run() {
+    leave_signals_to_others();
+    while (!stops_) {
+      const auto events = wait();
+      now_ = deadline_clock::now();
+      wake_.answer();
+      // In the same order as they were waited for.
+      auto at = calls_.begin();
+      for (std::size_t i = first_call; i < events.size(); ++i) {
+        const auto current = at++;
+        if (events[i].revents != 0)
+          advance(current);
+        else if (now_ >= current->until)
+          time_out(current);
+      }
+      if (events[1].revents != 0)
+        accept_one();
+    }
+  }
+
+  /// @returns what happened: to `wake_`, the listener, and the calls.
+  std::vector<pollfd> wait() {
+    auto next = deadline::max();
+    const auto pauses = now_ < accepts_again_;
+    if (pauses)
+      next = accepts_again_;
+    std::vector<pollfd> events{
+        {wake_.fd(), POLLIN, 0},
+        {listener_.get(), static_cast<short>(pauses ? 0 : POLLIN), 0}};
+    for (const auto& call : calls_) {
+      events.push_back({call.far.get(), call.waits_for, 0});
+      next = std::min(next, call.until);
+    }
+    const auto timeout = next == deadline::max()
+                             ? -1
+                             : milliseconds_until(next, deadline_clock::now());
+    if (poll(events.data(), events.size(), timeout) < 0)
+      for (auto& event : events)
+        event.revents = 0;
+    return events;
+  }
+
+  void accept_one() {
+    auto accepted = accept_from(listener_);
+    if (!accepted.socket) {
+      if (accepted.error != EAGAIN && accepted.error != ECONNABORTED
+          && accepted.error != EINTR)
+        accepts_again_ = now_ + breather;
+      return;
+    }
+    if (calls_.size() + carried_ >= options_.most_connections) {
+      complain(fmt::format("there are {} connections already",
+                           options_.most_connections));
+      return;
+    }
+    auto addresses = resolve(options_.remote);
+    now_ = deadline_clock::now(); // the resolver may have taken its time
+    const auto is_known = !addresses.empty();
+    std::ranges::reverse(addresses);
+    calls_.push_back({std::move(accepted.socket),
+                      now_,
+                      std::move(addresses),
+                      {},
+                      {},
+                      POLLOUT});
+    const auto at = std::prev(calls_.end());
+    if (is_known)
+      connect_next(at, 0);
+    else
+      give_up(at, "nobody knows this host");
+  }
+
+  /// Tries the next address.
+  /// @param error  Why the one before it did not do.
+  void connect_next(call_list::iterator at, int error) {
+    while (!at->addresses.empty()) {
+      auto started = start_connecting(at->addresses.back());
+      at->addresses.pop_back();
+      at->far = std::move(started.socket);
+      at->until = now_ + options_.connect_timeout;
+      if (at->far)
+        return;
+      error = started.error;
+    }
+    give_up(at, explain_connect_error(error));
+  }
+
+  void time_out(call_list::iterator at) {
+    if (at->handshake)
+      give_up(at, "it did not finish the TLS handshake in time; is it a plain "
+                  "port?");
+    else
+      connect_next(at, ETIMEDOUT);
+  }
+
+  void advance(call_list::iterator at) {
+    if (at->handshake) {
+      shake_hands(at);
+      return;
+    }
+    if (const auto error = connection_error(at->far); error != 0) {
+      connect_next(at, error);
+      return;
+    }
+    give_up_after(at->far, options_.idle);
+    if (!context_) {
+      put_through(at, {});
+      return;
+    }
+    at->until = now_ + options_.handshake_timeout;
+    at->handshake.emplace(*context_, at->far.get(), tls_side::opener);
+    shake_hands(at);
+  }
+
+  void shake_hands(call_list::iterator at) {
+    using step = tls_handshake::step;
+    switch (at->handshake->advance()) {
+      case step::waits_to_read:
+        at->waits_for = POLLIN;
+        return;
+      case step::waits_to_write:
+        at->waits_for = POLLOUT;
+        return;
+      case step::failed:
+        give_up(at, at->handshake->failure());
+        return;
+      case step::done:
+        put_through(at, at->handshake->take());
+    }
+  }
+
+  void put_through(call_list::iterator at, ssl_ptr tls) {
+    set_last_error({});
+    ++carried_;
+    carrier_.carry({wire{std::move(at->far), std::move(tls)},
+                    wire{std::move(at->near)}, [this](const tunnel_end& end) {
+                      explain(end);
+                      --carried_;
+                    }});
+    calls_.erase(at);
+  }
+
+  void explain(const tunnel_end& end) {
+    using cause = tunnel_end::cause;
+    if (end.why == cause::idle)
+      complain(fmt::format("nothing crossed for {} ms", options_.idle.count()));
+    if (end.why != cause::far_closed)
+      return;
+    if (!end.failure.empty())
+      complain(end.failure);
+    else
+      complain(end.bytes_inward == 0
+                   ? "it closed the connection before it said anything"
+                   : "it closed the connection");
+  }
+
+  void give_up(call_list::iterator at, const std::string& why) {
+    complain(why);
+    calls_.erase(at);
+  }
+
+  void complain(const std::string& why) {
+    set_last_error(print_address(options_.remote) + ": " + why);
+  }
+
+  void set_last_error(std::string sentence) {
+    const std::lock_guard lock{mutex_};
+    last_error_ = std::move(sentence);
+  }
+
+  static constexpr std::size_t first_call = 2;
+
+  const dialer_options options_;
+  const ssl_context_ptr context_; // none: plain
+  const descriptor listener_;
+  const std::uint16_t port_;
+  std::atomic<std::size_t> carried_ = 0;
+  std::atomic<bool> stops_ = false;
+  wake_up wake_;
+  mutable std::mutex mutex_;
+  std::string last_error_; // guarded by mutex_
+
+  // Of the thread:
+  call_list calls_;
+  deadline now_ = deadline_clock::now();
+  deadline accepts_again_ = now_;
+
+  carrier carrier_; // ends before what its tunnels refer to
+  std::thread thread_;
+};
+
+tls_dialer::tls_dialer(const credentials* own, dialer_options options)
+    : switchboard_{std::make_unique<switchboard>(own, std::move(options))} {}
+
+tls_dialer::~tls_dialer() = default;
+
+std::uint16_t tls_dialer::port() const {
+  return switchboard_->port();
+}
+
+std::string tls_dialer::last_error() const {
+  return switchboard_->last_error();
+}
+
+} // namespace sofof

@@ -1,0 +1,55 @@
+// A vehicle's side: a port of this machine whose connections lead to a
+// provider's door.
+#pragma once
+
+#include "network/credentials.hpp"
+#include "network/network_address.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace sofof {
+
+struct dialer_options {
+  network_address remote;
+  /// For each address that the host has, one after the other.
+  std::chrono::milliseconds connect_timeout{1000};
+  std::chrono::milliseconds handshake_timeout{2000};
+  /// A connection through which nothing at all crosses for so long is closed,
+  /// and so is one whose peer does not acknowledge for so long.
+  std::chrono::milliseconds idle{2000};
+  std::size_t most_connections = 16; ///< More are closed at once.
+};
+
+class tls_dialer {
+public:
+  /// Listens on 127.0.0.1 and carries each connection on to the remote host,
+  /// on two threads of its own.
+  /// @param own  Ours; the peer must show a provider's certificate of the same
+  ///             CA. Null: bytes are carried as they are, without TLS, which
+  ///             is for this machine only.
+  /// @throws network_error when the credentials name no stations, and when the
+  /// system has no more files.
+  tls_dialer(const credentials* own, dialer_options options);
+  /// Closes everything.
+  ~tls_dialer();
+  tls_dialer(const tls_dialer&) = delete;
+  tls_dialer& operator=(const tls_dialer&) = delete;
+
+  /// @returns the port of 127.0.0.1 that leads to the remote host.
+  std::uint16_t port() const;
+
+  /// @returns why there was no connection, or why the last one ended, in a
+  /// sentence without its full stop; empty while all is well. Any thread may
+  /// ask; it is known before the local connection closes.
+  std::string last_error() const;
+
+private:
+  class switchboard;
+  std::unique_ptr<switchboard> switchboard_;
+};
+
+} // namespace sofof

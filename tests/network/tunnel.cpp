@@ -1,0 +1,282 @@
+// Two hosts with a door and a dialer: what comes through, and what does not.
+#include "network/network_error.hpp"
+#include "tests/network/two_hosts.hpp"
+#include "tests/support/dice.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+bytes random_bytes(std::size_t size) {
+  test::dice dice{7};
+  bytes all(size);
+  for (auto& b : all)
+    b = static_cast<std::byte>(dice.between(0, 256));
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("bytes come through both ways unchanged") {
+  const key_folder keys;
+  server inner{echo};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const auto line = plug_into(dialer.port());
+  CHECK(echoes(line, "a"));
+  const auto sent = random_bytes(10'000'000);
+  bytes received;
+  std::thread reader{[&] { received = line.receive(sent.size()); }};
+  CHECK(line.send(sent));
+  reader.join();
+  CHECK(received == sent);
+  CHECK(dialer.last_error() == "");
+  CHECK(door.counts().accepted == 1);
+  CHECK(door.counts().open == 1);
+  CHECK(door.counts().refused == 0);
+}
+
+TEST_CASE("without credentials bytes come through as they are") {
+  server inner{echo};
+  const tls_dialer dialer{nullptr, dialer_to(inner.port())};
+  const auto line = plug_into(dialer.port());
+  CHECK(echoes(line, "plain"));
+}
+
+TEST_CASE("many lines carry at once") {
+  const key_folder keys;
+  server inner{echo};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  std::vector<plug> lines;
+  for (int k = 0; k < 16; ++k)
+    lines.push_back(plug_into(dialer.port()));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    CHECK(echoes(lines[k], "line " + std::to_string(k)));
+  CHECK(door.counts().open == 16);
+  CHECK(plug_into(dialer.port()).is_closed());
+  CHECK(contains(dialer.last_error(), "there are 16 connections already"));
+}
+
+TEST_CASE("what was sent before the end arrives before the end") {
+  const key_folder keys;
+  const auto sent = random_bytes(1'000'000);
+  server inner{[&](const plug& line) { line.send(sent); }};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const auto line = plug_into(dialer.port());
+  CHECK(line.receive(sent.size() + 1) == sent);
+  CHECK(contains(dialer.last_error(), "it closed the connection"));
+  CHECK(wait_until([&] { return door.counts().open == 0; }));
+}
+
+TEST_CASE("when our side closes, the far side hears of it") {
+  const key_folder keys;
+  std::atomic<int> over = 0;
+  server inner{[&](const plug& line) {
+    echo(line);
+    ++over;
+  }};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  CHECK(echoes(plug_into(dialer.port()), "short"));
+  CHECK(wait_until([&] { return over == 1; }));
+  CHECK(wait_until([&] { return door.counts().open == 0; }));
+  CHECK(dialer.last_error() == "");
+}
+
+TEST_CASE("a line through which nothing crosses is closed") {
+  const key_folder keys;
+  server inner{echo};
+  SUBCASE("by the door") {
+    auto options = door_to(inner.port());
+    options.idle = 50ms;
+    const tls_door door{keys.credentials_for(mec), options};
+    const auto own = keys.credentials_for(car);
+    const tls_dialer dialer{&own, dialer_to(door.port())};
+    const auto line = plug_into(dialer.port());
+    CHECK(echoes(line, "and then silence"));
+    CHECK(line.is_closed());
+  }
+  SUBCASE("by the dialer") {
+    const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+    const auto own = keys.credentials_for(car);
+    auto options = dialer_to(door.port());
+    options.idle = 50ms;
+    const tls_dialer dialer{&own, options};
+    const auto line = plug_into(dialer.port());
+    CHECK(echoes(line, "and then silence"));
+    CHECK(line.is_closed());
+    CHECK(contains(dialer.last_error(), "nothing crossed for 50 ms"));
+  }
+}
+
+TEST_CASE("a line with something crossing now and then stays") {
+  const key_folder keys;
+  server inner{echo};
+  auto options = door_to(inner.port());
+  options.idle = 500ms;
+  const tls_door door{keys.credentials_for(mec), options};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const auto line = plug_into(dialer.port());
+  for (int k = 0; k < 16; ++k) {
+    CHECK(echoes(line, "still here"));
+    std::this_thread::sleep_for(50ms);
+  }
+}
+
+TEST_CASE("while nobody reads, nobody can send without end") {
+  const key_folder keys;
+  std::atomic<bool> over = false;
+  server inner{[&](const plug&) { wait_until([&] { return over.load(); }); }};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const auto line = plug_into(dialer.port());
+  const timeval wait{0, 300'000};
+  setsockopt(line.fd(), SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
+  const bytes block(64 * 1024);
+  std::size_t sent = 0;
+  constexpr std::size_t too_much = 200'000'000;
+  while (sent < too_much && line.send(block))
+    sent += block.size();
+  // What the system's own buffers of three connections hold, and 64 kB.
+  CHECK(sent < 60'000'000);
+  over = true;
+}
+
+TEST_CASE("an end with a line open leaves nothing behind") {
+  const key_folder keys;
+  server inner{echo};
+  std::optional<tls_door> door;
+  door.emplace(keys.credentials_for(mec), door_to(inner.port()));
+  const auto own = keys.credentials_for(car);
+  std::optional<tls_dialer> dialer;
+  dialer.emplace(&own, dialer_to(door->port()));
+  const auto line = plug_into(dialer->port());
+  CHECK(echoes(line, "open"));
+  SUBCASE("the door first") {
+    door.reset();
+    CHECK(line.is_closed());
+    CHECK(contains(dialer->last_error(), "it closed the connection"));
+  }
+  SUBCASE("the dialer first") {
+    dialer.reset();
+    CHECK(line.is_closed());
+    CHECK(wait_until([&] { return door->counts().open == 0; }));
+  }
+}
+
+TEST_CASE("doors are for providers, and dialers for vehicles") {
+  const key_folder keys;
+  const auto vehicle = keys.credentials_for(car);
+  const auto provider = keys.credentials_for(mec);
+  CHECK_THROWS_WITH_AS((tls_door{vehicle, door_to(1)}),
+                       "the certificate names stations 101-102, but a provider "
+                       "needs one of a provider: `sofof keys issue --provider` "
+                       "makes it",
+                       network_error);
+  CHECK_THROWS_WITH_AS((tls_dialer{&provider, dialer_to(1)}),
+                       "the certificate names provider mec, but vehicles need "
+                       "one of their stations: `sofof keys issue --station` "
+                       "makes it",
+                       network_error);
+}
+
+TEST_CASE("a port that is taken has its sentence") {
+  const key_folder keys;
+  const auto taken = listen_at({"127.0.0.1", 0});
+  auto options = door_to(1);
+  options.listen.port = port_of(taken);
+  CHECK_THROWS_WITH_AS(
+      (tls_door{keys.credentials_for(mec), options}),
+      ("cannot listen on 127.0.0.1:" + std::to_string(port_of(taken))
+       + ": Address already in use; choose another port or address")
+          .c_str(),
+      network_error);
+}
+
+TEST_CASE("a dialer says why there is no connection") {
+  const key_folder keys;
+  const key_folder others;
+  server inner{echo};
+  const auto own = keys.credentials_for(car);
+  const auto error_of = [&](const dialer_options& options) {
+    const tls_dialer dialer{&own, options};
+    const auto line = plug_into(dialer.port());
+    line.send("hello");
+    CHECK(line.is_closed());
+    return dialer.last_error();
+  };
+  SUBCASE("nobody listens") {
+    std::uint16_t port = 0;
+    { port = port_of(listen_at({"127.0.0.1", 0})); }
+    CHECK(error_of(dialer_to(port))
+          == "127.0.0.1:" + std::to_string(port) + ": nobody listens there");
+  }
+  SUBCASE("nobody knows the host") {
+    auto options = dialer_to(1);
+    options.remote.host = "300.1.2.3";
+    CHECK(error_of(options) == "300.1.2.3:1: nobody knows this host");
+  }
+  SUBCASE("a plain port that answers") {
+    CHECK(contains(error_of(dialer_to(inner.port())), "TLS"));
+  }
+  SUBCASE("a plain port that is silent") {
+    server silent{[](const plug& line) { (void)line.is_closed(); }};
+    auto options = dialer_to(silent.port());
+    options.handshake_timeout = 50ms;
+    CHECK(contains(error_of(options), "did not finish the TLS handshake in "
+                                      "time; is it a plain port?"));
+  }
+  SUBCASE("a plain port that closes") {
+    server rude{[](const plug&) {}};
+    CHECK(contains(error_of(dialer_to(rude.port())), ": it hung up"));
+  }
+  SUBCASE("a provider of another CA") {
+    const tls_door door{others.credentials_for(mec), door_to(inner.port())};
+    CHECK(contains(error_of(dialer_to(door.port())),
+                   "its certificate is not signed by this CA"));
+  }
+  SUBCASE("the provider itself is not there") {
+    const tls_door door{keys.credentials_for(mec), door_to(1)};
+    CHECK(contains(error_of(dialer_to(door.port())),
+                   "it closed the connection before it said anything"));
+  }
+}
+
+TEST_CASE("the number of lines per peer has a limit") {
+  const key_folder keys;
+  server inner{echo};
+  sentences heard;
+  auto options = door_to(inner.port(), &heard);
+  options.most_per_peer = 2;
+  options.most_connections = 3;
+  const tls_door door{keys.credentials_for(mec), options};
+  const auto own = keys.credentials_for(car);
+  const auto other = keys.credentials_for({{7}, {}});
+  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_dialer other_dialer{&other, dialer_to(door.port())};
+  std::optional<plug> first = plug_into(dialer.port());
+  CHECK(echoes(*first, "one"));
+  const auto second = plug_into(dialer.port());
+  CHECK(echoes(second, "two"));
+  CHECK(plug_into(dialer.port()).is_closed());
+  CHECK(heard.heard("stations 101-102, was refused: it has 2 connections "
+                    "already"));
+  const auto third = plug_into(other_dialer.port());
+  CHECK(echoes(third, "three"));
+  CHECK(plug_into(other_dialer.port()).is_closed());
+  CHECK(heard.heard("was refused: all 3 connections are taken"));
+  first.reset();
+  CHECK(wait_until([&] { return door.counts().open == 2; }));
+  CHECK(echoes(plug_into(dialer.port()), "again"));
+}

@@ -1,0 +1,49 @@
+// What a provider's host and a vehicle's host need, on one machine.
+#pragma once
+
+#include "network/tls.hpp"
+#include "network/tls_dialer.hpp"
+#include "network/tls_door.hpp"
+#include "tests/network/key_folder.hpp"
+#include "tests/network/loopback.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace sofof::test {
+
+inline const peer_identity car{{101, 102}, {}};
+inline const peer_identity mec{{}, "mec"};
+
+/// Timeouts that nobody meets who does not hang.
+inline door_options door_to(std::uint16_t inner_port,
+                            sentences* heard = nullptr) {
+  door_options options;
+  options.listen = {"127.0.0.1", 0};
+  options.inner_port = inner_port;
+  options.handshake_timeout = patience;
+  options.idle = patience;
+  if (heard)
+    options.on_refusal = heard->listener();
+  return options;
+}
+
+inline dialer_options dialer_to(std::uint16_t port) {
+  dialer_options options;
+  options.remote = {"127.0.0.1", port};
+  options.connect_timeout = patience;
+  options.handshake_timeout = patience;
+  options.idle = patience;
+  return options;
+}
+
+inline bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != text.npos;
+}
+
+/// @returns whether the far end of a line sends back what it gets.
+inline bool echoes(const plug& line, std::string_view text) {
+  return line.send(text) && line.receive(text.size()) == to_bytes(text);
+}
+
+} // namespace sofof::test
