@@ -42,7 +42,7 @@ TEST_CASE("a provider with another map refuses") {
       at.run_sofof(drive_words("drive", provider.port(), {})),
       {"provider mec", "refuses", "another map", "the same scenario file"});
   CHECK(stop(provider.run()).code == 0);
-  CHECK(events_of(provider.out(), "peer_refused").size() == 1);
+  CHECK(!events_of(provider.out(), "peer_refused").empty());
 }
 
 TEST_CASE("a provider with other services refuses") {
