@@ -102,7 +102,9 @@ public:
   caf::actor_system& system() override { return system_; }
 
   std::uint16_t publish(const gate_actor& gate, std::uint16_t port) override {
-    const auto open = system_.middleman().publish(gate, port, this_machine);
+    constexpr auto reuse = true; // soon after another one, which was killed
+    const auto open =
+        system_.middleman().publish(gate, port, this_machine, reuse);
     if (!open)
       throw input_error(fmt::format(
           "cannot listen on port {}: {}; choose another one with --listen",

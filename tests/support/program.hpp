@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -70,7 +71,7 @@ public:
   /// @param folder  To stand in; exists.
   program(const std::vector<std::string>& arguments,
           const std::filesystem::path& folder, const conditions& how = {})
-      : out_{folder.string() + ".out"}, err_{folder.string() + ".err"} {
+      : prints_{beside(folder)} {
     auto words = arguments;
     words.insert(words.begin(), how.program);
     std::vector<char*> argv;
@@ -99,6 +100,9 @@ public:
 
   void send(int signal) { kill(pid_, signal); }
 
+  /// @returns what it has printed so far.
+  std::string printed() const { return read_file(out_); }
+
   bool runs() {
     if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_)
       pid_ = 0;
@@ -117,6 +121,12 @@ public:
   }
 
 private:
+  /// Several may stand in one folder.
+  static std::string beside(const std::filesystem::path& folder) {
+    static std::atomic<int> count = 0;
+    return folder.string() + "." + std::to_string(count++);
+  }
+
   /// In the child, between fork and exec: only what is allowed there.
   [[noreturn]] void become(char* const* argv,
                            const std::filesystem::path& folder,
@@ -140,8 +150,9 @@ private:
     _exit(cannot_start);
   }
 
-  std::string out_;
-  std::string err_;
+  std::string prints_;
+  std::string out_ = prints_ + ".out";
+  std::string err_ = prints_ + ".err";
   pid_t pid_ = 0;
   int status_ = 0;
 };
