@@ -107,6 +107,21 @@ TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
   CHECK(news.back() == "connected to provider server at 10.0.0.5:4711");
 }
 
+TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
+                                "thing at a time, for two seconds") {
+  host->answers = false;
+  start();
+  run_for(1950ms);
+  CHECK(attempts.size() > 2);
+  CHECK(host->knocks == 1);
+  run_for(10s);
+  CHECK(host->knocks <= 6);
+  CHECK(refusals.empty());
+  host->answers = true;
+  run_for(protocol::introduction_timeout + 1050ms);
+  CHECK(notes("provider_connected") == 1);
+}
+
 TEST_CASE_FIXTURE(uplink_world,
                   "pauses between attempts grow to a second at most") {
   reachable = false;
@@ -171,6 +186,20 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   REQUIRE(other->count<service_end>() == 1);
   CHECK(other->all<service_end>().front().running == two);
   CHECK(notes("provider_lost") == 1);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
+                                "end again with the next") {
+  connect();
+  accept(one);
+  kill(session.handle);
+  session = listen<session_actor>();
+  host->session = session.handle;
+  live(1050ms);
+  REQUIRE(notes("provider_connected") == 1);
+  kill(session.handle);
+  CHECK(notes("provider_lost") == 2);
+  CHECK(requester->count<service_end>() == 1);
 }
 
 TEST_CASE_FIXTURE(uplink_world, "after the connection is lost the next attempt "
@@ -361,6 +390,20 @@ TEST_CASE_FIXTURE(uplink_world, "results are acknowledged as they come") {
   CHECK(session->all<stream_id>()
         == std::vector<stream_id>{{station, stream_id::what::result, 7},
                                   {neighbour, stream_id::what::result, 8}});
+}
+
+TEST_CASE_FIXTURE(uplink_world, "what has ended without its credit does not "
+                                "hold up what runs next") {
+  connect();
+  for (std::uint32_t k = 1; k <= 100; ++k) {
+    const running_service next{boot, station, "one", k};
+    tell(far, service_input{next, now(), payload::of(echo{1})});
+    CHECK(session->count<service_input>() == k);
+    if (k % 2 == 0)
+      tell(far, service_end{next});
+    else
+      say(service_end{next, end_reason::left_area, side::provider});
+  }
 }
 
 // -- clocks ------------------------------------------------------------------

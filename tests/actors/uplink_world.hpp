@@ -20,6 +20,10 @@
 
 namespace sofof::test {
 
+using gate_promise =
+    caf::typed_response_promise<std::uint32_t, std::uint64_t, std::string,
+                                caf::strong_actor_ptr>;
+
 /// What a played provider's host answers, and what it was asked.
 struct host_script {
   std::uint32_t protocol = remote_protocol;
@@ -28,8 +32,11 @@ struct host_script {
   peer_welcome welcome{11, "server", etsi::virtual_epoch_unix_ms};
   std::optional<std::string> refusal;
   bool full = false;
+  bool answers = true;
   session_actor session; ///< Given to those who are welcome.
 
+  std::size_t knocks = 0;
+  std::vector<gate_promise> unanswered;
   std::vector<peer_hello> hellos;
   uplink_actor peer; ///< The last one who came in.
 };
@@ -53,6 +60,12 @@ played_gate(gate_actor::pointer self, std::shared_ptr<host_script> script) {
   return {[self, script](std::uint32_t, std::uint64_t)
               -> caf::result<std::uint32_t, std::uint64_t, std::string,
                              caf::strong_actor_ptr> {
+    ++script->knocks;
+    if (!script->answers) {
+      auto promise = self->make_response_promise<gate_promise>();
+      script->unanswered.push_back(promise);
+      return promise;
+    }
     caf::strong_actor_ptr in;
     if (!script->full)
       in = caf::actor_cast<caf::strong_actor_ptr>(
