@@ -95,7 +95,8 @@ void results::take(const cycle_record& x) {
                id.counter, x.cycle, seconds(x.created - run_.start),
                seconds(x.received - run_.start),
                milliseconds(x.received - x.created),
-               milliseconds(x.interarrival), x.used, milliseconds(x.doubt));
+               milliseconds(x.interarrival), x.used,
+               x.doubt > duration{} ? milliseconds(x.doubt) : decimal{});
 }
 
 void results::take(const episode_record& x) {
