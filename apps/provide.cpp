@@ -7,8 +7,22 @@
 
 #include <iostream>
 #include <memory>
+#include <sys/resource.h>
 
 namespace sofof {
+
+namespace {
+
+/// Every connection takes two files, and vehicles are many.
+void allow_many_files() {
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0)
+    return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+} // namespace
 
 void add_provide(CLI::App& app, int& exit_code) {
   struct arguments {
@@ -41,6 +55,7 @@ void add_provide(CLI::App& app, int& exit_code) {
     options.endless = args->run.what.length.empty();
     args->host.give(args->what);
     catch_signals();
+    allow_many_files();
     exit_code = static_cast<int>(
         provide(s, args->what, options, interrupted, std::cout));
   });

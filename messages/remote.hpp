@@ -5,7 +5,7 @@
 #include "messages/its_pdu.hpp"
 #include "messages/service.hpp"
 
-#include <array>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,6 +16,13 @@ namespace sofof {
 /// Whose messages these are. Raised whenever their meaning changes; the types
 /// themselves are compared by a fingerprint of all their names.
 inline constexpr std::uint32_t remote_protocol = 1;
+
+/// @returns whether a stranger's Unix time can be reckoned with.
+constexpr bool is_time_of_day(std::int64_t unix_ms) {
+  constexpr auto most =
+      std::chrono::floor<std::chrono::milliseconds>(longest_time).count();
+  return unix_ms >= 0 && unix_ms / 2 <= most;
+}
 
 /// Whom a process of vehicles speaks for, and how it can prove that.
 struct peer_hello {

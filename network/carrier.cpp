@@ -2,6 +2,7 @@
 #include "network/carrier.hpp"
 
 #include "network/network_error.hpp"
+#include "network/thread_manners.hpp"
 
 #include <algorithm>
 #include <array>

@@ -288,7 +288,7 @@ fs::path issue_keys(const fs::path& folder, const peer_identity& who,
                         "certificate: use ranges, or several certificates"};
   const auto wanted = options.out.value_or(folder / folder_name(who));
   // "keys/" and "keys" are the same folder, but only one of them has a name.
-  const auto target = wanted.has_filename() ? wanted : wanted.parent_path();
+  auto target = wanted.has_filename() ? wanted : wanted.parent_path();
   refuse_existing(target, "remove it, or choose another folder with --out");
   if (target.has_parent_path())
     make_folder(target.parent_path());

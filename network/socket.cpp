@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <memory>
 #include <netdb.h>
@@ -160,14 +159,6 @@ void give_up_after(const descriptor& socket,
                    std::chrono::milliseconds silence) {
   const auto wait = static_cast<unsigned>(silence.count());
   setsockopt(socket.get(), IPPROTO_TCP, TCP_USER_TIMEOUT, &wait, sizeof wait);
-}
-
-void leave_signals_to_others() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const auto signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGQUIT})
-    sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
 wake_up::wake_up() : event_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)} {

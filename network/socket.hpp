@@ -82,10 +82,6 @@ int connection_error(const descriptor& socket);
 /// so long; otherwise the system tries for a quarter of an hour.
 void give_up_after(const descriptor& socket, std::chrono::milliseconds silence);
 
-/// Signals go to other threads, and a write to a closed connection is an error
-/// and no signal: to be called first by each thread that has sockets.
-void leave_signals_to_others();
-
 /// Wakes a thread that polls.
 class wake_up {
 public:

@@ -49,6 +49,10 @@ ssl_context_ptr make_tls_context(const credentials& own) {
   SSL_CTX_set_mode(c, SSL_MODE_ENABLE_PARTIAL_WRITE
                           | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER
                           | SSL_MODE_RELEASE_BUFFERS);
+  // Who goes without a word has closed, too; what is carried knows its own end.
+  SSL_CTX_set_options(c, SSL_OP_IGNORE_UNEXPECTED_EOF);
+  // Else one call would read as long as a peer sends what is no data.
+  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);
   return context;
 }
 

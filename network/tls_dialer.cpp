@@ -4,6 +4,7 @@
 
 #include "network/carrier.hpp"
 #include "network/network_error.hpp"
+#include "network/thread_manners.hpp"
 #include "network/tls.hpp"
 
 #include <fmt/format.h>

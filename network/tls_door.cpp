@@ -5,6 +5,7 @@
 #include "network/network_error.hpp"
 #include "network/refusal_log.hpp"
 #include "network/seats.hpp"
+#include "network/thread_manners.hpp"
 #include "network/tls.hpp"
 
 #include <fmt/format.h>

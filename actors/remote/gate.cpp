@@ -19,22 +19,33 @@ namespace {
 constexpr std::size_t most_entrances = 64;
 constexpr std::size_t most_stations = 10'000;
 
+/// Between two notes of who was refused.
+constexpr duration complaint_period = std::chrono::seconds{1};
+
 using entrance_impl = entrance_actor::extend<takes<tick_atom>>;
+using gate_impl = gate_actor::extend<
+    // An entrance of it has refused somebody for this reason.
+    takes<tick_atom, std::string>>;
 
 struct entrance_state {
   static inline const char* name = "entrance";
 
-  entrance_impl::stateful_pointer<entrance_state> self;
+  entrance_impl::stateful_pointer<entrance_state> self = nullptr;
+  gate_impl gate;
   std::shared_ptr<const gate_setup> setup;
   std::string nonce;
+
+  // A gate lives long, and does not forget by itself who watched it.
+  ~entrance_state() {
+    if (self)
+      self->demonitor(gate);
+  }
 
   caf::result<peer_welcome, session_actor> take(const peer_hello& hello,
                                                 const uplink_actor& peer) {
     self->quit(); // whoever fails begins anew
-    if (const auto why = objection(hello)) {
-      self->send(
-          setup->recorder,
-          event_record{now(self), "peer_refused", 0, setup->boot, {}, 0, *why});
+    if (const auto why = objection(hello, peer)) {
+      self->send(gate, tick_atom_v, *why);
       return caf::make_error(caf::sec::invalid_argument, *why);
     }
     const auto session = spawn_session(
@@ -47,10 +58,17 @@ struct entrance_state {
         session};
   }
 
-  std::optional<std::string> objection(const peer_hello& hello) const {
+  std::optional<std::string> objection(const peer_hello& hello,
+                                       const uplink_actor& peer) const {
+    // It must not let a session of ours speak to our own actors.
+    const auto& sender = self->current_sender();
+    if (!peer || !sender || peer.node() != sender->node())
+      return "it has no end of its own";
     if (hello.stations.empty() || hello.stations.size() > most_stations)
       return fmt::format("speaks for {} stations; 1 to {} are possible",
                          hello.stations.size(), most_stations);
+    if (!is_time_of_day(hello.epoch_unix_ms))
+      return "its clock shows no time of day";
     if (hello.world != setup->world)
       return fmt::format("provider {} has another map or other services; start "
                          "both sides with the same scenario file",
@@ -61,10 +79,15 @@ struct entrance_state {
 
 entrance_impl::behavior_type
 entrance(entrance_impl::stateful_pointer<entrance_state> self,
-         std::shared_ptr<const gate_setup> setup, std::string nonce) {
+         const gate_impl& gate, std::shared_ptr<const gate_setup> setup,
+         std::string nonce) {
   self->state.self = self;
+  self->state.gate = gate;
   self->state.setup = std::move(setup);
   self->state.nonce = std::move(nonce);
+  // It dies with the gate, but the gate not with it.
+  self->monitor(gate);
+  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   send_after(self, self, protocol::introduction_timeout, tick_atom_v);
   return {
       [self](const peer_hello& hello, const uplink_actor& peer) {
@@ -77,13 +100,33 @@ entrance(entrance_impl::stateful_pointer<entrance_state> self,
 struct gate_state {
   static inline const char* name = "gate";
 
+  gate_impl::stateful_pointer<gate_state> self;
   std::shared_ptr<const gate_setup> setup;
   std::uint64_t types = fingerprint_of_types();
   std::size_t open = 0;
+  std::uint64_t refused = 0;
+  time_point next_complaint;
+
+  void note_refusal(const std::string& why) {
+    ++refused;
+    const auto t = now(self);
+    if (t < next_complaint)
+      return;
+    next_complaint = t + complaint_period;
+    self->send(setup->recorder,
+               event_record{t,
+                            "peer_refused",
+                            0,
+                            setup->boot,
+                            {},
+                            0,
+                            fmt::format("{}; {} so far", why, refused)});
+  }
 };
 
-gate_actor::behavior_type gate(gate_actor::stateful_pointer<gate_state> self,
-                               gate_setup setup) {
+gate_impl::behavior_type gate(gate_impl::stateful_pointer<gate_state> self,
+                              gate_setup setup) {
+  self->state.self = self;
   self->state.setup = std::make_shared<const gate_setup>(std::move(setup));
   self->set_down_handler([self](const caf::down_msg&) { --self->state.open; });
   return {
@@ -96,12 +139,17 @@ gate_actor::behavior_type gate(gate_actor::stateful_pointer<gate_state> self,
           return {remote_protocol, state.types, std::string{},
                   caf::strong_actor_ptr{}};
         auto nonce = state.setup->draw_nonce();
-        const auto in = self->spawn(entrance, state.setup, nonce);
+        const auto in =
+            self->spawn(entrance, gate_impl{self}, state.setup, nonce);
         self->monitor(in);
-        self->link_to(in);
         ++state.open;
         return {remote_protocol, state.types, std::move(nonce),
                 caf::actor_cast<caf::strong_actor_ptr>(in)};
+      },
+      [self](tick_atom, const std::string& why) {
+        const auto& sender = self->current_sender();
+        if (sender && sender->node() == self->node())
+          self->state.note_refusal(why);
       },
   };
 }

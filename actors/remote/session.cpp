@@ -45,7 +45,7 @@ struct session_state {
   session_impl::stateful_pointer<session_state> self;
   session_setup setup;
   std::optional<pulse> life;
-  std::optional<rate_limit> allowance;
+  std::map<station_id, rate_limit> allowances;
   std::map<station_id, requester_actor> voices;
   std::map<running_service, provider_manager_actor> managers;
   std::optional<latest_values<stream_id, service_result>> results;
@@ -54,11 +54,11 @@ struct session_state {
 
   void start() {
     const auto t = now(self);
-    const auto stations = static_cast<double>(setup.stations.size());
     life.emplace(t, std::chrono::milliseconds{setup.peer_clock.epoch_unix_ms()
                                               - setup.clock.epoch_unix_ms()});
-    allowance.emplace(words_per_station_s * stations,
-                      burst_s * words_per_station_s * stations);
+    for (const auto station : setup.stations)
+      allowances.try_emplace(station, words_per_station_s,
+                             burst_s * words_per_station_s);
     results.emplace(streams_per_station * setup.stations.size());
     self->monitor(setup.peer);
     self->monitor(setup.provider);
@@ -74,26 +74,34 @@ struct session_state {
     return sender && sender->node() == self->node();
   }
 
-  bool is_from_peer() const {
-    return self->current_sender()
-           == caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
+  bool is_from_peer() {
+    const auto is = self->current_sender()
+                    == caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
+    if (!is)
+      drop(0, "a stranger speaks");
+    return is;
   }
 
   /// Whether the peer may say this now, for this station.
   bool may_say(station_id station) {
+    return speaks_for(station) && is_allowed(station);
+  }
+
+  bool speaks_for(station_id station) {
     if (!is_from_peer())
       return false;
-    const auto t = now(self);
-    life->hear(t);
-    if (!setup.stations.contains(station)) {
+    life->hear(now(self));
+    const auto does = setup.stations.contains(station);
+    if (!does)
       drop(station, "speaks for another station");
-      return false;
-    }
-    if (!allowance->take(t)) {
+    return does;
+  }
+
+  bool is_allowed(station_id station) {
+    const auto is = allowances.at(station).take(now(self));
+    if (!is)
       drop(station, "says too much");
-      return false;
-    }
-    return true;
+    return is;
   }
 
   void drop(station_id station, std::string_view why) {
@@ -114,10 +122,13 @@ struct session_state {
 
   // -- what the peer says ---------------------------------------------------
 
+  // What is dropped is acknowledged, too: its stream would stop for good.
   void take(station_id station, const its_pdu& message) {
-    if (!may_say(station))
+    if (!speaks_for(station))
       return;
     self->send(setup.peer, stream_of(station, message));
+    if (!is_allowed(station))
+      return;
     if (message.station() != station) {
       drop(station, "carries another station's message");
       return;
@@ -139,9 +150,11 @@ struct session_state {
   }
 
   void take(const service_input& input) {
-    if (!may_say(input.running.station))
+    if (!speaks_for(input.running.station))
       return;
     self->send(setup.peer, stream_of(input.running, stream_id::what::input));
+    if (!is_allowed(input.running.station))
+      return;
     const auto manager = managers.find(input.running);
     const auto clock = life->clock(now(self));
     if (manager == managers.end() || !clock)
@@ -206,6 +219,11 @@ struct session_state {
     send_after(self, self, protocol::life_sign_period, tick_atom_v);
   }
 
+  void lost(const caf::actor_addr& who) {
+    if (who == setup.peer.address() || who == setup.provider.address())
+      leave("gone");
+  }
+
   void leave(std::string_view why) {
     note("peer_lost", 0, why);
     self->quit(caf::exit_reason::remote_link_unreachable);
@@ -229,7 +247,7 @@ session(session_impl::stateful_pointer<session_state> self,
   self->state.setup = std::move(setup);
   self->state.start();
   self->set_down_handler(
-      [self](const caf::down_msg&) { self->state.leave("gone"); });
+      [self](const caf::down_msg& down) { self->state.lost(down.source); });
   return {
       [self](station_id station, const its_pdu& message) {
         self->state.take(station, message);

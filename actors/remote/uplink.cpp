@@ -129,9 +129,14 @@ struct uplink_state {
     self->request(entrance, protocol::introduction_timeout, std::move(hello),
                   uplink_actor{uplink_impl{self}})
         .then(
-            [this](const peer_welcome& welcome, const session_actor& with) {
-              if (welcome.name != setup.provider)
+            [this, at = entrance.node()](const peer_welcome& welcome,
+                                         const session_actor& with) {
+              if (!with || with.node() != at)
+                not_now("it has no end of its own");
+              else if (welcome.name != setup.provider)
                 refused(fmt::format("it is provider {}", welcome.name));
+              else if (!is_time_of_day(welcome.epoch_unix_ms))
+                refused("its clock shows no time of day");
               else
                 connected(welcome, with);
             },
@@ -172,7 +177,6 @@ struct uplink_state {
     const auto t = now(self);
     life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
                                               - setup.clock.epoch_unix_ms()});
-    pauses.succeeded();
     self->monitor(session);
     self->send(session, life->beat(t));
     note("provider_connected", welcome.boot, setup.address);
@@ -192,6 +196,11 @@ struct uplink_state {
     note("provider_lost", 0, why);
     tell(fmt::format("lost provider {} at {}: {}; vehicles plan for themselves",
                      setup.provider, setup.address, why));
+  }
+
+  void lost(const caf::actor_addr& who) {
+    if (session && session.address() == who)
+      disconnected("the connection is gone");
   }
 
   // -- what vehicles say ----------------------------------------------------
@@ -231,6 +240,11 @@ struct uplink_state {
     words->forget(stream_of(x, stream_id::what::input));
   }
 
+  bool is_from_here() const {
+    const auto& sender = self->current_sender();
+    return sender && sender->node() == self->node();
+  }
+
   // -- what the provider says -----------------------------------------------
 
   bool is_from_session() {
@@ -248,13 +262,24 @@ struct uplink_state {
       self->send(i->second, message);
   }
 
+  // Who accepts at once and hangs up again has not succeeded.
+  void take(const life_echo& echo) {
+    life->take(echo, now(self));
+    pauses.succeeded();
+  }
+
   void take(const service_response& response) {
+    const auto vehicle = vehicles.find(response.station);
+    if (vehicle == vehicles.end())
+      return;
+    const auto most = streams_per_station * setup.stations.size();
     for (const auto& v : response.verdicts)
-      if (v.accepted && v.running.station == response.station)
+      if (v.accepted && v.running.station == response.station
+          && running.size() < most)
         running.insert(v.running);
     // Of the link type: how many managers there are is told by the verdicts.
-    if (const auto i = vehicles.find(response.station); i != vehicles.end())
-      self->send(i->second, response, std::vector<provider_manager_actor>{});
+    self->send(vehicle->second, response,
+               std::vector<provider_manager_actor>{});
   }
 
   void take(const service_result& result) {
@@ -301,9 +326,8 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->state.start();
-  self->set_down_handler([self](const caf::down_msg&) {
-    self->state.disconnected("the connection is gone");
-  });
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->state.lost(down.source); });
   return {
       [self](station_id station, const service_offer& offer) {
         if (self->state.is_from_session())
@@ -318,10 +342,10 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
           self->state.take(result);
       },
       [self](const service_end& e) {
-        if (e.from == side::requester)
-          self->state.end(e);
-        else if (self->state.is_from_session())
+        if (e.from == side::provider && self->state.is_from_session())
           self->state.tell_end(e);
+        else if (e.from == side::requester && self->state.is_from_here())
+          self->state.end(e);
       },
       [self](const life_sign& sign) {
         if (self->state.is_from_session())
@@ -329,28 +353,41 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       },
       [self](const life_echo& echo) {
         if (self->state.is_from_session())
-          self->state.life->take(echo, now(self));
+          self->state.take(echo);
       },
       [self](const stream_id& stream) {
         if (self->state.is_from_session())
           self->state.acknowledge(stream);
       },
       [self](station_id station, const its_pdu& message) {
-        self->state.say(stream_of(station, message), message);
+        if (self->state.is_from_here())
+          self->state.say(stream_of(station, message), message);
       },
-      [self](const service_request& request) { self->state.up(request); },
+      [self](const service_request& request) {
+        if (self->state.is_from_here())
+          self->state.up(request);
+      },
       [self](const service_input& input) {
-        self->state.say(stream_of(input.running, stream_id::what::input),
-                        input);
+        if (self->state.is_from_here())
+          self->state.say(stream_of(input.running, stream_id::what::input),
+                          input);
       },
       [self](station_id station, const link_actor& vehicle) {
-        self->state.vehicles.insert_or_assign(station, vehicle);
+        if (self->state.is_from_here())
+          self->state.vehicles.insert_or_assign(station, vehicle);
       },
-      [self](tick_atom) { self->state.tick(); },
+      [self](tick_atom) {
+        if (self->state.is_from_here())
+          self->state.tick();
+      },
       [self](tick_atom, const gate_actor& gate) {
-        self->state.introduce_to(gate);
+        if (self->state.is_from_here())
+          self->state.introduce_to(gate);
       },
-      [self](tick_atom, const std::string& why) { self->state.failed(why); },
+      [self](tick_atom, const std::string& why) {
+        if (self->state.is_from_here())
+          self->state.failed(why);
+      },
   };
 }
 
@@ -362,7 +399,9 @@ uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup) {
 
 void introduce(const uplink_mouth& uplink, station_id station,
                const link_actor& far_provider) {
-  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, far_provider);
+  // In its name, for nobody from elsewhere is believed.
+  caf::send_as(far_provider, caf::actor_cast<uplink_impl>(uplink), station,
+               far_provider);
 }
 
 } // namespace sofof

@@ -72,8 +72,9 @@ public:
   /// @returns the clock of somebody whose time of day is ahead of ours, to the
   /// millisecond, as read on our run's clock.
   constexpr its_clock ahead_by(duration d) const {
-    return its_clock{epoch_unix_ms_
-                     + std::chrono::round<std::chrono::milliseconds>(d).count()};
+    return its_clock{
+        epoch_unix_ms_
+        + std::chrono::round<std::chrono::milliseconds>(d).count()};
   }
 
   constexpr std::int64_t epoch_unix_ms() const { return epoch_unix_ms_; }

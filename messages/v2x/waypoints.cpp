@@ -29,7 +29,8 @@ constexpr int densest_ms = 50;
 /// A waypoint may stand an eighth of the gap from where it is due: so many
 /// places are looked at.
 constexpr int looks = 16;
-constexpr int looks_per_gap = 8 * looks / 2;
+constexpr int half = looks / 2; // to either side
+constexpr int looks_per_gap = 8 * half;
 
 /// @returns the nearest whole number, ties up; of |x| > 1e9 that.
 std::int32_t whole(double x) {
@@ -217,7 +218,7 @@ int writer::best_near(int ms, int look_ms) const {
   auto best = std::numeric_limits<std::int32_t>::max();
 #pragma omp simd reduction(min : best)
   for (int i = 0; i < looks; ++i) {
-    const auto t = static_cast<float>(look_ms * (i - looks / 2));
+    const auto t = static_cast<float>(look_ms * (i - half));
     const auto x = miss(x0 + t * (x1 + t * x2));
     const auto y = miss(y0 + t * (y1 + t * y2));
     const auto v = miss(v0 + t * (v1 + t * v2));
@@ -228,7 +229,7 @@ int writer::best_near(int ms, int look_ms) const {
         (std::bit_cast<std::int32_t>(cost) & ~(looks - 1)) | i;
     best = std::min(best, numbered);
   }
-  return ms + look_ms * ((best & (looks - 1)) - looks / 2);
+  return ms + look_ms * ((best & (looks - 1)) - half);
 }
 
 int writer::next_ms(int ms, int least_gap) const {
@@ -237,7 +238,7 @@ int writer::next_ms(int ms, int least_gap) const {
   const auto gap = std::max(gap_ms(ms), least_gap);
   const auto look_ms = std::max(1, std::min(gap, usual.gap_ms) / looks_per_gap);
   const auto next = ms + gap;
-  const auto latest = next + look_ms * looks / 2;
+  const auto latest = next + look_ms * half;
   if (const auto last = last_before_rest_ms(ms, latest);
       last && *last <= latest)
     return std::clamp(*last, ms + 1, length_ms_);

@@ -65,6 +65,14 @@ struct managed_world : virtual_world {
     tell(manager, service_result{r, cycle, now() - latency,
                                  payload::of(echo{1000 + cycle})});
   }
+  void uncertain_result(std::uint64_t cycle, duration doubt) {
+    tell(manager, service_result{running,
+                                 cycle,
+                                 now() - 10ms,
+                                 payload::of(echo{1000 + cycle}),
+                                 {},
+                                 doubt});
+  }
   void end() { tell(manager, service_end{running}); }
 
   /// Runs until the remote source is in use.
@@ -464,4 +472,52 @@ TEST_CASE_FIXTURE(managed_world, "every received result is recorded, with the "
   CHECK(records[1].used);
   CHECK(records[2].interarrival == 30ms);
   CHECK(!records[2].used);
+}
+
+// -- clocks ------------------------------------------------------------------
+
+TEST_CASE_FIXTURE(managed_world, "a result whose age is uncertain by more than "
+                                 "half of the limit is not used") {
+  feed(1);
+  run_for(1s);
+  accept(running);
+  uncertain_result(1, 25ms + 1ns);
+  CHECK(!source());
+  CHECK(results(true) == 0);
+  uncertain_result(2, 25ms);
+  CHECK(source() == true);
+  CHECK(results(true) == 1);
+  run_for(50ms);
+  uncertain_result(3, 26ms);
+  CHECK(results(true) == 1);
+  const auto records = recorder->all<cycle_record>();
+  REQUIRE(records.size() == 3);
+  CHECK(!records[0].used);
+  CHECK(records[1].used);
+  CHECK(!records[2].used);
+  CHECK(records[0].doubt == 25ms + 1ns);
+}
+
+TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
+                                 "when they are known again") {
+  go_remote();
+  CHECK(recorder->count<event_record>() == 0);
+  std::uint64_t cycle = 1;
+  for (int k = 0; k < 5; ++k)
+    uncertain_result(++cycle, 30ms);
+  REQUIRE(recorder->count<event_record>() == 1);
+  const auto doubt = recorder->all<event_record>().front();
+  CHECK(doubt.what == "clock_in_doubt");
+  CHECK(doubt.at == now());
+  CHECK(doubt.station == 101);
+  CHECK(doubt.provider == 1);
+  CHECK(doubt.kind == service_name{"echo"});
+  CHECK(doubt.counter == 7);
+  CHECK(doubt.detail == "30.0 ms");
+  for (int k = 0; k < 5; ++k)
+    uncertain_result(++cycle, 1ms);
+  REQUIRE(recorder->count<event_record>() == 2);
+  CHECK(recorder->all<event_record>().back().what == "clock_known");
+  uncertain_result(++cycle, 30ms);
+  CHECK(recorder->all<event_record>().back().what == "clock_in_doubt");
 }

@@ -36,7 +36,7 @@ inline constexpr std::size_t arity<service_response> = 4;
 template <>
 inline constexpr std::size_t arity<service_input> = 4;
 template <>
-inline constexpr std::size_t arity<service_result> = 5;
+inline constexpr std::size_t arity<service_result> = 6;
 template <>
 inline constexpr std::size_t arity<service_end> = 4;
 template <>
@@ -64,7 +64,7 @@ inline constexpr std::size_t arity<event_record> = 7;
 template <>
 inline constexpr std::size_t arity<decision_record> = 4;
 template <>
-inline constexpr std::size_t arity<cycle_record> = 6;
+inline constexpr std::size_t arity<cycle_record> = 7;
 template <>
 inline constexpr std::size_t arity<episode_record> = 8;
 template <>
@@ -86,9 +86,17 @@ inline constexpr std::size_t arity<drive_record> = 3;
 template <>
 inline constexpr std::size_t arity<plan_switch_record> = 4;
 template <>
-inline constexpr std::size_t arity<its_pdu> = 1;
-template <>
 inline constexpr std::size_t arity<air_record> = 2;
+template <>
+inline constexpr std::size_t arity<peer_hello> = 5;
+template <>
+inline constexpr std::size_t arity<peer_welcome> = 3;
+template <>
+inline constexpr std::size_t arity<life_sign> = 2;
+template <>
+inline constexpr std::size_t arity<life_echo> = 3;
+template <>
+inline constexpr std::size_t arity<stream_id> = 3;
 
 /// Everything that travels and is not a handle.
 using all_messages =
@@ -98,18 +106,15 @@ using all_messages =
                lifecycle_step, motion_report, ego_state, source_change,
                perception, event_record, decision_record, cycle_record,
                episode_record, track_record, safety_record, collision_record,
-               drive_record, plan_switch_record, site_view, its_pdu,
-               air_record>;
+               drive_record, plan_switch_record, site_view, its_pdu, air_record,
+               peer_hello, peer_welcome, life_sign, life_echo, stream_id>;
 
 /// @returns references to all members.
 template <class T>
 auto members(T& x) {
   constexpr auto n = arity<std::remove_const_t<T>>;
-  static_assert(n >= 1 && n <= 9);
-  if constexpr (n == 1) {
-    auto& [a] = x;
-    return std::tie(a);
-  } else if constexpr (n == 2) {
+  static_assert(n >= 2 && n <= 9);
+  if constexpr (n == 2) {
     auto& [a, b] = x;
     return std::tie(a, b);
   } else if constexpr (n == 3) {
@@ -187,6 +192,7 @@ public:
     fill(inside.number);
     x = below(4) == 0 ? payload{} : payload::of(inside);
   }
+  void fill(its_pdu& x) { fill(x.octets); } // the rest does not travel
   template <class T>
   void fill(std::optional<T>& x) {
     x.reset();
@@ -208,11 +214,15 @@ private:
   void fill_enum(lifecycle_step& x) {
     x = static_cast<lifecycle_step>(below(4));
   }
+  void fill_enum(stream_id::what& x) {
+    x = static_cast<stream_id::what>(below(4));
+  }
 
   dice random_;
 };
 
 inline bool same(const payload& a, const payload& b);
+inline bool same(const its_pdu& a, const its_pdu& b);
 template <class T>
 bool same(const std::optional<T>& a, const std::optional<T>& b);
 template <class T>
@@ -235,6 +245,10 @@ bool same(const T& a, const T& b) {
 
 inline bool same(const payload& a, const payload& b) {
   return a.type() == b.type() && a.encoded() == b.encoded();
+}
+
+inline bool same(const its_pdu& a, const its_pdu& b) {
+  return a.octets == b.octets;
 }
 
 template <class T>

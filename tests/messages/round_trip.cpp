@@ -66,8 +66,13 @@ TEST_CASE("numbers arrive to the last bit") {
   check(-0.0);
   check(std::numeric_limits<double>::min());
   check(std::numeric_limits<double>::max());
-  check(std::numeric_limits<double>::infinity());
-  check(std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST_CASE("a point that is nowhere is refused") {
+  constexpr auto infinity = std::numeric_limits<double>::infinity();
+  CHECK(!load<point>(save(point{infinity, 0})));
+  CHECK(!load<point>(save(point{0, -infinity})));
+  CHECK(!load<point>(save(point{std::numeric_limits<double>::quiet_NaN(), 0})));
 }
 
 TEST_CASE("a message that was cut off is refused, wherever the cut is") {
@@ -117,7 +122,8 @@ TEST_CASE("a message that claims to hold more than it does is refused") {
 }
 
 TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
-                   end_reason, side, qos_breach, lifecycle_step) {
+                   end_reason, side, qos_breach, lifecycle_step,
+                   stream_id::what) {
   int known = 0;
   for (int value = 0; value < 256; ++value)
     if (const auto x = load<T>({static_cast<caf::byte>(value)})) {
@@ -125,9 +131,10 @@ TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
       CHECK(value == known);
       ++known;
     }
-  const auto expected = std::is_same_v<T, end_reason>       ? 8
-                        : std::is_same_v<T, lifecycle_step> ? 4
-                                                            : 2;
+  const auto expected = std::is_same_v<T, end_reason>        ? 8
+                        : std::is_same_v<T, lifecycle_step>  ? 4
+                        : std::is_same_v<T, stream_id::what> ? 4
+                                                             : 2;
   CHECK(known == expected);
 }
 

@@ -61,6 +61,15 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::site_view",
       "sofof::its_pdu",
       "sofof::air_record",
+      "sofof::peer_hello",
+      "sofof::peer_welcome",
+      "sofof::life_sign",
+      "sofof::life_echo",
+      "sofof::stream_id",
+      "sofof::uplink_actor",
+      "sofof::session_actor",
+      "sofof::entrance_actor",
+      "sofof::gate_actor",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);
@@ -73,7 +82,7 @@ TEST_CASE("type ids are where they have always been") {
 }
 
 TEST_CASE("every type id is listed above") {
-  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 47);
+  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 56);
 }
 
 TEST_CASE("numbers of some types, written out") {
@@ -84,4 +93,6 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<tick_atom> == 241);
   CHECK(caf::type_id_v<site_view> == 244);
   CHECK(caf::type_id_v<its_pdu> == 245);
+  CHECK(caf::type_id_v<peer_hello> == 247);
+  CHECK(caf::type_id_v<gate_actor> == 255);
 }

@@ -211,9 +211,7 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
   REQUIRE(hello.size() > 100);
   const auto files_before = open_files();
   {
-    auto options = door_to(inner.port());
-    options.handshake_timeout = 20ms;
-    const tls_door door{keys.credentials_for(mec), options};
+    const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
     const tls_dialer dialer{&own, dialer_to(door.port())};
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "before"));

@@ -97,7 +97,7 @@ TEST_CASE("a line through which nothing crosses is closed") {
   server inner{echo};
   SUBCASE("by the door") {
     auto options = door_to(inner.port());
-    options.idle = 50ms;
+    options.idle = 200ms;
     const tls_door door{keys.credentials_for(mec), options};
     const auto own = keys.credentials_for(car);
     const tls_dialer dialer{&own, dialer_to(door.port())};
@@ -109,12 +109,12 @@ TEST_CASE("a line through which nothing crosses is closed") {
     const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
     const auto own = keys.credentials_for(car);
     auto options = dialer_to(door.port());
-    options.idle = 50ms;
+    options.idle = 200ms;
     const tls_dialer dialer{&own, options};
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "and then silence"));
     CHECK(line.is_closed());
-    CHECK(contains(dialer.last_error(), "nothing crossed for 50 ms"));
+    CHECK(contains(dialer.last_error(), "nothing crossed for 200 ms"));
   }
 }
 

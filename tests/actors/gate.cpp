@@ -1,0 +1,246 @@
+// Tests of the gate and its entrances: who is let in, who is not, and why.
+#include "actors/remote/gate.hpp"
+
+#include "actors/remote/type_block.hpp"
+#include "tests/support/virtual_world.hpp"
+#include "world/protocol.hpp"
+
+#include <caf/event_based_actor.hpp>
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+struct gate_world : virtual_world {
+  struct greeting {
+    std::uint32_t protocol = 0;
+    std::uint64_t types = 0;
+    std::string nonce;
+    caf::strong_actor_ptr in;
+  };
+  struct answer {
+    std::optional<peer_welcome> welcome;
+    session_actor session;
+    std::string error;
+  };
+
+  probe<provider_actor> provider = listen<provider_actor>();
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<uplink_actor> peer = listen<uplink_actor>();
+  int nonces = 0;
+  std::vector<std::string> proofs; ///< That were looked at.
+  std::optional<std::string> doubt;
+  const std::uint64_t types = fingerprint_of_types();
+  const peer_hello hello{{101, 102}, 5, etsi::virtual_epoch_unix_ms, {}, {}};
+  gate_actor gate = own(spawn_gate(system(), setup()));
+
+  gate_setup setup() {
+    gate_setup s;
+    s.provider = provider.handle;
+    s.boot = 11;
+    s.name = "server";
+    s.world = 5;
+    s.recorder = recorder.handle;
+    s.draw_nonce = [this] { return "nonce " + std::to_string(++nonces); };
+    s.doubt = [this](const peer_hello&, const std::string& nonce) {
+      proofs.push_back(nonce);
+      return doubt;
+    };
+    return s;
+  }
+
+  greeting knock(std::uint32_t protocol, std::uint64_t their_types) {
+    auto found = std::make_shared<greeting>();
+    system().spawn([=, this](caf::event_based_actor* self) {
+      self->request(gate, caf::infinite, protocol, their_types)
+          .then([found](std::uint32_t p, std::uint64_t t,
+                        const std::string& nonce,
+                        const caf::strong_actor_ptr& in) {
+            *found = {p, t, nonce, in};
+          });
+    });
+    settle();
+    return *found;
+  }
+  greeting knock() { return knock(remote_protocol, types); }
+
+  answer enter(const greeting& at, const peer_hello& with,
+               const uplink_actor& as) {
+    auto found = std::make_shared<answer>();
+    system().spawn([=](caf::event_based_actor* self) {
+      self->request(caf::actor_cast<entrance_actor>(at.in), caf::infinite, with,
+                    as)
+          .then(
+              [found](const peer_welcome& welcome,
+                      const session_actor& session) {
+                *found = {welcome, session, {}};
+              },
+              [found](const caf::error& error) {
+                found->error = error.context().match_elements<std::string>()
+                                   ? error.context().get_as<std::string>(0)
+                                   : to_string(error);
+              });
+    });
+    settle();
+    return *found;
+  }
+  answer enter(const greeting& at, const peer_hello& with) {
+    return enter(at, with, peer.handle);
+  }
+
+  std::vector<event_record> refusals() const {
+    std::vector<event_record> found;
+    for (const auto& e : recorder->all<event_record>())
+      if (e.what == "peer_refused")
+        found.push_back(e);
+    return found;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(gate_world, "who speaks the same gets a number of its own to "
+                              "sign, and an entrance") {
+  const auto one = knock();
+  const auto two = knock();
+  CHECK(one.protocol == remote_protocol);
+  CHECK(one.types == types);
+  CHECK(one.in);
+  CHECK(two.in);
+  CHECK(one.in != two.in);
+  CHECK(one.nonce == "nonce 1");
+  CHECK(two.nonce == "nonce 2");
+}
+
+TEST_CASE_FIXTURE(gate_world, "who speaks another version is told ours, and "
+                              "gets no further") {
+  for (const auto& there : {knock(remote_protocol + 1, types),
+                            knock(remote_protocol, types + 1), knock(0, 0)}) {
+    CHECK(there.protocol == remote_protocol);
+    CHECK(there.types == types);
+    CHECK(there.nonce.empty());
+    CHECK(!there.in);
+  }
+  CHECK(nonces == 0);
+}
+
+TEST_CASE_FIXTURE(gate_world, "who is welcome gets a session and is told which "
+                              "provider this is") {
+  const auto in = enter(knock(), hello);
+  REQUIRE(in.welcome);
+  CHECK(in.welcome->boot == 11);
+  CHECK(in.welcome->name == "server");
+  CHECK(in.welcome->epoch_unix_ms == etsi::virtual_epoch_unix_ms);
+  CHECK(in.session);
+  CHECK(peer->count<life_sign>() == 1);
+  CHECK(proofs == std::vector<std::string>{"nonce 1"});
+  CHECK(refusals().empty());
+}
+
+TEST_CASE_FIXTURE(gate_world, "who is refused is told why, and never gets a "
+                              "session") {
+  auto bad = hello;
+  auto as = peer.handle;
+  std::string why;
+  SUBCASE("for its map") {
+    bad.world = 6;
+    why = "provider server has another map or other services; start both "
+          "sides with the same scenario file";
+  }
+  SUBCASE("for its proof") {
+    doubt = "the certificate is for station 7, not 101";
+    why = *doubt;
+  }
+  SUBCASE("as it speaks for nobody") {
+    bad.stations.clear();
+    why = "speaks for 0 stations; 1 to 10000 are possible";
+  }
+  SUBCASE("as it speaks for too many") {
+    bad.stations.resize(10'001);
+    why = "speaks for 10001 stations; 1 to 10000 are possible";
+  }
+  SUBCASE("as its time makes no sense") {
+    SUBCASE("far ahead") {
+      bad.epoch_unix_ms = std::numeric_limits<std::int64_t>::max();
+    }
+    SUBCASE("far back") {
+      bad.epoch_unix_ms = std::numeric_limits<std::int64_t>::min();
+    }
+    why = "its clock shows no time of day";
+  }
+  SUBCASE("as nobody listens there") {
+    as = nullptr;
+    why = "it has no end of its own";
+  }
+  const auto in = enter(knock(), bad, as);
+  CHECK(!in.welcome);
+  CHECK(!in.session);
+  CHECK(in.error == why);
+  CHECK(peer->entries().empty());
+  REQUIRE(refusals().size() == 1);
+  CHECK(refusals().front().detail == why + "; 1 so far");
+}
+
+TEST_CASE_FIXTURE(gate_world, "those who are refused again and again are noted "
+                              "once a second") {
+  doubt = "no";
+  for (int k = 0; k < 100; ++k) {
+    enter(knock(), hello);
+    run_for(50ms);
+  }
+  const auto all = refusals();
+  REQUIRE(all.size() == 5);
+  CHECK(all.back().detail == "no; 81 so far");
+}
+
+TEST_CASE_FIXTURE(gate_world, "an entrance is used once, whoever fails") {
+  const auto at = knock();
+  doubt = "no";
+  CHECK(enter(at, hello).error == "no");
+  doubt.reset();
+  CHECK(!enter(at, hello).welcome);
+  CHECK(is_gone(at.in));
+  CHECK(enter(knock(), hello).welcome);
+}
+
+TEST_CASE_FIXTURE(gate_world, "who does not introduce himself in time finds "
+                              "the entrance closed") {
+  const auto at = knock();
+  run_for(protocol::introduction_timeout - 1ns);
+  CHECK(!is_gone(at.in));
+  run_for(1ns);
+  CHECK(is_gone(at.in));
+}
+
+TEST_CASE_FIXTURE(gate_world, "those who knock and say nothing keep others out "
+                              "for two seconds at most") {
+  for (int k = 0; k < 64; ++k)
+    CHECK(knock().in);
+  CHECK(!knock().in);
+  CHECK(knock().protocol == remote_protocol); // no refusal
+  run_for(protocol::introduction_timeout);
+  CHECK(knock().in);
+}
+
+TEST_CASE_FIXTURE(
+    gate_world, "an entrance that fails takes neither gate nor others along") {
+  const auto other = knock();
+  kill(knock().in);
+  CHECK(!is_gone(gate));
+  CHECK(enter(other, hello).welcome);
+  CHECK(enter(knock(), hello).welcome);
+}
+
+TEST_CASE_FIXTURE(gate_world, "an entrance does not outlive the gate") {
+  const auto at = knock();
+  kill(gate);
+  CHECK(is_gone(at.in));
+}

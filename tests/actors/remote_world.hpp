@@ -1,0 +1,222 @@
+// Vehicles and their provider on two hosts, with a wire between them, in
+// virtual time.
+#pragma once
+
+#include "actors/remote/far_provider.hpp"
+#include "actors/remote/gate.hpp"
+#include "actors/remote/uplink.hpp"
+#include "actors/service_provider.hpp"
+#include "actors/service_requester.hpp"
+#include "tests/actors/spy_policies.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "tests/support/virtual_world.hpp"
+#include "tests/support/wire.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sofof::test {
+
+struct remote_world : virtual_world {
+  static constexpr boot_id first_boot = 11;
+
+  /// A vehicle that stands still and wants its services run elsewhere.
+  struct car {
+    station_id station = 0;
+    probe<vehicle_actor> vehicle;
+    link_actor far;
+    onboard_requester_actor requester;
+    std::vector<requester_manager_actor> managers;
+  };
+
+  const service_name one{"one"}, two{"two"};
+  probe<recorder_actor> here = listen<recorder_actor>();
+  probe<recorder_actor> there = listen<recorder_actor>();
+  wire_ptr line = std::make_shared<wire>();
+  streets_ptr world = one_street();
+  std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
+  std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
+  boot_id boot = first_boot - 1;
+  roadside_provider_actor provider;
+  gate_actor inner_gate, gate; ///< Empty while the provider's host is down.
+  uplink_mouth uplink;
+  std::vector<time_point> attempts;
+  std::vector<std::string> news, refusals;
+  std::vector<car> cars;
+  std::uint64_t said = 0;
+
+  explicit remote_world(std::size_t count = 1) {
+    run_for(10s); // the clock's zero is no special time
+    boot_up();
+    uplink = own(spawn_uplink(system(), make_uplink(count)));
+    for (std::size_t k = 0; k < count; ++k)
+      add_car(static_cast<station_id>(101 + k));
+    settle();
+  }
+
+  static streets_ptr one_street() {
+    auto world = std::make_shared<streets>();
+    world->map =
+        road_map{"street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
+    world->routes.push_back(world->map.make_route(
+        "street", std::vector<std::string>{"street"}, false));
+    return world;
+  }
+  static std::vector<service_kind_ptr> kinds() {
+    return {std::make_shared<echo_service>("one"),
+            std::make_shared<echo_service>("two")};
+  }
+
+  uplink_setup make_uplink(std::size_t count) {
+    uplink_setup s;
+    s.provider = "server";
+    s.address = "10.0.0.5:4711";
+    for (std::size_t k = 0; k < count; ++k)
+      s.stations.push_back(static_cast<station_id>(101 + k));
+    s.recorder = here.handle;
+    s.noise = random_stream{1, "uplink"};
+    s.connect = [this]() -> std::variant<gate_actor, std::string> {
+      attempts.push_back(now());
+      if (gate && !line->cut)
+        return gate;
+      return "nobody is there";
+    };
+    s.takes_time = false;
+    s.prove = [](peer_hello& hello, const std::string&) {
+      hello.certificate = "honest";
+    };
+    s.on_refusal = [this](const std::string& why) { refusals.push_back(why); };
+    s.on_news = [this](const std::string& what) { news.push_back(what); };
+    return s;
+  }
+
+  void add_car(station_id station) {
+    car c{station,
+          listen<vehicle_actor>(),
+          own(spawn_far_provider(system(), station, uplink)),
+          {},
+          {}};
+    introduce(uplink, station, c.far);
+    requester_setup setup;
+    setup.station = station;
+    setup.way = world->routes.front();
+    setup.world = world;
+    setup.where = in_ulm();
+    setup.kinds = kinds();
+    setup.lodm = std::make_unique<spy_lodm>(lodm);
+    setup.vehicle = c.vehicle.handle;
+    setup.recorder = here.handle;
+    setup.noise = random_stream{station, "vehicle"};
+    c.requester = own(spawn_service_requester(system(), std::move(setup)));
+    settle();
+    c.managers = c.vehicle->all<requester_manager_actor>();
+    cars.push_back(std::move(c));
+  }
+
+  // -- what happens to the hosts ----------------------------------------------
+
+  /// The provider's host starts, anew.
+  void boot_up() {
+    provider_setup s;
+    s.boot = ++boot;
+    s.position = {1000, 0};
+    s.area = polygon{{{-100, -100}, {3000, -100}, {3000, 100}, {-100, 100}}};
+    s.world = world;
+    s.where = in_ulm();
+    s.kinds = kinds();
+    s.codm = std::make_unique<spy_codm>(codm);
+    s.recorder = there.handle;
+    s.profile =
+        std::make_shared<channel_profile>(*find_channel_profile("ideal"));
+    s.seed = random_stream{1, "network"};
+    provider = own(spawn_service_provider(system(), std::move(s)));
+    gate_setup g;
+    g.provider = provider;
+    g.boot = boot;
+    g.name = "server";
+    g.recorder = there.handle;
+    g.draw_nonce = [] { return std::string{"number"}; };
+    g.doubt = [](const peer_hello& hello,
+                 const std::string&) -> std::optional<std::string> {
+      if (hello.certificate == "honest")
+        return std::nullopt;
+      return "nobody knows it";
+    };
+    inner_gate = own(spawn_gate(system(), std::move(g)));
+    gate = own(system().spawn(wired_gate, inner_gate, line));
+  }
+  /// It dies, and all its actors with it.
+  void crash() {
+    const auto dying = std::exchange(gate, nullptr);
+    kill(dying);
+    kill(inner_gate);
+    kill(provider);
+  }
+
+  /// Vehicles stand where they are, say so and want plans.
+  void drive(duration d) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      ++said;
+      for (const auto& c : cars)
+        step(c);
+    }
+  }
+  void step(const car& c) {
+    for (const auto& m : c.managers)
+      tell(m, service_input{{}, now(), payload::of(echo{said})});
+    if (said % 2 == 0)
+      return;
+    const cam own{c.station, now(), {500, 0}, 0, 10, 0};
+    tell(c.requester, ego_state{own, 500});
+    tell(c.far, pdu_of(own), requester_actor{c.requester});
+  }
+
+  // -- what came of it --------------------------------------------------------
+
+  /// @returns whether a service of a vehicle is run elsewhere now.
+  static bool is_remote(const car& c, const service_name& kind) {
+    bool remote = false;
+    for (const auto& change : c.vehicle->all<source_change>())
+      if (change.kind == kind)
+        remote = change.remote;
+    return remote;
+  }
+  bool all_remote() const {
+    return std::ranges::all_of(cars, [this](const car& c) {
+      return is_remote(c, one) && is_remote(c, two);
+    });
+  }
+  bool none_remote() const {
+    return std::ranges::none_of(cars, [this](const car& c) {
+      return is_remote(c, one) || is_remote(c, two);
+    });
+  }
+  static std::vector<service_result> remote_results(const car& c) {
+    std::vector<service_result> found;
+    for (const auto& r : c.vehicle->all<service_result>())
+      if (r.running.counter != 0)
+        found.push_back(r);
+    return found;
+  }
+  static std::vector<episode_record> episodes(const probe<recorder_actor>& at) {
+    return at->all<episode_record>();
+  }
+  static std::vector<event_record> notes(const probe<recorder_actor>& at,
+                                         std::string_view what) {
+    std::vector<event_record> found;
+    for (const auto& e : at->all<event_record>())
+      if (e.what == what)
+        found.push_back(e);
+    return found;
+  }
+};
+
+} // namespace sofof::test

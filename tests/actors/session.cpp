@@ -1,0 +1,439 @@
+// Tests of the session: what a peer may say, and what becomes of it.
+#include "tests/actors/session_world.hpp"
+#include "world/protocol.hpp"
+
+using namespace sofof;
+using namespace sofof::test;
+
+// -- whose voice -------------------------------------------------------------
+
+TEST_CASE_FIXTURE(session_world,
+                  "to the provider each station of a peer is one requester") {
+  live(1s);
+  say_cam(station);
+  say_cam(neighbour);
+  say(request_of(station));
+  say_cam(neighbour);
+  const auto voices = provider->seconds<requester_actor>();
+  REQUIRE(voices.size() == 4);
+  CHECK(voices[0] != voices[1]);
+  CHECK(voices[2] == voices[0]);
+  CHECK(voices[3] == voices[1]);
+}
+
+TEST_CASE_FIXTURE(session_world, "what the provider tells a requester reaches "
+                                 "the peer, with the station it is for") {
+  live(1s);
+  say_cam(neighbour);
+  tell_as(provider.handle, voice(), service_offer{boot, {1, 2}, {"one"}});
+  REQUIRE(peer->seconds<service_offer>().size() == 1);
+  CHECK(peer->all<station_id>() == std::vector{neighbour});
+  CHECK(peer->entries().back().from
+        == caf::actor_cast<caf::strong_actor_ptr>(session));
+  accept(one);
+  REQUIRE(peer->count<service_response>() == 1);
+  CHECK(peer->all<service_response>().front().verdicts.front().running == one);
+  tell_as(provider.handle, voice(),
+          service_end{one, end_reason::left_area, side::provider});
+  REQUIRE(peer->count<service_end>() == 1);
+  CHECK(peer->all<service_end>().front().running == one);
+}
+
+TEST_CASE_FIXTURE(session_world, "an input finds the manager of its running "
+                                 "service, until that ends") {
+  live(1s);
+  accept(one);
+  say(service_input{one, now(), payload::of(echo{3})});
+  REQUIRE(manager->count<service_input>() == 1);
+  CHECK(manager->all<service_input>().front().what.as<echo>()->number == 3);
+  SUBCASE("the vehicle ends it") {
+    say(service_end{one, end_reason::qos_gap, side::requester});
+    REQUIRE(provider->count<service_end>() == 1);
+    CHECK(provider->all<service_end>().front().running == one);
+  }
+  SUBCASE("the provider ends it") {
+    tell_as(provider.handle, voice(),
+            service_end{one, end_reason::left_area, side::provider});
+  }
+  say(service_input{one, now(), payload::of(echo{4})});
+  CHECK(manager->count<service_input>() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world, "an input for what nobody runs is dropped") {
+  live(1s);
+  accept(one);
+  say(service_input{two, now(), payload::of(echo{3})});
+  auto other = one;
+  other.counter = 9;
+  say(service_input{other, now(), payload::of(echo{3})});
+  CHECK(manager->count<service_input>() == 0);
+  CHECK(!is_gone(session));
+}
+
+// -- who may say what --------------------------------------------------------
+
+TEST_CASE_FIXTURE(session_world,
+                  "who speaks for another station is not heard, and noted") {
+  live(1s);
+  SUBCASE("by a CAM") {
+    say_cam(foreign);
+  }
+  SUBCASE("by a request") {
+    say(request_of(foreign));
+  }
+  SUBCASE("by an input") {
+    say(service_input{{boot, foreign, "one", 7}, now(), payload::of(echo{1})});
+  }
+  SUBCASE("by an end") {
+    say(service_end{{boot, foreign, "one", 7}});
+  }
+  CHECK(provider->entries().empty());
+  CHECK(manager->entries().empty());
+  CHECK(was_ignored("speaks for another station"));
+  CHECK(notes("peer_ignored").front().station == foreign);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "who carries another station's message is not heard") {
+  live(1s);
+  say(station, cam_of(neighbour));
+  say(station, its_pdu{});
+  say(station, its_pdu{{std::byte{2}, std::byte{2}}});
+  CHECK(provider->entries().empty());
+  CHECK(was_ignored("carries another station's message"));
+}
+
+TEST_CASE_FIXTURE(session_world, "a stranger is not heard, and noted") {
+  live(1s);
+  accept(one);
+  forget();
+  SUBCASE("with a CAM") {
+    say_strangely(station, cam_of(station));
+  }
+  SUBCASE("with a request") {
+    say_strangely(request_of(station));
+  }
+  SUBCASE("with an input") {
+    say_strangely(service_input{one, now(), payload::of(echo{1})});
+  }
+  SUBCASE("with an end") {
+    say_strangely(service_end{one});
+  }
+  SUBCASE("with life signs") {
+    say_strangely(life_sign{1, now()});
+  }
+  SUBCASE("with echoes") {
+    say_strangely(life_echo{{1, now()}, now(), now()});
+  }
+  SUBCASE("with credit") {
+    say_strangely(stream_of(one, stream_id::what::result));
+  }
+  SUBCASE("without a name") {
+    tell(session, station, cam_of(station));
+  }
+  CHECK(provider->entries().empty());
+  CHECK(manager->entries().empty());
+  CHECK(stranger->entries().empty());
+  CHECK(was_ignored("a stranger speaks"));
+}
+
+TEST_CASE_FIXTURE(session_world, "strangers do not keep a connection alive") {
+  live(1s);
+  for (int k = 0; k < 30; ++k) {
+    run_for(50ms);
+    say_strangely(life_sign{1, now()});
+    say_strangely(station, cam_of(station));
+  }
+  CHECK(is_gone(session));
+}
+
+TEST_CASE_FIXTURE(session_world, "the peer cannot speak for the provider") {
+  live(1s);
+  accept(one);
+  forget();
+  say(service_end{one, end_reason::left_area, side::requester});
+  CHECK(peer->count<service_end>() == 0);
+  CHECK(provider->count<service_end>() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "a route without end is not handed on; the longest is") {
+  say(request_of(station, 1000));
+  CHECK(provider->count<service_request>() == 1);
+  say(request_of(station, 1001));
+  CHECK(provider->count<service_request>() == 1);
+  CHECK(was_ignored("asks for too much"));
+  auto many = request_of(station);
+  many.kinds.assign(65, "one");
+  say(many);
+  CHECK(provider->count<service_request>() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "who says too much is heard at its rate, and noted") {
+  live(1s);
+  forget();
+  for (int k = 0; k < 1000; ++k)
+    say_cam();
+  CHECK(provider->count<its_pdu>() == 200); // 2 s of 100 a second
+  CHECK(was_ignored("says too much"));
+  CHECK(peer->count<stream_id>() == 1000); // its streams do not stop
+  live(500ms);
+  forget();
+  for (int k = 0; k < 1000; ++k)
+    say_cam();
+  CHECK(provider->count<its_pdu>() == 50);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "other stations of a peer do not notice a loud one") {
+  live(1s);
+  for (int k = 0; k < 1000; ++k)
+    say_cam(station);
+  forget();
+  say_cam(neighbour);
+  say(request_of(neighbour));
+  CHECK(provider->count<its_pdu>() == 1);
+  CHECK(provider->count<service_request>() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world, "who does it again and again is noted once a "
+                                 "second, with how often") {
+  live(1s);
+  forget();
+  for (int k = 0; k < 100; ++k) {
+    say_cam(foreign);
+    live(50ms);
+  }
+  const auto all = notes("peer_ignored");
+  REQUIRE(all.size() == 5);
+  CHECK(all.front().detail == "speaks for another station; 1 so far");
+  CHECK(all.back().detail == "speaks for another station; 81 so far");
+  for (std::size_t k = 1; k < all.size(); ++k)
+    CHECK(all[k].at - all[k - 1].at >= 1s);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "stations of other peers do not notice a loud one") {
+  const auto polite = listen<uplink_actor>();
+  const auto other = join(polite, {201});
+  live(500ms);
+  for (const auto& sign : polite->all<life_sign>())
+    tell_as(polite.handle, other, life_echo{sign, sign.sent, sign.sent});
+  forget();
+  for (int k = 0; k < 1000; ++k) {
+    say_cam();
+    say_cam(foreign);
+    say(request_of(station, 2000));
+  }
+  provider->clear();
+  tell_as(polite.handle, other, station_id{201}, cam_of(201));
+  tell_as(polite.handle, other, request_of(201));
+  CHECK(provider->count<its_pdu>() == 1);
+  CHECK(provider->count<service_request>() == 1);
+  CHECK(polite->all<stream_id>().size() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "who speaks to a session of others gets nowhere") {
+  const auto other_peer = listen<uplink_actor>();
+  const auto other = join(other_peer, {201});
+  live(1s);
+  forget();
+  tell_as(peer.handle, other, station_id{201}, cam_of(201));
+  tell_as(peer.handle, other, request_of(201));
+  CHECK(provider->entries().empty());
+  CHECK(was_ignored("a stranger speaks"));
+}
+
+// -- the connection ----------------------------------------------------------
+
+TEST_CASE_FIXTURE(session_world, "life signs go out at 20 Hz, and are answered "
+                                 "at once") {
+  live(1s);
+  CHECK(peer->count<life_sign>() == 20);
+  CHECK(peer->count<life_echo>() == 20);
+  CHECK(peer->all<life_echo>().back().of.number == 1);
+  CHECK(peer->all<life_echo>().back().received == now());
+}
+
+TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
+                                 "and all its stations with it") {
+  live(1s);
+  say_cam(station);
+  const auto first = voice();
+  say_cam(neighbour);
+  const auto second = voice();
+  run_for(1s);
+  CHECK(!is_gone(session));
+  run_for(protocol::life_sign_period);
+  CHECK(is_gone(session));
+  CHECK(is_gone(first));
+  CHECK(is_gone(second));
+  REQUIRE(notes("peer_lost").size() == 1);
+  CHECK(notes("peer_lost").front().detail == "silent");
+}
+
+TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
+                                 "provider") {
+  live(1s);
+  say_cam();
+  SUBCASE("the peer dies") {
+    kill(peer.handle);
+  }
+  SUBCASE("the provider dies") {
+    kill(provider.handle);
+  }
+  CHECK(is_gone(session));
+  CHECK(notes("peer_lost").front().detail == "gone");
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "the death of somebody else does not concern a session") {
+  live(1s);
+  const auto other = listen<uplink_actor>();
+  kill(other.handle);
+  tell_as(stranger.handle, session,
+          caf::down_msg{other.handle.address(), caf::exit_reason::kill});
+  CHECK(!is_gone(session));
+}
+
+// -- back-pressure -----------------------------------------------------------
+
+TEST_CASE_FIXTURE(session_world, "while the peer acknowledges nothing, one "
+                                 "result of a stream is under way, one waits") {
+  live(1s);
+  accept(one);
+  const auto first = voice();
+  accept(two);
+  const auto second = voice();
+  const auto result = [&](const requester_actor& to, const running_service& r,
+                          std::uint64_t cycle) {
+    tell_as(manager.handle, to,
+            service_result{r, cycle, now(), payload::of(echo{cycle})});
+  };
+  for (std::uint64_t k = 1; k <= 100; ++k)
+    result(first, one, k);
+  REQUIRE(peer->count<service_result>() == 1);
+  CHECK(peer->all<service_result>().back().cycle == 1);
+  result(second, two, 1); // a stream of its own
+  CHECK(peer->count<service_result>() == 2);
+  say(stream_of(one, stream_id::what::result));
+  REQUIRE(peer->count<service_result>() == 3);
+  CHECK(peer->all<service_result>().back().cycle == 100);
+  say(stream_of(one, stream_id::what::result));
+  CHECK(peer->count<service_result>() == 3);
+  result(first, one, 101);
+  CHECK(peer->all<service_result>().back().cycle == 101);
+  say(stream_of(one, stream_id::what::cam)); // of another stream
+  result(first, one, 102);
+  CHECK(peer->count<service_result>() == 4);
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "protocol messages do not wait for a peer that stalls") {
+  live(1s);
+  accept(one);
+  const auto to = voice();
+  forget();
+  for (std::uint64_t k = 1; k <= 100; ++k) {
+    tell_as(manager.handle, to,
+            service_result{one, k, now(), payload::of(echo{k})});
+    tell_as(provider.handle, to, service_offer{k, {1, 2}, {"one"}});
+    tell_as(provider.handle, to,
+            service_response{boot, station, static_cast<std::uint32_t>(k), {}},
+            std::vector<provider_manager_actor>{});
+  }
+  CHECK(peer->count<service_result>() == 1);
+  const auto offers = peer->seconds<service_offer>();
+  const auto responses = peer->all<service_response>();
+  REQUIRE(offers.size() == 100);
+  REQUIRE(responses.size() == 100);
+  for (std::size_t k = 0; k < 100; ++k) {
+    CHECK(offers[k].provider == k + 1);
+    CHECK(responses[k].number == k + 1);
+  }
+}
+
+TEST_CASE_FIXTURE(session_world,
+                  "what a peer says is acknowledged, stream by stream") {
+  live(1s);
+  accept(one);
+  forget();
+  say_cam(station);
+  say(neighbour, pdu_of(cam{neighbour, now(), {}, 0, 5, 0}, {}));
+  say(service_input{one, now(), payload::of(echo{1})});
+  CHECK(peer->all<stream_id>()
+        == std::vector<stream_id>{{station, stream_id::what::cam, 0},
+                                  {neighbour, stream_id::what::cpm, 0},
+                                  {station, stream_id::what::input, 7}});
+}
+
+TEST_CASE_FIXTURE(session_world, "what has ended without its credit does not "
+                                 "hold up what runs next") {
+  for (std::uint32_t k = 1; k <= 100; ++k) {
+    live(50ms);
+    const running_service next{boot, station, "one", k};
+    accept(next);
+    tell_as(manager.handle, voice(),
+            service_result{next, 1, now(), payload::of(echo{1})});
+    CHECK(peer->count<service_result>() == k);
+    tell_as(provider.handle, voice(),
+            service_end{next, end_reason::left_area, side::provider});
+  }
+}
+
+// -- clocks ------------------------------------------------------------------
+
+TEST_CASE_FIXTURE(session_world, "before the peer's clock is known nothing "
+                                 "with a time is handed on") {
+  accept(one);
+  say_cam();
+  say(service_input{one, now(), payload::of(echo{1})});
+  CHECK(provider->count<its_pdu>() == 0);
+  CHECK(manager->count<service_input>() == 0);
+  CHECK(peer->count<stream_id>() == 2);           // the next may come
+  CHECK(provider->count<service_request>() == 1); // has no time
+  run_for(50ms);
+  answer();
+  say_cam();
+  say(service_input{one, now(), payload::of(echo{2})});
+  CHECK(provider->count<its_pdu>() == 1);
+  CHECK(manager->count<service_input>() == 1);
+}
+
+TEST_CASE_FIXTURE(session_world, "times of a peer whose clock is off are "
+                                 "translated within the doubt") {
+  for (const auto off :
+       std::vector<duration>{-3001ms, -500ms, 0ms, 700ms, 1h}) {
+    CAPTURE(off.count());
+    ahead = off;
+    session = join(peer, {station, neighbour});
+    settle();
+    answer(4ms, 2ms);
+    accept(one);
+    forget();
+    const auto said = now();
+    say(service_input{one, said + ahead, payload::of(echo{1})});
+    REQUIRE(manager->count<service_input>() == 1);
+    const auto error = manager->all<service_input>().front().at - said;
+    CHECK(std::chrono::abs(error) <= 3ms + 10us);
+    kill(session);
+  }
+}
+
+TEST_CASE_FIXTURE(session_world, "with ITS messages goes how far their "
+                                 "sender's time of day is ahead") {
+  ahead = 300ms; // its clock, which began 200 ms later
+  live(1s);
+  accept(one);
+  say_cam();
+  say(service_input{one, now() + ahead, payload::of(cam_of(station))});
+  REQUIRE(provider->count<its_pdu>() == 1);
+  CHECK(std::chrono::abs(provider->all<its_pdu>().front().ahead - 500ms) < 1ms);
+  REQUIRE(manager->count<service_input>() == 1);
+  const auto in = manager->all<service_input>().front().what.as<its_pdu>();
+  REQUIRE(in);
+  CHECK(std::chrono::abs(in->ahead - 500ms) < 1ms);
+  CHECK(in->octets == cam_of(station).octets);
+}

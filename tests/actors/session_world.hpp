@@ -1,0 +1,122 @@
+// One session between a peer that the test plays and a provider that listens.
+#pragma once
+
+#include "actors/remote/session.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sofof::test {
+
+struct session_world : virtual_world {
+  static constexpr boot_id boot = 11;
+  static constexpr station_id station = 101, neighbour = 102, foreign = 999;
+  /// How much later the peer's clock stood at 0, by its time of day.
+  static constexpr auto gap = 200ms;
+  const running_service one{boot, station, "one", 7};
+  const running_service two{boot, neighbour, "one", 8};
+
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<provider_actor> provider = listen<provider_actor>();
+  probe<provider_manager_actor> manager = listen<provider_manager_actor>();
+  probe<uplink_actor> peer = listen<uplink_actor>();
+  probe<uplink_actor> stranger = listen<uplink_actor>();
+  duration ahead{}; ///< What the peer's clock shows more than ours.
+  session_actor session;
+
+  session_world() {
+    run_for(10s); // the clock's zero is no special time
+    session = join(peer, {station, neighbour});
+    settle();
+    forget();
+  }
+
+  session_actor join(const probe<uplink_actor>& with,
+                     std::set<station_id> stations) {
+    const etsi::its_clock ours;
+    const etsi::its_clock theirs{
+        ours.epoch_unix_ms()
+        + std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()};
+    return own(spawn_session(system(),
+                             {provider.handle, with.handle, std::move(stations),
+                              ours, theirs, recorder.handle}));
+  }
+
+  void forget() {
+    peer->clear();
+    stranger->clear();
+    provider->clear();
+    recorder->clear();
+    manager->clear();
+  }
+
+  // -- what the peer does -----------------------------------------------------
+
+  template <class... Ts>
+  void say(const Ts&... xs) {
+    tell_as(peer.handle, session, xs...);
+  }
+  template <class... Ts>
+  void say_strangely(const Ts&... xs) {
+    tell_as(stranger.handle, session, xs...);
+  }
+  void say_cam(station_id of = station) { say(of, cam_of(of)); }
+  its_pdu cam_of(station_id of) {
+    return pdu_of(cam{of, now(), {1, 2}, 0, 5, 0});
+  }
+  service_request request_of(station_id of, std::size_t points = 2) const {
+    return {boot, of, 1, {"one"}, std::vector<point>(points), 5};
+  }
+
+  /// The peer answers the latest life sign, which took these ways.
+  void answer(duration up = {}, duration down = {}) {
+    const auto signs = peer->all<life_sign>();
+    REQUIRE(!signs.empty());
+    const auto there = signs.back().sent + up + ahead;
+    run_for(up + down);
+    say(life_echo{signs.back(), there, there});
+  }
+  /// Life signs and answers to them, without any delay.
+  void live(duration d) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      say(life_sign{1, now() + ahead});
+      answer();
+    }
+  }
+  /// The provider accepts a service of a station that has asked.
+  void accept(const running_service& running) {
+    say(request_of(running.station));
+    tell_as(provider.handle, voice(),
+            service_response{boot, running.station, 1, {{running, true, ""}}},
+            std::vector{manager.handle});
+  }
+
+  // -- what came of it --------------------------------------------------------
+
+  /// @returns how the provider has reached the last one who spoke.
+  requester_actor voice() const {
+    const auto all = provider->seconds<requester_actor>();
+    REQUIRE(!all.empty());
+    return all.back();
+  }
+  std::vector<event_record> notes(std::string_view what) const {
+    std::vector<event_record> found;
+    for (const auto& e : recorder->all<event_record>())
+      if (e.what == what)
+        found.push_back(e);
+    return found;
+  }
+  bool was_ignored(std::string_view why) const {
+    const auto all = notes("peer_ignored");
+    return !all.empty() && all.back().detail.starts_with(why);
+  }
+};
+
+} // namespace sofof::test

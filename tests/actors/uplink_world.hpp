@@ -1,0 +1,202 @@
+// One uplink between a vehicle that listens and a provider's host that the
+// test plays.
+#pragma once
+
+#include "actors/remote/far_provider.hpp"
+#include "actors/remote/type_block.hpp"
+#include "actors/remote/uplink.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/on_air.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sofof::test {
+
+using gate_promise =
+    caf::typed_response_promise<std::uint32_t, std::uint64_t, std::string,
+                                caf::strong_actor_ptr>;
+
+/// What a played provider's host answers, and what it was asked.
+struct host_script {
+  std::uint32_t protocol = remote_protocol;
+  std::uint64_t types = fingerprint_of_types();
+  std::string nonce = "a number";
+  peer_welcome welcome{11, "server", etsi::virtual_epoch_unix_ms};
+  std::optional<std::string> refusal;
+  bool full = false;
+  bool answers = true;
+  session_actor session; ///< Given to those who are welcome.
+
+  std::size_t knocks = 0;
+  std::vector<gate_promise> unanswered;
+  std::vector<peer_hello> hellos;
+  uplink_actor peer; ///< The last one who came in.
+};
+
+inline entrance_actor::behavior_type
+played_entrance(entrance_actor::pointer self,
+                std::shared_ptr<host_script> script) {
+  return {[self, script](const peer_hello& hello, const uplink_actor& peer)
+              -> caf::result<peer_welcome, session_actor> {
+    script->hellos.push_back(hello);
+    script->peer = peer;
+    self->quit();
+    if (script->refusal)
+      return caf::make_error(caf::sec::invalid_argument, *script->refusal);
+    return {script->welcome, script->session};
+  }};
+}
+
+inline gate_actor::behavior_type
+played_gate(gate_actor::pointer self, std::shared_ptr<host_script> script) {
+  return {[self, script](std::uint32_t, std::uint64_t)
+              -> caf::result<std::uint32_t, std::uint64_t, std::string,
+                             caf::strong_actor_ptr> {
+    ++script->knocks;
+    if (!script->answers) {
+      auto promise = self->make_response_promise<gate_promise>();
+      script->unanswered.push_back(promise);
+      return promise;
+    }
+    caf::strong_actor_ptr in;
+    if (!script->full)
+      in = caf::actor_cast<caf::strong_actor_ptr>(
+          self->spawn(played_entrance, script));
+    return {script->protocol, script->types, script->nonce, in};
+  }};
+}
+
+struct uplink_world : virtual_world {
+  static constexpr boot_id boot = 11;
+  static constexpr station_id station = 101, neighbour = 102;
+  const running_service one{boot, station, "one", 7};
+  const running_service two{boot, neighbour, "one", 8};
+
+  probe<recorder_actor> recorder = listen<recorder_actor>();
+  probe<session_actor> session = listen<session_actor>();
+  probe<requester_actor> requester = listen<requester_actor>();
+  probe<requester_actor> other = listen<requester_actor>();
+  std::shared_ptr<host_script> host = std::make_shared<host_script>();
+  gate_actor gate = own(system().spawn(played_gate, host));
+  bool reachable = true;
+  std::vector<time_point> attempts;
+  std::vector<std::string> refusals, news;
+  duration ahead{}; ///< What the provider's clock shows more than ours.
+  uplink_mouth uplink;
+  link_actor far, other_far;
+
+  uplink_world() {
+    run_for(10s); // the clock's zero is no special time
+    host->session = session.handle;
+  }
+
+  uplink_setup setup() {
+    uplink_setup s;
+    s.provider = "server";
+    s.address = "10.0.0.5:4711";
+    s.stations = {station, neighbour};
+    s.world = 5;
+    s.recorder = recorder.handle;
+    s.noise = random_stream{1, "uplink"};
+    s.connect = [this]() -> std::variant<gate_actor, std::string> {
+      attempts.push_back(now());
+      if (reachable)
+        return gate;
+      return "nobody is there";
+    };
+    s.takes_time = false;
+    s.prove = [](peer_hello& hello, const std::string& nonce) {
+      hello.certificate = "proof of " + nonce;
+    };
+    s.on_refusal = [this](const std::string& why) { refusals.push_back(why); };
+    s.on_news = [this](const std::string& what) { news.push_back(what); };
+    return s;
+  }
+
+  void start() { start(setup()); }
+  void start(uplink_setup s) {
+    uplink = own(spawn_uplink(system(), std::move(s)));
+    far = own(spawn_far_provider(system(), station, uplink));
+    other_far = own(spawn_far_provider(system(), neighbour, uplink));
+    introduce(uplink, station, far);
+    introduce(uplink, neighbour, other_far);
+    settle();
+  }
+  /// The same, up to when vehicles have spoken and the clocks are known.
+  void connect() {
+    start();
+    REQUIRE(host->peer);
+    say_cam();
+    tell(other_far, cam_of(neighbour), other.handle);
+    acknowledge({station, stream_id::what::cam, 0});
+    acknowledge({neighbour, stream_id::what::cam, 0});
+    live(100ms);
+    forget();
+  }
+  void forget() {
+    recorder->clear();
+    session->clear();
+    requester->clear();
+    other->clear();
+  }
+
+  // -- what vehicles and the provider do --------------------------------------
+
+  its_pdu cam_of(station_id of, double speed_mps = 5) {
+    return pdu_of(cam{of, now(), {1, 2}, 0, speed_mps, 0});
+  }
+  void say_cam(double speed_mps = 5) {
+    tell(far, cam_of(station, speed_mps), requester.handle);
+  }
+  template <class... Ts>
+  void answer_as(const caf::actor& who, const Ts&... xs) {
+    tell_as(who, host->peer, xs...);
+  }
+  template <class... Ts>
+  void say(const Ts&... xs) {
+    tell_as(session.handle, host->peer, xs...);
+  }
+  void acknowledge(const stream_id& stream) { say(stream); }
+  void result(const running_service& r, std::uint64_t cycle,
+              time_point created) {
+    say(service_result{r, cycle, created, payload::of(echo{cycle})});
+  }
+  void accept(const running_service& r) {
+    say(service_response{boot, r.station, 1, {{r, true, ""}}});
+  }
+  /// The provider answers the latest life sign, which took these ways.
+  void answer(duration up = {}, duration down = {}) {
+    const auto signs = session->all<life_sign>();
+    REQUIRE(!signs.empty());
+    const auto there = signs.back().sent + up + ahead;
+    run_for(up + down);
+    say(life_echo{signs.back(), there, there});
+  }
+  /// Life signs and answers to them, without any delay.
+  void live(duration d) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      say(life_sign{1, now() + ahead});
+      answer();
+    }
+  }
+
+  // -- what came of it --------------------------------------------------------
+
+  std::size_t notes(std::string_view what) const {
+    std::size_t n = 0;
+    for (const auto& e : recorder->all<event_record>())
+      n += e.what == what;
+    return n;
+  }
+};
+
+} // namespace sofof::test

@@ -1,0 +1,178 @@
+// What a connection between two processes costs: an input there and its result
+// back, beside a bare round trip of the same octets between two CAF systems.
+#include "actors/recorder.hpp"
+#include "actors/remote/far_provider.hpp"
+#include "actors/remote/gate.hpp"
+#include "actors/remote/uplink.hpp"
+#include "scenario/runtime.hpp"
+
+#include <benchmark/benchmark.h>
+#include <caf/io/middleman.hpp>
+#include <caf/send.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <memory>
+#include <numeric>
+#include <semaphore>
+
+using namespace sofof;
+
+namespace {
+
+constexpr std::size_t octets_of_a_plan = 440; // as docs/v2x.md has it
+constexpr station_id station = 101;
+constexpr boot_id boot = 1;
+constexpr std::size_t most_words_s = 100'000;
+
+using arrivals = std::binary_semaphore;
+
+struct nothing final : record_sink {
+  void take(const event_record&) override {}
+  void take(const decision_record&) override {}
+  void take(const cycle_record&) override {}
+  void take(const episode_record&) override {}
+  void take(const track_record&) override {}
+  void take(const safety_record&) override {}
+  void take(const collision_record&) override {}
+  void take(const drive_record&) override {}
+  void take(const plan_switch_record&) override {}
+  void take(const air_record&) override {}
+};
+
+payload plan() {
+  its_pdu message;
+  message.octets.resize(octets_of_a_plan);
+  return payload::of(std::move(message));
+}
+
+running_service running() {
+  return {boot, station, "trajectory_planning", 1};
+}
+
+// -- bare ---------------------------------------------------------------------
+
+using echo_actor = caf::typed_actor<caf::result<service_result>(service_input)>;
+
+echo_actor::behavior_type echo() {
+  return {[](const service_input& x) {
+    return service_result{x.running, 0, x.at, x.what};
+  }};
+}
+
+void bare_round_trip(benchmark::State& state) {
+  const auto there = make_network_runtime(), here = make_network_runtime();
+  const auto answerer = there->system().spawn(echo);
+  const auto port =
+      there->system().middleman().publish(answerer, 0, "127.0.0.1");
+  const auto far =
+      here->system().middleman().remote_actor<echo_actor>("127.0.0.1", *port);
+  arrivals come{0};
+  caf::actor asker = here->system().spawn(
+      [far = *far, &come](caf::event_based_actor* self) -> caf::behavior {
+        return {[=, &come](const service_input& x) {
+          self->request(far, caf::infinite, x)
+              .then([&come](const service_result&) { come.release(); });
+        }};
+      });
+  for (auto _ : state) {
+    caf::anon_send(asker, service_input{running(), here->now(), plan()});
+    come.acquire();
+  }
+  caf::anon_send_exit(asker, caf::exit_reason::user_shutdown);
+  caf::anon_send_exit(answerer, caf::exit_reason::user_shutdown);
+}
+BENCHMARK(bare_round_trip)->UseRealTime()->Unit(benchmark::kMicrosecond);
+
+// -- forwarded ----------------------------------------------------------------
+
+provider_manager_actor::behavior_type
+manager(provider_manager_actor::pointer self,
+        const requester_actor& requester) {
+  return {
+      [=](const service_result&) {},
+      [=](const service_input& x) {
+        self->send(requester, service_result{x.running, 0, x.at, x.what});
+      },
+      [=](const service_end&) { self->quit(); },
+  };
+}
+
+/// Accepts everything.
+provider_actor::behavior_type provider(provider_actor::pointer self) {
+  return {
+      [](const its_pdu&, const requester_actor&) {},
+      [self](const service_request& x, const requester_actor& requester) {
+        service_response response{boot, x.station, x.number, {}};
+        response.verdicts.push_back({running(), true, {}});
+        self->send(requester, response,
+                   std::vector<provider_manager_actor>{
+                       self->spawn(manager, requester)});
+      },
+      [](const service_end&) {},
+  };
+}
+
+/// Tells when it is accepted, and then of every result.
+requester_actor::behavior_type requester(requester_actor::pointer,
+                                         arrivals* come) {
+  return {
+      [=](const service_result&) { come->release(); },
+      [](const service_offer&) {},
+      [=](const service_response&, const std::vector<provider_manager_actor>&) {
+        come->release();
+      },
+      [](const service_end&) {},
+  };
+}
+
+void forwarded_round_trip(benchmark::State& state) {
+  const auto there = make_network_runtime(), here = make_network_runtime();
+  const auto sink = std::make_shared<nothing>();
+  const auto serving = there->system().spawn(provider);
+  gate_setup in;
+  in.provider = serving;
+  in.boot = boot;
+  in.name = "mec";
+  in.clock = there->clock();
+  in.recorder = spawn_recorder(there->system(), sink);
+  in.draw_nonce = [] { return std::string{}; };
+  in.doubt = [](const auto&, const auto&) { return std::nullopt; };
+  const auto recorder = in.recorder;
+  const auto port =
+      there->publish(spawn_gate(there->system(), std::move(in)), 0);
+
+  uplink_setup out;
+  out.provider = "mec";
+  out.stations.resize(most_words_s / 100); // or it would say too much
+  std::iota(out.stations.begin(), out.stations.end(), station);
+  out.clock = here->clock();
+  out.recorder = spawn_recorder(here->system(), sink);
+  out.connect = [&here, port] { return here->connect(port); };
+  out.prove = [](auto&, const auto&) {};
+  arrivals connected{0}, come{0};
+  out.on_refusal = [](const std::string&) {};
+  out.on_news = [&connected](const std::string&) { connected.release(); };
+  const auto here_recorder = out.recorder;
+  const auto uplink = spawn_uplink(here->system(), std::move(out));
+  const auto far = spawn_far_provider(here->system(), station, uplink);
+  introduce(uplink, station, far);
+  const auto near = here->system().spawn(requester, &come);
+  connected.acquire();
+  here->run_until(here->now() + std::chrono::milliseconds{200}); // clocks
+  caf::anon_send(far,
+                 service_request{boot, station, 1, {"trajectory_planning"}},
+                 requester_actor{near});
+  come.acquire();
+  for (auto _ : state) {
+    caf::anon_send(far, service_input{running(), here->now(), plan()});
+    come.acquire();
+  }
+  const auto leave = [](const auto& actor) {
+    caf::anon_send_exit(actor, caf::exit_reason::user_shutdown);
+  };
+  leave(uplink), leave(far), leave(near), leave(here_recorder);
+  leave(serving), leave(recorder);
+}
+BENCHMARK(forwarded_round_trip)->UseRealTime()->Unit(benchmark::kMicrosecond);
+
+} // namespace
