@@ -81,12 +81,13 @@ inline stream_id stream_of(const running_service& running,
 }
 
 /// @returns what a peer signs: that somebody who was given this number just
-/// now speaks for these stations.
+/// now speaks for these stations, to this provider and nobody else.
 inline std::vector<std::byte>
-proof_of(const std::string& nonce, const std::vector<station_id>& stations) {
+proof_of(const std::string& nonce, const std::string& provider,
+         const std::vector<station_id>& stations) {
   constexpr std::string_view purpose = "SOFOF speaks for stations";
   byte_writer text;
-  text(std::string{purpose}, nonce, stations);
+  text(std::string{purpose}, nonce, provider, stations);
   return text.take();
 }
 

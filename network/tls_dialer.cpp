@@ -215,8 +215,18 @@ private:
         give_up(at, at->handshake->failure());
         return;
       case step::done:
-        put_through(at, at->handshake->take());
+        if (is_expected(at->handshake->who()))
+          put_through(at, at->handshake->take());
+        else
+          give_up(at, fmt::format("its certificate is for {}, not for provider "
+                                  "{}",
+                                  describe(at->handshake->who()),
+                                  options_.provider));
     }
+  }
+
+  bool is_expected(const peer_identity& who) const {
+    return options_.provider.empty() || who.provider == options_.provider;
   }
 
   void put_through(call_list::iterator at, ssl_ptr tls) {

@@ -15,6 +15,7 @@ namespace sofof {
 
 struct dialer_options {
   network_address remote;
+  std::string provider; ///< Whom its certificate must name; empty: anybody.
   /// For each address that the host has, one after the other.
   std::chrono::milliseconds connect_timeout{1000};
   std::chrono::milliseconds handshake_timeout{2000};

@@ -183,6 +183,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   names watched;
   world.recorder = spawn_recorder(sys, std::move(sink));
   name(watched, world.recorder, "the recorder");
+  world.has_peers = here.serves_others || !here.remotes.empty();
   std::vector<site> sites;
   for (std::uint32_t k = 0; k < s.providers.size(); ++k)
     if (here.provides(k)) {
@@ -245,7 +246,7 @@ void dismiss(const world_actors& actors, runtime& time) {
     end(std::vector{actors.supervisor}, time);
   end(actors.vehicles, time);
   end(actors.providers, time);
-  if (!actors.uplinks.empty())
+  if (actors.has_peers)
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
   end(actors.uplinks, time);

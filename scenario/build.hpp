@@ -31,6 +31,8 @@ struct part {
     std::function<uplink_mouth(const recorder_actor&)> spawn_uplink;
   };
   std::vector<remote_provider> remotes;
+  /// Whether vehicles of other processes come to its providers.
+  bool serves_others = false;
 };
 
 /// Everything that lives in a run, in the order in which it was spawned.
@@ -42,6 +44,7 @@ struct world_actors {
   std::vector<uplink_mouth> uplinks;
   std::vector<vehicle_actor> vehicles;
   caf::actor supervisor;
+  bool has_peers = false; ///< On other hosts.
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the

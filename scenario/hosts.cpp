@@ -51,7 +51,13 @@ private:
 
 /// What both sides must have in common: the map and the services.
 std::uint64_t fingerprint_of_world(const scenario& s) {
-  auto text = s.grid ? to_toml(s) : s.map_text;
+  auto text = s.map_text;
+  if (s.grid) {
+    scenario streets; // and nothing else
+    streets.grid = true;
+    streets.grid_params = s.grid_params;
+    text = to_toml(streets);
+  }
   for (const auto& kind : s.services) {
     text += '\n';
     text += kind->name();
@@ -91,11 +97,11 @@ std::optional<credentials> load_keys(const network_address& at,
                                      std::string_view option) {
   if (!folder.empty())
     return credentials{folder};
-  if (!is_loopback(at))
+  if (at.host != "127.0.0.1" && at.host != "localhost")
     throw input_error(fmt::format(
-        "{} {} is not on this machine alone, and connections beyond it must be "
-        "secured; make certificates with `sofof keys` and name their folder "
-        "with --keys",
+        "{} {} is not on this machine alone, as 127.0.0.1 is, and connections "
+        "beyond it must be secured; make certificates with `sofof keys` and "
+        "name their folder with --keys",
         option, print_address(at)));
   return std::nullopt;
 }
@@ -129,8 +135,10 @@ private:
 std::optional<std::string> doubt(const credentials& own,
                                  const peer_hello& hello,
                                  const std::string& nonce) {
-  const auto proved = own.prove(
-      hello.certificate, proof_of(nonce, hello.stations), hello.signature);
+  const auto& provider = own.identity().provider;
+  const auto proved =
+      own.prove(hello.certificate, proof_of(nonce, provider, hello.stations),
+                hello.signature);
   if (!proved.who)
     return proved.refusal;
   for (const auto station : hello.stations)
@@ -201,6 +209,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   part here;
   here.drives = [](station_id) { return false; };
   here.provides = [place](std::size_t k) { return k == place; };
+  here.serves_others = true;
   here.start =
       static_cast<std::uint64_t>(std::chrono::floor<std::chrono::milliseconds>(
                                      time->clock().unix_time(time->now()))
@@ -262,8 +271,8 @@ run_outcome drive(const scenario& s, const drive_options& what,
                       .part(place)
                       .part(stations.empty() ? 0 : stations.front());
     if (own) {
-      dialers.push_back(
-          std::make_unique<tls_dialer>(&*own, dialer_options{.remote = to.at}));
+      dialers.push_back(std::make_unique<tls_dialer>(
+          &*own, dialer_options{.remote = to.at, .provider = setup.provider}));
       setup.connect = [&time = *time, &dialer = *dialers.back()]()
           -> std::variant<gate_actor, std::string> {
         auto gate = time.connect(dialer.port());
@@ -272,9 +281,10 @@ run_outcome drive(const scenario& s, const drive_options& what,
           return why;
         return gate;
       };
-      setup.prove = [&own = *own](peer_hello& hello, const std::string& nonce) {
+      setup.prove = [&own = *own, provider = setup.provider](
+                        peer_hello& hello, const std::string& nonce) {
         hello.certificate = own.certificate_pem();
-        hello.signature = own.sign(proof_of(nonce, hello.stations));
+        hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
       };
     } else {
       setup.connect = [&time = *time, port = to.at.port] {

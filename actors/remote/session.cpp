@@ -28,9 +28,15 @@ using session_impl = session_actor::extend<
     takes<service_response, std::vector<provider_manager_actor>>,
     takes<service_result>, takes<tick_atom>>;
 
-/// What a station may say a second: CAMs, CPMs and inputs at 10 Hz or 20, and
-/// the protocol's few words.
+/// What a station may say a second: CAMs, CPMs and inputs at 10 Hz or 20. The
+/// protocol's few words go beside that.
 constexpr double words_per_station_s = 100;
+/// What a peer may say beyond that: credits for each of its stations, and signs
+/// of life.
+constexpr double credits_per_station_s = 100;
+constexpr double signs_s = 200;
+/// So long a session outlives its provider, to hand on what it said last.
+constexpr duration last_words = 50ms;
 /// For what was held up and comes at once.
 constexpr double burst_s = 2;
 constexpr std::size_t streams_per_station = 8;
@@ -49,6 +55,8 @@ struct session_state {
   std::map<station_id, requester_actor> voices;
   std::map<running_service, provider_manager_actor> managers;
   std::optional<latest_values<stream_id, service_result>> results;
+  std::optional<rate_limit> attention; // for all that the peer says
+  std::optional<time_point> ends_at;   // once the provider has
   time_point next_complaint;
   std::uint64_t dropped = 0;
 
@@ -59,6 +67,10 @@ struct session_state {
     for (const auto station : setup.stations)
       allowances.try_emplace(station, words_per_station_s,
                              burst_s * words_per_station_s);
+    const auto words_s = signs_s
+                         + (words_per_station_s + credits_per_station_s)
+                               * static_cast<double>(setup.stations.size());
+    attention.emplace(words_s, burst_s * words_s);
     results.emplace(streams_per_station * setup.stations.size());
     self->monitor(setup.peer);
     self->monitor(setup.provider);
@@ -79,12 +91,11 @@ struct session_state {
                     == caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
     if (!is)
       drop(0, "a stranger speaks");
-    return is;
-  }
-
-  /// Whether the peer may say this now, for this station.
-  bool may_say(station_id station) {
-    return speaks_for(station) && is_allowed(station);
+    else if (!attention->take(now(self)))
+      drop(0, "the peer says too much");
+    else
+      return true;
+    return false;
   }
 
   bool speaks_for(station_id station) {
@@ -140,7 +151,7 @@ struct session_state {
   }
 
   void take(const service_request& request) {
-    if (!may_say(request.station))
+    if (!speaks_for(request.station))
       return;
     if (request.route.size() > longest_route
         || request.kinds.size() > most_kinds)
@@ -168,7 +179,7 @@ struct session_state {
   }
 
   void end(const service_end& e) {
-    if (!may_say(e.running.station))
+    if (!speaks_for(e.running.station))
       return;
     forget(e.running);
     self->send(setup.provider, e);
@@ -211,6 +222,10 @@ struct session_state {
 
   void tick() {
     const auto t = now(self);
+    if (ends_at && t >= *ends_at) {
+      leave("the provider has ended");
+      return;
+    }
     if (life->is_lost(t)) {
       leave("silent");
       return;
@@ -220,8 +235,10 @@ struct session_state {
   }
 
   void lost(const caf::actor_addr& who) {
-    if (who == setup.peer.address() || who == setup.provider.address())
+    if (who == setup.peer.address())
       leave("gone");
+    else if (who == setup.provider.address())
+      ends_at = now(self) + last_words; // they are still to be handed on
   }
 
   void leave(std::string_view why) {

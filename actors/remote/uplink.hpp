@@ -9,7 +9,6 @@
 #include <caf/actor_system.hpp>
 
 #include <functional>
-#include <map>
 #include <string>
 #include <variant>
 #include <vector>

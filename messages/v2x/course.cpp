@@ -86,6 +86,7 @@ bool course::meets(std::span<const sight> sights) const {
 
 /// @returns how sharply the path bends at most, within reach of each knot.
 course::reachable course::sharpest_about() const {
+  static_assert(reach_m <= most_reach * shortest_m, "the shortest step");
   const auto reach = static_cast<std::size_t>(std::ceil(reach_m / step_m_));
   const auto width = 2 * reach + 1, count = steps_ + width;
   reachable out;
