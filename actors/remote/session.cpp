@@ -234,11 +234,12 @@ struct session_state {
     send_after(self, self, protocol::life_sign_period, tick_atom_v);
   }
 
-  void lost(const caf::actor_addr& who) {
-    if (who == setup.peer.address())
-      leave("gone");
-    else if (who == setup.provider.address())
+  void lost(const caf::down_msg& down) {
+    const auto provider = down.source == setup.provider.address();
+    if (provider && down.reason == caf::exit_reason::user_shutdown)
       ends_at = now(self) + last_words; // they are still to be handed on
+    else if (provider || down.source == setup.peer.address())
+      leave("gone");
   }
 
   void leave(std::string_view why) {
@@ -264,7 +265,7 @@ session(session_impl::stateful_pointer<session_state> self,
   self->state.setup = std::move(setup);
   self->state.start();
   self->set_down_handler(
-      [self](const caf::down_msg& down) { self->state.lost(down.source); });
+      [self](const caf::down_msg& down) { self->state.lost(down); });
   return {
       [self](station_id station, const its_pdu& message) {
         self->state.take(station, message);

@@ -288,6 +288,18 @@ TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
   CHECK(notes("peer_lost").front().detail == "gone");
 }
 
+TEST_CASE_FIXTURE(session_world, "what a provider says last in good order is "
+                                 "handed on") {
+  live(1s);
+  say_cam();
+  caf::anon_send_exit(provider.handle, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(!is_gone(session));
+  run_for(2 * protocol::life_sign_period);
+  CHECK(is_gone(session));
+  CHECK(notes("peer_lost").front().detail == "the provider has ended");
+}
+
 TEST_CASE_FIXTURE(session_world,
                   "the death of somebody else does not concern a session") {
   live(1s);
