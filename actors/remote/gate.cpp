@@ -128,7 +128,14 @@ gate_impl::behavior_type gate(gate_impl::stateful_pointer<gate_state> self,
                               gate_setup setup) {
   self->state.self = self;
   self->state.setup = std::make_shared<const gate_setup>(std::move(setup));
-  self->set_down_handler([self](const caf::down_msg&) { --self->state.open; });
+  const auto provider = self->state.setup->provider.address();
+  self->monitor(self->state.setup->provider);
+  self->set_down_handler([self, provider](const caf::down_msg& down) {
+    if (down.source == provider)
+      self->quit(); // nobody is left to be let in to
+    else
+      --self->state.open;
+  });
   return {
       [self](std::uint32_t protocol, std::uint64_t types)
           -> caf::result<std::uint32_t, std::uint64_t, std::string,
