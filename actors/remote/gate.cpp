@@ -1,6 +1,7 @@
 // Where processes of vehicles come in.
 #include "actors/remote/gate.hpp"
 
+#include "actors/remote/origin.hpp"
 #include "actors/remote/session.hpp"
 #include "actors/remote/type_block.hpp"
 #include "actors/time.hpp"
@@ -154,8 +155,7 @@ gate_impl::behavior_type gate(gate_impl::stateful_pointer<gate_state> self,
                 caf::actor_cast<caf::strong_actor_ptr>(in)};
       },
       [self](tick_atom, const std::string& why) {
-        const auto& sender = self->current_sender();
-        if (sender && sender->node() == self->node())
+        if (is_from_here(self))
           self->state.note_refusal(why);
       },
   };

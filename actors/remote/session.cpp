@@ -2,6 +2,7 @@
 #include "actors/remote/session.hpp"
 
 #include "actors/remote/far_requester.hpp"
+#include "actors/remote/origin.hpp"
 #include "actors/remote/pulse.hpp"
 #include "actors/time.hpp"
 #include "policies/latest_value.hpp"
@@ -80,11 +81,6 @@ struct session_state {
   }
 
   // -- who speaks -----------------------------------------------------------
-
-  bool is_from_here() const {
-    const auto& sender = self->current_sender();
-    return sender && sender->node() == self->node();
-  }
 
   bool is_from_peer() {
     const auto is = self->current_sender()
@@ -275,7 +271,7 @@ session(session_impl::stateful_pointer<session_state> self,
       [self](const service_end& e) {
         if (e.from == side::requester)
           self->state.end(e);
-        else if (self->state.is_from_here())
+        else if (is_from_here(self))
           self->state.tell_end(e);
       },
       [self](const life_sign& sign) {
@@ -293,20 +289,20 @@ session(session_impl::stateful_pointer<session_state> self,
           self->state.acknowledge(stream);
       },
       [self](station_id station, const service_offer& offer) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->send(self->state.setup.peer, station, offer);
       },
       [self](const service_response& response,
              const std::vector<provider_manager_actor>& managers) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.take(response, managers);
       },
       [self](const service_result& result) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.take(result);
       },
       [self](tick_atom) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.tick();
       },
   };

@@ -1,6 +1,7 @@
 // The vehicles' end of a connection to a provider on another host.
 #include "actors/remote/uplink.hpp"
 
+#include "actors/remote/origin.hpp"
 #include "actors/remote/pulse.hpp"
 #include "actors/remote/type_block.hpp"
 #include "actors/time.hpp"
@@ -240,11 +241,6 @@ struct uplink_state {
     words->forget(stream_of(x, stream_id::what::input));
   }
 
-  bool is_from_here() const {
-    const auto& sender = self->current_sender();
-    return sender && sender->node() == self->node();
-  }
-
   // -- what the provider says -----------------------------------------------
 
   bool is_from_session() {
@@ -344,7 +340,7 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       [self](const service_end& e) {
         if (e.from == side::provider && self->state.is_from_session())
           self->state.tell_end(e);
-        else if (e.from == side::requester && self->state.is_from_here())
+        else if (e.from == side::requester && is_from_here(self))
           self->state.end(e);
       },
       [self](const life_sign& sign) {
@@ -360,32 +356,32 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
           self->state.acknowledge(stream);
       },
       [self](station_id station, const its_pdu& message) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.say(stream_of(station, message), message);
       },
       [self](const service_request& request) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.up(request);
       },
       [self](const service_input& input) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.say(stream_of(input.running, stream_id::what::input),
                           input);
       },
       [self](station_id station, const link_actor& vehicle) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.vehicles.insert_or_assign(station, vehicle);
       },
       [self](tick_atom) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.tick();
       },
       [self](tick_atom, const gate_actor& gate) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.introduce_to(gate);
       },
       [self](tick_atom, const std::string& why) {
-        if (self->state.is_from_here())
+        if (is_from_here(self))
           self->state.failed(why);
       },
   };

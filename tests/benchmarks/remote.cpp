@@ -5,6 +5,7 @@
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
 #include "scenario/runtime.hpp"
+#include "tests/benchmarks/drain.hpp"
 
 #include <benchmark/benchmark.h>
 #include <caf/io/middleman.hpp>
@@ -25,19 +26,6 @@ constexpr boot_id boot = 1;
 constexpr std::size_t most_words_s = 100'000;
 
 using arrivals = std::binary_semaphore;
-
-struct nothing final : record_sink {
-  void take(const event_record&) override {}
-  void take(const decision_record&) override {}
-  void take(const cycle_record&) override {}
-  void take(const episode_record&) override {}
-  void take(const track_record&) override {}
-  void take(const safety_record&) override {}
-  void take(const collision_record&) override {}
-  void take(const drive_record&) override {}
-  void take(const plan_switch_record&) override {}
-  void take(const air_record&) override {}
-};
 
 payload plan() {
   its_pdu message;
@@ -127,7 +115,7 @@ requester_actor::behavior_type requester(requester_actor::pointer,
 
 void forwarded_round_trip(benchmark::State& state) {
   const auto there = make_network_runtime(), here = make_network_runtime();
-  const auto sink = std::make_shared<nothing>();
+  const auto sink = std::make_shared<drain>();
   const auto serving = there->system().spawn(provider);
   gate_setup in;
   in.provider = serving;

@@ -3,6 +3,7 @@
 
 #include "scenario/build.hpp"
 #include "scenario/runtime.hpp"
+#include "tests/benchmarks/drain.hpp"
 #include "tests/benchmarks/scenarios.hpp"
 
 #include <benchmark/benchmark.h>
@@ -15,20 +16,6 @@
 using namespace sofof;
 
 namespace {
-
-/// Takes all records and keeps none.
-struct drain final : record_sink {
-  void take(const event_record&) override {}
-  void take(const decision_record&) override {}
-  void take(const cycle_record&) override {}
-  void take(const episode_record&) override {}
-  void take(const track_record&) override {}
-  void take(const safety_record&) override {}
-  void take(const collision_record&) override {}
-  void take(const drive_record&) override {}
-  void take(const plan_switch_record&) override {}
-  void take(const air_record&) override {}
-};
 
 /// One virtual second after the other of a run that has settled in.
 void messages(benchmark::State& state, const scenario& s) {
