@@ -147,9 +147,9 @@ void forwarded_round_trip(benchmark::State& state) {
   const auto near = here->system().spawn(requester, &come);
   connected.acquire();
   here->run_until(here->now() + std::chrono::milliseconds{200}); // clocks
-  caf::anon_send(far,
-                 service_request{boot, station, 1, {"trajectory_planning"}},
-                 requester_actor{near});
+  caf::anon_send(
+      far, service_request{boot, station, 1, {"trajectory_planning"}, {}, 0},
+      requester_actor{near});
   come.acquire();
   for (auto _ : state) {
     caf::anon_send(far, service_input{running(), here->now(), plan()});
