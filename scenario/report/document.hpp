@@ -1,0 +1,69 @@
+// What a report says: sections of text, tables, figures and drives, before
+// anybody decides how they look.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sofof::report {
+
+/// A few sentences. `code` is the only mark-up.
+struct paragraph {
+  std::string text;
+};
+
+struct table {
+  std::string title;
+  std::vector<std::string> columns;
+  /// As many cells as columns; what looks like a number sorts as one.
+  std::vector<std::vector<std::string>> rows;
+  std::string note; ///< Below it; may be empty.
+};
+
+/// Points of one curve, x ascending. `low` and `high` are a band round `y`, or
+/// empty; NaN is a gap.
+struct curve {
+  enum class style { line, points, steps };
+
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> low;
+  std::vector<double> high;
+  style drawn = style::line;
+  bool dashed = false; ///< Somebody else's: the paper's, say.
+};
+
+struct figure {
+  std::string title;
+  std::string x_label; ///< With its unit.
+  std::string y_label;
+  std::vector<curve> curves;
+  /// Vertical lines with their names: limits, say.
+  std::vector<std::pair<double, std::string>> marks;
+  std::string caption;
+};
+
+/// The vehicles of one results folder, moving on their streets, and what
+/// became of their offloadings.
+struct drive {
+  std::filesystem::path folder;
+};
+
+using block = std::variant<paragraph, table, figure, drive>;
+
+struct section {
+  std::string title;
+  std::vector<block> blocks;
+};
+
+struct document {
+  std::string title;
+  std::string subtitle; ///< Version, seed, what was run.
+  std::vector<section> sections;
+};
+
+} // namespace sofof::report
