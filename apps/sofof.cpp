@@ -31,6 +31,7 @@ int obey(int argc, char** argv) {
              "is wrong,\n2 wrong input or usage, 130 interrupted.");
   int exit_code = 0;
   sofof::add_run(app, exit_code);
+  sofof::add_sweep(app, exit_code);
   sofof::add_provide(app, exit_code);
   sofof::add_drive(app, exit_code);
   sofof::add_check(app, exit_code);

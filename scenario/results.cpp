@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 namespace sofof {
@@ -27,6 +28,9 @@ constexpr std::string_view vehicles_header =
     "max_plan_age_ms,plans,emergency_plans,kept_plans,stop_plans,"
     "imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
     "max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3";
+constexpr std::string_view distributions_header =
+    "service,figure,up_to_ms,count";
+constexpr duration distribution_width = std::chrono::microseconds{100};
 
 constexpr int length_places = 3;
 constexpr int angle_places = 6;
@@ -192,6 +196,7 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
   if (pcap_)
     pcap_->close();
   write_vehicles();
+  write_distributions();
   write_timing(outcome);
   write_file(folder_ / "summary.json", summary_json(metrics_, run_, outcome));
   return outcome;
@@ -218,6 +223,21 @@ void results::write_vehicles() const {
              rounded(x.ride.extremes.lateral_accel_mps2, comfort_places),
              x.ride.hard_brakes,
              rounded(x.ride.comfort_cost_m2ps3, comfort_places));
+  file.close();
+}
+
+void results::write_distributions() const {
+  csv_file file{folder_ / "distributions.csv", distributions_header};
+  const auto rows = [&file](const service_name& kind, std::string_view figure,
+                            const distribution& x) {
+    for (const auto& bin : x.bins(distribution_width))
+      file.row(kind.view(), figure, rounded(bin.up_to_ms, length_places),
+               bin.count);
+  };
+  for (const auto& service : metrics_.services()) {
+    rows(service.kind, "latency", service.latency);
+    rows(service.kind, "interarrival", service.interarrival);
+  }
   file.close();
 }
 

@@ -60,6 +60,7 @@ private:
 
   std::string_view name_of(boot_id provider) const;
   void write_vehicles() const;
+  void write_distributions() const;
   void write_timing(const run_end& end) const;
 
   std::optional<pcap_file> pcap_; // before results are replaced

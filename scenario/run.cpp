@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 namespace sofof {
 
@@ -27,16 +28,6 @@ constexpr duration virtual_slice = 1s;
 constexpr duration wall_slice = 100ms;
 constexpr double flush_every_s = 2;
 
-/// A results folder holds its own copies of the files that the scenario
-/// names, so that its config.toml runs again wherever the folder goes.
-scenario with_own_files(scenario s) {
-  if (!s.map_text.empty())
-    s.map_file = "map.toml";
-  if (!s.trace_text.empty())
-    s.network.trace = "trace.txt";
-  return s;
-}
-
 run_info describe(const scenario& s, const run_options& options,
                   const part& here) {
   run_info info;
@@ -46,9 +37,7 @@ run_info describe(const scenario& s, const run_options& options,
   info.profile = options.network.empty() ? s.network.profile : options.network;
   info.lodm = s.policies.lodm->name();
   info.codm = s.policies.codm->name();
-  info.config_toml =
-      "# The effective configuration of this run; `sofof run` takes it.\n"
-      + to_toml(with_own_files(s));
+  info.config_toml = configuration_of(s);
   info.map_toml = s.map_text;
   info.trace_text = s.trace_text;
   info.seed = s.seed;
@@ -136,6 +125,16 @@ void check_capture(const scenario& s, const run_options& options) {
 }
 
 } // namespace
+
+std::string configuration_of(scenario s) {
+  // A results folder holds its own copies of the files that are named.
+  if (!s.map_text.empty())
+    s.map_file = "map.toml";
+  if (!s.trace_text.empty())
+    s.network.trace = "trace.txt";
+  return "# The effective configuration of this run; `sofof run` takes it.\n"
+         + to_toml(std::move(s));
+}
 
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {

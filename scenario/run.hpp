@@ -38,6 +38,10 @@ enum class run_outcome {
   interrupted = 130, ///< As a shell counts Ctrl-C.
 };
 
+/// @returns what config.toml of the results folder says: the effective
+/// configuration, which runs again wherever the folder goes.
+std::string configuration_of(scenario s);
+
 /// @param s            Loaded.
 /// @param interrupted  Once true, the run ends soon; what was recorded is
 ///                     kept and marked.

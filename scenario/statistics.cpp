@@ -54,4 +54,23 @@ std::optional<double> distribution::quantile_ms(double p) const {
   return ms_.max();
 }
 
+std::vector<distribution::bin> distribution::bins(duration width) const {
+  const auto fine = static_cast<std::size_t>(width / resolution);
+  std::vector<bin> coarse;
+  std::uint64_t within = 0;
+  for (std::size_t k = 0; k < bins_.size(); ++k) {
+    if (bins_[k] == 0)
+      continue;
+    within += bins_[k];
+    const auto number = (k + fine - 1) / fine;
+    const auto up_to_ms = static_cast<double>(number) * to_milliseconds(width);
+    if (coarse.empty() || coarse.back().up_to_ms < up_to_ms)
+      coarse.push_back({up_to_ms, 0});
+    coarse.back().count += bins_[k];
+  }
+  if (within < ms_.count())
+    coarse.push_back({*ms_.max(), ms_.count() - within});
+  return coarse;
+}
+
 } // namespace sofof

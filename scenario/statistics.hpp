@@ -51,6 +51,17 @@ public:
   /// maximum when it lies beyond the span; nullopt without durations.
   std::optional<double> quantile_ms(double p) const;
 
+  /// How many durations there were up to a bound.
+  struct bin {
+    double up_to_ms;     ///< And above the bound of the bin before.
+    std::uint64_t count; ///< Above zero.
+  };
+
+  /// @param width  A multiple of the resolution.
+  /// @returns the bins of this width that are not empty, ascending; durations
+  /// beyond the span stand in a last one, up to the maximum.
+  std::vector<bin> bins(duration width) const;
+
 private:
   statistics ms_;
   /// Bin k counts durations in (k − 1, k] · resolution, bin 0 all up to 0;

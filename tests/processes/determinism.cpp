@@ -40,7 +40,8 @@ TEST_CASE("the same command twice gives the same bytes") {
   const auto a = at.drive("a", {"--duration", "300s"});
   const auto b = at.drive("b", {"--duration", "300s"});
   CHECK(names_in(a)
-        == std::set<std::string>{"config.toml", "cycles.csv", "episodes.csv",
+        == std::set<std::string>{"config.toml", "cycles.csv",
+                                 "distributions.csv", "episodes.csv",
                                  "events.jsonl", "map.toml", "summary.json",
                                  "timing.csv", "tracks.csv", "vehicles.csv"});
   CHECK(names_in(b) == names_in(a));

@@ -280,3 +280,18 @@ TEST_CASE("clocks that differ may make a latency negative") {
   CHECK(d.ms().mean() == doctest::Approx(-2));
   CHECK(d.quantile_ms(0.99) == doctest::Approx(-1));
 }
+
+TEST_CASE("a bin counts what is above the one before, up to its bound") {
+  distribution d;
+  for (const auto us : {0, 10, 100, 101, 200, 730})
+    d.add(std::chrono::microseconds{us});
+  d.add(12s); // beyond the span
+  const auto bins = d.bins(100us);
+  REQUIRE(bins.size() == 5);
+  const std::pair<double, std::uint64_t> expected[] = {
+      {0, 1}, {0.1, 2}, {0.2, 2}, {0.8, 1}, {12000, 1}};
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    CHECK(bins[i].up_to_ms == doctest::Approx(expected[i].first));
+    CHECK(bins[i].count == expected[i].second);
+  }
+}

@@ -5,6 +5,7 @@
 #include "scenario/json.hpp"
 #include "scenario/results_folder.hpp"
 #include "tests/scenario/made_up_run.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -18,28 +19,9 @@ using namespace sofof;
 using namespace sofof::made_up;
 namespace fs = std::filesystem;
 
+using test::scratch;
+
 namespace {
-
-/// A folder that is gone with its test.
-class scratch {
-public:
-  scratch() {
-    static std::atomic<int> count = 0;
-    at_ = fs::temp_directory_path()
-          / ("sofof_results_" + std::to_string(getpid()) + "_"
-             + std::to_string(count++));
-    fs::create_directories(at_);
-  }
-  ~scratch() { fs::remove_all(at_); }
-  scratch(const scratch&) = delete;
-  scratch& operator=(const scratch&) = delete;
-
-  fs::path operator/(const fs::path& name) const { return at_ / name; }
-  const fs::path& path() const { return at_; }
-
-private:
-  fs::path at_;
-};
 
 std::string read(const fs::path& path) {
   std::ifstream in{path, std::ios::binary};
@@ -106,8 +88,9 @@ TEST_CASE("a run leaves all its files, and no temporary one") {
   r.finish(at(100s), 2, false);
   CHECK(names_in(dir.path())
         == std::vector<std::string>{
-            "config.toml", "cycles.csv", "episodes.csv", "events.jsonl",
-            "summary.json", "timing.csv", "tracks.csv", "vehicles.csv"});
+            "config.toml", "cycles.csv", "distributions.csv", "episodes.csv",
+            "events.jsonl", "summary.json", "timing.csv", "tracks.csv",
+            "vehicles.csv"});
   CHECK(read(dir / "config.toml") == "seed = 7\n");
 }
 
@@ -333,6 +316,21 @@ TEST_CASE("decimals are exact at both ends of their range") {
   CHECK(text(rounded(1e17, 3)).empty());
 }
 
+TEST_CASE("distributions hold every duration once") {
+  const scratch dir;
+  results r{dir.path(), run()};
+  play(r);
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "distributions.csv");
+  REQUIRE(all.size() > 2);
+  CHECK(all[0] == "service,figure,up_to_ms,count");
+  std::uint64_t latencies = 0;
+  for (const auto& line : all)
+    if (line.starts_with("trajectory_planning,latency,"))
+      latencies += std::stoull(line.substr(line.rfind(',') + 1));
+  CHECK(latencies == summary_in(dir.path())["latency_ms"]["count"]);
+}
+
 TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
   const scratch first, second;
   for (const auto* dir : {&first, &second}) {
@@ -341,8 +339,9 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
     r.take(track());
     r.finish(at(100s), dir == &first ? 2 : 3, false);
   }
-  for (const auto* name : {"config.toml", "episodes.csv", "cycles.csv",
-                           "tracks.csv", "vehicles.csv", "events.jsonl"})
+  for (const auto* name :
+       {"config.toml", "episodes.csv", "cycles.csv", "distributions.csv",
+        "tracks.csv", "vehicles.csv", "events.jsonl"})
     CHECK(read(first / name) == read(second / name));
   auto one = summary_in(first.path()), other = summary_in(second.path());
   CHECK(one != other);

@@ -7,6 +7,7 @@
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/scenario/whole_run.hpp"
 #include "tests/support/capture.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -33,25 +34,6 @@ const memory_sink& half_a_minute() {
                          std::vector<std::string>{"duration=30s"}));
   return records;
 }
-
-/// A folder that is gone with its test.
-class scratch {
-public:
-  scratch()
-      : at_{fs::temp_directory_path()
-            / ("sofof_v2x_" + std::to_string(getpid()))} {
-    fs::create_directories(at_);
-  }
-  ~scratch() { fs::remove_all(at_); }
-  scratch(const scratch&) = delete;
-  scratch& operator=(const scratch&) = delete;
-
-  fs::path operator/(const fs::path& name) const { return at_ / name; }
-  const fs::path& path() const { return at_; }
-
-private:
-  fs::path at_;
-};
 
 std::string read(const fs::path& path) {
   std::ifstream in{path, std::ios::binary};

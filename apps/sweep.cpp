@@ -1,0 +1,49 @@
+// sofof sweep: many runs of one scenario.
+#include "scenario/sweep/sweep.hpp"
+
+#include "apps/command.hpp"
+#include "apps/signals.hpp"
+#include "apps/sweep_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+namespace sofof {
+
+namespace {
+
+int report(const sweep_outcome& outcome) {
+  if (outcome.interrupted) {
+    std::cout << "interrupted; the same command goes on from here\n";
+    return static_cast<int>(run_outcome::interrupted);
+  }
+  std::cout << fmt::format("{} good, {} unsafe, {} failed; results in {}\n",
+                           outcome.good, outcome.unsafe, outcome.failed,
+                           outcome.table.string());
+  return static_cast<int>(outcome.all_good() ? run_outcome::good
+                                             : run_outcome::unsafe);
+}
+
+} // namespace
+
+void add_sweep(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("sweep", "Run a scenario many times, varied");
+  auto args = std::make_shared<sweep_arguments>();
+  command->add_option("FILE", args->file, "Sweep file (TOML)")
+      ->required()
+      ->type_name(" ");
+  args->add_to(*command);
+  command->footer("Example:\n  sofof sweep config/paper/latency_plot.toml -j 2 "
+                  "--out results/paper");
+  command->callback([args, &exit_code] {
+    const auto plan = load_sweep(args->file, args->set);
+    catch_signals();
+    exit_code =
+        report(sweep(plan, args->given(plan.name), interrupted, std::cout));
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,67 @@
+// A question to many runs: one scenario, and what is varied in it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Something that is varied; a column of the results.
+struct sweep_axis {
+  struct value {
+    std::string label;              ///< How it is called in the results.
+    std::vector<std::string> given; ///< "KEY=VALUE", as for `--set`.
+  };
+
+  std::string name;
+  std::vector<value> values; ///< At least one.
+};
+
+/// What a sweep file says.
+struct sweep_plan {
+  std::string name;               ///< What results are called.
+  std::filesystem::path scenario; ///< The base.
+  std::vector<std::string> given; ///< In all runs, "KEY=VALUE".
+  std::vector<sweep_axis> axes;
+  std::vector<std::int64_t> seeds{1};
+
+  /// The product of all sizes.
+  std::size_t size() const;
+};
+
+/// One run of a sweep.
+struct sweep_point {
+  std::vector<std::string> labels; ///< One for each axis.
+  std::int64_t seed = 1;
+  std::vector<std::string> given; ///< All that changes the base, in order.
+
+  bool operator==(const sweep_point&) const = default;
+};
+
+/// More runs than this are a mistake.
+inline constexpr std::size_t most_sweep_points = 100'000;
+
+/// Reads a sweep file; docs/sweeps.md describes it.
+/// @param overrides  "KEY=VALUE", for the scenario in all runs; they come
+///                   after what the file gives to all, and before its axes.
+/// @throws input_error with the place of the first mistake.
+sweep_plan load_sweep(const std::filesystem::path& file,
+                      std::span<const std::string> overrides = {});
+
+/// The same for text in memory.
+/// @param file  Where it could stand; the scenario is sought from its folder.
+sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
+                       std::span<const std::string> overrides = {});
+
+/// @returns all points: the first axis changes slowest, seeds fastest.
+std::vector<sweep_point> points_of(const sweep_plan& plan);
+
+/// @returns "vehicles=6, seed=1": a point for people.
+std::string describe(const sweep_plan& plan, const sweep_point& point);
+
+} // namespace sofof

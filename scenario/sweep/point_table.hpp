@@ -1,0 +1,29 @@
+// The results of a sweep as one table.
+#pragma once
+
+#include "scenario/sweep/plan.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sofof {
+
+/// What is known of a point in the end.
+struct point_result {
+  std::string run;     ///< Its name below `runs`; empty if it has none.
+  std::string summary; ///< The text of summary.json; empty if it failed.
+
+  bool failed() const { return summary.empty(); }
+  /// @returns whether the safety line held.
+  bool safe() const;
+};
+
+/// @param results  One for each of `points_of(plan)`.
+/// @returns a CSV file: one line for each point, with the values of the axes,
+/// and every figure of its summary that does not depend on the wall's clock,
+/// under its path in it ("latency_ms.mean"). Columns: docs/sweeps.md.
+std::string point_table(const sweep_plan& plan,
+                        const std::vector<point_result>& results);
+
+} // namespace sofof

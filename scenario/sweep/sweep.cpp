@@ -1,0 +1,220 @@
+// Points become jobs, sites carry them out, summaries become a table.
+#include "scenario/sweep/sweep.hpp"
+
+#include "scenario/load.hpp"
+#include "scenario/output_file.hpp"
+#include "scenario/placement.hpp"
+#include "scenario/stopwatch.hpp"
+#include "scenario/sweep/job_list.hpp"
+#include "scenario/sweep/point_table.hpp"
+#include "scenario/sweep/run_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <ostream>
+#include <thread>
+
+namespace sofof {
+
+namespace {
+
+/// One run that is wanted, by one point or by several.
+struct job {
+  std::string run;
+  std::size_t point = 0; ///< The first that wants it.
+  double cost = 0;       ///< About proportional to its computing time.
+};
+
+/// Vehicle cycles, and something for making a world.
+double cost_of(const scenario& s) {
+  constexpr double setup = 1000;
+  auto cycles = setup;
+  const auto vehicles = static_cast<double>(place_vehicles(s).size());
+  for (const auto& kind : s.services)
+    cycles += vehicles * to_seconds(s.length) / to_seconds(kind->common.period);
+  return cycles;
+}
+
+/// A sweep at work: shared by the threads of its sites and the console's.
+class sweep_at_work {
+public:
+  sweep_at_work(const sweep_plan& plan, const sweep_options& options,
+                const std::atomic<bool>& interrupted, std::ostream& console)
+      : plan_{plan}, options_{options},
+        interrupted_{interrupted}, console_{console},
+        store_{options.out, options.program}, points_{points_of(plan)},
+        results_(points_.size()), errors_(points_.size()) {}
+
+  sweep_outcome carry_out() {
+    job_list<job> jobs{wanted()};
+    run_all(jobs);
+    if (interrupted_) {
+      sweep_outcome cut_short;
+      cut_short.interrupted = true;
+      return cut_short;
+    }
+    if (jobs.waiting() > 0)
+      throw std::runtime_error{fmt::format("no site is left for {} runs: {}.",
+                                           jobs.waiting(), last_loss_)};
+    return finish();
+  }
+
+private:
+  scenario load(std::size_t point) const {
+    return load_scenario(plan_.scenario, points_[point].given);
+  }
+
+  /// @returns what is not finished, the longest first, so that the last ones
+  /// to run are short.
+  std::deque<job> wanted() {
+    std::deque<job> jobs;
+    std::map<std::string, bool> met;
+    for (std::size_t i = 0; i < points_.size() && !interrupted_; ++i) {
+      try {
+        const auto s = load(i);
+        results_[i].run = store_.name_of(s);
+        if (met[results_[i].run])
+          continue;
+        met[results_[i].run] = true;
+        if (store_.summary_of(results_[i].run))
+          ++found_;
+        else
+          jobs.push_back({results_[i].run, i, cost_of(s)});
+      } catch (const std::exception& problem) {
+        report(i, problem.what());
+      }
+    }
+    std::ranges::stable_sort(jobs, std::ranges::greater{}, &job::cost);
+    for (const auto& one : jobs)
+      cost_ += one.cost;
+    all_ = jobs.size();
+    return jobs;
+  }
+
+  void run_all(job_list<job>& jobs) {
+    progress shown{console_, options_.show};
+    const stopwatch watch;
+    std::vector<std::thread> hands;
+    working_ = options_.sites.size();
+    for (const auto& site : options_.sites)
+      hands.emplace_back([this, &jobs, site] { work(jobs, *site); });
+    std::unique_lock lock{mutex_};
+    while (working_ > 0) {
+      constexpr std::chrono::milliseconds look_period{100};
+      changed_.wait_for(lock, look_period);
+      if (interrupted_)
+        jobs.stop();
+      tell_errors(shown);
+      shown.show([&] { return line(jobs, watch.elapsed_s()); },
+                 watch.elapsed_s());
+    }
+    shown.clear();
+    tell_errors(shown);
+    lock.unlock();
+    for (auto& hand : hands)
+      hand.join();
+  }
+
+  void work(job_list<job>& jobs, run_site& site) {
+    while (auto next = jobs.take())
+      if (!try_one(jobs, site, *next))
+        break;
+    const std::lock_guard lock{mutex_};
+    --working_;
+    changed_.notify_all();
+  }
+
+  /// @returns whether the site is still there.
+  bool try_one(job_list<job>& jobs, run_site& site, const job& one) {
+    try {
+      site.carry_out(load(one.point), store_.folder_of(one.run), interrupted_);
+    } catch (const site_lost& loss) {
+      jobs.hand_back(one);
+      const std::lock_guard lock{mutex_};
+      last_loss_ = loss.what();
+      news_.push_back(fmt::format("{}; others do its run", loss.what()));
+      return false;
+    } catch (const std::exception& problem) {
+      const std::lock_guard lock{mutex_};
+      report(one.point, problem.what());
+    }
+    jobs.done();
+    const std::lock_guard lock{mutex_};
+    ++done_;
+    cost_done_ += one.cost;
+    return true;
+  }
+
+  void report(std::size_t point, const std::string& why) {
+    errors_[point] = why;
+    news_.push_back(fmt::format("point {} ({}) failed: {}", point + 1,
+                                describe(plan_, points_[point]), why));
+  }
+
+  void tell_errors(progress& shown) {
+    if (news_.empty())
+      return;
+    shown.clear();
+    for (const auto& line : news_)
+      console_ << line << '\n';
+    console_.flush();
+    news_.clear();
+  }
+
+  std::string line(const job_list<job>& jobs, double wall_s) const {
+    auto text = fmt::format("{} of {} runs", found_ + done_, found_ + all_);
+    if (found_ > 0)
+      text += fmt::format(" ({} from before)", found_);
+    text += fmt::format("  {} at work", jobs.at_work());
+    if (cost_done_ > 0)
+      text += fmt::format(
+          "  ETA {}", for_people(wall_s * (cost_ - cost_done_) / cost_done_));
+    return text;
+  }
+
+  sweep_outcome finish() {
+    sweep_outcome outcome;
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      auto& result = results_[i];
+      result.summary = store_.summary_of(result.run).value_or("");
+      if (result.failed())
+        ++outcome.failed;
+      else
+        ++(result.safe() ? outcome.good : outcome.unsafe);
+    }
+    outcome.table = options_.out / (plan_.name + ".csv");
+    write_file(outcome.table, point_table(plan_, results_));
+    return outcome;
+  }
+
+  const sweep_plan& plan_;
+  const sweep_options& options_;
+  const std::atomic<bool>& interrupted_;
+  std::ostream& console_;
+  run_store store_;
+  std::vector<sweep_point> points_;
+  std::vector<point_result> results_;
+  std::vector<std::string> errors_;
+
+  std::mutex mutex_; ///< Of all below, while sites are at work.
+  std::condition_variable changed_;
+  std::vector<std::string> news_;
+  std::string last_loss_;
+  std::size_t working_ = 0; ///< Sites.
+  std::size_t found_ = 0, all_ = 0, done_ = 0;
+  double cost_ = 0, cost_done_ = 0;
+};
+
+} // namespace
+
+sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
+                    const std::atomic<bool>& interrupted,
+                    std::ostream& console) {
+  return sweep_at_work{plan, options, interrupted, console}.carry_out();
+}
+
+} // namespace sofof

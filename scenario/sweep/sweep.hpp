@@ -1,0 +1,47 @@
+// Runs everything that a sweep asks for, and keeps what came out.
+#pragma once
+
+#include "scenario/progress.hpp"
+#include "scenario/sweep/plan.hpp"
+#include "scenario/sweep/run_site.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sofof {
+
+struct sweep_options {
+  std::filesystem::path out; ///< Gets NAME.csv and the folder `runs`.
+  std::string program;       ///< See `run_store`.
+  progress::output show = progress::output::quiet;
+  /// Where runs are carried out, all at once; at least one.
+  std::vector<std::shared_ptr<run_site>> sites;
+};
+
+/// What became of the points of a sweep.
+struct sweep_outcome {
+  std::size_t good = 0;
+  std::size_t unsafe = 0; ///< Their own safety checks failed.
+  std::size_t failed = 0; ///< There is no result.
+  bool interrupted = false;
+  std::filesystem::path table; ///< Written unless interrupted.
+
+  bool all_good() const { return unsafe + failed == 0; }
+};
+
+/// Runs what has not been run before: killed at any moment, the same call goes
+/// on. A point that fails is reported and does not stop the others.
+/// @param interrupted  Once true, it ends soon; what is finished is kept.
+/// @param console      Gets the progress and what failed.
+/// @throws input_error when results cannot be kept; std::runtime_error when
+///         all sites are lost.
+sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
+                    const std::atomic<bool>& interrupted,
+                    std::ostream& console);
+
+} // namespace sofof

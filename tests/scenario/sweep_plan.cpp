@@ -1,0 +1,144 @@
+// What a sweep file says, and what is said about a wrong one.
+#include "scenario/input_error.hpp"
+#include "scenario/sweep/plan.hpp"
+#include "tests/scenario/mistakes.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace sofof;
+
+namespace {
+
+const std::string text = R"(name = "both"
+scenario = "base.toml"
+seeds = [3, 5]
+
+[set]
+duration = "10s"
+service.trajectory_planning.period = "20ms"
+
+[[axis]]
+name = "vehicles"
+key = "fleet.0.count"
+values = [1, 6]
+
+[[axis]]
+name = "way"
+[[axis.value]]
+name = "east"
+set = { "fleet.0.routes" = ["west_to_east"], "fleet.0.start_m" = 10.5 }
+[[axis.value]]
+name = "north"
+set = { "fleet.0.routes" = ["east_to_north"] }
+)";
+
+sweep_plan parsed(const std::string& from,
+                  const std::vector<std::string>& overrides = {}) {
+  return parse_sweep(from, "some/where.toml", overrides);
+}
+
+std::string changed(std::string_view right, std::string_view wrong) {
+  auto all = text;
+  const auto at = all.find(right);
+  REQUIRE(at != all.npos);
+  return all.replace(at, right.size(), wrong);
+}
+
+std::string error_of(const std::string& from,
+                     const std::vector<std::string>& overrides = {}) {
+  try {
+    parsed(from, overrides);
+  } catch (const input_error& problem) {
+    return problem.what();
+  }
+  return "no error";
+}
+
+} // namespace
+
+TEST_CASE("a sweep is the product of its axes and seeds, seeds fastest") {
+  const auto plan = parsed(text);
+  CHECK(plan.name == "both");
+  CHECK(plan.scenario == "some/base.toml");
+  CHECK(plan.size() == 8);
+  const auto points = points_of(plan);
+  REQUIRE(points.size() == 8);
+  CHECK(points[0].labels == std::vector<std::string>{"1", "east"});
+  CHECK(points[0].seed == 3);
+  CHECK(points[1].seed == 5);
+  CHECK(points[2].labels == std::vector<std::string>{"1", "north"});
+  CHECK(points[4].labels == std::vector<std::string>{"6", "east"});
+  CHECK(describe(plan, points[7]) == "vehicles=6, way=north, seed=5");
+}
+
+TEST_CASE("a point is the base, what all change, and its own values") {
+  const auto points = points_of(parsed(text, {"network.profile=ideal"}));
+  CHECK(points[0].given
+        == std::vector<std::string>{
+            R"(duration="10s")", R"(service.trajectory_planning.period="20ms")",
+            "network.profile=ideal", "fleet.0.count=1",
+            R"(fleet.0.routes=[ "west_to_east" ])", "fleet.0.start_m=10.5",
+            "seed=3"});
+}
+
+TEST_CASE("a number of seeds is all seeds up to it") {
+  const auto plan = parsed(changed("[3, 5]", "4"));
+  CHECK(plan.seeds == std::vector<std::int64_t>{1, 2, 3, 4});
+}
+
+TEST_CASE("without axes a sweep is its seeds") {
+  const auto plan = parsed("name = 'a'\nscenario = 'b.toml'\nseeds = 3");
+  CHECK(points_of(plan).size() == 3);
+  CHECK(points_of(plan)[2].given == std::vector<std::string>{"seed=3"});
+}
+
+TEST_CASE("a mistake in a sweep file is named with its place") {
+  const mistake mistakes[] = {
+      {"seeds = [3, 5]", "seeds = @[]", {"seeds", "list"}},
+      {"seeds = [3, 5]", "seeds = @0", {"from 1 to"}},
+      {"seeds = [3, 5]", "seeds = [3, @3]", {"seed 3", "twice"}},
+      {"seeds = [3, 5]", "seeds = [@'x']", {"integer"}},
+      {"seeds = [3, 5]", "sedes = @[3]", {"sedes", "seeds"}},
+      {"name = \"both\"", "name = @7", {"name", "text"}},
+      {"name = \"both\"", "name = @'a/b'", {"slashes"}},
+      {"values = [1, 6]", "values = @[]", {"values", "list"}},
+      {"values = [1, 6]", "values = @3", {"values", "list"}},
+      {"key = \"fleet.0.count\"", "key = @1", {"key", "text"}},
+      {"set = { \"fleet.0.routes\" = [\"east_to_north\"] }",
+       "set = @5",
+       {"set", "table"}},
+      {"seeds = [3, 5]", "seeds = [3, 5@", {}},
+  };
+  for (const auto& wrong : mistakes) {
+    auto spoilt = changed(wrong.right, wrong.wrong);
+    const auto place = take_mark(spoilt);
+    CAPTURE(spoilt);
+    const auto error = error_of(spoilt);
+    if (wrong.says.empty()) // the place of the parser's own
+      CHECK(error.starts_with("some/where.toml:"));
+    else
+      check_says(error, "some/where.toml" + place, wrong.says);
+  }
+}
+
+TEST_CASE("a sweep without a scenario, or of too many runs, is refused") {
+  CHECK(error_of("name = 'a'").find("scenario is missing")
+        != std::string::npos);
+  CHECK(error_of(changed("[3, 5]", "100000")).find("are the most")
+        != std::string::npos);
+}
+
+TEST_CASE("two columns of one name, or a value twice, are refused") {
+  CHECK(error_of(changed("\"way\"", "\"vehicles\"")).find("two columns")
+        != std::string::npos);
+  CHECK(error_of(changed("\"way\"", "\"seed\"")).find("two columns")
+        != std::string::npos);
+  CHECK(error_of(changed("[1, 6]", "[1, 1]")).find("twice")
+        != std::string::npos);
+}
+
+TEST_CASE("what a sweep varies cannot be set besides") {
+  const auto error = error_of(text, {"fleet.0.count=3"});
+  CHECK(error.find("--set fleet.0.count=3") == 0);
+  CHECK(error.find("where.toml") != error.npos);
+}
