@@ -26,6 +26,7 @@ int obey(int argc, char** argv) {
   app.set_version_flag("--version", "sofof " SOFOF_VERSION);
   app.require_subcommand(0, 1);
   app.footer("First steps:\n  sofof run config/ulm_lehr.toml\n"
+             "  sofof report results/ulm_lehr-1\n"
              "  sofof test        (through ./sofof at the root)\n\n"
              "Exit codes: 0 done, 1 the run was unsafe or failed, or a message "
              "is wrong,\n2 wrong input or usage, 130 interrupted.");
@@ -34,6 +35,7 @@ int obey(int argc, char** argv) {
   sofof::add_sweep(app, exit_code);
   sofof::add_provide(app, exit_code);
   sofof::add_drive(app, exit_code);
+  sofof::add_report(app, exit_code);
   sofof::add_check(app, exit_code);
   sofof::add_solve(app, exit_code);
   sofof::add_decode(app, exit_code);

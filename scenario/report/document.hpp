@@ -53,8 +53,15 @@ struct drive {
   std::filesystem::path folder;
 };
 
-using block = std::variant<paragraph, table, figure, drive>;
+/// A text as it stands in a file, folded away at first.
+struct listing {
+  std::string title;
+  std::string text;
+};
 
+using block = std::variant<paragraph, table, figure, drive, listing>;
+
+/// Drives that follow each other stand side by side and share a clock.
 struct section {
   std::string title;
   std::vector<block> blocks;

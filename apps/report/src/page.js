@@ -1,0 +1,97 @@
+// Header, contents, sections.
+import { figure_block } from "./blocks/figure.js";
+import { listing_block } from "./blocks/listing.js";
+import { table_block } from "./blocks/table.js";
+import { player } from "./drive/player.js";
+import { element, marked_up } from "./element.js";
+import { theme_button } from "./theme.js";
+
+const paragraph_block = (block) => element("p", {}, ...marked_up(block.text));
+
+const single_blocks = {
+  paragraph: paragraph_block,
+  listing: listing_block,
+};
+
+/// Narrow tables stand beside each other.
+function table_classes(blocks) {
+  const narrow = blocks.length > 1 && blocks.every(({ columns }) => columns.length <= 4);
+  return narrow ? "div.tables.narrow" : "div.tables";
+}
+
+// What follows its like is shown together with it.
+const group_blocks = {
+  drive: (blocks) => player(blocks),
+  figure: (blocks) => element("div.figures", {}, ...blocks.map(figure_block)),
+  table: (blocks) => element(table_classes(blocks), {}, ...blocks.map(table_block)),
+};
+
+function* blocks_of(section) {
+  let like = [];
+  for (const block of section.blocks) {
+    if (like.length && like[0].kind !== block.kind) {
+      yield group_blocks[like[0].kind](like);
+      like = [];
+    }
+    if (block.kind in group_blocks) like.push(block);
+    else yield single_blocks[block.kind](block);
+  }
+  if (like.length) yield group_blocks[like[0].kind](like);
+}
+
+function contents(sections) {
+  const links = sections.map((section, i) =>
+    element("li", {}, element("a", { href: `#section-${i}` }, section.title)),
+  );
+  const list = () => element("ol", {}, ...links.map((link) => link.cloneNode(true)));
+  const wide = element("nav.contents", { "aria-label": "Contents" }, list());
+  const narrow = element("details.contents", {}, element("summary", {}, "Contents"), list());
+  narrow.addEventListener("click", (event) => {
+    if (event.target.tagName === "A") narrow.open = false;
+  });
+  return [wide, narrow];
+}
+
+/// Marks the section in sight in the contents.
+function follow_reader(nav, sections) {
+  const links = [...nav.querySelectorAll("a")];
+  const in_sight = new Set();
+  const seen = new IntersectionObserver(
+    (changes) => {
+      for (const { target, isIntersecting } of changes)
+        if (isIntersecting) in_sight.add(target);
+        else in_sight.delete(target);
+      const first = sections.findIndex((section) => in_sight.has(section));
+      links.forEach((link, i) => {
+        if (i === first) link.setAttribute("aria-current", "true");
+        else link.removeAttribute("aria-current");
+      });
+    },
+    { rootMargin: "-10% 0px -50% 0px" },
+  );
+  for (const section of sections) seen.observe(section);
+}
+
+export function render_page(into, report) {
+  const sections = report.sections.map((section, i) =>
+    element(
+      "section",
+      { id: `section-${i}` },
+      element("h2", {}, section.title),
+      ...blocks_of(section),
+    ),
+  );
+  const [wide, narrow] = contents(report.sections);
+  into.replaceChildren(
+    element(
+      "header",
+      {},
+      element("div", {}, element("h1", {}, report.title), element("p", {}, report.subtitle)),
+      theme_button(),
+    ),
+    narrow,
+    wide,
+    element("div.sections", {}, ...sections),
+  );
+  follow_reader(wide, sections);
+}

@@ -1,0 +1,45 @@
+// Light or dark: as the system wants, until somebody presses the button.
+import { element } from "./element.js";
+
+const system = window.matchMedia("(prefers-color-scheme: dark)");
+const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
+const listeners = [];
+let chosen = null;
+
+export const is_dark = () => (chosen ?? (system.matches ? "dark" : "light")) === "dark";
+
+/// @returns whether movement that nobody asked for is to be left out.
+export const is_calm = () => calm.matches;
+
+/// Calls when colours have changed; what is on a canvas has to be drawn anew.
+export const on_theme = (listener) => listeners.push(listener);
+
+/// @returns the value of a colour's variable in style.css.
+export const colour = (name) =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+const series_count = 6;
+
+/// @returns the colour of the i-th curve or provider; safe for the
+/// colour-blind (Okabe and Ito).
+export const series_colour = (i) => colour(`series-${i % series_count}`);
+
+function change() {
+  document.documentElement.dataset.theme = is_dark() ? "dark" : "light";
+  for (const listener of listeners) listener();
+}
+
+system.addEventListener("change", change);
+change();
+
+export function theme_button() {
+  const flip = () => {
+    chosen = is_dark() ? "light" : "dark";
+    change();
+  };
+  return element(
+    "button.theme",
+    { type: "button", click: flip, "aria-label": "Light or dark", title: "Light or dark" },
+    "◐",
+  );
+}

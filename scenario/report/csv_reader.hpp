@@ -1,0 +1,54 @@
+// Reads a table that a run has written, row by row, and believes nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof::report {
+
+/// A CSV file with a header (RFC 4180). Columns are asked for by their place
+/// among those wanted; columns that nobody wants are skipped. Everything
+/// throws input_error with file and line when the file is not as it should be.
+class csv_reader {
+public:
+  /// @param wanted  Names of columns that must be there.
+  csv_reader(const std::filesystem::path& file,
+             std::span<const std::string_view> wanted);
+
+  /// Goes on to the next row. @returns false after the last one.
+  bool next();
+
+  const std::string& text(std::size_t column) const {
+    return fields_[places_[column]];
+  }
+  double number(std::size_t column) const; ///< Finite.
+  std::optional<double> number_if_any(std::size_t column) const;
+  std::uint64_t whole(std::size_t column) const;
+  bool flag(std::size_t column) const; ///< 1 or 0.
+
+  /// Says what is wrong with a field of this row.
+  [[noreturn]] void refuse(std::size_t column, std::string_view why) const;
+
+private:
+  bool read_row();
+  void read_quoted(std::string& field);
+  [[noreturn]] void refuse(std::string_view why) const;
+
+  std::string file_;
+  std::string content_;
+  std::size_t at_ = 0;        // of the next row, in the content
+  std::size_t line_ = 0;      // of this row
+  std::size_t next_line_ = 1; // of the next one
+  std::vector<std::string> wanted_;
+  std::vector<std::size_t> places_; // of the columns wanted
+  std::vector<std::string> fields_;
+  std::size_t count_ = 0; // of the row's fields
+};
+
+} // namespace sofof::report

@@ -1,0 +1,15 @@
+// A drive as apps/report shows it: streets, areas, tracks, offloadings, events.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+namespace sofof::report {
+
+/// Reads a results folder. Without tracks there are no vehicles in it; where
+/// no vehicle ran, offloadings are those that the provider served.
+/// @throws input_error when it is no results folder, or broken.
+nlohmann::json drive_json(const std::filesystem::path& folder);
+
+} // namespace sofof::report

@@ -1,0 +1,103 @@
+// Opens results folders.
+#include "scenario/report/recorded_run.hpp"
+
+#include "scenario/input_error.hpp"
+#include "scenario/load.hpp"
+#include "scenario/toml_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace sofof::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+void collect(const json& from, const std::string& prefix,
+             std::map<std::string, double>& to) {
+  for (const auto& [name, value] : from.items())
+    if (value.is_number())
+      to[prefix + name] = value.get<double>();
+    else if (value.is_object())
+      collect(value, prefix + name + '.', to);
+}
+
+std::string text_of(const json& summary, const char* name) {
+  const auto found = summary.find(name);
+  return found != summary.end() && found->is_string()
+             ? found->get<std::string>()
+             : std::string{};
+}
+
+void read_summary(recorded_run& run) {
+  const auto file = run.folder / "summary.json";
+  if (!fs::exists(file))
+    return;
+  const auto summary =
+      json::parse(read_text(file).value_or(""), nullptr, false);
+  if (!summary.is_object())
+    throw input_error{fmt::format(
+        "{}: this is no JSON object, which every run writes.", file.string())};
+  collect(summary, "", run.figures.emplace());
+  run.version = text_of(summary, "version");
+  run.clock = text_of(summary, "clock");
+  run.interrupted = summary.value("interrupted", json{}) == true;
+}
+
+std::string name_of(const fs::path& folder) {
+  auto whole = fs::absolute(folder).lexically_normal();
+  if (!whole.has_filename())
+    whole = whole.parent_path();
+  return whole.filename().string();
+}
+
+} // namespace
+
+std::optional<double> recorded_run::figure(const std::string& name) const {
+  if (!figures)
+    return std::nullopt;
+  const auto found = figures->find(name);
+  return found == figures->end() ? std::nullopt : std::optional{found->second};
+}
+
+recorded_run open_run(const fs::path& folder) {
+  const auto config = folder / "config.toml";
+  if (!fs::exists(config))
+    throw input_error{fmt::format("{} is no results folder: there is no {}; "
+                                  "name a folder that a run has written.",
+                                  folder.string(), config.string())};
+  recorded_run run;
+  run.folder = folder;
+  run.label = name_of(folder);
+  run.what = load_scenario(config);
+  run.config_toml = read_text(config).value_or("");
+  run.episodes = read_episodes(folder);
+  run.cycles = read_cycles(folder);
+  read_summary(run);
+  return run;
+}
+
+std::vector<recorded_run> open_runs(std::span<const fs::path> folders) {
+  std::vector<recorded_run> runs;
+  for (const auto& folder : folders)
+    runs.push_back(open_run(folder));
+  for (auto& run : runs)
+    if (std::ranges::count(folders, name_of(run.folder), name_of) > 1)
+      run.label = run.folder.string();
+  return runs;
+}
+
+std::vector<std::string> services_of(std::span<const recorded_run> runs) {
+  std::vector<std::string> names;
+  for (const auto& run : runs)
+    for (const auto& service : run.what.services)
+      if (std::ranges::find(names, service->name()) == names.end())
+        names.emplace_back(service->name());
+  return names;
+}
+
+} // namespace sofof::report

@@ -1,0 +1,74 @@
+// The lines of a results folder's files, as docs/results.md describes them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sofof::report {
+
+/// Which offloading, in all files.
+struct offloading_name {
+  std::string provider;
+  std::string service;
+  std::uint64_t provider_id = 0;
+  std::uint64_t station = 0;
+  std::uint64_t counter = 0;
+
+  friend auto operator<=>(const offloading_name&,
+                          const offloading_name&) = default;
+};
+
+/// Of episodes.csv.
+struct episode_line {
+  offloading_name of;
+  bool by_requester = false; ///< Else the provider has closed it.
+  double accepted_s = 0;
+  std::optional<double> first_data_s;
+  double ended_s = 0;
+  std::optional<double> t_off_s;
+  std::string reason;
+  bool fallback = false;
+};
+
+/// Of cycles.csv.
+struct cycle_line {
+  offloading_name of;
+  double received_s = 0;
+  double latency_ms = 0;
+  std::optional<double> interarrival_ms;
+};
+
+/// Of tracks.csv.
+struct track_line {
+  std::uint64_t station = 0;
+  double t_s = 0;
+  double x_m = 0, y_m = 0; ///< Of the rear axle.
+  double heading_rad = 0;
+  double speed_mps = 0;
+  bool remote = false;
+};
+
+/// Of events.jsonl.
+struct event_line {
+  double t_s = 0;
+  std::string what;
+  offloading_name of;
+  std::string detail;
+};
+
+/// Each reads one file of a results folder.
+/// @throws input_error with file and line when it cannot be read or a line is
+/// not as docs/results.md says.
+std::vector<episode_line> read_episodes(const std::filesystem::path& folder);
+std::vector<event_line> read_events(const std::filesystem::path& folder);
+
+/// @returns nothing when the run was told not to write this file.
+std::optional<std::vector<cycle_line>>
+read_cycles(const std::filesystem::path& folder);
+std::optional<std::vector<track_line>>
+read_tracks(const std::filesystem::path& folder);
+
+} // namespace sofof::report

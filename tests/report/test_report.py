@@ -1,0 +1,155 @@
+"""Reports as their readers meet them: in a browser. Called with the program;
+exits with 77 where there is no Chromium."""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, program
+from look import look
+
+SKIPPED = 77
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__))))
+SCENARIO = os.path.join(SOURCE, "config", "ulm_lehr.toml")
+
+
+def sofof(*arguments):
+    return subprocess.run([SOFOF, *arguments], check=True, text=True,
+                          capture_output=True).stdout
+
+
+def run(name, *more):
+    folder = os.path.join(WORK, name)
+    sofof("run", SCENARIO, "--quiet", "--duration", "20s", "--out", folder,
+          *more)
+    return folder
+
+
+class Report(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = run("one")
+        cls.file = os.path.join(cls.folder, "report.html")
+        cls.said = sofof("report", cls.folder)
+        cls.seen, cls.errors = look(cls.file, cls.folder)
+
+    def test_the_command_says_where_the_report_is(self):
+        self.assertEqual(self.said, f"report in {self.file}\n")
+
+    def test_nothing_is_wrong_on_its_console(self):
+        self.assertEqual(self.errors, [])
+
+    def test_it_asks_the_network_for_nothing(self):
+        self.assertEqual(self.seen["requests"], 0)
+
+    def test_every_vehicle_is_on_the_map(self):
+        self.assertEqual(self.seen["vehicles"], 6)
+
+    def test_scrubbing_moves_the_vehicles(self):
+        self.assertEqual(self.seen["moved_by_scrubbing"], 6)
+        self.assertAlmostEqual(self.seen["scrubbed_share"], 0.6, delta=0.05)
+
+    def test_playing_moves_the_vehicles(self):
+        self.assertEqual(self.seen["moved_by_playing"], 6)
+
+    def test_space_pauses_and_the_arrow_steps(self):
+        self.assertEqual(self.seen["stands_when_paused"], 1)
+        self.assertAlmostEqual(self.seen["arrow_steps_s"], 1)
+
+    def test_charts_have_a_point_for_each_line(self):
+        self.assertGreater(self.seen["csv_rows"], 400)
+        self.assertEqual(self.seen["points"], self.seen["csv_rows"])
+
+    def test_tracks_are_complete(self):
+        self.assertEqual(self.seen["track_points"], self.seen["track_rows"])
+
+    def test_a_phone_need_not_scroll_sideways(self):
+        self.assertLessEqual(self.seen["wider_than_phone_px"], 0)
+
+    def test_tables_sort_by_the_column_that_is_clicked(self):
+        with Browser() as page:
+            page.open(self.file)
+            self.assertEqual(
+                page.run("""(() => {
+                    const table = [...document.querySelectorAll("table")].find(
+                        one => one.textContent.includes("longest gap"));
+                    const head = table.querySelector("th");
+                    const column = () => [...table.querySelectorAll(
+                        "tbody td:first-child")].map(one => one.textContent);
+                    head.querySelector("button").click();
+                    const up = [head.ariaSort, column()];
+                    head.querySelector("button").click();
+                    return JSON.stringify([...up, head.ariaSort, column()]);
+                })()"""),
+                json.dumps(["ascending", self.stations(),
+                            "descending", self.stations()[::-1]],
+                           separators=(",", ":")))
+
+    def stations(self):
+        with open(os.path.join(self.folder, "episodes.csv")) as lines:
+            return sorted(line.split(",")[1] for line in lines
+                          if line.startswith("requester"))
+
+
+class Page(unittest.TestCase):
+
+    def test_the_page_is_what_its_sources_make(self):
+        """Else: cd apps/report && npm ci && npm run build"""
+        folder = os.path.join(SOURCE, "apps", "report")
+        files = ["build.mjs", "package-lock.json"]
+        for place, _, names in os.walk(os.path.join(folder, "src")):
+            files += [os.path.relpath(os.path.join(place, name), folder)
+                      for name in names]
+        digest = hashlib.sha256()
+        for file in sorted(files):
+            with open(os.path.join(folder, file), "rb") as content:
+                digest.update(content.read())
+        with open(os.path.join(folder, "dist", "report.html")) as page:
+            self.assertTrue(
+                f"from sources {digest.hexdigest()}" in page.read())
+
+
+class Comparison(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folders = [run("never", "--set", "policies.lodm=never"),
+                       run("seven", "--seed", "7")]
+        cls.file = os.path.join(WORK, "both.html")
+        sofof("report", *cls.folders, "-o", cls.file)
+
+    def test_two_maps_share_a_clock(self):
+        with Browser() as page:
+            page.open(self.file)
+            maps = page.run("""(sofof.players[0].clock.seek(12),
+                sofof.players[0].vehicles().map(one => one.length))""")
+            self.assertEqual(maps, [6, 6])
+            self.assertEqual(page.run("sofof.players.length"), 1)
+            self.assertEqual(page.errors, [])
+
+    def test_key_figures_of_both_stand_beside_their_difference(self):
+        with Browser() as page:
+            page.open(self.file)
+            heads = page.run("""[...document.querySelectorAll("table")[0]
+                .querySelectorAll("th")].map(one => one.textContent)""")
+            self.assertEqual(heads,
+                             ["figure", "never", "seven", "difference"])
+
+
+if __name__ == "__main__":
+    SOFOF = sys.argv.pop(1)
+    if not program():
+        print("chromium is not installed: nobody opens a report.")
+        sys.exit(SKIPPED)
+    WORK = tempfile.mkdtemp(prefix="sofof_report_")
+    try:
+        unittest.main()
+    finally:
+        shutil.rmtree(WORK)

@@ -1,0 +1,209 @@
+// The page: a document as JSON that nothing breaks out of, numbers in few
+// characters.
+#include "scenario/report/drive_json.hpp"
+#include "scenario/report/html.hpp"
+#include "scenario/report/packed.hpp"
+#include "scenario/report/page.hpp"
+#include "tests/scenario/report_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::made_up;
+using namespace sofof::report;
+using nlohmann::json;
+
+namespace {
+
+std::string bytes_of(const std::string& base64) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "abcdefghijklmnopqrstuvwxyz"
+                                       "0123456789+/";
+  std::string bytes;
+  std::uint32_t pending = 0;
+  int bits = 0;
+  for (const auto c : base64) {
+    if (c == '=')
+      break;
+    pending = pending << 6 | static_cast<std::uint32_t>(letters.find(c));
+    bits += 6;
+    if (bits >= 8)
+      bytes += static_cast<char>(pending >> (bits -= 8));
+  }
+  return bytes;
+}
+
+/// Reads a column as the page does.
+std::vector<double> unpacked(const json& from) {
+  const std::size_t count = from.at(0);
+  const int places = from.at(1);
+  const int order = from.at(2);
+  const auto bytes = bytes_of(from.at(3));
+  std::vector<double> column;
+  for (std::size_t at = 0; column.size() < count;) {
+    const auto width = static_cast<std::size_t>(bytes.at(at++));
+    const auto here = std::min<std::size_t>(64, count - column.size());
+    for (std::size_t i = 0; i < here; ++i) {
+      std::int64_t value = 0;
+      for (std::size_t k = 0; k < width; ++k) {
+        const auto bit = i * width + k;
+        const auto byte = static_cast<unsigned char>(bytes.at(at + bit / 8));
+        value |= std::int64_t{byte >> bit % 8 & 1} << k;
+      }
+      column.push_back(
+          static_cast<double>(value % 2 != 0 ? -(value + 1) / 2 : value / 2));
+    }
+    at += (here * width + 7) / 8;
+  }
+  for (int k = 0; k < order; ++k)
+    for (std::size_t i = 1; i < count; ++i)
+      column[i] += column[i - 1];
+  for (auto& x : column)
+    x /= std::pow(10, places);
+  if (from.size() > 4)
+    for (const std::size_t gap : from.at(4))
+      column[gap] = std::numeric_limits<double>::quiet_NaN();
+  return column;
+}
+
+/// @returns the document of a page.
+json document_in(const std::string& page) {
+  constexpr std::string_view begin = "type=\"application/json\">";
+  const auto from = page.find(begin) + begin.size();
+  return json::parse(page.substr(from, page.find("</script", from) - from));
+}
+
+} // namespace
+
+TEST_CASE("packed numbers come back to their last digit") {
+  std::vector<double> line, wave, noise, steps;
+  for (int i = 0; i < 1000; ++i) {
+    line.push_back(-500 + 0.1 * i);
+    wave.push_back(std::round(1e5 * std::sin(i * 0.01)) / 1e3);
+    noise.push_back((i * 7919 % 1013) / 1e3);
+    steps.push_back(i / 100);
+  }
+  for (const auto& column : {line, wave, noise, steps}) {
+    const auto back = unpacked(packed(column, 3));
+    REQUIRE(back.size() == column.size());
+    for (std::size_t i = 0; i < column.size(); ++i)
+      CHECK(back[i] == doctest::Approx(column[i]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("what hardly changes packs into little more than nothing") {
+  std::vector<double> even(64000);
+  for (std::size_t i = 0; i < even.size(); ++i)
+    even[i] = 0.05 * static_cast<double>(i);
+  CHECK(packed(even, 3).at(3).get<std::string>().size() < 1500);
+}
+
+TEST_CASE("no numbers, gaps, and numbers of any size can be packed") {
+  CHECK(unpacked(packed({}, 3)).empty());
+  constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
+  const auto gaps = unpacked(packed(std::vector{gap, 1.5, gap, 2.5}, 1));
+  CHECK(std::isnan(gaps[0]));
+  CHECK(gaps[1] == 1.5);
+  CHECK(std::isnan(gaps[2]));
+  CHECK(gaps[3] == 2.5);
+  for (const auto size : {1e-9, 1.0, 1e9, 1e200}) {
+    CAPTURE(size);
+    const std::vector column{-size, size * std::numbers::pi, 0., size, -size};
+    const auto back = unpacked(packed(column));
+    for (std::size_t i = 0; i < column.size(); ++i)
+      CHECK(std::abs(back[i] - column[i]) <= size * 1e-6);
+  }
+}
+
+TEST_CASE("a document stands in its page as it is") {
+  const document what{
+      "A title",
+      "below",
+      {{"First",
+        {paragraph{"some `code`"}, table{"t", {"a", "b"}, {{"1", "x"}}, "n"},
+         figure{"f",
+                "x, m",
+                "y, s",
+                {{.name = "c",
+                  .x = {1, 2, 3},
+                  .y = {4, 5, 6},
+                  .low = {3, 4, 5},
+                  .high = {5, 6, 7},
+                  .dashed = true}},
+                {{2, "limit"}},
+                "caption"},
+         listing{"l", "text\n"}}}}};
+  const auto page = html(what);
+  CHECK(page.find("<title>A title</title>") != page.npos);
+  const auto got = document_in(page);
+  CHECK(got["title"] == "A title");
+  const auto& blocks = got["sections"][0]["blocks"];
+  CHECK(blocks[0]["text"] == "some `code`");
+  CHECK(blocks[1]["rows"][0][1] == "x");
+  const auto& curve = blocks[2]["curves"][0];
+  CHECK(unpacked(curve["y"]) == std::vector<double>{4, 5, 6});
+  CHECK(unpacked(curve["high"]) == std::vector<double>{5, 6, 7});
+  CHECK(curve["dashed"] == true);
+  CHECK(blocks[2]["marks"][0] == json{2.0, "limit"});
+  CHECK(blocks[3]["kind"] == "listing");
+}
+
+TEST_CASE("nothing in a document ends the page's script, whatever it says") {
+  const std::string evil = "</script><script>alert(1)</script><!-- & \" "
+                           "%document% \xff\xfe";
+  const auto whole =
+      html({evil, evil, {{evil, {paragraph{evil}, listing{evil, evil}}}}});
+  const auto scripts = [](std::string_view text) {
+    std::size_t count = 0;
+    for (auto at = text.find("</script"); at != text.npos;
+         at = text.find("</script", at + 1))
+      ++count;
+    return count;
+  };
+  CHECK(scripts(whole) == scripts(page));
+  CHECK(whole.find("<title>&lt;/script>&lt;script>") != whole.npos);
+  const auto got = document_in(whole);
+  const std::string back = got["sections"][0]["blocks"][0]["text"];
+  CHECK(back.starts_with("</script><script>alert(1)</script><!-- & \" "
+                         "%document% "));
+}
+
+TEST_CASE("a drive has streets, tracks, offloadings and events") {
+  const played_folder folder;
+  const auto drive = drive_json(folder.path());
+  CHECK(drive["name"] == "made_up-7");
+  CHECK(drive["until"] == 100);
+  CHECK(drive["providers"][0]["name"] == "mec");
+  CHECK(drive["providers"][0]["area"].size() == 24);
+  CHECK(unpacked(drive["lanes"]["counts"]).size() > 4);
+  REQUIRE(drive["vehicles"].size() == 1);
+  CHECK(drive["vehicles"][0]["station"] == 101);
+  CHECK(unpacked(drive["vehicles"][0]["x"]) == std::vector<double>{0, 1.5, 3});
+  CHECK(unpacked(drive["vehicles"][0]["remote"])
+        == std::vector<double>{0, 1, 1});
+  REQUIRE(drive["offloadings"].size() == 3);
+  CHECK(drive["offloadings"][0]
+        == json{101, "trajectory_planning", "mec", 10.0, 30.0});
+  CHECK(drive["offloadings"][2][4] == 100); // nobody ended it
+  REQUIRE(drive["events"].size() == 1);
+  CHECK(drive["events"][0][1] == "violation");
+}
+
+TEST_CASE("where no vehicle ran, offloadings are those that were served") {
+  const played_folder folder;
+  folder.write("events.jsonl", "");
+  folder.write("tracks.csv",
+               folder.read("tracks.csv")
+                   .substr(0, folder.read("tracks.csv").find('\n') + 1));
+  const auto drive = drive_json(folder.path());
+  CHECK(drive["vehicles"].empty());
+  REQUIRE(drive["offloadings"].size() == 1);
+  CHECK(drive["offloadings"][0]
+        == json{101, "trajectory_planning", "mec", 9.0, 30.0});
+}
