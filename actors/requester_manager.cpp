@@ -1,4 +1,5 @@
 // Service management in the vehicle: chooses the source of one service.
+#include "actors/cpu_accounts.hpp"
 #include "actors/on_air.hpp"
 #include "actors/qos_watchdog.hpp"
 #include "actors/service_manager.hpp"
@@ -50,9 +51,17 @@ struct manager_state {
     watchdog = spawn_qos_watchdog(self->system(), setup.options.limits,
                                   setup.requester);
     self->link_to(watchdog);
+    charge_all();
     self->send(local, lifecycle_step::configure);
     self->send(local, lifecycle_step::activate);
     self->send(setup.client, requester_manager_actor{self});
+  }
+
+  // For whom they work, in case somebody keeps accounts.
+  void charge_all() {
+    const cpu_account to{setup.station, setup.kind, remote && remote->in_use};
+    for (const auto who : {self->id(), local.id(), watchdog.id()})
+      charge(self->system(), who, to);
   }
 
   void feed(service_input& input) {
@@ -144,6 +153,7 @@ struct manager_state {
 
   void be_remote(time_point first) {
     remote->in_use = true;
+    charge_all();
     self->send(local, lifecycle_step::deactivate);
     self->send(watchdog, remote->running, first);
     self->send(setup.client, source_change{setup.kind, true});
@@ -151,12 +161,14 @@ struct manager_state {
   }
 
   void be_local() {
-    if (remote && remote->in_use) {
-      self->send(local, service_input{{}, newest.at, newest.what, in_use});
-      self->send(local, lifecycle_step::activate);
-      self->send(setup.client, source_change{setup.kind, false});
-    }
+    const auto was_remote = remote && remote->in_use;
     remote.reset();
+    if (!was_remote)
+      return;
+    charge_all();
+    self->send(local, service_input{{}, newest.at, newest.what, in_use});
+    self->send(local, lifecycle_step::activate);
+    self->send(setup.client, source_change{setup.kind, false});
   }
 
   void end(const service_end& e) {

@@ -1,6 +1,7 @@
 // SR: the vehicle's side of offloading.
 #include "actors/service_requester.hpp"
 
+#include "actors/cpu_accounts.hpp"
 #include "actors/on_air.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
@@ -64,6 +65,14 @@ struct requester_state {
     self->monitor(setup.vehicle);
     for (const auto& kind : setup.kinds)
       slots.push_back({kind, spawn_manager(kind), {}, {}, {}, {}, {}, {}});
+    charge_self();
+  }
+
+  // For whom it works, in case somebody keeps accounts.
+  void charge_self() {
+    const auto any_remote = std::ranges::any_of(
+        slots, [](const auto& slot) { return slot.at == phase::remote; });
+    charge(self->system(), self->id(), {setup.station, {}, any_remote});
   }
 
   // -- services of this vehicle -------------------------------------------
@@ -301,6 +310,7 @@ struct requester_state {
       return;
     slot->at = phase::remote;
     slot->first_data = now(self);
+    charge_self();
     note("switch", running.provider, running.kind, running.counter, "remote");
   }
 
@@ -381,6 +391,8 @@ struct requester_state {
     if (fallback)
       slot.cool_until[slot.provider] = t + protocol::cool_down;
     slot.at = phase::local;
+    if (was_remote)
+      charge_self();
   }
 
   void tell_provider(const service_end& e) {

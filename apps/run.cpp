@@ -16,6 +16,8 @@ void add_run(CLI::App& app, int& exit_code) {
   args->add_to(*command);
   command->add_flag("--realtime", args->options.realtime,
                     "Run on the wall clock instead of in virtual time");
+  command->add_flag("--cpu", args->options.cpu,
+                    "With --realtime: keep accounts of who computes how much");
   command->footer("Example:\n  sofof run config/ulm_lehr.toml --seed 7 "
                   "--duration 1800s --out results/seven");
   command->callback([args, &exit_code] {

@@ -173,6 +173,10 @@ void results::take_timing(std::string name, double value) {
   timings_.push_back({std::move(name), value});
 }
 
+void results::take(const cpu_table& x) {
+  cpu_csv_ = to_csv(x);
+}
+
 void results::flush() {
   episodes_.flush();
   if (cycles_)
@@ -198,6 +202,8 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
   write_vehicles();
   write_distributions();
   write_timing(outcome);
+  if (!cpu_csv_.empty())
+    write_file(folder_ / "cpu.csv", cpu_csv_);
   write_file(folder_ / "summary.json", summary_json(metrics_, run_, outcome));
   return outcome;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "messages/record.hpp"
+#include "scenario/cpu_table.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/metrics.hpp"
 #include "scenario/output_file.hpp"
@@ -41,6 +42,9 @@ public:
   /// @param name  With its unit, e.g. "solve_p99_us".
   void take_timing(std::string name, double value);
 
+  /// Who computed how much, for cpu.csv.
+  void take(const cpu_table& x);
+
   const metrics& so_far() const { return metrics_; }
 
   /// Brings all files up to date; to be called every few seconds, so that a
@@ -69,6 +73,7 @@ private:
   metrics metrics_;
   std::map<boot_id, std::string> names_;
   std::vector<timing> timings_;
+  std::string cpu_csv_; // empty: none
   csv_file episodes_;
   std::optional<csv_file> cycles_;
   std::optional<csv_file> tracks_;

@@ -21,7 +21,8 @@ constexpr std::string_view files_of_a_run[] = {
     "summary.json", "summary.json.tmp", "config.toml",  "config.toml.tmp",
     "episodes.csv", "cycles.csv",       "tracks.csv",   "events.jsonl",
     "timing.csv",   "timing.csv.tmp",   "map.toml",     "map.toml.tmp",
-    "trace.txt",    "trace.txt.tmp",    "vehicles.csv", "distributions.csv"};
+    "trace.txt",    "trace.txt.tmp",    "vehicles.csv", "distributions.csv",
+    "cpu.csv",      "cpu.csv.tmp"};
 
 [[noreturn]] void refused(const fs::path& folder, const std::string& why) {
   throw input_error(fmt::format("cannot make the results folder {}: {}; "

@@ -1,6 +1,7 @@
 // Runs a scenario from its first moment to its last, and keeps the results.
 #include "scenario/run.hpp"
 
+#include "actors/cpu_accounts.hpp"
 #include "scenario/build.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/pcap_file.hpp"
@@ -27,6 +28,10 @@ using namespace std::chrono_literals;
 constexpr duration virtual_slice = 1s;
 constexpr duration wall_slice = 100ms;
 constexpr double flush_every_s = 2;
+
+/// Accounts of computing time begin so late: roads are got ready and rooms
+/// filled once, at the start.
+constexpr duration settling = 1s;
 
 run_info describe(const scenario& s, const run_options& options,
                   const part& here) {
@@ -124,6 +129,12 @@ void check_capture(const scenario& s, const run_options& options) {
     pcap_file::check(file);
 }
 
+std::unique_ptr<runtime> make_runtime(const run_options& options) {
+  if (!options.realtime)
+    return make_virtual_runtime();
+  return options.cpu ? make_accounting_runtime() : make_wall_clock_runtime();
+}
+
 } // namespace
 
 std::string configuration_of(scenario s) {
@@ -138,8 +149,10 @@ std::string configuration_of(scenario s) {
 
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
-  const auto time =
-      options.realtime ? make_wall_clock_runtime() : make_virtual_runtime();
+  if (options.cpu && !options.realtime)
+    throw input_error("--cpu measures computing time, which passes on the wall "
+                      "clock only; add --realtime");
+  const auto time = make_runtime(options);
   return run_part(s, options, {}, *time, interrupted, console);
 }
 
@@ -162,17 +175,29 @@ run_outcome run_part(const scenario& s, const run_options& options,
       [keeper](const auto& why) { keeper->fail(why); }, here);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   time_point ended;
+  std::optional<cpu_table> computed;
   try {
     if (on_start)
       on_start(actors);
+    std::optional<cpu_meter> meter;
+    if (auto* ledger = ledger_of(time.system())) {
+      time.run_until(std::min(info.start + settling, end));
+      meter.emplace(*ledger, time.now());
+    }
     ended = advance(time, end, options, interrupted, *keeper, shown, watch,
                     console);
+    if (meter)
+      computed = meter->read(time.now());
   } catch (...) { // the disk is full, say
     dismiss(actors, time);
     throw;
   }
   dismiss(actors, time);
+  if (computed && options.on_cpu)
+    options.on_cpu(*computed);
   return keeper->with([&](results& r) {
+    if (computed)
+      r.take(*computed);
     const auto last =
         r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
     if (options.show != progress::output::quiet)

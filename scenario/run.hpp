@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/build.hpp"
+#include "scenario/cpu_table.hpp"
 #include "scenario/progress.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
@@ -21,6 +22,10 @@ struct run_options {
   std::string pcap;      ///< Where to capture all ITS messages, if asked for.
   bool force = false;    ///< Write into a folder that is not empty.
   bool realtime = false; ///< On the wall clock instead of in virtual time.
+  /// Keep accounts of computing time, for cpu.csv; on the wall clock only.
+  bool cpu = false;
+  /// Gets them at the end, if they are kept.
+  std::function<void(const cpu_table&)> on_cpu;
   progress::output show = progress::output::quiet;
   bool colour = false;  ///< The console is a terminal.
   bool endless = false; ///< Until it is interrupted, which is a good end.
@@ -47,7 +52,8 @@ std::string configuration_of(scenario s);
 ///                     kept and marked.
 /// @param console      Gets the progress and the final table.
 /// @throws input_error when the results folder is refused, or it or the
-///         capture cannot be written.
+///         capture cannot be written, or computing time is asked for where
+///         none passes.
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console);
 

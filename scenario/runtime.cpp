@@ -1,6 +1,7 @@
 // The time that a run lives in: virtual or wall clock, around one CAF system.
 #include "scenario/runtime.hpp"
 
+#include "actors/accounting_scheduler.hpp"
 #include "actors/des_scheduler.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/input_error.hpp"
@@ -72,12 +73,17 @@ private:
   etsi::its_clock clock_{epoch_unix_ms()};
 };
 
+struct accounting_config : caf::actor_system_config {
+  accounting_config() { load<accounting_scheduler>(); }
+};
+
+template <class Config>
 class wall_clock_runtime final : public on_the_wall<runtime> {
 public:
   caf::actor_system& system() override { return system_; }
 
 private:
-  caf::actor_system_config config_;
+  Config config_;
   caf::actor_system system_{config_};
 };
 
@@ -136,7 +142,11 @@ std::unique_ptr<runtime> make_virtual_runtime() {
 }
 
 std::unique_ptr<runtime> make_wall_clock_runtime() {
-  return std::make_unique<wall_clock_runtime>();
+  return std::make_unique<wall_clock_runtime<caf::actor_system_config>>();
+}
+
+std::unique_ptr<runtime> make_accounting_runtime() {
+  return std::make_unique<wall_clock_runtime<accounting_config>>();
 }
 
 std::unique_ptr<network_runtime> make_network_runtime(clock_error clock) {

@@ -58,6 +58,9 @@ std::unique_ptr<runtime> make_virtual_runtime();
 /// CAF's own scheduler and the machine's steady clock.
 std::unique_ptr<runtime> make_wall_clock_runtime();
 
+/// The same, with a ledger of who takes how much computing time.
+std::unique_ptr<runtime> make_accounting_runtime();
+
 /// The same, for one process of several.
 /// @param clock  For tests: how far its clock is off, from now on.
 std::unique_ptr<network_runtime> make_network_runtime(clock_error clock = {});
