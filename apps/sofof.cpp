@@ -35,6 +35,7 @@ int obey(int argc, char** argv) {
   sofof::add_sweep(app, exit_code);
   sofof::add_provide(app, exit_code);
   sofof::add_drive(app, exit_code);
+  sofof::add_reproduce(app, exit_code);
   sofof::add_report(app, exit_code);
   sofof::add_check(app, exit_code);
   sofof::add_solve(app, exit_code);

@@ -9,10 +9,18 @@
 
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace sofof {
 
 namespace {
+
+struct sweep_command {
+  std::string file;
+  std::vector<std::string> set; ///< KEY=VALUE, in the order given.
+  sweep_arguments runs;
+};
 
 int report(const sweep_outcome& outcome) {
   if (outcome.interrupted) {
@@ -31,18 +39,24 @@ int report(const sweep_outcome& outcome) {
 void add_sweep(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("sweep", "Run a scenario many times, varied");
-  auto args = std::make_shared<sweep_arguments>();
+  auto args = std::make_shared<sweep_command>();
   command->add_option("FILE", args->file, "Sweep file (TOML)")
       ->required()
       ->type_name(" ");
-  args->add_to(*command);
+  args->runs.add_to(*command);
+  command
+      ->add_option("--set", args->set,
+                   "Change an option of the scenario in all runs")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
   command->footer("Example:\n  sofof sweep config/paper/latency_plot.toml -j 2 "
                   "--out results/paper");
   command->callback([args, &exit_code] {
     const auto plan = load_sweep(args->file, args->set);
+    const auto how = args->runs.given(plan.name);
     catch_signals();
-    exit_code =
-        report(sweep(plan, args->given(plan.name), interrupted, std::cout));
+    exit_code = report(sweep(plan, how, interrupted, std::cout));
   });
 }
 

@@ -20,8 +20,6 @@
 namespace sofof {
 
 struct sweep_arguments {
-  std::string file;
-  std::vector<std::string> set; ///< KEY=VALUE, in the order given.
   std::string out;
   unsigned jobs = std::thread::hardware_concurrency();
   bool quiet = false;
@@ -36,12 +34,6 @@ struct sweep_arguments {
         .add_option("--out", out,
                     "Folder of all results (default results/NAME)")
         ->type_name("DIR");
-    command
-        .add_option("--set", set,
-                    "Change an option of the scenario in all runs")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->expected(1);
     command.add_flag("--quiet", quiet, "No progress");
   }
 

@@ -1,6 +1,7 @@
 // Points become jobs, sites carry them out, summaries become a table.
 #include "scenario/sweep/sweep.hpp"
 
+#include "scenario/input_error.hpp"
 #include "scenario/load.hpp"
 #include "scenario/output_file.hpp"
 #include "scenario/placement.hpp"
@@ -88,11 +89,20 @@ private:
         report(i, problem.what());
       }
     }
+    refuse_if_none_can_be_loaded();
     std::ranges::stable_sort(jobs, std::ranges::greater{}, &job::cost);
     for (const auto& one : jobs)
       cost_ += one.cost;
     all_ = jobs.size();
     return jobs;
+  }
+
+  /// The mistake is none of a point then, but of the file.
+  void refuse_if_none_can_be_loaded() const {
+    if (std::ranges::none_of(errors_, &std::string::empty))
+      throw input_error{fmt::format(
+          "none of {} points can be run; {} because: {}", points_.size(),
+          describe(plan_, points_.front()), errors_.front())};
   }
 
   void run_all(job_list<job>& jobs) {
@@ -181,6 +191,8 @@ private:
     for (std::size_t i = 0; i < results_.size(); ++i) {
       auto& result = results_[i];
       result.summary = store_.summary_of(result.run).value_or("");
+      outcome.folders.push_back(result.failed() ? std::filesystem::path{}
+                                                : store_.folder_of(result.run));
       if (result.failed())
         ++outcome.failed;
       else

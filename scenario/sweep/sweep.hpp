@@ -30,6 +30,8 @@ struct sweep_outcome {
   std::size_t failed = 0; ///< There is no result.
   bool interrupted = false;
   std::filesystem::path table; ///< Written unless interrupted.
+  /// The results folder of each of `points_of(plan)`; empty where it failed.
+  std::vector<std::filesystem::path> folders;
 
   bool all_good() const { return unsafe + failed == 0; }
 };
@@ -38,8 +40,8 @@ struct sweep_outcome {
 /// on. A point that fails is reported and does not stop the others.
 /// @param interrupted  Once true, it ends soon; what is finished is kept.
 /// @param console      Gets the progress and what failed.
-/// @throws input_error when results cannot be kept; std::runtime_error when
-///         all sites are lost.
+/// @throws input_error when results cannot be kept, or no point can be loaded;
+///         std::runtime_error when all sites are lost.
 sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
                     const std::atomic<bool>& interrupted,
                     std::ostream& console);

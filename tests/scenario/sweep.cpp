@@ -174,6 +174,16 @@ values = [1, -1]
   CHECK(four.console.str().find("--set fleet.0.count=-1") != std::string::npos);
 }
 
+TEST_CASE("a sweep of which no point can be loaded is refused as a whole") {
+  sweep_of_four four;
+  std::ofstream{four.at / "four.toml"} << four_seeds << "[set]\nno.such = 1\n";
+  CHECK_THROWS_WITH_AS(
+      four.run(),
+      doctest::Contains("none of 4 points can be run; seed=1 because"),
+      input_error);
+  CHECK_FALSE(fs::exists(four.at / "out/four.csv"));
+}
+
 TEST_CASE("a run that was unsafe is called so") {
   sweep_of_four four;
   four.site->collisions = 1;

@@ -1,0 +1,52 @@
+// sofof reproduce: the paper's evaluation with one command.
+#include "scenario/study/reproduce.hpp"
+
+#include "apps/command.hpp"
+#include "apps/signals.hpp"
+#include "apps/sweep_arguments.hpp"
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+namespace sofof {
+
+namespace {
+
+struct reproduce_arguments {
+  std::string folder = "config/paper";
+  sweep_arguments runs;
+
+  int obey() const {
+    const auto how = runs.given("paper");
+    const study::reproduction_options all{folder,        how.out,  how.program,
+                                          SOFOF_VERSION, how.show, how.sites};
+    if (!study::reproduce(all, interrupted, std::cout)) {
+      std::cout << "interrupted; the same command goes on from here\n";
+      return static_cast<int>(run_outcome::interrupted);
+    }
+    std::cout << "report in " << (how.out / "report.html").string() << '\n';
+    return static_cast<int>(run_outcome::good);
+  }
+};
+
+} // namespace
+
+void add_reproduce(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "reproduce", "Run the paper's evaluation and report on it");
+  auto args = std::make_shared<reproduce_arguments>();
+  command
+      ->add_option("FOLDER", args->folder,
+                   "Of the sweep files (default config/paper)")
+      ->type_name(" ");
+  args->runs.add_to(*command);
+  command->footer("Takes some minutes; what is finished is kept.\n"
+                  "Example:\n  sofof reproduce --out results/paper");
+  command->callback([args, &exit_code] {
+    catch_signals();
+    exit_code = args->obey();
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,17 @@
+// How long vehicles are in an area, from where they were.
+#pragma once
+
+#include "scenario/study/measured_run.hpp"
+
+#include <optional>
+#include <span>
+
+namespace sofof::study {
+
+/// @param run  With tracks.
+/// @returns the mean time from entering the first provider's area to leaving
+/// it, s, all vehicles together; nullopt when nobody did both.
+/// @throws input_error when the run's files are broken.
+std::optional<double> mean_time_in_area_s(const measured_run& run);
+
+} // namespace sofof::study

@@ -1,0 +1,105 @@
+// Reads runs, and pools them.
+#include "scenario/study/measured_run.hpp"
+
+#include "scenario/input_error.hpp"
+#include "scenario/report/run_files.hpp"
+#include "scenario/toml_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof::study {
+
+namespace {
+
+using nlohmann::json;
+
+void collect(const json& from, const std::string& prefix,
+             std::map<std::string, double>& to) {
+  for (const auto& [name, value] : from.items())
+    if (value.is_number())
+      to[prefix + name] = value.get<double>();
+    else if (value.is_object())
+      collect(value, prefix + name + '.', to);
+}
+
+} // namespace
+
+measured_run read_run(const sweep_point& point,
+                      const std::filesystem::path& folder) {
+  measured_run run{point, folder, {}, {}, 0};
+  const auto file = folder / "summary.json";
+  constexpr auto no_exceptions = false;
+  const auto summary =
+      json::parse(read_text(file).value_or(""), nullptr, no_exceptions);
+  if (!summary.is_object())
+    throw input_error{
+        fmt::format("{}: this is no summary of a run.", file.string())};
+  collect(summary, "", run.figures);
+  for (const auto& episode : report::read_episodes(folder)) {
+    if (!episode.by_requester || episode.of.service != planning
+        || !episode.t_off_s || episode.reason == "shutdown")
+      continue;
+    run.t_off_s.push_back(*episode.t_off_s);
+    run.ended_early += episode.fallback ? 1U : 0U;
+  }
+  return run;
+}
+
+std::vector<const measured_run*> those(std::span<const measured_run> runs,
+                                       std::size_t axis,
+                                       const std::string& label) {
+  std::vector<const measured_run*> found;
+  for (const auto& run : runs)
+    if (run.point.labels.at(axis) == label)
+      found.push_back(&run);
+  return found;
+}
+
+std::vector<const measured_run*> those(std::span<const measured_run> runs,
+                                       const std::string& first,
+                                       const std::string& second) {
+  auto found = those(runs, 0, first);
+  std::erase_if(found, [&second](const auto* run) {
+    return run->point.labels.at(1) != second;
+  });
+  return found;
+}
+
+std::optional<interval> mean_t_off(std::span<const measured_run* const> runs) {
+  std::vector<group> groups;
+  for (const auto* run : runs) {
+    auto& g = groups.emplace_back();
+    for (const auto t : run->t_off_s) {
+      g.sum += t;
+      ++g.count;
+    }
+  }
+  constexpr std::uint64_t seed = 1;
+  return bootstrap(groups, random_stream{seed, "mean_t_off"});
+}
+
+spread pooled(std::span<const measured_run* const> runs,
+              const std::string& name) {
+  double count = 0, sum = 0, squares = 0;
+  for (const auto* run : runs) {
+    const auto n = run->figure(name + ".count");
+    if (n < 2)
+      continue;
+    const auto mean = run->figure(name + ".mean");
+    const auto deviation = run->figure(name + ".std");
+    count += n;
+    sum += n * mean;
+    squares += (n - 1) * deviation * deviation + n * mean * mean;
+  }
+  if (count < 2)
+    return {};
+  const auto mean = sum / count;
+  return {mean, std::sqrt((squares - count * mean * mean) / (count - 1)),
+          count};
+}
+
+} // namespace sofof::study

@@ -1,0 +1,33 @@
+// The paper's evaluation from beginning to end.
+#pragma once
+
+#include "scenario/progress.hpp"
+#include "scenario/sweep/run_site.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sofof::study {
+
+struct reproduction_options {
+  std::filesystem::path sweeps; ///< The folder of the paper's sweep files.
+  std::filesystem::path out;    ///< Gets everything.
+  std::string program;          ///< See `run_store`.
+  std::string version;
+  progress::output show = progress::output::quiet;
+  std::vector<std::shared_ptr<run_site>> sites; ///< At least one.
+};
+
+/// Makes all runs that have not been made before, and writes report.html and
+/// reproduction.md. Killed at any moment, the same call goes on.
+/// @returns whether it came to its end: not if it was interrupted.
+/// @throws input_error when a file is missing or wrong, or results cannot be
+///         kept; std::runtime_error when a run fails or is unsafe.
+bool reproduce(const reproduction_options& options,
+               const std::atomic<bool>& interrupted, std::ostream& console);
+
+} // namespace sofof::study
