@@ -2,11 +2,13 @@
 #include "actors/road.hpp"
 
 #include "actors/time.hpp"
+#include "world/near_miss.hpp"
 #include "world/protocol.hpp"
 #include "world/traffic.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -34,6 +36,7 @@ struct road_state {
   scene visible;
   std::map<station_id, vehicle_actor> vehicles;
   std::vector<std::pair<station_id, station_id>> touching;
+  near_miss_watch encounters;
 
   void take(const motion_report& report, const vehicle_actor& vehicle) {
     const auto way = setup.ways.find(report.station);
@@ -66,6 +69,7 @@ struct road_state {
     for (const auto& s : setup.beside)
       self->send(s.provider, site_view{t, visible.seen_by(s.is, t)});
     record_collisions(t);
+    record_near_misses(t);
   }
 
   void show_vehicles(time_point t) {
@@ -89,6 +93,22 @@ struct road_state {
         self->send(setup.recorder,
                    collision_record{t, pair.first, pair.second});
     touching = std::move(touch);
+  }
+
+  // Of vehicles only: what stands on the road is passed closely.
+  void record_near_misses(time_point t) {
+    const auto all = users->bodies();
+    for (const auto& x :
+         encounters.look(all.first(all.size() - setup.obstacles.size()), t))
+      self->send(setup.recorder,
+                 event_record{t,
+                              "near_miss",
+                              x.first,
+                              0,
+                              {},
+                              0,
+                              fmt::format("with {} ttc_s={:.3f}", x.second,
+                                          x.time_to_collision_s)});
   }
 };
 

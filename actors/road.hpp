@@ -40,7 +40,7 @@ struct road_setup {
 /// Collects where vehicles are. Every protocol::sensor_period it tells each of
 /// them what it perceives, and providers what their sensors see, each sensor
 /// by a message of its own. It records collisions, each pair once as long as
-/// it touches.
+/// it touches, and near misses of vehicles, each encounter once.
 road_actor spawn_road(caf::actor_system& sys, road_setup setup);
 
 } // namespace sofof

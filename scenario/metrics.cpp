@@ -39,6 +39,8 @@ metrics::metrics(const run_info& run)
 void metrics::take(const event_record& x) {
   if (x.what == "offer") {
     ++offers_;
+  } else if (x.what == "near_miss") {
+    ++together_.safety.near_misses;
   } else if (x.what == "switch") {
     if (x.detail == "remote")
       open_[{x.kind, x.station}] = {{x.provider, x.station, x.kind, x.counter},

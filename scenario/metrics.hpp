@@ -58,6 +58,7 @@ struct safety_metrics {
   duration off_road{};
   duration max_plan_age{}; ///< The largest of all.
   std::uint64_t collisions = 0;
+  std::uint64_t near_misses = 0; ///< Of all vehicles together only.
 
   void add(const safety_record& x);
 

@@ -74,6 +74,7 @@ void safety_of(json_object& to, const safety_metrics& safety) {
   object.member("driven_s", seconds(safety.driven));
   object.member("without_fresh_plan_s", seconds(safety.without_fresh_plan));
   object.member("collisions", safety.collisions);
+  object.member("near_misses", safety.near_misses);
   object.member("off_road_s", seconds(safety.off_road));
   object.member("max_plan_age_s",
                 recorded ? seconds(safety.max_plan_age) : decimal{});

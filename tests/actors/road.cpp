@@ -132,6 +132,22 @@ TEST_CASE_FIXTURE(road_world, "a collision is recorded once per touch") {
   CHECK(collisions() == 2);
 }
 
+TEST_CASE_FIXTURE(road_world, "who comes near too fast is noted once") {
+  const auto touch_m = size.front_m + size.rear_m;
+  report(1, 100, 15, behind);
+  report(2, 100 + touch_m + 16, 5, ahead); // 1.6 s
+  run_for(1s);
+  CHECK(recorder->count<event_record>() == 0);
+  report(2, 100 + touch_m + 14, 5, ahead);
+  run_for(1s);
+  const auto events = recorder->all<event_record>();
+  REQUIRE(events.size() == 1);
+  CHECK(events[0].what == "near_miss");
+  CHECK(events[0].station == 1);
+  CHECK(events[0].detail == "with 2 ttc_s=1.400");
+  CHECK(collisions() == 0);
+}
+
 TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
   report(1, 100, 5, behind);
   report(2, 130, 7, ahead);

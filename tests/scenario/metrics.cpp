@@ -181,6 +181,13 @@ TEST_CASE("a touch counts once for the run and once for either vehicle") {
   CHECK(m.vehicles().at(102).safety.collisions == 1);
 }
 
+TEST_CASE("a near miss counts for the run") {
+  metrics m{run()};
+  m.take(event_record{at(3s), "near_miss", 101, 0, {}, 0, "with 102"});
+  CHECK(m.safety().near_misses == 1);
+  CHECK(m.safety().ok());
+}
+
 TEST_CASE("an obstacle that is touched is no vehicle") {
   auto info = run();
   info.obstacles = 2;
