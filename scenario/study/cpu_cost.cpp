@@ -97,7 +97,7 @@ std::string verdict(const cpu_figures& c, const char* rate) {
 report::section cpu_cost(const evidence& e) {
   report::section s{"Computing time", {}};
   s.blocks.emplace_back(paragraph{
-      "Wall-clock runs of 20 s, six vehicles at 20 Hz and two at 100 Hz, each "
+      "Wall-clock runs of 20 s, six vehicles at 20 Hz and at 100 Hz, each "
       "about half of the time in the area. Each actor's computing time is read "
       "from its thread's clock around every turn. The planner's share includes "
       "its environment model; the requester's is that of SOFOF in the vehicle: "
