@@ -1,7 +1,9 @@
 // sofof report: shows results folders as one HTML file.
 #include "apps/command.hpp"
+#include "scenario/input_error.hpp"
 #include "scenario/report/describe.hpp"
 #include "scenario/report/html.hpp"
+#include "scenario/results_folder.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -17,12 +19,23 @@ struct report_arguments {
   std::vector<std::string> folders;
   std::string out;
 
+  /// A report must not take the place of what it is about.
+  static void check(const std::filesystem::path& to,
+                    const std::vector<std::filesystem::path>& from) {
+    for (const auto& folder : from)
+      if (is_result(to, folder))
+        throw input_error(to.string()
+                          + " is one of the run's results; choose another "
+                            "file with -o");
+  }
+
   /// @returns where it was written to.
   std::filesystem::path obey() const {
     const std::vector<std::filesystem::path> from(folders.begin(),
                                                   folders.end());
     const auto to =
         out.empty() ? from.front() / "report.html" : std::filesystem::path{out};
+    check(to, from);
     report::write_html(report::describe(from, SOFOF_VERSION), to);
     return to;
   }
@@ -44,8 +57,10 @@ void add_report(CLI::App& app, int&) {
   command->footer("One folder is shown by itself, two side by side, more one "
                   "after the other.\nExample:\n  sofof report "
                   "results/ulm_lehr-1 -o report.html");
-  command->callback(
-      [args] { std::cout << "report in " << args->obey().string() << '\n'; });
+  command->callback([args] {
+    const auto to = args->obey();
+    std::cout << "report in " << to.string() << '\n';
+  });
 }
 
 } // namespace sofof

@@ -67,11 +67,12 @@ void output_file::refuse(int error) const {
   refused(path_, error, choose_);
 }
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
+void write_file(const std::filesystem::path& path, std::string_view text,
+                std::string_view choose) {
   auto temporary = path;
   temporary += ".tmp";
   try {
-    output_file out{temporary};
+    output_file out{temporary, choose};
     out.text() = text;
     out.close();
   } catch (...) {
@@ -82,7 +83,7 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
   if (error)
-    refused(path, error.value(), output_file::other_folder);
+    refused(path, error.value(), choose);
 }
 
 } // namespace sofof

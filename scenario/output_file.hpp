@@ -65,7 +65,9 @@ private:
 
 /// Writes a whole file at once, under a temporary name first: whoever sees
 /// it sees all of it.
+/// @param choose  As for `output_file`.
 /// @throws input_error when it cannot be written.
-void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::string_view text,
+                std::string_view choose = output_file::other_folder);
 
 } // namespace sofof

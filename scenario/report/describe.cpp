@@ -1,19 +1,16 @@
 // From results folders to sections.
 #include "scenario/report/describe.hpp"
 
-#include "scenario/report/csv_reader.hpp"
+#include "scenario/report/episode_table.hpp"
 #include "scenario/report/key_figures.hpp"
 #include "scenario/report/options.hpp"
 #include "scenario/report/recorded_run.hpp"
 #include "scenario/report/remote_results.hpp"
+#include "scenario/report/vehicle_table.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <iterator>
-#include <map>
-#include <optional>
 #include <string>
 
 namespace sofof::report {
@@ -64,134 +61,29 @@ void add_results(std::vector<section>& to, runs_view runs) {
   }
 }
 
-/// What the results of one episode were like.
-struct episode_results {
-  std::size_t count = 0;
-  double latency_sum_ms = 0;
-  double longest_latency_ms = 0;
-  double longest_gap_ms = 0;
-};
-
-std::map<offloading_name, episode_results>
-results_by_episode(const recorded_run& run) {
-  std::map<offloading_name, episode_results> all;
-  for (const auto& line : run.cycles.value_or(std::vector<cycle_line>{})) {
-    auto& one = all[line.of];
-    ++one.count;
-    one.latency_sum_ms += line.latency_ms;
-    one.longest_latency_ms = std::max(one.longest_latency_ms, line.latency_ms);
-    one.longest_gap_ms =
-        std::max(one.longest_gap_ms, line.interarrival_ms.value_or(0));
-  }
-  return all;
-}
-
-std::string seconds_text(std::optional<double> s) {
-  return s ? fmt::format("{:.3f}", *s) : "";
-}
-
-std::vector<std::string> episode_row(const episode_line& x,
-                                     const episode_results& results) {
-  const auto if_any = [&results](double ms) {
-    return results.count > 0 ? fmt::format("{:.2f}", ms) : "";
-  };
-  return {std::to_string(x.of.station),
-          x.of.service,
-          x.of.provider,
-          fmt::format("{:.3f}", x.accepted_s),
-          seconds_text(x.first_data_s),
-          fmt::format("{:.3f}", x.ended_s),
-          seconds_text(x.t_off_s),
-          x.reason,
-          x.fallback ? "yes" : "",
-          results.count > 0 ? std::to_string(results.count) : "",
-          if_any(results.latency_sum_ms / static_cast<double>(results.count)),
-          if_any(results.longest_latency_ms),
-          if_any(results.longest_gap_ms)};
-}
-
-/// Episodes as the vehicles closed them; where no vehicle runs, as the
-/// provider did.
-table episodes_of(const recorded_run& run, bool several) {
-  table all{.title = several ? run.label : "",
-            .columns = {"vehicle", "service", "provider", "accepted, s",
-                        "first data, s", "ended, s", "offloaded, s", "ended by",
-                        "fallback", "results", "mean latency, ms",
-                        "longest latency, ms", "longest gap, ms"},
-            .rows = {},
-            .note = ""};
-  const auto by_vehicles =
-      std::ranges::any_of(run.episodes, &episode_line::by_requester);
-  const auto results = results_by_episode(run);
-  for (const auto& one : run.episodes) {
-    if (one.by_requester != by_vehicles)
-      continue;
-    const auto found = results.find(one.of);
-    all.rows.push_back(episode_row(
-        one, found == results.end() ? episode_results{} : found->second));
-  }
-  if (!by_vehicles && !all.rows.empty())
-    all.note = "As the provider closed them; no vehicle ran here.";
-  return all;
+/// Adds one run's table; among several it is called after its run.
+void add_of_run(section& to, table one, const recorded_run& run,
+                runs_view runs) {
+  if (runs.size() > 1)
+    one.title = run.label;
+  to.blocks.emplace_back(std::move(one));
 }
 
 void add_episodes(std::vector<section>& to, runs_view runs) {
   section all{.title = "Episodes", .blocks = {}};
   for (const auto& run : runs)
-    if (auto one = episodes_of(run, runs.size() > 1); !one.rows.empty())
-      all.blocks.emplace_back(std::move(one));
+    if (auto one = episode_table(run); !one.rows.empty())
+      add_of_run(all, std::move(one), run, runs);
   if (all.blocks.empty())
     all.blocks.emplace_back(paragraph{"No offloading has ended."});
   to.push_back(std::move(all));
 }
 
-/// How each vehicle drove; written at the end of a run only.
-std::optional<table> vehicles_of(const recorded_run& run, bool several) {
-  struct column {
-    std::string_view name;
-    std::string_view shown;
-    int decimals;
-  };
-  static constexpr std::array columns{
-      column{"station", "vehicle", 0},
-      column{"distance_m", "way, m", 0},
-      column{"plans", "plans", 0},
-      column{"emergency_plans", "emergency plans", 0},
-      column{"safe_stops", "safe stops", 0},
-      column{"collisions", "collisions", 0},
-      column{"max_plan_age_ms", "oldest plan, ms", 1},
-      column{"min_accel_mps2", "lowest acceleration, m/s²", 2},
-      column{"max_jerk_mps3", "largest jerk, m/s³", 2},
-      column{"max_lateral_accel_mps2", "largest lateral acceleration, m/s²", 2},
-      column{"hard_brakes", "hard brakes", 0},
-      column{"comfort_cost_m2ps3", "comfort cost, m²/s³", 1},
-  };
-  const auto file = run.folder / "vehicles.csv";
-  if (!fs::exists(file))
-    return std::nullopt;
-  table all{
-      .title = several ? run.label : "", .columns = {}, .rows = {}, .note = ""};
-  std::vector<std::string_view> wanted;
-  for (const auto& [name, shown, decimals] : columns) {
-    all.columns.emplace_back(shown);
-    wanted.push_back(name);
-  }
-  csv_reader line{file, wanted};
-  while (line.next()) {
-    auto& row = all.rows.emplace_back();
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const auto x = line.number_if_any(i);
-      row.push_back(x ? fmt::format("{:.{}f}", *x, columns[i].decimals) : "");
-    }
-  }
-  return all;
-}
-
 void add_vehicles(std::vector<section>& to, runs_view runs) {
   section all{.title = "Vehicles", .blocks = {}};
   for (const auto& run : runs)
-    if (auto one = vehicles_of(run, runs.size() > 1); one && !one->rows.empty())
-      all.blocks.emplace_back(std::move(*one));
+    if (auto one = vehicle_table(run); !one.rows.empty())
+      add_of_run(all, std::move(one), run, runs);
   if (!all.blocks.empty())
     to.push_back(std::move(all));
 }

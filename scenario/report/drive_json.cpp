@@ -3,14 +3,14 @@
 
 #include "scenario/report/packed.hpp"
 #include "scenario/report/recorded_run.hpp"
-#include "world/path.hpp"
+#include "scenario/report/scenery_json.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +24,6 @@ using nlohmann::json;
 constexpr int metre_places = 3;   // as in tracks.csv
 constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
-constexpr int street_places = 2;
 
 /// What befell an offloading or a vehicle: shown on the map when it happens.
 constexpr std::array<std::string_view, 5> alarming{
@@ -36,88 +35,6 @@ constexpr std::array<std::string_view, 5> notable{
 
 bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
-}
-
-json corners_json(std::span<const point> corners) {
-  auto all = json::array();
-  for (const auto& p : corners)
-    all.push_back({p.x_m, p.y_m});
-  return all;
-}
-
-std::array<point, 4> corners_of(const oriented_box& box) {
-  const point along{std::cos(box.heading_rad), std::sin(box.heading_rad)};
-  const auto half_length = box.length_m / 2 * along;
-  const auto half_width = box.width_m / 2 * point{-along.y_m, along.x_m};
-  return {box.centre + half_length + half_width,
-          box.centre - half_length + half_width,
-          box.centre - half_length - half_width,
-          box.centre + half_length - half_width};
-}
-
-/// Points of a lane's smooth line, closer together where it bends.
-std::vector<point> line_of(const lane& of) {
-  constexpr double bend_rad = 0.05; // between two points
-  constexpr double most_pieces = 32;
-  const path smooth{of.centre};
-  const auto knots = smooth.knots_m();
-  std::vector<point> points{smooth.at(knots.front()).at};
-  for (std::size_t i = 1; i < knots.size(); ++i) {
-    const auto from_m = knots[i - 1];
-    const auto length_m = knots[i] - from_m;
-    const auto turn_rad = std::abs(smooth.at(knots[i]).heading_rad
-                                   - smooth.at(from_m).heading_rad);
-    const auto pieces =
-        std::clamp(std::ceil(turn_rad / bend_rad), 1.0, most_pieces);
-    for (double k = 1; k <= pieces; ++k)
-      points.push_back(smooth.at(from_m + length_m * k / pieces).at);
-  }
-  return points;
-}
-
-json lanes_json(const road_map& map) {
-  std::vector<double> counts, half_widths_m, x_m, y_m;
-  for (const auto& one : map.lanes()) {
-    const auto points = line_of(one);
-    counts.push_back(static_cast<double>(points.size()));
-    half_widths_m.push_back(one.half_width_m);
-    for (const auto& p : points) {
-      x_m.push_back(p.x_m);
-      y_m.push_back(p.y_m);
-    }
-  }
-  return {{"counts", packed(counts, 0)},
-          {"half_widths", packed(half_widths_m, street_places)},
-          {"x", packed(x_m, street_places)},
-          {"y", packed(y_m, street_places)}};
-}
-
-json houses_json(const scenario& what) {
-  auto all = json::array();
-  for (const auto& house : what.world->map.buildings())
-    all.push_back(corners_json(house.corners));
-  return all;
-}
-
-json obstacles_json(const scenario& what) {
-  auto all = json::array();
-  for (const auto& one : what.obstacles)
-    all.push_back(corners_json(corners_of(one.box())));
-  return all;
-}
-
-json providers_json(const scenario& what) {
-  auto all = json::array();
-  for (const auto& one : what.providers) {
-    auto sensors = json::array();
-    for (const auto& sensor : one.sensors)
-      sensors.push_back({sensor.position_m.x_m, sensor.position_m.y_m});
-    all.push_back({{"name", one.name},
-                   {"at", {one.position_m.x_m, one.position_m.y_m}},
-                   {"area", corners_json(one.area().corners())},
-                   {"sensors", std::move(sensors)}});
-  }
-  return all;
 }
 
 json car_json() {
@@ -230,18 +147,16 @@ json drive_json(const std::filesystem::path& folder) {
   auto offloadings = switched(events, end_s);
   if (offloadings.empty())
     offloadings = served(run.episodes);
-  return {{"name", run.label},
-          {"until", end_s},
-          {"has_tracks", tracks.has_value()},
-          {"lanes", lanes_json(run.what.world->map)},
-          {"houses", houses_json(run.what)},
-          {"obstacles", obstacles_json(run.what)},
-          {"providers", providers_json(run.what)},
-          {"car", car_json()},
-          {"services", services_of({&run, 1})},
-          {"vehicles", vehicles_json(lines)},
-          {"offloadings", offloadings_json(offloadings)},
-          {"events", events_json(events)}};
+  json all{{"name", run.label},
+           {"until", end_s},
+           {"has_tracks", tracks.has_value()},
+           {"car", car_json()},
+           {"services", services_of({&run, 1})},
+           {"vehicles", vehicles_json(lines)},
+           {"offloadings", offloadings_json(offloadings)},
+           {"events", events_json(events)}};
+  all.update(scenery_json(run.what));
+  return all;
 }
 
 } // namespace sofof::report

@@ -126,8 +126,10 @@ std::string html(const document& what) {
   return all;
 }
 
-void write_html(const document& what, const std::filesystem::path& file) {
-  write_file(file, html(what));
+void write_html(const document& what, const std::filesystem::path& file,
+                std::string_view choose) {
+  output_file::check(file, choose); // before the work
+  write_file(file, html(what), choose);
 }
 
 } // namespace sofof::report

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace sofof::report {
 
@@ -14,7 +15,10 @@ namespace sofof::report {
 std::string html(const document& what);
 
 /// Writes the page; whoever sees the file sees all of it.
+/// @param choose  What the user can do about a file that cannot be written:
+///                choose ...
 /// @throws input_error as `html` does, or when it cannot be written.
-void write_html(const document& what, const std::filesystem::path& file);
+void write_html(const document& what, const std::filesystem::path& file,
+                std::string_view choose = "another file with -o");
 
 } // namespace sofof::report

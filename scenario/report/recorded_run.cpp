@@ -17,13 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-void collect(const json& from, const std::string& prefix,
+/// @param levels  Of objects in objects; deeper ones are none of ours.
+void collect(const json& from, const std::string& prefix, int levels,
              std::map<std::string, double>& to) {
   for (const auto& [name, value] : from.items())
     if (value.is_number())
       to[prefix + name] = value.get<double>();
-    else if (value.is_object())
-      collect(value, prefix + name + '.', to);
+    else if (value.is_object() && levels > 0)
+      collect(value, prefix + name + '.', levels - 1, to);
 }
 
 std::string text_of(const json& summary, const char* name) {
@@ -42,7 +43,8 @@ void read_summary(recorded_run& run) {
   if (!summary.is_object())
     throw input_error{fmt::format(
         "{}: this is no JSON object, which every run writes.", file.string())};
-  collect(summary, "", run.figures.emplace());
+  constexpr int levels = 4;
+  collect(summary, "", levels, run.figures.emplace());
   run.version = text_of(summary, "version");
   run.clock = text_of(summary, "clock");
   run.interrupted = summary.value("interrupted", json{}) == true;

@@ -35,7 +35,8 @@ def look(report, folder):
     with Browser() as page:
         page.show(1280, 900)
         page.open(report)
-        page.wait(0.3)
+        page.run("sofof.ready")
+        page.wait(0.1)
         paint = page.run("performance.getEntriesByName("
                          "'first-contentful-paint')[0].startTime")
         seen = {

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 from browser import Browser, program
-from look import look
+from look import look, rows_of
 
 SKIPPED = 77
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(
@@ -73,9 +73,35 @@ class Report(unittest.TestCase):
     def test_a_phone_need_not_scroll_sideways(self):
         self.assertLessEqual(self.seen["wider_than_phone_px"], 0)
 
+    def test_vehicles_are_where_the_tracks_say(self):
+        rows = rows_of(self.folder, "tracks.csv")[::37]
+        with Browser() as page:
+            page.open(self.file)
+            page.run("sofof.ready")
+            for row in rows:
+                here = page.run(f"""(() => {{
+                    sofof.players[0].clock.seek({row["t_s"]});
+                    return sofof.players[0].vehicles()[0].find(
+                        one => one.station == {row["station"]});
+                }})()""")
+                for column, name in (("x_m", "x"), ("y_m", "y"),
+                                     ("speed_mps", "speed")):
+                    self.assertAlmostEqual(here[name], float(row[column]),
+                                           places=3)
+                self.assertEqual(here["remote"], row["source"] == "remote")
+
+    def test_a_click_on_the_strips_goes_to_that_time(self):
+        with Browser() as page:
+            page.open(self.file)
+            page.run("sofof.ready")
+            page.click(".timeline canvas", 0.5)
+            self.assertAlmostEqual(page.run("sofof.players[0].clock.time"),
+                                   10, delta=0.5)
+
     def test_tables_sort_by_the_column_that_is_clicked(self):
         with Browser() as page:
             page.open(self.file)
+            page.run("sofof.ready")
             self.assertEqual(
                 page.run("""(() => {
                     const table = [...document.querySelectorAll("table")].find(
@@ -128,6 +154,7 @@ class Comparison(unittest.TestCase):
     def test_two_maps_share_a_clock(self):
         with Browser() as page:
             page.open(self.file)
+            page.run("sofof.ready")
             maps = page.run("""(sofof.players[0].clock.seek(12),
                 sofof.players[0].vehicles().map(one => one.length))""")
             self.assertEqual(maps, [6, 6])
@@ -137,6 +164,7 @@ class Comparison(unittest.TestCase):
     def test_key_figures_of_both_stand_beside_their_difference(self):
         with Browser() as page:
             page.open(self.file)
+            page.run("sofof.ready")
             heads = page.run("""[...document.querySelectorAll("table")[0]
                 .querySelectorAll("th")].map(one => one.textContent)""")
             self.assertEqual(heads,

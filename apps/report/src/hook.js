@@ -1,8 +1,9 @@
 // What tests, and the curious, find under `window.sofof`.
 
-/// players: { clock, vehicles() } for each group of maps; charts: { title,
+/// ready: a promise that all of the page is there; players: { clock, vehicles() } for each group of maps; charts: { title,
 /// drawn, points }, the numbers of points by the names of the curves.
 export const hook = {
+  ready: null,
   players: [],
   charts: [],
   draw_all() {

@@ -4,4 +4,4 @@ import { render_page } from "./page.js";
 
 const text = document.getElementById("document").textContent;
 window.sofof = hook;
-render_page(document.getElementById("report"), JSON.parse(text));
+hook.ready = render_page(document.getElementById("report"), JSON.parse(text));

@@ -72,14 +72,15 @@ function follow_reader(nav, sections) {
   for (const section of sections) seen.observe(section);
 }
 
-export function render_page(into, report) {
+/// @returns a promise that the browser has shown what there is so far.
+const shown = () =>
+  new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+
+/// Shows titles at once and the blocks of each section after them.
+/// @returns a promise that all is there.
+export async function render_page(into, report) {
   const sections = report.sections.map((section, i) =>
-    element(
-      "section",
-      { id: `section-${i}` },
-      element("h2", {}, section.title),
-      ...blocks_of(section),
-    ),
+    element("section", { id: `section-${i}` }, element("h2", {}, section.title)),
   );
   const [wide, narrow] = contents(report.sections);
   into.replaceChildren(
@@ -94,4 +95,9 @@ export function render_page(into, report) {
     element("div.sections", {}, ...sections),
   );
   follow_reader(wide, sections);
+  for (const [i, section] of report.sections.entries()) {
+    await shown();
+    sections[i].append(...blocks_of(section));
+  }
+  document.getElementById(location.hash.slice(1))?.scrollIntoView();
 }

@@ -14,9 +14,16 @@ export const is_calm = () => calm.matches;
 /// Calls when colours have changed; what is on a canvas has to be drawn anew.
 export const on_theme = (listener) => listeners.push(listener);
 
+const known = new Map(); // of this theme
+
 /// @returns the value of a colour's variable in style.css.
-export const colour = (name) =>
-  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+export function colour(name) {
+  if (!known.has(name)) {
+    const style = getComputedStyle(document.documentElement);
+    known.set(name, style.getPropertyValue(`--${name}`).trim());
+  }
+  return known.get(name);
+}
 
 const series_count = 6;
 
@@ -26,6 +33,7 @@ export const series_colour = (i) => colour(`series-${i % series_count}`);
 
 function change() {
   document.documentElement.dataset.theme = is_dark() ? "dark" : "light";
+  known.clear();
   for (const listener of listeners) listener();
 }
 

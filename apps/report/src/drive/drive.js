@@ -55,9 +55,14 @@ export class Drive {
     ].sort((a, b) => a - b);
     // Trajectories are what a vehicle's colour is about.
     this.first_service = this.services[0] ?? "";
-    this.planned = new Map(this.stations.map((station) => [station, []]));
-    for (const one of this.offloadings)
-      if (one.service === this.first_service) this.planned.get(one.station).push(one);
+    this.offloaded = new Map(this.stations.map((station) => [station, []]));
+    for (const one of this.offloadings) this.offloaded.get(one.station).push(one);
+    this.planned = new Map();
+    for (const [station, all] of this.offloaded)
+      this.planned.set(station, all.filter(({ service }) => service === this.first_service));
+    this.driven = new Map(
+      this.vehicles.map(({ station, t }) => [station, [t[0], t[t.length - 1]]]),
+    );
   }
 
   /// @returns the place of a provider in the configuration; 0 for others.

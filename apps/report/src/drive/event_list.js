@@ -44,10 +44,15 @@ export function event_list(drive, clock) {
   const items = chosen.map((event) => line(event, clock));
   const list = element("ol", {}, ...items);
   const left_out = drive.events.length - chosen.length;
+  const others = drive.events.length - drive.alarms.length;
   const shown = element(
     "details.events",
-    {},
-    element("summary", {}, `QoS events (${drive.alarms.length}) and others`),
+    { open: drive.alarms.length > 0 },
+    element(
+      "summary",
+      {},
+      `QoS events: ${drive.alarms.length}${others ? `, others: ${others}` : ""}`,
+    ),
     left_out ? element("p.note", {}, `${left_out} more are in events.jsonl.`) : null,
     list,
   );

@@ -1,10 +1,10 @@
 // The map of one drive: streets that stand, vehicles that move.
 import { element } from "../element.js";
-import { colour, is_calm, on_theme, series_colour } from "../theme.js";
+import { colour, on_theme } from "../theme.js";
+import { draw_car, draw_rings } from "./cars.js";
+import { draw_scenery, draw_text } from "./scenery.js";
 import { View, bounds_of } from "./view.js";
 
-const smallest_car = 15; // pixels long, however far away
-const flash_s = 1.4; // of the reader's time
 const reach = 18; // pixels from the pointer to a vehicle
 
 export class DriveMap {
@@ -87,80 +87,8 @@ export class DriveMap {
     return context;
   }
 
-  outline(context, corners) {
-    context.beginPath();
-    for (const [x, y] of corners) context.lineTo(this.view.left(x), this.view.top(y));
-    context.closePath();
-  }
-
   draw_streets() {
-    const { drive, view } = this;
-    const context = this.context(this.streets);
-    drive.providers.forEach(({ area }, i) => {
-      this.outline(context, area);
-      context.globalAlpha = 0.09;
-      context.fillStyle = series_colour(i);
-      context.fill();
-    });
-    context.globalAlpha = 1;
-    context.fillStyle = colour("house");
-    for (const house of drive.houses) {
-      this.outline(context, house);
-      context.fill();
-    }
-    context.strokeStyle = colour("street");
-    for (const { x, y, half_width } of drive.lanes) {
-      context.lineWidth = Math.max(2 * half_width * view.scale, 1.5);
-      context.beginPath();
-      for (let i = 0; i < x.length; ++i) context.lineTo(view.left(x[i]), view.top(y[i]));
-      context.stroke();
-    }
-    context.fillStyle = colour("soft");
-    for (const obstacle of drive.obstacles) {
-      this.outline(context, obstacle);
-      context.fill();
-    }
-    drive.providers.forEach((provider, i) => this.draw_provider(context, provider, i));
-  }
-
-  draw_provider(context, { name, at, area, sensors }, i) {
-    const { view } = this;
-    context.strokeStyle = context.fillStyle = series_colour(i);
-    context.lineWidth = 1.25;
-    context.setLineDash([5, 4]);
-    this.outline(context, area);
-    context.stroke();
-    context.setLineDash([]);
-    for (const [x, y] of sensors) {
-      context.beginPath();
-      context.arc(view.left(x), view.top(y), 6, 0, 2 * Math.PI);
-      context.stroke();
-    }
-    const [left, top] = [view.left(at[0]), view.top(at[1])];
-    context.beginPath();
-    context.moveTo(left, top - 6);
-    context.lineTo(left + 6, top);
-    context.lineTo(left, top + 6);
-    context.lineTo(left - 6, top);
-    context.fill();
-    this.text(context, name, left + 11, top, "600 12px", series_colour(i));
-  }
-
-  /// A text that stands out from what is below it.
-  text(context, text, left, top, style, ink) {
-    context.font = `${style} system-ui, sans-serif`;
-    context.textBaseline = "middle";
-    context.lineWidth = 3;
-    context.strokeStyle = colour("panel");
-    context.strokeText(text, left, top);
-    context.fillStyle = ink;
-    context.fillText(text, left, top);
-  }
-
-  colour_of(vehicle) {
-    if (!vehicle.remote) return colour("local");
-    const planner = this.drive.planner_at(vehicle.station, this.clock.time);
-    return series_colour(this.drive.place_of(planner));
+    draw_scenery(this.context(this.streets), this.view, this.drive);
   }
 
   draw() {
@@ -173,66 +101,12 @@ export class DriveMap {
     }
     const context = this.context(this.canvas);
     context.drawImage(this.streets, 0, 0, view.width, view.height);
-    for (const vehicle of vehicles) this.draw_vehicle(context, vehicle);
+    for (const vehicle of vehicles) draw_car(context, view, this.drive, vehicle, clock.time);
     if (this.labels)
       for (const { station, x, y } of vehicles)
-        this.text(context, `${station}`, view.left(x) + 10, view.top(y) - 11, "11px", colour("ink"));
-    this.draw_flashes(context, vehicles);
+        draw_text(context, `${station}`, view.left(x) + 10, view.top(y) - 11, "11px", colour("ink"));
+    draw_rings(context, view, this.drive, vehicles, clock);
     this.show_tip(vehicles);
-  }
-
-  draw_vehicle(context, vehicle) {
-    const { front, rear, width } = this.drive.car;
-    const length = front + rear;
-    const scale = Math.max(this.view.scale, smallest_car / length);
-    // The middle stays in its place, however large the car is drawn.
-    const to_middle = length / 2 - rear;
-    const x = vehicle.x + to_middle * Math.cos(vehicle.heading);
-    const y = vehicle.y + to_middle * Math.sin(vehicle.heading);
-    const paint = this.colour_of(vehicle);
-    const [long, wide] = [length * scale, Math.max(width * scale, 7)];
-    context.save();
-    context.translate(this.view.left(x), this.view.top(y));
-    context.rotate(-vehicle.heading);
-    context.beginPath();
-    context.roundRect(-long / 2, -wide / 2, long, wide, wide / 4);
-    context.lineWidth = 3.5;
-    context.strokeStyle = colour("panel");
-    context.stroke();
-    context.lineWidth = 1.5;
-    context.strokeStyle = paint;
-    context.fillStyle = vehicle.remote ? paint : colour("panel");
-    context.fill();
-    context.stroke();
-    context.fillStyle = vehicle.remote ? colour("panel") : paint;
-    context.fillRect(0.12 * long, -0.3 * wide, 0.16 * long, 0.6 * wide);
-    context.restore();
-  }
-
-  draw_flashes(context, vehicles) {
-    const { clock, drive, view } = this;
-    const lasts = flash_s * Math.max(clock.speed, 1);
-    const alarms = drive.alarms_between(clock.time - lasts, clock.time);
-    const latest = new Map(alarms.map((alarm) => [alarm.station || alarm.provider, alarm]));
-    for (const alarm of latest.values()) {
-      const at =
-        vehicles.find(({ station }) => station === alarm.station) ?? this.provider_at(alarm);
-      if (!at) continue;
-      const age = (clock.time - alarm.t) / lasts;
-      context.globalAlpha = 1 - age;
-      context.strokeStyle = colour("alarm");
-      context.lineWidth = 3;
-      context.beginPath();
-      const radius = is_calm() ? 16 : 10 + 18 * age;
-      context.arc(view.left(at.x), view.top(at.y), radius, 0, 2 * Math.PI);
-      context.stroke();
-      context.globalAlpha = 1;
-    }
-  }
-
-  provider_at({ provider }) {
-    const found = this.drive.providers.find(({ name }) => name === provider);
-    return found && { x: found.at[0], y: found.at[1] };
   }
 
   nearest(vehicles, { x, y }) {

@@ -9,6 +9,7 @@ const thin_height = 3; // of further services, below
 const gutter = 46; // for the stations
 const rim = 18;
 const axis_height = 22;
+const most_height = 384;
 const steps = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400];
 
 export function clock_text(time) {
@@ -23,6 +24,10 @@ export class Timeline {
   constructor(drive, clock) {
     this.drive = drive;
     this.clock = clock;
+    this.alarms = new Map(drive.stations.map((station) => [station, []]));
+    this.alarms_of_all = [];
+    for (const alarm of drive.alarms)
+      (this.alarms.get(alarm.station) ?? this.alarms_of_all).push(alarm);
     this.canvas = element("canvas", {
       role: "img",
       "aria-label": `Offloading of each vehicle in ${drive.name}, by time`,
@@ -32,21 +37,26 @@ export class Timeline {
     });
     this.cursor = element("div.cursor", {});
     this.tip = element("div.tip", { hidden: true });
-    this.body = element("div.strips", {}, this.canvas, this.cursor, this.tip);
-    this.shown = element("div.timeline", { tabindex: "-1" }, this.body);
+    // Only what is in sight is drawn: the window stays where it is while the
+    // strips scroll.
+    this.window = element("div.window", {}, this.canvas, this.cursor, this.tip);
+    this.room = element("div.room", {}, this.window);
+    this.shown = element("div.timeline", { scroll: () => this.draw() }, this.room);
     new ResizeObserver(() => this.resize()).observe(this.shown);
     on_theme(() => this.draw());
     clock.on_change(() => this.show_time());
   }
 
-  get height() {
-    return this.drive.stations.length * row_height + axis_height;
+  get rows_height() {
+    return this.drive.stations.length * row_height;
   }
 
   resize() {
     this.width = this.shown.clientWidth;
     if (!this.width) return;
-    this.body.style.height = `${this.height}px`;
+    this.height = Math.min(this.rows_height + axis_height, most_height);
+    this.room.style.height = `${this.rows_height + axis_height}px`;
+    this.window.style.height = `${this.height}px`;
     this.canvas.width = Math.round(this.width * devicePixelRatio);
     this.canvas.height = Math.round(this.height * devicePixelRatio);
     this.draw();
@@ -64,23 +74,39 @@ export class Timeline {
     return ((event.clientX - box.left - gutter) / span) * this.clock.until;
   }
 
+  /// @returns the row at a place in the window.
+  row_at(top) {
+    return Math.floor((top + this.shown.scrollTop) / row_height);
+  }
+
   draw() {
+    if (!this.width) return;
     const context = this.canvas.getContext("2d");
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
     context.font = "11px system-ui, sans-serif";
     context.textBaseline = "middle";
-    this.draw_axis(context);
-    this.drive.stations.forEach((station, row) => this.draw_row(context, station, row));
-    for (const alarm of this.drive.alarms) this.draw_alarm(context, alarm);
+    const bottom = this.height - axis_height;
+    this.draw_axis(context, bottom);
+    context.save();
+    context.beginPath();
+    context.rect(0, 0, this.width, bottom);
+    context.clip();
+    const { stations } = this.drive;
+    const last = Math.min(this.row_at(bottom), stations.length - 1);
+    for (let row = this.row_at(0); row <= last; ++row)
+      this.draw_row(context, stations[row], row * row_height - this.shown.scrollTop);
+    context.fillStyle = colour("alarm");
+    for (const { t } of this.alarms_of_all) context.fillRect(this.left(t) - 0.75, 0, 1.5, bottom);
+    context.restore();
   }
 
-  draw_axis(context) {
+  draw_axis(context, bottom) {
+    const { until } = this.clock;
     const room = (this.width - gutter - rim) / 64; // labels that fit
-    const step = steps.find((one) => this.clock.until / one <= room) ?? steps.at(-1);
-    const bottom = this.height - axis_height;
+    const step = steps.find((one) => until / one <= room) ?? until / room;
     context.textAlign = "center";
-    for (let time = 0; time <= this.clock.until; time += step) {
+    for (let time = 0; time <= until; time += step) {
       const left = Math.round(this.left(time)) + 0.5;
       context.fillStyle = colour("line");
       context.fillRect(left - 0.5, 0, 1, bottom + 4);
@@ -89,42 +115,32 @@ export class Timeline {
     }
   }
 
-  draw_row(context, station, row) {
+  draw_row(context, station, row_top) {
     const { drive } = this;
-    const top = row * row_height + 4;
+    const top = row_top + 4;
     context.fillStyle = colour("soft");
     context.textAlign = "right";
     context.fillText(`${station}`, gutter - 8, top + strip_height / 2);
-    const vehicle = drive.vehicles.find((one) => one.station === station);
-    if (vehicle?.t.length)
-      this.bar(context, vehicle.t[0], vehicle.t[vehicle.t.length - 1], top, strip_height, colour("strip"));
-    for (const one of drive.offloadings) {
-      if (one.station !== station) continue;
-      const place = drive.services.indexOf(one.service);
-      const paint = series_colour(drive.place_of(one.provider));
-      if (place <= 0) this.bar(context, one.from, one.until, top, strip_height, paint);
-      else {
-        const lower = top + strip_height + 1 + (place - 1) * (thin_height + 1);
-        this.bar(context, one.from, one.until, lower, thin_height, paint);
-      }
+    const driven = drive.driven.get(station);
+    if (driven) this.bar(context, driven, top, strip_height, colour("strip"));
+    for (const { from, until, service, provider } of drive.offloaded.get(station)) {
+      const place = drive.services.indexOf(service);
+      const paint = series_colour(drive.place_of(provider));
+      const lower = top + strip_height + 1 + (place - 1) * (thin_height + 1);
+      if (place <= 0) this.bar(context, [from, until], top, strip_height, paint);
+      else this.bar(context, [from, until], lower, thin_height, paint);
     }
+    context.fillStyle = colour("alarm");
+    for (const { t } of this.alarms.get(station)) this.draw_alarm(context, this.left(t), row_top + 1);
   }
 
-  bar(context, from, until, top, height, paint) {
+  bar(context, [from, until], top, height, paint) {
     const left = this.left(from);
     context.fillStyle = paint;
     context.fillRect(left, top, Math.max(this.left(until) - left, 1.5), height);
   }
 
-  draw_alarm(context, alarm) {
-    const row = this.drive.stations.indexOf(alarm.station);
-    const left = this.left(alarm.t);
-    context.fillStyle = colour("alarm");
-    if (row < 0) {
-      context.fillRect(left - 0.75, 0, 1.5, this.height - axis_height);
-      return;
-    }
-    const top = row * row_height + 1;
+  draw_alarm(context, left, top) {
     context.beginPath();
     context.moveTo(left - 4, top);
     context.lineTo(left + 4, top);
@@ -141,12 +157,13 @@ export class Timeline {
     this.clock.seek(this.time_at(event));
   }
 
+  /// Seeks while the button is down; tells about the offloading below.
   move(event) {
     if (event.buttons & 1) this.clock.seek(this.time_at(event));
     const box = this.canvas.getBoundingClientRect();
-    const row = Math.floor((event.clientY - box.top) / row_height);
+    const [left, top] = [event.clientX - box.left, event.clientY - box.top];
     const time = this.time_at(event);
-    const station = this.drive.stations[row];
+    const station = this.drive.stations[this.row_at(top)];
     const planned = this.drive.planned.get(station) ?? [];
     const one = planned[last_before(planned.map(({ from }) => from), time)];
     this.tip.hidden = !one || time > one.until;
@@ -154,9 +171,8 @@ export class Timeline {
     this.tip.textContent =
       `${station} at ${one.provider || "a provider"}, ` +
       `${one.from.toFixed(1)} to ${one.until.toFixed(1)} s`;
-    const left = event.clientX - box.left;
     this.tip.classList.toggle("leftwards", left > this.width / 2);
     this.tip.style.left = `${left}px`;
-    this.tip.style.top = `${row * row_height + row_height / 2}px`;
+    this.tip.style.top = `${top}px`;
   }
 }

@@ -1,0 +1,69 @@
+// What moves on a map: vehicles, and rings round those that something befell.
+import { colour, is_calm, series_colour } from "../theme.js";
+
+// However far away a car is, it is as many pixels long; of a crowd, fewer.
+const smallest_car = 15;
+const smallest_of_crowd = 8;
+const crowd = 100;
+const ring_s = 1.4; // of the reader's time
+
+function colour_of(vehicle, drive, time) {
+  if (!vehicle.remote) return colour("local");
+  return series_colour(drive.place_of(drive.planner_at(vehicle.station, time)));
+}
+
+/// Draws a car as large as it is, or as can be seen: filled with its
+/// provider's colour, hollow when it plans for itself.
+export function draw_car(context, view, drive, vehicle, time) {
+  const { front, rear, width } = drive.car;
+  const length = front + rear;
+  const least = drive.vehicles.length > crowd ? smallest_of_crowd : smallest_car;
+  const scale = Math.max(view.scale, least / length);
+  // The middle stays in its place, however large the car is drawn.
+  const to_middle = length / 2 - rear;
+  const x = vehicle.x + to_middle * Math.cos(vehicle.heading);
+  const y = vehicle.y + to_middle * Math.sin(vehicle.heading);
+  const ink = colour_of(vehicle, drive, time);
+  const [long, wide] = [length * scale, Math.max(width * scale, 0.45 * least)];
+  context.save();
+  context.translate(view.left(x), view.top(y));
+  context.rotate(-vehicle.heading);
+  context.beginPath();
+  context.roundRect(-long / 2, -wide / 2, long, wide, wide / 4);
+  context.lineWidth = 3.5;
+  context.strokeStyle = colour("panel");
+  context.stroke();
+  context.lineWidth = 1.5;
+  context.strokeStyle = ink;
+  context.fillStyle = vehicle.remote ? ink : colour("panel");
+  context.fill();
+  context.stroke();
+  context.fillStyle = vehicle.remote ? colour("panel") : ink;
+  context.fillRect(0.12 * long, -0.3 * wide, 0.16 * long, 0.6 * wide);
+  context.restore();
+}
+
+function provider_of({ provider }, drive) {
+  const found = drive.providers.find(({ name }) => name === provider);
+  return found && { x: found.at[0], y: found.at[1] };
+}
+
+/// Draws a ring round whoever met with an alarm just now, the latest of each.
+export function draw_rings(context, view, drive, vehicles, { time, speed }) {
+  const lasts = ring_s * Math.max(speed, 1);
+  const alarms = drive.alarms_between(time - lasts, time);
+  const latest = new Map(alarms.map((alarm) => [alarm.station || alarm.provider, alarm]));
+  context.strokeStyle = colour("alarm");
+  context.lineWidth = 3;
+  for (const alarm of latest.values()) {
+    const at =
+      vehicles.find(({ station }) => station === alarm.station) ?? provider_of(alarm, drive);
+    if (!at) continue;
+    const age = (time - alarm.t) / lasts;
+    context.globalAlpha = 1 - age;
+    context.beginPath();
+    context.arc(view.left(at.x), view.top(at.y), is_calm() ? 16 : 10 + 18 * age, 0, 2 * Math.PI);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+}

@@ -1,0 +1,85 @@
+// What stands still on a map: areas, houses, streets, providers, the scale.
+import { colour, series_colour } from "../theme.js";
+
+const longest_bar = 120; // pixels, of the scale
+
+function outline(context, view, corners) {
+  context.beginPath();
+  for (const [x, y] of corners) context.lineTo(view.left(x), view.top(y));
+  context.closePath();
+}
+
+/// Draws a text that stands out from what is below it.
+export function draw_text(context, text, left, top, style, ink) {
+  context.font = `${style} system-ui, sans-serif`;
+  context.textBaseline = "middle";
+  context.lineWidth = 3;
+  context.strokeStyle = colour("panel");
+  context.strokeText(text, left, top);
+  context.fillStyle = ink;
+  context.fillText(text, left, top);
+}
+
+function draw_provider(context, view, { name, at, area, sensors }, ink) {
+  context.strokeStyle = context.fillStyle = ink;
+  context.lineWidth = 1.25;
+  context.setLineDash([5, 4]);
+  outline(context, view, area);
+  context.stroke();
+  context.setLineDash([]);
+  for (const [x, y] of sensors) {
+    context.beginPath();
+    context.arc(view.left(x), view.top(y), 6, 0, 2 * Math.PI);
+    context.stroke();
+  }
+  const [left, top] = [view.left(at[0]), view.top(at[1])];
+  context.beginPath();
+  context.moveTo(left, top - 6);
+  context.lineTo(left + 6, top);
+  context.lineTo(left, top + 6);
+  context.lineTo(left - 6, top);
+  context.fill();
+  draw_text(context, name, left + 11, top, "600 12px", ink);
+}
+
+/// Draws a bar of a round number of metres.
+function draw_scale(context, { scale, height }) {
+  const most = longest_bar / scale;
+  const decade = 10 ** Math.floor(Math.log10(most));
+  const length = decade * [5, 2, 1].find((one) => one * decade <= most);
+  context.fillStyle = colour("soft");
+  context.fillRect(8, height - 10, length * scale, 2);
+  const text = length < 1000 ? `${length} m` : `${length / 1000} km`;
+  draw_text(context, text, 8, height - 20, "11px", colour("soft"));
+}
+
+export function draw_scenery(context, view, drive) {
+  drive.providers.forEach(({ area }, i) => {
+    outline(context, view, area);
+    context.globalAlpha = 0.09;
+    context.fillStyle = series_colour(i);
+    context.fill();
+  });
+  context.globalAlpha = 1;
+  context.fillStyle = colour("house");
+  for (const house of drive.houses) {
+    outline(context, view, house);
+    context.fill();
+  }
+  context.strokeStyle = colour("street");
+  for (const { x, y, half_width } of drive.lanes) {
+    context.lineWidth = Math.max(2 * half_width * view.scale, 1.5);
+    context.beginPath();
+    for (let i = 0; i < x.length; ++i) context.lineTo(view.left(x[i]), view.top(y[i]));
+    context.stroke();
+  }
+  context.fillStyle = colour("soft");
+  for (const obstacle of drive.obstacles) {
+    outline(context, view, obstacle);
+    context.fill();
+  }
+  drive.providers.forEach((provider, i) =>
+    draw_provider(context, view, provider, series_colour(i)),
+  );
+  draw_scale(context, view);
+}

@@ -1,0 +1,15 @@
+// What stands still on the map of a drive.
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace sofof::report {
+
+/// @param what  Loaded.
+/// @returns lanes, houses, obstacles, and providers with their areas and
+/// sensors.
+nlohmann::json scenery_json(const scenario& what);
+
+} // namespace sofof::report
