@@ -72,7 +72,8 @@ struct session_state {
                          + (words_per_station_s + credits_per_station_s)
                                * static_cast<double>(setup.stations.size());
     attention.emplace(words_s, burst_s * words_s);
-    results.emplace(streams_per_station * setup.stations.size());
+    results.emplace(streams_per_station * setup.stations.size(),
+                    protocol::silence_limit);
     self->monitor(setup.peer);
     self->monitor(setup.provider);
     note("peer_connected", 0,
@@ -129,7 +130,7 @@ struct session_state {
 
   // -- what the peer says ---------------------------------------------------
 
-  // What is dropped is acknowledged, too: its stream would stop for good.
+  // What is dropped is acknowledged, too: its stream would stop for a while.
   void take(station_id station, const its_pdu& message) {
     if (!speaks_for(station))
       return;
@@ -194,13 +195,12 @@ struct session_state {
 
   void take(const service_result& result) {
     const auto stream = stream_of(result.running, stream_id::what::result);
-    if (const auto next = results->offer(stream, result))
+    if (const auto next = results->offer(stream, result, now(self)))
       self->send(setup.peer, *next);
   }
 
   void acknowledge(const stream_id& stream) {
-    life->hear(now(self));
-    if (const auto next = results->acknowledge(stream))
+    if (const auto next = results->acknowledge(stream, now(self)))
       self->send(setup.peer, *next);
   }
 

@@ -55,7 +55,8 @@ struct uplink_state {
   std::string last_news;
 
   void start() {
-    words.emplace(streams_per_station * setup.stations.size());
+    words.emplace(streams_per_station * setup.stations.size(),
+                  protocol::silence_limit);
     plan_attempt();
     tick();
   }
@@ -209,7 +210,7 @@ struct uplink_state {
   void say(const stream_id& stream, word what) {
     if (!session)
       return;
-    if (auto next = words->offer(stream, std::move(what)))
+    if (auto next = words->offer(stream, std::move(what), now(self)))
       send(stream, *next);
   }
 
@@ -221,7 +222,7 @@ struct uplink_state {
   }
 
   void acknowledge(const stream_id& stream) {
-    if (auto next = words->acknowledge(stream))
+    if (auto next = words->acknowledge(stream, now(self)))
       send(stream, *next);
   }
 

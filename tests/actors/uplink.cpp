@@ -385,6 +385,19 @@ TEST_CASE_FIXTURE(uplink_world, "protocol messages do not wait for a provider "
 
 TEST_CASE_FIXTURE(uplink_world, "results are acknowledged as they come") {
   connect();
+TEST_CASE_FIXTURE(uplink_world, "CAMs whose acknowledgement got lost go on "
+                                "after a second") {
+  connect();
+  for (int k = 1; k <= 21; ++k) {
+    say_cam(k);
+    live(100ms);
+  }
+  std::vector<double> speeds;
+  for (const auto& pdu : session->seconds<its_pdu>())
+    speeds.push_back(motion_in(pdu, now()).speed_mps);
+  CHECK(speeds == std::vector<double>{1, 11, 21});
+}
+
   result(one, 1, now());
   result(two, 1, now());
   CHECK(session->all<stream_id>()
