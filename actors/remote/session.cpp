@@ -98,7 +98,6 @@ struct session_state {
   bool speaks_for(station_id station) {
     if (!is_from_peer())
       return false;
-    life->hear(now(self));
     const auto does = setup.stations.contains(station);
     if (!does)
       drop(station, "speaks for another station");
@@ -277,7 +276,6 @@ session(session_impl::stateful_pointer<session_state> self,
       [self](const life_sign& sign) {
         if (!self->state.is_from_peer())
           return;
-        self->state.life->hear(now(self));
         self->send(self->state.setup.peer, pulse::answer(sign, now(self)));
       },
       [self](const life_echo& echo) {

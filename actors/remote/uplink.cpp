@@ -65,7 +65,7 @@ struct uplink_state {
     const auto t = now(self);
     if (session) {
       if (life->is_lost(t))
-        disconnected("it has been silent for a second");
+        disconnected("it has answered nothing for a second");
       else
         self->send(session, life->beat(t));
     }
@@ -245,12 +245,9 @@ struct uplink_state {
   // -- what the provider says -----------------------------------------------
 
   bool is_from_session() {
-    const auto is = session
-                    && self->current_sender()
-                           == caf::actor_cast<caf::strong_actor_ptr>(session);
-    if (is)
-      life->hear(now(self));
-    return is;
+    return session
+           && self->current_sender()
+                  == caf::actor_cast<caf::strong_actor_ptr>(session);
   }
 
   template <class Message>

@@ -190,6 +190,25 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
 
 TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
                                 "end again with the next") {
+TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
+                                "what was asked within a second, is lost") {
+  connect();
+  const auto speak = [&](duration d) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      say(life_sign{1, now()});
+      result(one, 1, now());
+    }
+  };
+  speak(1s);
+  CHECK(notes("provider_lost") == 0);
+  speak(50ms);
+  CHECK(notes("provider_lost") == 1);
+  CHECK(news[1]
+        == "lost provider server at 10.0.0.5:4711: it has answered nothing for "
+           "a second; vehicles plan for themselves");
+}
+
   connect();
   accept(one);
   kill(session.handle);
