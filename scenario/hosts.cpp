@@ -131,21 +131,26 @@ private:
   std::optional<tls_door> door_;
 };
 
-/// @returns why a peer must not speak for its stations.
-std::optional<std::string> doubt(const credentials& own,
-                                 const peer_hello& hello,
-                                 const std::string& nonce) {
+/// On this machine alone nobody proves anything, and any stations are a peer.
+peer_finding believe(const peer_hello& hello) {
+  const std::set<station_id> all{hello.stations.begin(), hello.stations.end()};
+  return {describe(peer_identity{{all.begin(), all.end()}, {}}), {}};
+}
+
+peer_finding examine(const credentials& own, const peer_hello& hello,
+                     const std::string& nonce) {
   const auto& provider = own.identity().provider;
   const auto proved =
       own.prove(hello.certificate, proof_of(nonce, provider, hello.stations),
                 hello.signature);
   if (!proved.who)
-    return proved.refusal;
+    return {{}, proved.refusal};
   for (const auto station : hello.stations)
     if (!proved.who->has(station))
-      return fmt::format("its certificate is for {}, not for station {}",
-                         describe(*proved.who), station);
-  return std::nullopt;
+      return {{},
+              fmt::format("its certificate is for {}, not for station {}",
+                          describe(*proved.who), station)};
+  return {describe(*proved.who), {}};
 }
 
 void check_identity(const credentials& own, const std::string& folder,
@@ -223,8 +228,8 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.clock = time->clock();
     setup.recorder = actors.recorder;
     setup.draw_nonce = &draw_nonce;
-    setup.doubt = [&own](const peer_hello& hello, const std::string& nonce) {
-      return own ? doubt(*own, hello, nonce) : std::nullopt;
+    setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
+      return own ? examine(*own, hello, nonce) : believe(hello);
     };
     const auto at = door.open(
         *time, spawn_gate(time->system(), std::move(setup)),

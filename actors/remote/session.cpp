@@ -261,6 +261,9 @@ session(session_impl::stateful_pointer<session_state> self,
   self->state.start();
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down); });
+  // The gate has let its stations in anew.
+  self->set_exit_handler(
+      [self](const caf::exit_msg&) { self->state.leave("replaced"); });
   return {
       [self](station_id station, const its_pdu& message) {
         self->state.take(station, message);

@@ -117,7 +117,7 @@ struct uplink_state {
                                     spoken(protocol, theirs),
                                     spoken(setup.protocol, types)));
               else if (!in)
-                not_now("too many are introducing themselves there");
+                not_now("it lets nobody in now");
               else
                 introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
             },
@@ -125,8 +125,12 @@ struct uplink_state {
   }
 
   void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
-    peer_hello hello{
-        setup.stations, setup.world, setup.clock.epoch_unix_ms(), {}, {}};
+    peer_hello hello{setup.provider,
+                     setup.stations,
+                     setup.world,
+                     setup.clock.epoch_unix_ms(),
+                     {},
+                     {}};
     setup.prove(hello, nonce);
     self->request(entrance, protocol::introduction_timeout, std::move(hello),
                   uplink_actor{uplink_impl{self}})
@@ -135,8 +139,6 @@ struct uplink_state {
                                          const session_actor& with) {
               if (!with || with.node() != at)
                 not_now("it has no end of its own");
-              else if (welcome.name != setup.provider)
-                refused(fmt::format("it is provider {}", welcome.name));
               else if (!is_time_of_day(welcome.epoch_unix_ms))
                 refused("its clock shows no time of day");
               else

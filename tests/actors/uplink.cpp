@@ -9,10 +9,12 @@ using namespace sofof::test;
 
 // -- introductions -----------------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "an uplink says whom it speaks for, on which "
-                                "map, and proves it") {
+TEST_CASE_FIXTURE(uplink_world,
+                  "an uplink says whom it speaks to and for, on which "
+                  "map, and proves it") {
   start();
   REQUIRE(host->hellos.size() == 1);
+  CHECK(host->hellos[0].provider == "server");
   CHECK(host->hellos[0].stations == std::vector{station, neighbour});
   CHECK(host->hellos[0].world == 5);
   CHECK(host->hellos[0].certificate == "proof of a number");
@@ -29,8 +31,8 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   const std::string begin = "provider server at 10.0.0.5:4711 refuses: ";
   std::string why;
   SUBCASE("for its version") {
-    host->protocol = 2;
-    why = "it speaks " + spoken(2, host->types) + ", this program "
+    host->protocol = remote_protocol + 1;
+    why = "it speaks " + spoken(host->protocol, host->types) + ", this program "
           + spoken(remote_protocol, host->types)
           + "; install the same version on both sides";
   }
@@ -43,10 +45,6 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   SUBCASE("for what the entrance says") {
     host->refusal = "101 is another's station";
     why = *host->refusal;
-  }
-  SUBCASE("as it meant another provider") {
-    host->welcome.name = "elsewhere";
-    why = "it is provider elsewhere";
   }
   SUBCASE("as the provider's time makes no sense") {
     host->welcome.epoch_unix_ms = std::numeric_limits<std::int64_t>::max();
@@ -86,7 +84,7 @@ TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
   }
   SUBCASE("no room") {
     host->full = true;
-    why = "too many are introducing themselves there";
+    why = "it lets nobody in now";
   }
   SUBCASE("no end") {
     host->session = nullptr;

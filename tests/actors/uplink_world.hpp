@@ -29,7 +29,7 @@ struct host_script {
   std::uint32_t protocol = remote_protocol;
   std::uint64_t types = fingerprint_of_types();
   std::string nonce = "a number";
-  peer_welcome welcome{11, "server", etsi::virtual_epoch_unix_ms};
+  peer_welcome welcome{11, etsi::virtual_epoch_unix_ms};
   std::optional<std::string> refusal;
   bool full = false;
   bool answers = true;
