@@ -3,6 +3,7 @@
 
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
+#include "actors/supervisor.hpp"
 #include "network/credentials.hpp"
 #include "network/nonce.hpp"
 #include "network/tls_dialer.hpp"
@@ -231,9 +232,12 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
       return own ? examine(*own, hello, nonce) : believe(hello);
     };
-    const auto at = door.open(
-        *time, spawn_gate(time->system(), std::move(setup)),
-        [board](const std::string& why) { board->tell("refused: " + why); });
+    const auto gate = spawn_gate(time->system(), std::move(setup));
+    watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
+                  "the gate");
+    const auto at = door.open(*time, gate, [board](const std::string& why) {
+      board->tell("refused: " + why);
+    });
     console << fmt::format("provider {} listens on {}{}", name,
                            print_address(at),
                            own ? "" : ", for this machine alone")
