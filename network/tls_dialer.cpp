@@ -198,7 +198,12 @@ private:
       return;
     }
     at->until = now_ + options_.handshake_timeout;
-    at->handshake.emplace(*context_, at->far.get(), tls_side::opener);
+    try {
+      at->handshake.emplace(*context_, at->far.get(), tls_side::opener);
+    } catch (const network_error& e) {
+      give_up(at, e.what());
+      return;
+    }
     shake_hands(at);
   }
 
