@@ -292,6 +292,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
       };
       setup.prove = [&own = *own, provider = setup.provider](
                         peer_hello& hello, const std::string& nonce) {
+      setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
         hello.certificate = own.certificate_pem();
         hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
       };
@@ -310,7 +311,10 @@ run_outcome drive(const scenario& s, const drive_options& what,
            return spawn_uplink(time.system(), std::move(with));
          }});
   }
-  return run_part(s, options, here, *time, interrupted, console);
+  const auto outcome = run_part(s, options, here, *time, interrupted, console);
+  for (const auto& dialer : dialers)
+    dialer->hang_up(); // attempts end now
+  return outcome;
 }
 
 } // namespace sofof

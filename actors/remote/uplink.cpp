@@ -68,9 +68,9 @@ struct uplink_state {
         disconnected("it has answered nothing for a second");
       else
         self->send(session, life->beat(t));
-    }
-    if (!session && t >= next_attempt)
+    } else if (t >= next_attempt) {
       attempt();
+    }
     send_after(self, self, protocol::life_sign_period, tick_atom_v);
   }
 
@@ -195,6 +195,7 @@ struct uplink_state {
     words->clear();
     plan_attempt();
     for (const auto& x : running)
+    setup.hang_up();
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
     running.clear();
     note("provider_lost", 0, why);

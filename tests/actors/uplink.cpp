@@ -234,6 +234,17 @@ TEST_CASE_FIXTURE(uplink_world,
                   "the death of somebody else does not end a connection") {
   connect();
   const auto before = session;
+TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
+                                "before the next attempt") {
+  connect();
+  attempts.clear();
+  CHECK(hung_up.empty());
+  run_for(1100ms); // silent
+  REQUIRE(hung_up.size() == 1);
+  REQUIRE(attempts.size() == 1);
+  CHECK(attempts.front() - hung_up.front() == protocol::life_sign_period);
+}
+
   SUBCASE("of anybody") {
     tell_as(requester.handle, host->peer,
             caf::down_msg{recorder.handle.address(), caf::exit_reason::kill});
