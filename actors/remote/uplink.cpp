@@ -171,7 +171,9 @@ struct uplink_state {
   static std::string sentence(const caf::error& error) {
     if (error.context().match_elements<std::string>())
       return error.context().get_as<std::string>(0);
-    return to_string(error);
+    if (error == caf::sec::request_timeout)
+      return "it does not answer";
+    return "it has closed the connection meanwhile";
   }
 
   void connected(const peer_welcome& welcome, const session_actor& with) {
@@ -193,9 +195,9 @@ struct uplink_state {
     session = nullptr;
     life.reset();
     words->clear();
+    setup.hang_up();
     plan_attempt();
     for (const auto& x : running)
-    setup.hang_up();
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
     running.clear();
     note("provider_lost", 0, why);

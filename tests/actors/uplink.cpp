@@ -115,6 +115,10 @@ TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
   run_for(10s);
   CHECK(host->knocks <= 6);
   CHECK(refusals.empty());
+  CHECK(news
+        == std::vector<std::string>{
+            "no connection to provider server at 10.0.0.5:4711: it does not "
+            "answer; trying again"});
   host->answers = true;
   run_for(protocol::introduction_timeout + 1050ms);
   CHECK(notes("provider_connected") == 1);
@@ -186,8 +190,6 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   CHECK(notes("provider_lost") == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
-                                "end again with the next") {
 TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
                                 "what was asked within a second, is lost") {
   connect();
@@ -207,6 +209,8 @@ TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
            "a second; vehicles plan for themselves");
 }
 
+TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
+                                "end again with the next") {
   connect();
   accept(one);
   kill(session.handle);
@@ -230,10 +234,6 @@ TEST_CASE_FIXTURE(uplink_world, "after the connection is lost the next attempt "
   CHECK(attempts.front() - lost <= 50ms);
 }
 
-TEST_CASE_FIXTURE(uplink_world,
-                  "the death of somebody else does not end a connection") {
-  connect();
-  const auto before = session;
 TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
                                 "before the next attempt") {
   connect();
@@ -245,6 +245,10 @@ TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
   CHECK(attempts.front() - hung_up.front() == protocol::life_sign_period);
 }
 
+TEST_CASE_FIXTURE(uplink_world,
+                  "the death of somebody else does not end a connection") {
+  connect();
+  const auto before = session;
   SUBCASE("of anybody") {
     tell_as(requester.handle, host->peer,
             caf::down_msg{recorder.handle.address(), caf::exit_reason::kill});
@@ -381,6 +385,19 @@ TEST_CASE_FIXTURE(uplink_world, "while the provider acknowledges nothing, one "
   CHECK(speeds() == std::vector<double>{1, 7, 50, 12});
 }
 
+TEST_CASE_FIXTURE(uplink_world, "CAMs whose acknowledgement got lost go on "
+                                "after a second") {
+  connect();
+  for (int k = 1; k <= 21; ++k) {
+    say_cam(k);
+    live(100ms);
+  }
+  std::vector<double> speeds;
+  for (const auto& pdu : session->seconds<its_pdu>())
+    speeds.push_back(motion_in(pdu, now()).speed_mps);
+  CHECK(speeds == std::vector<double>{1, 11, 21});
+}
+
 TEST_CASE_FIXTURE(uplink_world, "CAMs, CPMs and inputs do not wait for one "
                                 "another") {
   connect();
@@ -413,19 +430,6 @@ TEST_CASE_FIXTURE(uplink_world, "protocol messages do not wait for a provider "
 
 TEST_CASE_FIXTURE(uplink_world, "results are acknowledged as they come") {
   connect();
-TEST_CASE_FIXTURE(uplink_world, "CAMs whose acknowledgement got lost go on "
-                                "after a second") {
-  connect();
-  for (int k = 1; k <= 21; ++k) {
-    say_cam(k);
-    live(100ms);
-  }
-  std::vector<double> speeds;
-  for (const auto& pdu : session->seconds<its_pdu>())
-    speeds.push_back(motion_in(pdu, now()).speed_mps);
-  CHECK(speeds == std::vector<double>{1, 11, 21});
-}
-
   result(one, 1, now());
   result(two, 1, now());
   CHECK(session->all<stream_id>()
