@@ -211,6 +211,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
   options.network = "real";
+  options.whose = name;
   options.news = [board] { return board->take(); };
   part here;
   here.drives = [](station_id) { return false; };
@@ -262,6 +263,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
   options.network = "real";
+  options.whose = "cars";
   options.news = [board] { return board->take(); };
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
@@ -290,9 +292,9 @@ run_outcome drive(const scenario& s, const drive_options& what,
           return why;
         return gate;
       };
+      setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
       setup.prove = [&own = *own, provider = setup.provider](
                         peer_hello& hello, const std::string& nonce) {
-      setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
         hello.certificate = own.certificate_pem();
         hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
       };
