@@ -164,12 +164,24 @@ struct requester_state {
   }
 
   known_provider& meet(boot_id id, const provider_actor& from) {
-    auto [i, is_new] = providers.try_emplace(id);
-    if (is_new) {
-      i->second.handle = from;
+    if (const auto i = providers.find(id); i != providers.end())
+      return i->second;
+    // Behind a handle is one provider, which has booted since.
+    const auto is_same = [&from](const auto& known) {
+      return known.second.handle == from;
+    };
+    if (std::ranges::none_of(providers, is_same))
       self->monitor(from);
-    }
-    return i->second;
+    std::erase_if(providers, [&](const auto& known) {
+      return is_same(known) && !is_in_use(known.first);
+    });
+    return providers.emplace(id, known_provider{from, {}, {}}).first->second;
+  }
+
+  bool is_in_use(boot_id id) const {
+    return std::ranges::any_of(slots, [id](const service_slot& slot) {
+      return slot.at != phase::local && slot.provider == id;
+    });
   }
 
   bool wants(const service_name& kind, const service_offer& offer,
@@ -388,6 +400,8 @@ struct requester_state {
                                           to_seconds(t - slot.first_data),
                                           name_of(reason)});
     }
+    std::erase_if(slot.cool_until,
+                  [t](const auto& other) { return other.second <= t; });
     if (fallback)
       slot.cool_until[slot.provider] = t + protocol::cool_down;
     slot.at = phase::local;

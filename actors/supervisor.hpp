@@ -19,4 +19,8 @@ spawn_supervisor(caf::actor_system& sys,
                  std::vector<std::pair<caf::actor, std::string>> watched,
                  std::function<void(const std::string&)> on_loss);
 
+/// Has a supervisor watch somebody who was spawned after it.
+void watch_as_well(const caf::actor& supervisor, const caf::actor& actor,
+                   const std::string& name);
+
 } // namespace sofof

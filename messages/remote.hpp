@@ -15,7 +15,7 @@ namespace sofof {
 
 /// Whose messages these are. Raised whenever their meaning changes; the types
 /// themselves are compared by a fingerprint of all their names.
-inline constexpr std::uint32_t remote_protocol = 1;
+inline constexpr std::uint32_t remote_protocol = 2;
 
 /// @returns whether a stranger's Unix time can be reckoned with.
 constexpr bool is_time_of_day(std::int64_t unix_ms) {
@@ -24,8 +24,9 @@ constexpr bool is_time_of_day(std::int64_t unix_ms) {
   return unix_ms >= 0 && unix_ms / 2 <= most;
 }
 
-/// Whom a process of vehicles speaks for, and how it can prove that.
+/// Whom a process of vehicles speaks for and to, and how it can prove that.
 struct peer_hello {
+  std::string provider; ///< The name of the one it means.
   std::vector<station_id> stations;
   std::uint64_t world = 0; ///< A fingerprint of its map and its services.
   std::int64_t epoch_unix_ms = 0; ///< Time of day when its clock stood at 0.
@@ -33,10 +34,9 @@ struct peer_hello {
   std::vector<std::byte> signature; ///< Of what `proof_of` says.
 };
 
-/// Which provider this is.
+/// Which boot of the provider this is.
 struct peer_welcome {
   boot_id boot = 0;
-  std::string name;
   std::int64_t epoch_unix_ms = 0;
 };
 
@@ -94,14 +94,14 @@ proof_of(const std::string& nonce, const std::string& provider,
 template <class Inspector>
 bool inspect(Inspector& f, peer_hello& x) {
   return f.object(x).fields(
-      f.field("stations", x.stations), f.field("world", x.world),
-      f.field("epoch_unix_ms", x.epoch_unix_ms),
+      f.field("provider", x.provider), f.field("stations", x.stations),
+      f.field("world", x.world), f.field("epoch_unix_ms", x.epoch_unix_ms),
       f.field("certificate", x.certificate), f.field("signature", x.signature));
 }
 
 template <class Inspector>
 bool inspect(Inspector& f, peer_welcome& x) {
-  return f.object(x).fields(f.field("boot", x.boot), f.field("name", x.name),
+  return f.object(x).fields(f.field("boot", x.boot),
                             f.field("epoch_unix_ms", x.epoch_unix_ms));
 }
 

@@ -37,8 +37,7 @@ carrier::~carrier() {
   stops_ = true;
   wake_.call();
   thread_.join();
-  for (auto& [number, load] : loads_)
-    load.tunnel.end(tunnel_end::cause::stopped);
+  drop_all();
   for (auto& tunnel : new_ones_)
     tunnel.end(tunnel_end::cause::stopped);
 }
@@ -48,6 +47,11 @@ void carrier::carry(tls_tunnel tunnel) {
     const std::lock_guard lock{mutex_};
     new_ones_.push_back(std::move(tunnel));
   }
+  wake_.call();
+}
+
+void carrier::drop() {
+  drops_ = true;
   wake_.call();
 }
 
@@ -64,6 +68,8 @@ void carrier::run() {
                         : 0);
     const auto now = deadline_clock::now();
     take_new_ones(now);
+    if (drops_.exchange(false))
+      drop_all();
     serve_ready_ones(now);
     if (now >= next_look) {
       close_idle_ones(now);
@@ -79,6 +85,13 @@ void carrier::take_new_ones(deadline now) {
     loads_.emplace(last_number_, load{std::move(tunnel), now});
   }
   new_ones_.clear();
+}
+
+void carrier::drop_all() {
+  for (auto& [number, load] : loads_)
+    load.tunnel.end(tunnel_end::cause::stopped);
+  loads_.clear();
+  ready_.clear();
 }
 
 void carrier::wait_for_events(int timeout_ms) {

@@ -30,6 +30,9 @@ public:
   /// Carries from now on. Any thread may call this.
   void carry(tls_tunnel tunnel);
 
+  /// Closes all tunnels, soon. Any thread may call this.
+  void drop();
+
 private:
   struct load {
     tls_tunnel tunnel;
@@ -42,6 +45,7 @@ private:
 
   void run();
   void take_new_ones(deadline now);
+  void drop_all();
   void wait_for_events(int timeout_ms);
   void make_ready(load_number number);
   void serve_ready_ones(deadline now);
@@ -53,6 +57,7 @@ private:
   descriptor epoll_;
   wake_up wake_;
   std::atomic<bool> stops_ = false;
+  std::atomic<bool> drops_ = false;
   std::mutex mutex_;
   std::vector<tls_tunnel> new_ones_; // guarded by mutex_
 

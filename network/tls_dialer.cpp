@@ -65,8 +65,13 @@ public:
 
   ~switchboard() {
     stops_ = true;
-    wake_.call();
+    wake_->call();
     thread_.join();
+  }
+
+  void hang_up() {
+    hangs_up_ = true;
+    wake_->call();
   }
 
   std::uint16_t port() const { return port_; }
@@ -81,7 +86,8 @@ private:
   struct call {
     descriptor near;
     deadline until;
-    std::vector<socket_address> addresses; ///< The next one to try is last.
+    /// The next one to try is last. None: they are looked up.
+    std::optional<std::vector<socket_address>> addresses;
     descriptor far;
     std::optional<tls_handshake> handshake; ///< Once connected.
     short waits_for = POLLOUT;
@@ -93,7 +99,7 @@ private:
     while (!stops_) {
       const auto events = wait();
       now_ = deadline_clock::now();
-      wake_.answer();
+      wake_->answer();
       // In the same order as they were waited for.
       auto at = calls_.begin();
       for (std::size_t i = first_call; i < events.size(); ++i) {
@@ -103,8 +109,13 @@ private:
         else if (now_ >= current->until)
           time_out(current);
       }
+      if (hangs_up_.exchange(false)) {
+        calls_.clear();
+        carrier_.drop();
+      }
       if (events[1].revents != 0)
         accept_one();
+      look_up();
     }
   }
 
@@ -115,7 +126,7 @@ private:
     if (pauses)
       next = accepts_again_;
     std::vector<pollfd> events{
-        {wake_.fd(), POLLIN, 0},
+        {wake_->fd(), POLLIN, 0},
         {listener_.get(), static_cast<short>(pauses ? 0 : POLLIN), 0}};
     for (const auto& call : calls_) {
       events.push_back({call.far.get(), call.waits_for, 0});
@@ -143,29 +154,50 @@ private:
                            options_.most_connections));
       return;
     }
-    auto addresses = resolve(options_.remote);
-    now_ = deadline_clock::now(); // the resolver may have taken its time
-    const auto is_known = !addresses.empty();
-    std::ranges::reverse(addresses);
     calls_.push_back({std::move(accepted.socket),
-                      now_,
-                      std::move(addresses),
+                      now_ + options_.lookup_timeout,
+                      {},
                       {},
                       {},
                       POLLOUT});
-    const auto at = std::prev(calls_.end());
-    if (is_known)
-      connect_next(at, 0);
-    else
-      give_up(at, "nobody knows this host");
   }
+
+  /// Asks for the addresses, once for all who wait for them.
+  void look_up() {
+    if (!lookup_ && std::ranges::any_of(calls_, &is_nowhere))
+      ask();
+    auto found = lookup_ ? lookup_->answer() : std::nullopt;
+    if (!found)
+      return;
+    lookup_.reset();
+    std::ranges::reverse(*found);
+    for (auto at = calls_.begin(); at != calls_.end();)
+      if (const auto current = at++; is_nowhere(*current)) {
+        current->addresses = found;
+        if (found->empty())
+          give_up(current, "nobody knows this host");
+        else
+          connect_next(current, 0);
+      }
+  }
+
+  void ask() {
+    try {
+      lookup_.emplace(options_.resolver, options_.remote, wake_);
+    } catch (const std::system_error& e) {
+      complain(e.what());
+      std::erase_if(calls_, &is_nowhere);
+    }
+  }
+
+  static bool is_nowhere(const call& x) { return !x.addresses; }
 
   /// Tries the next address.
   /// @param error  Why the one before it did not do.
   void connect_next(call_list::iterator at, int error) {
-    while (!at->addresses.empty()) {
-      auto started = start_connecting(at->addresses.back());
-      at->addresses.pop_back();
+    while (!at->addresses->empty()) {
+      auto started = start_connecting(at->addresses->back());
+      at->addresses->pop_back();
       at->far = std::move(started.socket);
       at->until = now_ + options_.connect_timeout;
       if (at->far)
@@ -176,7 +208,10 @@ private:
   }
 
   void time_out(call_list::iterator at) {
-    if (at->handshake)
+    if (is_nowhere(*at))
+      give_up(at, "its name was not found in time; give an address, or look "
+                  "after the name server");
+    else if (at->handshake)
       give_up(at, "it did not finish the TLS handshake in time; is it a plain "
                   "port?");
     else
@@ -198,7 +233,12 @@ private:
       return;
     }
     at->until = now_ + options_.handshake_timeout;
-    at->handshake.emplace(*context_, at->far.get(), tls_side::opener);
+    try {
+      at->handshake.emplace(*context_, at->far.get(), tls_side::opener);
+    } catch (const network_error& e) {
+      give_up(at, e.what());
+      return;
+    }
     shake_hands(at);
   }
 
@@ -276,12 +316,14 @@ private:
   const std::uint16_t port_;
   std::atomic<std::size_t> carried_ = 0;
   std::atomic<bool> stops_ = false;
-  wake_up wake_;
+  std::atomic<bool> hangs_up_ = false;
+  const std::shared_ptr<wake_up> wake_ = std::make_shared<wake_up>();
   mutable std::mutex mutex_;
   std::string last_error_; // guarded by mutex_
 
   // Of the thread:
   call_list calls_;
+  std::optional<name_lookup> lookup_;
   deadline now_ = deadline_clock::now();
   deadline accepts_again_ = now_;
 
@@ -293,6 +335,10 @@ tls_dialer::tls_dialer(const credentials* own, dialer_options options)
     : switchboard_{std::make_unique<switchboard>(own, std::move(options))} {}
 
 tls_dialer::~tls_dialer() = default;
+
+void tls_dialer::hang_up() {
+  switchboard_->hang_up();
+}
 
 std::uint16_t tls_dialer::port() const {
   return switchboard_->port();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "network/credentials.hpp"
+#include "network/name_lookup.hpp"
 #include "network/network_address.hpp"
 
 #include <chrono>
@@ -16,6 +17,8 @@ namespace sofof {
 struct dialer_options {
   network_address remote;
   std::string provider; ///< Whom its certificate must name; empty: anybody.
+  name_resolver resolver = &resolve;
+  std::chrono::milliseconds lookup_timeout{2000};
   /// For each address that the host has, one after the other.
   std::chrono::milliseconds connect_timeout{1000};
   std::chrono::milliseconds handshake_timeout{2000};
@@ -35,10 +38,14 @@ public:
   /// @throws network_error when the credentials name no stations, and when the
   /// system has no more files.
   tls_dialer(const credentials* own, dialer_options options);
-  /// Closes everything.
+  /// Closes everything, and does not wait for the resolver.
   ~tls_dialer();
   tls_dialer(const tls_dialer&) = delete;
   tls_dialer& operator=(const tls_dialer&) = delete;
+
+  /// Closes all connections, soon; new ones are welcome. Any thread may ask for
+  /// this.
+  void hang_up();
 
   /// @returns the port of 127.0.0.1 that leads to the remote host.
   std::uint16_t port() const;

@@ -141,14 +141,18 @@ private:
         make_room();
       give_up_after(socket, options_.idle);
       const auto fd = socket.get();
-      guests_.push_back({name,
-                         print_address(peer, false),
-                         now_ + options_.handshake_timeout,
-                         std::move(socket),
-                         {*context_, fd, tls_side::answerer},
-                         POLLIN,
-                         {},
-                         {}});
+      try {
+        guests_.push_back({name,
+                           print_address(peer, false),
+                           now_ + options_.handshake_timeout,
+                           std::move(socket),
+                           {*context_, fd, tls_side::answerer},
+                           POLLIN,
+                           {},
+                           {}});
+      } catch (const network_error& e) {
+        tell_refusal(name, e.what());
+      }
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
+#include "actors/supervisor.hpp"
 #include "network/credentials.hpp"
 #include "network/nonce.hpp"
 #include "network/tls_dialer.hpp"
@@ -131,21 +132,26 @@ private:
   std::optional<tls_door> door_;
 };
 
-/// @returns why a peer must not speak for its stations.
-std::optional<std::string> doubt(const credentials& own,
-                                 const peer_hello& hello,
-                                 const std::string& nonce) {
+/// On this machine alone nobody proves anything, and any stations are a peer.
+peer_finding believe(const peer_hello& hello) {
+  const std::set<station_id> all{hello.stations.begin(), hello.stations.end()};
+  return {describe(peer_identity{{all.begin(), all.end()}, {}}), {}};
+}
+
+peer_finding examine(const credentials& own, const peer_hello& hello,
+                     const std::string& nonce) {
   const auto& provider = own.identity().provider;
   const auto proved =
       own.prove(hello.certificate, proof_of(nonce, provider, hello.stations),
                 hello.signature);
   if (!proved.who)
-    return proved.refusal;
+    return {{}, proved.refusal};
   for (const auto station : hello.stations)
     if (!proved.who->has(station))
-      return fmt::format("its certificate is for {}, not for station {}",
-                         describe(*proved.who), station);
-  return std::nullopt;
+      return {{},
+              fmt::format("its certificate is for {}, not for station {}",
+                          describe(*proved.who), station)};
+  return {describe(*proved.who), {}};
 }
 
 void check_identity(const credentials& own, const std::string& folder,
@@ -205,6 +211,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
   options.network = "real";
+  options.whose = name;
   options.news = [board] { return board->take(); };
   part here;
   here.drives = [](station_id) { return false; };
@@ -223,12 +230,15 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.clock = time->clock();
     setup.recorder = actors.recorder;
     setup.draw_nonce = &draw_nonce;
-    setup.doubt = [&own](const peer_hello& hello, const std::string& nonce) {
-      return own ? doubt(*own, hello, nonce) : std::nullopt;
+    setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
+      return own ? examine(*own, hello, nonce) : believe(hello);
     };
-    const auto at = door.open(
-        *time, spawn_gate(time->system(), std::move(setup)),
-        [board](const std::string& why) { board->tell("refused: " + why); });
+    const auto gate = spawn_gate(time->system(), std::move(setup));
+    watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
+                  "the gate");
+    const auto at = door.open(*time, gate, [board](const std::string& why) {
+      board->tell("refused: " + why);
+    });
     console << fmt::format("provider {} listens on {}{}", name,
                            print_address(at),
                            own ? "" : ", for this machine alone")
@@ -253,6 +263,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
   options.network = "real";
+  options.whose = "cars";
   options.news = [board] { return board->take(); };
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
@@ -281,6 +292,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
           return why;
         return gate;
       };
+      setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
       setup.prove = [&own = *own, provider = setup.provider](
                         peer_hello& hello, const std::string& nonce) {
         hello.certificate = own.certificate_pem();
@@ -301,7 +313,10 @@ run_outcome drive(const scenario& s, const drive_options& what,
            return spawn_uplink(time.system(), std::move(with));
          }});
   }
-  return run_part(s, options, here, *time, interrupted, console);
+  const auto outcome = run_part(s, options, here, *time, interrupted, console);
+  for (const auto& dialer : dialers)
+    dialer->hang_up(); // attempts end now
+  return outcome;
 }
 
 } // namespace sofof

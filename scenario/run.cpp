@@ -164,8 +164,10 @@ run_outcome run_part(const scenario& s, const run_options& options,
   check_capture(s, options);
   auto info = describe(s, options, here);
   info.time_of_day = time.clock();
+  const auto name =
+      options.whose.empty() ? s.name : s.name + "-" + options.whose;
   const auto folder =
-      make_results_folder(options.out, s.name, s.seed, options.force);
+      make_results_folder(options.out, name, s.seed, options.force);
   info.start = time.now();
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};

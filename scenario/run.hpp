@@ -19,6 +19,9 @@ namespace sofof {
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
+  /// Which of several processes writes it: part of the name if none is asked
+  /// for.
+  std::string whose;
   std::string pcap;      ///< Where to capture all ITS messages, if asked for.
   bool force = false;    ///< Write into a folder that is not empty.
   bool realtime = false; ///< On the wall clock instead of in virtual time.

@@ -114,7 +114,10 @@ public:
     if (!open)
       throw input_error(fmt::format(
           "cannot listen on port {}: {}; choose another one with --listen",
-          port, caf::to_string(open.error())));
+          port,
+          open.error() == caf::sec::cannot_open_port
+              ? "it is taken, or needs more rights"
+              : caf::to_string(open.error())));
     gates_.push_back(caf::actor_cast<caf::actor>(gate));
     return *open;
   }
@@ -123,11 +126,22 @@ public:
     auto gate =
         system_.middleman().remote_actor<gate_actor>(this_machine, port);
     if (!gate)
-      return caf::to_string(gate.error());
+      return explain(gate.error());
     return std::move(*gate);
   }
 
 private:
+  static std::string explain(const caf::error& why) {
+    if (why == caf::sec::cannot_connect_to_node)
+      return "nobody listens there";
+    if (why == caf::sec::disconnect_during_handshake)
+      return "it closed the connection before it said anything; is it a port "
+             "that wants --keys?";
+    if (why == caf::sec::incompatible_versions)
+      return "it was built with another version of CAF";
+    return "who listens there is no provider";
+  }
+
   static constexpr auto this_machine = "127.0.0.1";
 
   network_config config_;

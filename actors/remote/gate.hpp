@@ -12,6 +12,12 @@
 
 namespace sofof {
 
+/// Who a peer is, or why it must not speak for its stations.
+struct peer_finding {
+  std::string name; ///< Of whoever holds its certificate, say.
+  std::optional<std::string> refusal;
+};
+
 /// What a gate is made of. The functions are called from its threads.
 struct gate_setup {
   provider_actor provider;
@@ -20,17 +26,18 @@ struct gate_setup {
   std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
   etsi::its_clock clock;
   recorder_actor recorder;
-  /// @returns a number that nobody can guess, new every time.
+  /// @returns a number that nobody can guess, new every time. What it throws
+  /// refuses the one who needs it.
   std::function<std::string()> draw_nonce;
-  /// @returns why a peer must not speak for its stations; nothing if it may.
-  std::function<std::optional<std::string>(const peer_hello&,
-                                           const std::string& nonce)>
-      doubt;
+  std::function<peer_finding(const peer_hello&, const std::string& nonce)>
+      examine;
 };
 
 /// Lets those in who speak the same language, drive on the same map and have
-/// proved for whom they speak, each into a session of its own. All that a
-/// process publishes.
+/// proved for whom they speak, each into a session of its own. Whoever comes
+/// in again with a station takes the place of the session of its name that
+/// spoke for it. A name has a limit of sessions, and a process one of
+/// entrances, so that nobody keeps others out. All that a process publishes.
 gate_actor spawn_gate(caf::actor_system& sys, gate_setup setup);
 
 } // namespace sofof

@@ -5,6 +5,7 @@
 #include "policies/clock_estimate.hpp"
 #include "world/protocol.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace sofof {
@@ -16,21 +17,24 @@ public:
   /// @param time_of_day_gap  How much later the peer's clock stood at 0 than
   ///                         ours, as their times of day tell.
   pulse(time_point now, duration time_of_day_gap)
-      : heard_{now}, time_of_day_gap_{time_of_day_gap} {}
+      : alive_{now}, time_of_day_gap_{time_of_day_gap} {}
 
   life_sign beat(time_point now) { return {++beats_, now}; }
   static life_echo answer(const life_sign& sign, time_point now) {
     return {sign, now, now};
   }
 
-  /// Whatever came from the peer.
-  void hear(time_point now) { heard_ = now; }
   void take(const life_echo& echo, time_point now) {
+    // It lived when it heard the sign, and nobody answers before he is asked.
+    alive_ = std::max(alive_, std::min(echo.of.sent, now));
     clocks_.add({echo.of.sent, echo.received, echo.answered, now});
   }
 
+  /// Whether it has left unanswered, or answered too late, what was sent since
+  /// protocol::silence_limit: what else comes from it may be as old, or made
+  /// by what still works of it.
   bool is_lost(time_point now) const {
-    return now - heard_ > protocol::silence_limit;
+    return now - alive_ > protocol::silence_limit;
   }
 
   /// @returns how far the peer's clock is ahead of ours; nothing at first.
@@ -44,7 +48,7 @@ public:
   }
 
 private:
-  time_point heard_;
+  time_point alive_;
   duration time_of_day_gap_;
   std::uint64_t beats_ = 0;
   clock_estimate clocks_;

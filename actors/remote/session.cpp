@@ -72,7 +72,8 @@ struct session_state {
                          + (words_per_station_s + credits_per_station_s)
                                * static_cast<double>(setup.stations.size());
     attention.emplace(words_s, burst_s * words_s);
-    results.emplace(streams_per_station * setup.stations.size());
+    results.emplace(streams_per_station * setup.stations.size(),
+                    protocol::silence_limit);
     self->monitor(setup.peer);
     self->monitor(setup.provider);
     note("peer_connected", 0,
@@ -97,7 +98,6 @@ struct session_state {
   bool speaks_for(station_id station) {
     if (!is_from_peer())
       return false;
-    life->hear(now(self));
     const auto does = setup.stations.contains(station);
     if (!does)
       drop(station, "speaks for another station");
@@ -129,7 +129,7 @@ struct session_state {
 
   // -- what the peer says ---------------------------------------------------
 
-  // What is dropped is acknowledged, too: its stream would stop for good.
+  // What is dropped is acknowledged, too: its stream would stop for a while.
   void take(station_id station, const its_pdu& message) {
     if (!speaks_for(station))
       return;
@@ -194,13 +194,12 @@ struct session_state {
 
   void take(const service_result& result) {
     const auto stream = stream_of(result.running, stream_id::what::result);
-    if (const auto next = results->offer(stream, result))
+    if (const auto next = results->offer(stream, result, now(self)))
       self->send(setup.peer, *next);
   }
 
   void acknowledge(const stream_id& stream) {
-    life->hear(now(self));
-    if (const auto next = results->acknowledge(stream))
+    if (const auto next = results->acknowledge(stream, now(self)))
       self->send(setup.peer, *next);
   }
 
@@ -262,6 +261,9 @@ session(session_impl::stateful_pointer<session_state> self,
   self->state.start();
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down); });
+  // The gate has let its stations in anew.
+  self->set_exit_handler(
+      [self](const caf::exit_msg&) { self->state.leave("replaced"); });
   return {
       [self](station_id station, const its_pdu& message) {
         self->state.take(station, message);
@@ -277,7 +279,6 @@ session(session_impl::stateful_pointer<session_state> self,
       [self](const life_sign& sign) {
         if (!self->state.is_from_peer())
           return;
-        self->state.life->hear(now(self));
         self->send(self->state.setup.peer, pulse::answer(sign, now(self)));
       },
       [self](const life_echo& echo) {

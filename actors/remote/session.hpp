@@ -25,8 +25,9 @@ struct session_setup {
 /// the provider can talk to, translates the peer's times to ours, and hands
 /// results over one at a time, always the latest. Whatever does not come from
 /// the peer, or speaks for somebody else, or too often, is dropped and noted.
-/// Ends when the peer does, or has been silent for protocol::silence_limit;
-/// the provider then sees all its stations lost.
+/// Ends when the peer does, when it is sent an exit, or when the peer has
+/// answered no life sign for protocol::silence_limit; the provider then sees
+/// all its stations lost.
 session_actor spawn_session(caf::actor_system& sys, session_setup setup);
 
 } // namespace sofof

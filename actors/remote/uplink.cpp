@@ -55,7 +55,8 @@ struct uplink_state {
   std::string last_news;
 
   void start() {
-    words.emplace(streams_per_station * setup.stations.size());
+    words.emplace(streams_per_station * setup.stations.size(),
+                  protocol::silence_limit);
     plan_attempt();
     tick();
   }
@@ -64,12 +65,12 @@ struct uplink_state {
     const auto t = now(self);
     if (session) {
       if (life->is_lost(t))
-        disconnected("it has been silent for a second");
+        disconnected("it has answered nothing for a second");
       else
         self->send(session, life->beat(t));
-    }
-    if (!session && t >= next_attempt)
+    } else if (t >= next_attempt) {
       attempt();
+    }
     send_after(self, self, protocol::life_sign_period, tick_atom_v);
   }
 
@@ -116,7 +117,7 @@ struct uplink_state {
                                     spoken(protocol, theirs),
                                     spoken(setup.protocol, types)));
               else if (!in)
-                not_now("too many are introducing themselves there");
+                not_now("it lets nobody in now");
               else
                 introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
             },
@@ -124,8 +125,12 @@ struct uplink_state {
   }
 
   void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
-    peer_hello hello{
-        setup.stations, setup.world, setup.clock.epoch_unix_ms(), {}, {}};
+    peer_hello hello{setup.provider,
+                     setup.stations,
+                     setup.world,
+                     setup.clock.epoch_unix_ms(),
+                     {},
+                     {}};
     setup.prove(hello, nonce);
     self->request(entrance, protocol::introduction_timeout, std::move(hello),
                   uplink_actor{uplink_impl{self}})
@@ -134,8 +139,6 @@ struct uplink_state {
                                          const session_actor& with) {
               if (!with || with.node() != at)
                 not_now("it has no end of its own");
-              else if (welcome.name != setup.provider)
-                refused(fmt::format("it is provider {}", welcome.name));
               else if (!is_time_of_day(welcome.epoch_unix_ms))
                 refused("its clock shows no time of day");
               else
@@ -168,7 +171,9 @@ struct uplink_state {
   static std::string sentence(const caf::error& error) {
     if (error.context().match_elements<std::string>())
       return error.context().get_as<std::string>(0);
-    return to_string(error);
+    if (error == caf::sec::request_timeout)
+      return "it does not answer";
+    return "it has closed the connection meanwhile";
   }
 
   void connected(const peer_welcome& welcome, const session_actor& with) {
@@ -190,6 +195,7 @@ struct uplink_state {
     session = nullptr;
     life.reset();
     words->clear();
+    setup.hang_up();
     plan_attempt();
     for (const auto& x : running)
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
@@ -209,7 +215,7 @@ struct uplink_state {
   void say(const stream_id& stream, word what) {
     if (!session)
       return;
-    if (auto next = words->offer(stream, std::move(what)))
+    if (auto next = words->offer(stream, std::move(what), now(self)))
       send(stream, *next);
   }
 
@@ -221,7 +227,7 @@ struct uplink_state {
   }
 
   void acknowledge(const stream_id& stream) {
-    if (auto next = words->acknowledge(stream))
+    if (auto next = words->acknowledge(stream, now(self)))
       send(stream, *next);
   }
 
@@ -244,12 +250,9 @@ struct uplink_state {
   // -- what the provider says -----------------------------------------------
 
   bool is_from_session() {
-    const auto is = session
-                    && self->current_sender()
-                           == caf::actor_cast<caf::strong_actor_ptr>(session);
-    if (is)
-      life->hear(now(self));
-    return is;
+    return session
+           && self->current_sender()
+                  == caf::actor_cast<caf::strong_actor_ptr>(session);
   }
 
   template <class Message>

@@ -28,6 +28,8 @@ struct uplink_setup {
   /// Connects, which may take a while.
   /// @returns the gate, or why there is none.
   std::function<std::variant<gate_actor, std::string>()> connect;
+  /// Closes what may be left of a connection that is given up.
+  std::function<void()> hang_up = [] {};
   /// Whether connecting keeps a thread busy for a while.
   bool takes_time = true;
   std::uint32_t protocol = remote_protocol;

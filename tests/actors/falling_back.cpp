@@ -241,6 +241,33 @@ TEST_CASE_FIXTURE(requester_world, "each provider is complained to by itself") {
   CHECK(other->count<service_end>() == 1);
 }
 
+TEST_CASE_FIXTURE(requester_world,
+                  "a provider that has booted anew is not known "
+                  "by its earlier boots any more") {
+  offer({});
+  for (boot_id next = 40; next < 50; ++next)
+    offer_from(provider, next, {});
+  for (boot_id next = 40; next < 49; ++next)
+    result({next, station, one, 99}, 1);
+  result(at_here(one, 99), 1);
+  CHECK(ends().empty());
+  result({49, station, one, 99}, 1);
+  CHECK(ends().size() == 1);
+}
+
+TEST_CASE_FIXTURE(requester_world,
+                  "what runs is not forgotten for another boot "
+                  "of its provider") {
+  start_remote({one});
+  offer_from(provider, 40, {});
+  offer_from(provider, 41, {});
+  CHECK(is_remote(one));
+  kill(provider.handle);
+  CHECK(!is_remote(one));
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::peer_lost);
+}
+
 TEST_CASE_FIXTURE(requester_world, "results of a provider that nobody has met "
                                    "are ignored") {
   result({33, station, one, 1}, 1);

@@ -5,12 +5,16 @@
 #include "tests/support/virtual_world.hpp"
 #include "world/protocol.hpp"
 
+#include <caf/actor_proxy.hpp>
 #include <caf/event_based_actor.hpp>
+#include <caf/mailbox_element.hpp>
+#include <caf/make_actor.hpp>
 #include <doctest/doctest.h>
 
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,13 +23,34 @@ using namespace sofof::test;
 
 namespace {
 
+struct greeting {
+  std::uint32_t protocol = 0;
+  std::uint64_t types = 0;
+  std::string nonce;
+  caf::strong_actor_ptr in;
+};
+
+/// An actor of another process, and what the gate has answered to it.
+class far_actor : public caf::actor_proxy {
+public:
+  far_actor(caf::actor_config& config, std::shared_ptr<greeting> heard)
+      : actor_proxy{config}, heard_{std::move(heard)} {}
+
+  bool enqueue(caf::mailbox_element_ptr what, caf::execution_unit*) override {
+    const auto& said = what->content();
+    if (said.size() == 4)
+      *heard_ = {said.get_as<std::uint32_t>(0), said.get_as<std::uint64_t>(1),
+                 said.get_as<std::string>(2),
+                 said.get_as<caf::strong_actor_ptr>(3)};
+    return true;
+  }
+  void kill_proxy(caf::execution_unit*, caf::error) override {}
+
+private:
+  std::shared_ptr<greeting> heard_;
+};
+
 struct gate_world : virtual_world {
-  struct greeting {
-    std::uint32_t protocol = 0;
-    std::uint64_t types = 0;
-    std::string nonce;
-    caf::strong_actor_ptr in;
-  };
   struct answer {
     std::optional<peer_welcome> welcome;
     session_actor session;
@@ -36,10 +61,12 @@ struct gate_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<uplink_actor> peer = listen<uplink_actor>();
   int nonces = 0;
+  bool draws = true;
   std::vector<std::string> proofs; ///< That were looked at.
   std::optional<std::string> doubt;
   const std::uint64_t types = fingerprint_of_types();
-  const peer_hello hello{{101, 102}, 5, etsi::virtual_epoch_unix_ms, {}, {}};
+  const peer_hello hello{"server", {101, 102}, 5, etsi::virtual_epoch_unix_ms,
+                         {},       {}};
   gate_actor gate = own(spawn_gate(system(), setup()));
 
   gate_setup setup() {
@@ -49,10 +76,14 @@ struct gate_world : virtual_world {
     s.name = "server";
     s.world = 5;
     s.recorder = recorder.handle;
-    s.draw_nonce = [this] { return "nonce " + std::to_string(++nonces); };
-    s.doubt = [this](const peer_hello&, const std::string& nonce) {
+    s.draw_nonce = [this] {
+      if (!draws)
+        throw std::runtime_error{"no numbers left"};
+      return "nonce " + std::to_string(++nonces);
+    };
+    s.examine = [this](const peer_hello& from, const std::string& nonce) {
       proofs.push_back(nonce);
-      return doubt;
+      return peer_finding{from.certificate, doubt};
     };
     return s;
   }
@@ -71,6 +102,20 @@ struct gate_world : virtual_world {
     return *found;
   }
   greeting knock() { return knock(remote_protocol, types); }
+  caf::actor somebody_in(std::uint32_t process,
+                         const std::shared_ptr<greeting>& heard) {
+    caf::actor_config config;
+    caf::node_id::default_data::host_id_type host{1};
+    return caf::make_actor<far_actor, caf::actor>(
+        1, caf::make_node_id(process, host), &system(), config, heard);
+  }
+  /// Somebody from another process knocks.
+  greeting knock_from(std::uint32_t process) {
+    const auto heard = std::make_shared<greeting>();
+    const auto stranger = somebody_in(process, heard);
+    tell_as(stranger, gate, remote_protocol, types);
+    return *heard;
+  }
 
   answer enter(const greeting& at, const peer_hello& with,
                const uplink_actor& as) {
@@ -91,6 +136,14 @@ struct gate_world : virtual_world {
     });
     settle();
     return *found;
+  }
+  /// Those who show this certificate come in.
+  answer enter_as(const std::string& name,
+                  const std::vector<station_id>& stations) {
+    auto with = hello;
+    with.certificate = name;
+    with.stations = stations;
+    return enter(knock(), with);
   }
   answer enter(const greeting& at, const peer_hello& with) {
     return enter(at, with, peer.handle);
@@ -137,7 +190,6 @@ TEST_CASE_FIXTURE(gate_world, "who is welcome gets a session and is told which "
   const auto in = enter(knock(), hello);
   REQUIRE(in.welcome);
   CHECK(in.welcome->boot == 11);
-  CHECK(in.welcome->name == "server");
   CHECK(in.welcome->epoch_unix_ms == etsi::virtual_epoch_unix_ms);
   CHECK(in.session);
   CHECK(peer->count<life_sign>() == 1);
@@ -154,6 +206,10 @@ TEST_CASE_FIXTURE(gate_world, "who is refused is told why, and never gets a "
     bad.world = 6;
     why = "provider server has another map or other services; start both "
           "sides with the same scenario file";
+  }
+  SUBCASE("as it means another provider") {
+    bad.provider = "elsewhere";
+    why = "it is provider server";
   }
   SUBCASE("for its proof") {
     doubt = "the certificate is for station 7, not 101";
@@ -220,14 +276,76 @@ TEST_CASE_FIXTURE(gate_world, "who does not introduce himself in time finds "
   CHECK(is_gone(at.in));
 }
 
-TEST_CASE_FIXTURE(gate_world, "those who knock and say nothing keep others out "
-                              "for two seconds at most") {
-  for (int k = 0; k < 64; ++k)
-    CHECK(knock().in);
+TEST_CASE_FIXTURE(gate_world, "a process that knocks without end has two "
+                              "entrances, the latest") {
+  const auto other = knock_from(7);
+  std::vector<greeting> all;
+  for (int k = 0; k < 1000; ++k)
+    all.push_back(knock());
+  for (std::size_t k = 0; k < 998; ++k)
+    CHECK(is_gone(all[k].in));
+  CHECK(!is_gone(all[998].in));
+  CHECK(!is_gone(other.in));
+  CHECK(enter(all[999], hello).welcome);
+}
+
+TEST_CASE_FIXTURE(gate_world, "when too many introduce themselves, the oldest "
+                              "has to begin anew") {
+  const auto honest = knock();
+  std::vector<greeting> all;
+  for (std::uint32_t k = 0; k < 256; ++k)
+    all.push_back(knock_from(1 + k));
+  CHECK(is_gone(honest.in));
+  CHECK(!is_gone(all.front().in));
+  CHECK(enter(knock(), hello).welcome);
+  CHECK(is_gone(all.front().in));
+  CHECK(!is_gone(all.back().in));
+}
+
+TEST_CASE_FIXTURE(gate_world, "who comes in again takes the place of the one "
+                              "who spoke for its stations") {
+  const auto first = enter_as("car", {101, 102});
+  const auto other = enter_as("other car", {101, 103});
+  const auto trailer = enter_as("car", {104});
+  const auto second = enter_as("car", {102});
+  CHECK(second.welcome);
+  CHECK(is_gone(first.session));
+  CHECK(!is_gone(second.session));
+  CHECK(!is_gone(other.session));
+  CHECK(!is_gone(trailer.session));
+}
+
+TEST_CASE_FIXTURE(gate_world, "nobody has more than 16 sessions at a time") {
+  std::vector<session_actor> all;
+  for (station_id k = 1; k <= 16; ++k)
+    all.push_back(enter_as("car", {k}).session);
+  const auto more = enter_as("car", {17});
+  CHECK(!more.welcome);
+  CHECK(more.error
+        == "the certificate of car has 16 connections already, the most it may "
+           "have");
+  REQUIRE(refusals().size() == 1);
+  CHECK(refusals().front().detail == more.error + "; 1 so far");
+  CHECK(enter_as("other car", {17}).welcome);
+  CHECK(enter_as("car", {16}).welcome); // again
+  kill(all.front());
+  CHECK(enter_as("car", {17}).welcome);
+}
+
+TEST_CASE_FIXTURE(gate_world, "peers do not let one another in") {
+  const auto far = somebody_in(7, std::make_shared<greeting>());
+  tell_as(far, gate, hello, peer.handle, std::string{"car"});
+  CHECK(peer->entries().empty());
+}
+
+TEST_CASE_FIXTURE(gate_world, "a gate without numbers to sign lets nobody in, "
+                              "and lives") {
+  draws = false;
   CHECK(!knock().in);
-  CHECK(knock().protocol == remote_protocol); // no refusal
-  run_for(protocol::introduction_timeout);
-  CHECK(knock().in);
+  REQUIRE(refusals().size() == 1);
+  CHECK(refusals().front().detail == "no numbers left; 1 so far");
+  draws = true;
+  CHECK(enter(knock(), hello).welcome);
 }
 
 TEST_CASE_FIXTURE(

@@ -143,11 +143,11 @@ struct remote_world : virtual_world {
     g.name = "server";
     g.recorder = there.handle;
     g.draw_nonce = [] { return std::string{"number"}; };
-    g.doubt = [](const peer_hello& hello,
-                 const std::string&) -> std::optional<std::string> {
+    g.examine = [](const peer_hello& hello,
+                   const std::string&) -> peer_finding {
       if (hello.certificate == "honest")
-        return std::nullopt;
-      return "nobody knows it";
+        return {"honest", {}};
+      return {{}, "nobody knows it"};
     };
     inner_gate = own(spawn_gate(system(), std::move(g)));
     gate = own(system().spawn(wired_gate, inner_gate, line));

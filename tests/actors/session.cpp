@@ -274,6 +274,50 @@ TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
   CHECK(notes("peer_lost").front().detail == "silent");
 }
 
+TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
+                                 "was asked within a second, is lost") {
+  live(1s);
+  const auto last = peer->all<life_sign>().back();
+  const auto speak = [&](duration d, const auto& answer) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      say_cam();
+      say(life_sign{1, now()});
+      answer();
+    }
+  };
+  SUBCASE("it answers nothing") {
+    speak(1s, [] {});
+    CHECK(!is_gone(session));
+    speak(100ms, [] {});
+  }
+  SUBCASE("it answers the same again and again") {
+    const auto answer = [&] { say(life_echo{last, now(), now()}); };
+    speak(1s, answer);
+    CHECK(!is_gone(session));
+    speak(100ms, answer);
+  }
+  SUBCASE("it has answered what was not asked yet") {
+    say(life_echo{{9, now() + 1h}, now(), now()});
+    speak(1s, [] {});
+    CHECK(!is_gone(session));
+    speak(100ms, [] {});
+  }
+  CHECK(is_gone(session));
+}
+
+TEST_CASE_FIXTURE(session_world, "a session that is replaced says so, and all "
+                                 "its stations are lost") {
+  live(1s);
+  say_cam();
+  const auto lost = voice();
+  caf::anon_send_exit(session, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(is_gone(session));
+  CHECK(is_gone(lost));
+  CHECK(notes("peer_lost").front().detail == "replaced");
+}
+
 TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
                                  "provider") {
   live(1s);
@@ -340,6 +384,22 @@ TEST_CASE_FIXTURE(session_world, "while the peer acknowledges nothing, one "
   say(stream_of(one, stream_id::what::cam)); // of another stream
   result(first, one, 102);
   CHECK(peer->count<service_result>() == 4);
+}
+
+TEST_CASE_FIXTURE(session_world, "results whose acknowledgement got lost go on "
+                                 "after a second") {
+  live(1s);
+  accept(one);
+  const auto to = voice();
+  for (std::uint64_t k = 1; k <= 41; ++k) {
+    tell_as(manager.handle, to,
+            service_result{one, k, now(), payload::of(echo{k})});
+    live(50ms);
+  }
+  std::vector<std::uint64_t> cycles;
+  for (const auto& r : peer->all<service_result>())
+    cycles.push_back(r.cycle);
+  CHECK(cycles == std::vector<std::uint64_t>{1, 21, 41});
 }
 
 TEST_CASE_FIXTURE(session_world,

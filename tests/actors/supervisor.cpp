@@ -40,6 +40,19 @@ TEST_CASE_FIXTURE(watched_world, "actors that are dismissed have not died") {
   CHECK(lost.empty());
 }
 
+TEST_CASE_FIXTURE(watched_world,
+                  "the supervisor also watches who comes later") {
+  const auto late = listen<uplink_actor>();
+  watch_as_well(supervisor, caf::actor_cast<caf::actor>(late.handle),
+                "the uplink");
+  settle();
+  kill(late.handle);
+  REQUIRE(lost.size() == 1);
+  CHECK(lost.front().find("the uplink has died") == 0);
+  kill(road.handle);
+  CHECK(lost.size() == 2);
+}
+
 TEST_CASE_FIXTURE(watched_world, "the supervisor outlives those it watches") {
   kill(road.handle);
   kill(recorder.handle);

@@ -9,10 +9,12 @@ using namespace sofof::test;
 
 // -- introductions -----------------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "an uplink says whom it speaks for, on which "
-                                "map, and proves it") {
+TEST_CASE_FIXTURE(uplink_world,
+                  "an uplink says whom it speaks to and for, on which "
+                  "map, and proves it") {
   start();
   REQUIRE(host->hellos.size() == 1);
+  CHECK(host->hellos[0].provider == "server");
   CHECK(host->hellos[0].stations == std::vector{station, neighbour});
   CHECK(host->hellos[0].world == 5);
   CHECK(host->hellos[0].certificate == "proof of a number");
@@ -29,8 +31,8 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   const std::string begin = "provider server at 10.0.0.5:4711 refuses: ";
   std::string why;
   SUBCASE("for its version") {
-    host->protocol = 2;
-    why = "it speaks " + spoken(2, host->types) + ", this program "
+    host->protocol = remote_protocol + 1;
+    why = "it speaks " + spoken(host->protocol, host->types) + ", this program "
           + spoken(remote_protocol, host->types)
           + "; install the same version on both sides";
   }
@@ -43,10 +45,6 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   SUBCASE("for what the entrance says") {
     host->refusal = "101 is another's station";
     why = *host->refusal;
-  }
-  SUBCASE("as it meant another provider") {
-    host->welcome.name = "elsewhere";
-    why = "it is provider elsewhere";
   }
   SUBCASE("as the provider's time makes no sense") {
     host->welcome.epoch_unix_ms = std::numeric_limits<std::int64_t>::max();
@@ -86,7 +84,7 @@ TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
   }
   SUBCASE("no room") {
     host->full = true;
-    why = "too many are introducing themselves there";
+    why = "it lets nobody in now";
   }
   SUBCASE("no end") {
     host->session = nullptr;
@@ -117,6 +115,10 @@ TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
   run_for(10s);
   CHECK(host->knocks <= 6);
   CHECK(refusals.empty());
+  CHECK(news
+        == std::vector<std::string>{
+            "no connection to provider server at 10.0.0.5:4711: it does not "
+            "answer; trying again"});
   host->answers = true;
   run_for(protocol::introduction_timeout + 1050ms);
   CHECK(notes("provider_connected") == 1);
@@ -188,6 +190,25 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   CHECK(notes("provider_lost") == 1);
 }
 
+TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
+                                "what was asked within a second, is lost") {
+  connect();
+  const auto speak = [&](duration d) {
+    for (auto left = d; left >= 50ms; left -= 50ms) {
+      run_for(50ms);
+      say(life_sign{1, now()});
+      result(one, 1, now());
+    }
+  };
+  speak(1s);
+  CHECK(notes("provider_lost") == 0);
+  speak(50ms);
+  CHECK(notes("provider_lost") == 1);
+  CHECK(news[1]
+        == "lost provider server at 10.0.0.5:4711: it has answered nothing for "
+           "a second; vehicles plan for themselves");
+}
+
 TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
                                 "end again with the next") {
   connect();
@@ -211,6 +232,17 @@ TEST_CASE_FIXTURE(uplink_world, "after the connection is lost the next attempt "
   run_for(50ms);
   REQUIRE(!attempts.empty());
   CHECK(attempts.front() - lost <= 50ms);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
+                                "before the next attempt") {
+  connect();
+  attempts.clear();
+  CHECK(hung_up.empty());
+  run_for(1100ms); // silent
+  REQUIRE(hung_up.size() == 1);
+  REQUIRE(attempts.size() == 1);
+  CHECK(attempts.front() - hung_up.front() == protocol::life_sign_period);
 }
 
 TEST_CASE_FIXTURE(uplink_world,
@@ -351,6 +383,19 @@ TEST_CASE_FIXTURE(uplink_world, "while the provider acknowledges nothing, one "
   CHECK(speeds().size() == 3);
   say_cam(12);
   CHECK(speeds() == std::vector<double>{1, 7, 50, 12});
+}
+
+TEST_CASE_FIXTURE(uplink_world, "CAMs whose acknowledgement got lost go on "
+                                "after a second") {
+  connect();
+  for (int k = 1; k <= 21; ++k) {
+    say_cam(k);
+    live(100ms);
+  }
+  std::vector<double> speeds;
+  for (const auto& pdu : session->seconds<its_pdu>())
+    speeds.push_back(motion_in(pdu, now()).speed_mps);
+  CHECK(speeds == std::vector<double>{1, 11, 21});
 }
 
 TEST_CASE_FIXTURE(uplink_world, "CAMs, CPMs and inputs do not wait for one "

@@ -29,7 +29,7 @@ struct host_script {
   std::uint32_t protocol = remote_protocol;
   std::uint64_t types = fingerprint_of_types();
   std::string nonce = "a number";
-  peer_welcome welcome{11, "server", etsi::virtual_epoch_unix_ms};
+  peer_welcome welcome{11, etsi::virtual_epoch_unix_ms};
   std::optional<std::string> refusal;
   bool full = false;
   bool answers = true;
@@ -87,7 +87,7 @@ struct uplink_world : virtual_world {
   std::shared_ptr<host_script> host = std::make_shared<host_script>();
   gate_actor gate = own(system().spawn(played_gate, host));
   bool reachable = true;
-  std::vector<time_point> attempts;
+  std::vector<time_point> attempts, hung_up;
   std::vector<std::string> refusals, news;
   duration ahead{}; ///< What the provider's clock shows more than ours.
   uplink_mouth uplink;
@@ -112,6 +112,7 @@ struct uplink_world : virtual_world {
         return gate;
       return "nobody is there";
     };
+    s.hang_up = [this] { hung_up.push_back(now()); };
     s.takes_time = false;
     s.prove = [](peer_hello& hello, const std::string& nonce) {
       hello.certificate = "proof of " + nonce;

@@ -88,9 +88,9 @@ inline constexpr std::size_t arity<plan_switch_record> = 4;
 template <>
 inline constexpr std::size_t arity<air_record> = 2;
 template <>
-inline constexpr std::size_t arity<peer_hello> = 5;
+inline constexpr std::size_t arity<peer_hello> = 6;
 template <>
-inline constexpr std::size_t arity<peer_welcome> = 3;
+inline constexpr std::size_t arity<peer_welcome> = 2;
 template <>
 inline constexpr std::size_t arity<life_sign> = 2;
 template <>

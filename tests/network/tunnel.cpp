@@ -5,6 +5,12 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <future>
+#include <optional>
+#include <thread>
+#include <vector>
+
 using namespace sofof;
 using namespace sofof::test;
 
@@ -173,6 +179,80 @@ TEST_CASE("an end with a line open leaves nothing behind") {
     CHECK(line.is_closed());
     CHECK(wait_until([&] { return door->counts().open == 0; }));
   }
+}
+
+TEST_CASE("a dialer that hangs up closes its lines, and takes new ones") {
+  const key_folder keys;
+  server inner{echo};
+  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const auto own = keys.credentials_for(car);
+  tls_dialer dialer{&own, dialer_to(door.port())};
+  const auto one = plug_into(dialer.port());
+  const auto two = plug_into(dialer.port());
+  CHECK(echoes(one, "one"));
+  CHECK(echoes(two, "two"));
+  dialer.hang_up();
+  CHECK(one.is_closed());
+  CHECK(two.is_closed());
+  CHECK(wait_until([&] { return door.counts().open == 0; }));
+  CHECK(dialer.last_error() == "");
+  CHECK(echoes(plug_into(dialer.port()), "three"));
+}
+
+TEST_CASE("a resolver that never answers holds up neither lines nor the end") {
+  std::promise<void> answer;
+  auto options = dialer_to(1);
+  options.remote.host = "edge.example";
+  options.resolver = [until = answer.get_future().share()](const auto&) {
+    until.wait();
+    return std::vector<socket_address>{};
+  };
+  SUBCASE("lines are given up in time") {
+    options.lookup_timeout = 50ms;
+    const tls_dialer dialer{nullptr, options};
+    for (int k = 0; k < 3; ++k)
+      CHECK(plug_into(dialer.port()).is_closed());
+    CHECK(contains(dialer.last_error(), "edge.example:1: its name was not "
+                                        "found in time"));
+  }
+  SUBCASE("they are given up at once when the dialer hangs up") {
+    tls_dialer dialer{nullptr, options};
+    const auto line = plug_into(dialer.port());
+    std::this_thread::sleep_for(20ms);
+    dialer.hang_up();
+    CHECK(line.is_closed());
+  }
+  SUBCASE("the dialer ends") {
+    std::optional<tls_dialer> dialer;
+    dialer.emplace(nullptr, options);
+    const auto line = plug_into(dialer->port());
+    std::this_thread::sleep_for(20ms);
+    dialer.reset();
+    CHECK(line.is_closed());
+  }
+  answer.set_value();
+}
+
+TEST_CASE("a name is looked up once for all that wait for it") {
+  server inner{echo};
+  std::promise<void> answer;
+  std::atomic<int> asked = 0;
+  auto options = dialer_to(inner.port());
+  options.resolver = [&asked, until = answer.get_future().share()](
+                         const network_address& host) {
+    ++asked;
+    until.wait();
+    return resolve(host);
+  };
+  const tls_dialer dialer{nullptr, options};
+  std::vector<plug> lines;
+  for (int k = 0; k < 5; ++k)
+    lines.push_back(plug_into(dialer.port()));
+  std::this_thread::sleep_for(20ms);
+  answer.set_value();
+  for (const auto& line : lines)
+    CHECK(echoes(line, "found"));
+  CHECK(asked <= 2); // one may have come after the answer
 }
 
 TEST_CASE("doors are for providers, and dialers for vehicles") {

@@ -3,6 +3,8 @@
 #include "tests/support/bad_line.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 using namespace sofof::test;
 
@@ -14,7 +16,7 @@ constexpr double turn_s = 0.05;       // from the end of it to the switch
 
 bool same_service(const row& r, const event& e) {
   return r.at("station") == std::to_string(e["station"].get<int>())
-         && r.at("counter") == std::to_string(e["counter"].get<int>());
+         && service_of(r) == service_of(e);
 }
 
 /// The watchdog barks where results came too late or stopped coming, and
@@ -59,7 +61,54 @@ std::size_t count(const std::filesystem::path& folder,
   return events_of(folder, what).size();
 }
 
+/// @returns how many results came after a later one of another provider.
+std::size_t count_overtaken(const std::filesystem::path& folder) {
+  std::map<std::string, double> latest_s; // made by a provider, of all so far
+  std::size_t overtaken = 0;
+  for (const auto& r : cycles_of(folder)) {
+    const auto made_s = number(r, "created_s");
+    overtaken += std::ranges::any_of(latest_s, [&](const auto& other) {
+      return other.first != r.at("provider") && other.second > made_s;
+    });
+    auto& last_s = latest_s[r.at("provider")];
+    last_s = std::max(last_s, made_s);
+  }
+  return overtaken;
+}
+
 } // namespace
+
+TEST_CASE("where messages of one provider overtake those of another, "
+          "violations are counted right, and there is one source at a time") {
+  using namespace std::chrono_literals;
+  const workplace at;
+  at.write(scenario_file, read_file(at / scenario_file)
+                              + "\n[[provider]]\nname = \"far\"\n"
+                                "area_radius_m = 3000.0\nrange_m = 6000.0\n");
+  const auto settings = everywhere(12);
+  provider_process near{at, "near", settings + words{"--name", "mec"}};
+  provider_process far{at, "far", settings + words{"--name", "far"}};
+  bad_line quick{near.port(), {2ms, 30ms, 0.01, 200ms}, 1};
+  bad_line slow{far.port(), {15ms, 20ms, 0.01, 200ms}, 2};
+  const auto to = [](const std::string& name, const bad_line& line) {
+    return words{"--provider",
+                 name + "=127.0.0.1:" + std::to_string(line.port())};
+  };
+  drive_process drive{at, "drive",
+                      words{"drive", scenario_file, "--quiet", "--out", "drive",
+                            "--duration", "8s"}
+                          + to("mec", quick) + to("far", slow) + settings};
+  const auto end = drive.run().wait();
+  CAPTURE(end.err);
+  CHECK(end.code == 0);
+  CHECK(count_overtaken(drive.out()) > 10);
+  CHECK(count(drive.out(), "violation") > 0);
+  check_safe(summary_of(drive.out()));
+  check_violations(drive.out());
+  check_one_source(drive.out());
+  CHECK(stop(near.run()).code == 0);
+  CHECK(stop(far.run()).code == 0);
+}
 
 TEST_CASE("on a line that jitters and loses, violations are counted right, and "
           "there is one source at a time") {

@@ -115,3 +115,19 @@ TEST_CASE("latencies are told right though clocks are wrong") {
     CHECK(std::abs(told_ms - truth_ms) < 2);
   }
 }
+
+TEST_CASE("processes of one machine name their folders after themselves") {
+  const workplace at;
+  const words brief{"--quiet", "--duration", "500ms"};
+  const auto drive = at.run_sofof(
+      words{"drive", scenario_file, "--provider", "127.0.0.1:1"} + brief);
+  CHECK(drive.code == 0);
+  CHECK(drive.out
+        == "no connection to provider mec at 127.0.0.1:1: nobody listens "
+           "there; trying again\n");
+  const auto provide = at.run_sofof(
+      words{"provide", scenario_file, "--listen", "127.0.0.1:0"} + brief);
+  CHECK(provide.code == 0);
+  CHECK(summary_of(at / "results/ulm_lehr-cars-1")["vehicles"] == 6);
+  CHECK(summary_of(at / "results/ulm_lehr-mec-1")["vehicles"] == 0);
+}
