@@ -112,9 +112,8 @@ report::section cpu_cost(const evidence& e) {
     text += verdict(*e.cpu_100_hz, "100 Hz") + ' ';
   s.blocks.emplace_back(paragraph{
       text
-      + "The paper's planners are processes with ROS 2 nodes that go on "
-        "listening when they are deactivated; ours are actors that get nothing "
-        "then."});
+      + "The paper's planners are processes of ROS 2 that go on listening when "
+        "they are deactivated; ours is an actor that keeps its newest input."});
   return s;
 }
 
