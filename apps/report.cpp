@@ -4,6 +4,7 @@
 #include "scenario/report/describe.hpp"
 #include "scenario/report/html.hpp"
 #include "scenario/results_folder.hpp"
+#include "scenario/study/describe_sweep.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -29,6 +30,12 @@ struct report_arguments {
                             "file with -o");
   }
 
+  static report::document what(const std::vector<std::filesystem::path>& from) {
+    if (from.size() == 1 && study::is_sweep_folder(from.front()))
+      return study::describe_sweeps(from.front(), SOFOF_VERSION);
+    return report::describe(from, SOFOF_VERSION);
+  }
+
   /// @returns where it was written to.
   std::filesystem::path obey() const {
     const std::vector<std::filesystem::path> from(folders.begin(),
@@ -36,7 +43,7 @@ struct report_arguments {
     const auto to =
         out.empty() ? from.front() / "report.html" : std::filesystem::path{out};
     check(to, from);
-    report::write_html(report::describe(from, SOFOF_VERSION), to);
+    report::write_html(what(from), to);
     return to;
   }
 };
@@ -47,7 +54,9 @@ void add_report(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "report", "Show results folders as one HTML file, for any browser");
   auto args = std::make_shared<report_arguments>();
-  command->add_option("DIR", args->folders, "Results folders of runs")
+  command
+      ->add_option("DIR", args->folders,
+                   "Results folders of runs, or one of sweeps")
       ->required()
       ->type_name(" ");
   command

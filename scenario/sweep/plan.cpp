@@ -4,7 +4,7 @@
 #include "scenario/input_error.hpp"
 #include "scenario/toml_file.hpp"
 #include "scenario/toml_settings.hpp"
-#include "world/spelling.hpp"
+#include "scenario/toml_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -196,6 +196,10 @@ private:
                   std::span<const std::string> overrides) const {
     std::vector<std::string_view> names{"point", "seed", "status", "run"};
     for (const auto& axis : plan.axes) {
+      if (axis.name.find_first_of(",\"\n") != axis.name.npos)
+        fail(root_, fmt::format("the name of an axis, {}, has a comma, a quote "
+                                "or a line end in it; choose another one.",
+                                sofof::quoted(axis.name)));
       if (std::ranges::find(names, axis.name) != names.end())
         fail(root_, fmt::format("two columns of the results would be called "
                                 "\"{}\"; give an axis another name.",

@@ -1,0 +1,26 @@
+// A sweep's table, read again.
+#pragma once
+
+#include "scenario/study/measured_run.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sofof::study {
+
+/// What a sweep has left: its axes by name, and its runs.
+struct swept {
+  std::string name;
+  std::vector<std::string> axes;
+  std::vector<measured_run> runs; ///< Those that did not fail.
+  std::size_t failed = 0;
+  std::size_t unsafe = 0;
+};
+
+/// @param table  NAME.csv, beside the folder `runs`.
+/// @throws input_error when it is no such table, or a run is missing.
+swept read_swept(const std::filesystem::path& table);
+
+} // namespace sofof::study
