@@ -150,8 +150,8 @@ private:
       return;
     }
     if (calls_.size() + carried_ >= options_.most_connections) {
-      complain(fmt::format("there are {} connections already",
-                           options_.most_connections));
+      set_last_error(fmt::format("there are {} connections already",
+                                 options_.most_connections));
       return;
     }
     calls_.push_back({std::move(accepted.socket),
@@ -185,7 +185,7 @@ private:
     try {
       lookup_.emplace(options_.resolver, options_.remote, wake_);
     } catch (const std::system_error& e) {
-      complain(e.what());
+      set_last_error(e.what());
       std::erase_if(calls_, &is_nowhere);
     }
   }
@@ -283,24 +283,21 @@ private:
   void explain(const tunnel_end& end) {
     using cause = tunnel_end::cause;
     if (end.why == cause::idle)
-      complain(fmt::format("nothing crossed for {} ms", options_.idle.count()));
+      set_last_error(
+          fmt::format("nothing crossed for {} ms", options_.idle.count()));
     if (end.why != cause::far_closed)
       return;
     if (!end.failure.empty())
-      complain(end.failure);
+      set_last_error(end.failure);
     else
-      complain(end.bytes_inward == 0
-                   ? "it closed the connection before it said anything"
-                   : "it closed the connection");
+      set_last_error(end.bytes_inward == 0
+                         ? "it closed the connection before it said anything"
+                         : "it closed the connection");
   }
 
   void give_up(call_list::iterator at, const std::string& why) {
-    complain(why);
+    set_last_error(why);
     calls_.erase(at);
-  }
-
-  void complain(const std::string& why) {
-    set_last_error(print_address(options_.remote) + ": " + why);
   }
 
   void set_last_error(std::string sentence) {

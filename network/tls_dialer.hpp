@@ -50,8 +50,8 @@ public:
   /// @returns the port of 127.0.0.1 that leads to the remote host.
   std::uint16_t port() const;
 
-  /// @returns why there was no connection, or why the last one ended, in a
-  /// sentence without its full stop; empty while all is well. Any thread may
+  /// @returns why there was no connection, or why the last one ended, as words
+  /// about the remote host, "it"; empty while all is well. Any thread may
   /// ask; it is known before the local connection closes.
   std::string last_error() const;
 

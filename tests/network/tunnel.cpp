@@ -212,7 +212,7 @@ TEST_CASE("a resolver that never answers holds up neither lines nor the end") {
     const tls_dialer dialer{nullptr, options};
     for (int k = 0; k < 3; ++k)
       CHECK(plug_into(dialer.port()).is_closed());
-    CHECK(contains(dialer.last_error(), "edge.example:1: its name was not "
+    CHECK(contains(dialer.last_error(), "its name was not "
                                         "found in time"));
   }
   SUBCASE("they are given up at once when the dialer hangs up") {
@@ -299,13 +299,12 @@ TEST_CASE("a dialer says why there is no connection") {
   SUBCASE("nobody listens") {
     std::uint16_t port = 0;
     { port = port_of(listen_at({"127.0.0.1", 0})); }
-    CHECK(error_of(dialer_to(port))
-          == "127.0.0.1:" + std::to_string(port) + ": nobody listens there");
+    CHECK(error_of(dialer_to(port)) == "nobody listens there");
   }
   SUBCASE("nobody knows the host") {
     auto options = dialer_to(1);
     options.remote.host = "300.1.2.3";
-    CHECK(error_of(options) == "300.1.2.3:1: nobody knows this host");
+    CHECK(error_of(options) == "nobody knows this host");
   }
   SUBCASE("a plain port that answers") {
     CHECK(contains(error_of(dialer_to(inner.port())), "TLS"));
@@ -319,7 +318,7 @@ TEST_CASE("a dialer says why there is no connection") {
   }
   SUBCASE("a plain port that closes") {
     server rude{[](const plug&) {}};
-    CHECK(contains(error_of(dialer_to(rude.port())), ": it hung up"));
+    CHECK(contains(error_of(dialer_to(rude.port())), "it hung up"));
   }
   SUBCASE("a provider of another CA") {
     const tls_door door{others.credentials_for(mec), door_to(inner.port())};
