@@ -272,6 +272,20 @@ TEST_CASE("a run comes down to figures, a point for each result and a row for "
   CHECK(episodes.rows[2].at(9) == "");       // no data
 }
 
+TEST_CASE("results that stand out of order are drawn in the order of time") {
+  const played_folder folder;
+  const auto text = folder.read("cycles.csv");
+  const auto first = text.find('\n') + 1;
+  const auto second = text.find('\n', first) + 1;
+  folder.write("cycles.csv", text.substr(0, first) + text.substr(second)
+                                 + text.substr(first, second - first));
+  const auto sections = describe_run(folder.path());
+  const auto& by_time =
+      first_of<figure>(sections, "Remote results of trajectory_planning");
+  CHECK(by_time.curves.at(0).y.size() == 401);
+  CHECK(std::ranges::is_sorted(by_time.curves.at(0).x));
+}
+
 TEST_CASE("a distribution reaches one at its largest value") {
   const played_folder folder;
   const auto sections = describe_run(folder.path());
