@@ -111,14 +111,23 @@ std::optional<std::size_t> axis_to_draw(const swept& s) {
   return best;
 }
 
-/// Runs by the labels of all axes.
-using points =
-    std::map<std::vector<std::string>, std::vector<const measured_run*>>;
+/// All runs of one point, whatever the seed.
+struct point_runs {
+  std::vector<std::string> labels;
+  std::vector<const measured_run*> runs;
+};
 
-points points_in(const swept& s) {
-  points all;
-  for (const auto& run : s.runs)
-    all[run.point.labels].push_back(&run);
+/// @returns the points in the order of the table.
+std::vector<point_runs> points_in(const swept& s) {
+  std::vector<point_runs> all;
+  std::map<std::vector<std::string>, std::size_t> places;
+  for (const auto& run : s.runs) {
+    const auto& labels = run.point.labels;
+    const auto [place, is_new] = places.try_emplace(labels, all.size());
+    if (is_new)
+      all.push_back({labels, {}});
+    all[place->second].runs.push_back(&run);
+  }
   return all;
 }
 
