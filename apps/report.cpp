@@ -40,7 +40,7 @@ struct report_arguments {
   std::filesystem::path obey() const {
     const std::vector<std::filesystem::path> from(folders.begin(),
                                                   folders.end());
-    const auto to =
+    auto to =
         out.empty() ? from.front() / "report.html" : std::filesystem::path{out};
     check(to, from);
     report::write_html(what(from), to);

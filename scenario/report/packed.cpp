@@ -48,7 +48,7 @@ std::string in_blocks(std::span<const std::int64_t> values) {
     std::uint32_t all = 0;
     for (const auto x : block)
       all |= without_sign(x);
-    const auto width = std::bit_width(all);
+    const auto width = static_cast<int>(std::bit_width(all));
     bytes += static_cast<char>(width);
     std::uint64_t pending = 0;
     int bits = 0;

@@ -47,7 +47,7 @@ std::vector<double> unpacked(const json& from) {
   const auto bytes = bytes_of(from.at(3));
   std::vector<double> column;
   for (std::size_t at = 0; column.size() < count;) {
-    const auto width = static_cast<std::size_t>(bytes.at(at++));
+    const auto width = static_cast<unsigned char>(bytes.at(at++));
     const auto here = std::min<std::size_t>(64, count - column.size());
     for (std::size_t i = 0; i < here; ++i) {
       std::int64_t value = 0;
@@ -87,7 +87,7 @@ TEST_CASE("packed numbers come back to their last digit") {
     line.push_back(-500 + 0.1 * i);
     wave.push_back(std::round(1e5 * std::sin(i * 0.01)) / 1e3);
     noise.push_back((i * 7919 % 1013) / 1e3);
-    steps.push_back(i / 100);
+    steps.push_back(std::floor(i * 0.01));
   }
   for (const auto& column : {line, wave, noise, steps}) {
     const auto back = unpacked(packed(column, 3));
