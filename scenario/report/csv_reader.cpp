@@ -25,12 +25,17 @@ bool parse(std::string_view text, T& value) {
 } // namespace
 
 csv_reader::csv_reader(const std::filesystem::path& file,
-                       std::span<const std::string_view> wanted)
+                       std::span<const std::string_view> wanted, ending end)
     : file_{file.string()}, wanted_(wanted.begin(), wanted.end()) {
   auto content = read_text(file);
   if (!content)
     throw input_error{fmt::format("{}: the file cannot be read.", file_)};
   content_ = std::move(*content);
+  if (end == ending::killed) {
+    content_.resize(content_.rfind('\n') + 1); // npos + 1 is 0
+    if (content_.empty())
+      return; // killed before its first line
+  }
   if (!read_row())
     throw input_error{fmt::format("{}: the file is empty; its first line "
                                   "should name its columns.",

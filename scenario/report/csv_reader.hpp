@@ -17,9 +17,16 @@ namespace sofof::report {
 /// throws input_error with file and line when the file is not as it should be.
 class csv_reader {
 public:
+  /// How a file may end.
+  enum class ending {
+    whole,  ///< With a whole line.
+    killed, ///< Anywhere: what follows the last line end is dropped.
+  };
+
   /// @param wanted  Names of columns that must be there.
   csv_reader(const std::filesystem::path& file,
-             std::span<const std::string_view> wanted);
+             std::span<const std::string_view> wanted,
+             ending end = ending::whole);
 
   /// Goes on to the next row. @returns false after the last one.
   bool next();

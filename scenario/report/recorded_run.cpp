@@ -6,50 +6,17 @@
 #include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace sofof::report {
 
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// @param levels  Of objects in objects; deeper ones are none of ours.
-void collect(const json& from, const std::string& prefix, int levels,
-             std::map<std::string, double>& to) {
-  for (const auto& [name, value] : from.items())
-    if (value.is_number())
-      to[prefix + name] = value.get<double>();
-    else if (value.is_object() && levels > 0)
-      collect(value, prefix + name + '.', levels - 1, to);
-}
-
-std::string text_of(const json& summary, const char* name) {
-  const auto found = summary.find(name);
-  return found != summary.end() && found->is_string()
-             ? found->get<std::string>()
-             : std::string{};
-}
-
-void read_summary(recorded_run& run) {
-  const auto file = run.folder / "summary.json";
-  if (!fs::exists(file))
-    return;
-  const auto summary =
-      json::parse(read_text(file).value_or(""), nullptr, false);
-  if (!summary.is_object())
-    throw input_error{fmt::format(
-        "{}: this is no JSON object, which every run writes.", file.string())};
-  constexpr int levels = 4;
-  collect(summary, "", levels, run.figures.emplace());
-  run.version = text_of(summary, "version");
-  run.clock = text_of(summary, "clock");
-  run.interrupted = summary.value("interrupted", json{}) == true;
-}
-
 std::string name_of(const fs::path& folder) {
   auto whole = fs::absolute(folder).lexically_normal();
   if (!whole.has_filename())
@@ -79,7 +46,12 @@ recorded_run open_run(const fs::path& folder) {
   run.config_toml = read_text(config).value_or("");
   run.episodes = read_episodes(folder);
   run.cycles = read_cycles(folder);
-  read_summary(run);
+  if (auto summary = read_summary(folder)) {
+    run.figures = std::move(summary->figures);
+    run.version = std::move(summary->version);
+    run.clock = std::move(summary->clock);
+    run.interrupted = summary->interrupted;
+  }
   return run;
 }
 

@@ -36,6 +36,31 @@ bool one_of(const csv_reader& row, std::size_t column, std::string_view yes,
   return row.text(column) == yes;
 }
 
+bool was_killed(const fs::path& folder) {
+  return !fs::exists(folder / "summary.json");
+}
+
+csv_reader::ending ending_of(const fs::path& folder) {
+  return was_killed(folder) ? csv_reader::ending::killed
+                            : csv_reader::ending::whole;
+}
+
+void collect(const json& from, const std::string& prefix, int levels,
+             std::map<std::string, double>& to) {
+  for (const auto& [name, value] : from.items())
+    if (value.is_number())
+      to[prefix + name] = value.get<double>();
+    else if (value.is_object() && levels > 0)
+      collect(value, prefix + name + '.', levels - 1, to);
+}
+
+std::string text_of(const json& summary, const char* name) {
+  const auto found = summary.find(name);
+  return found != summary.end() && found->is_string()
+             ? found->get<std::string>()
+             : std::string{};
+}
+
 /// A line of events.jsonl and its place.
 class event_reader {
 public:
@@ -90,7 +115,7 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
                                  "accepted_s", "first_data_s", "ended_s",
                                  "t_off_s",    "reason",       "fallback"};
   enum { side = 5, accepted, first_data, ended, t_off, reason, fallback };
-  csv_reader row{folder / "episodes.csv", names};
+  csv_reader row{folder / "episodes.csv", names, ending_of(folder)};
   std::vector<episode_line> all;
   while (row.next())
     all.push_back({.of = name_at(row, 0),
@@ -112,7 +137,7 @@ std::optional<std::vector<cycle_line>> read_cycles(const fs::path& folder) {
   const auto file = folder / "cycles.csv";
   if (!fs::exists(file))
     return std::nullopt;
-  csv_reader row{file, names};
+  csv_reader row{file, names, ending_of(folder)};
   std::vector<cycle_line> all;
   while (row.next())
     all.push_back({.of = name_at(row, 0),
@@ -129,7 +154,7 @@ std::optional<std::vector<track_line>> read_tracks(const fs::path& folder) {
   const auto file = folder / "tracks.csv";
   if (!fs::exists(file))
     return std::nullopt;
-  csv_reader row{file, names};
+  csv_reader row{file, names, ending_of(folder)};
   std::vector<track_line> all;
   while (row.next())
     all.push_back({.station = row.whole(station),
@@ -140,6 +165,24 @@ std::optional<std::vector<track_line>> read_tracks(const fs::path& folder) {
                    .speed_mps = row.number(speed),
                    .remote = one_of(row, source, "remote", "local")});
   return all;
+}
+
+std::optional<run_summary> read_summary(const fs::path& folder) {
+  const auto file = folder / "summary.json";
+  if (!fs::exists(file))
+    return std::nullopt;
+  constexpr auto no_exceptions = false;
+  const auto text = read_text(file).value_or("");
+  const auto all = json::parse(text, nullptr, no_exceptions);
+  if (!all.is_object())
+    throw input_error{fmt::format(
+        "{}: this is no JSON object, which every run writes.", file.string())};
+  run_summary summary;
+  collect(all, "", summary.figures);
+  summary.version = text_of(all, "version");
+  summary.clock = text_of(all, "clock");
+  summary.interrupted = all.value("interrupted", json{}) == true;
+  return summary;
 }
 
 std::vector<event_line> read_events(const fs::path& folder) {
@@ -153,6 +196,8 @@ std::vector<event_line> read_events(const fs::path& folder) {
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     const auto place = fmt::format("{}:{}", file.string(), number);
+    if (end == rest.npos && was_killed(folder))
+      break;
     if (end == rest.npos)
       throw input_error{fmt::format("{}: this line is cut off.", place)};
     const event_reader line{rest.substr(0, end), place};

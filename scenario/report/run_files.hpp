@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,19 @@ struct event_line {
   offloading_name of;
   std::string detail;
 };
+
+/// Of summary.json.
+struct run_summary {
+  /// All numbers, by dotted names ("latency_ms.mean"), without what is null.
+  std::map<std::string, double> figures;
+  std::string version; ///< Of the program that ran it.
+  std::string clock;   ///< "virtual" or "wall".
+  bool interrupted = false;
+};
+
+/// @returns nothing when the run was killed before it wrote any.
+/// @throws input_error when it is broken.
+std::optional<run_summary> read_summary(const std::filesystem::path& folder);
 
 /// Each reads one file of a results folder.
 /// @throws input_error with file and line when it cannot be read or a line is

@@ -3,42 +3,21 @@
 
 #include "scenario/input_error.hpp"
 #include "scenario/report/run_files.hpp"
-#include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace sofof::study {
 
-namespace {
-
-using nlohmann::json;
-
-void collect(const json& from, const std::string& prefix,
-             std::map<std::string, double>& to) {
-  for (const auto& [name, value] : from.items())
-    if (value.is_number())
-      to[prefix + name] = value.get<double>();
-    else if (value.is_object())
-      collect(value, prefix + name + '.', to);
-}
-
-} // namespace
-
 measured_run read_run(const sweep_point& point,
                       const std::filesystem::path& folder) {
-  measured_run run{point, folder, {}, {}, 0};
-  const auto file = folder / "summary.json";
-  constexpr auto no_exceptions = false;
-  const auto summary =
-      json::parse(read_text(file).value_or(""), nullptr, no_exceptions);
-  if (!summary.is_object())
+  const auto summary = report::read_summary(folder);
+  if (!summary)
     throw input_error{
-        fmt::format("{}: this is no summary of a run.", file.string())};
-  collect(summary, "", run.figures);
+        fmt::format("{}: this run has not come to its end.", folder.string())};
+  measured_run run{point, folder, summary->figures, {}, 0};
   for (const auto& episode : report::read_episodes(folder)) {
     if (!episode.by_requester || episode.of.service != planning
         || !episode.t_off_s || episode.reason == "shutdown")

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 
 using namespace sofof;
 using namespace sofof::made_up;
@@ -234,6 +235,23 @@ TEST_CASE("a killed run is shown as far as it came, and called killed") {
   CHECK(first_of<paragraph>(sections, "Drive").text.find("killed")
         != std::string::npos);
   CHECK(first_of<table>(sections, "Episodes").rows.size() == 3);
+}
+
+TEST_CASE("what a kill left of a line is dropped") {
+  const played_folder folder;
+  std::filesystem::remove(folder.path() / "summary.json");
+  const auto whole = describe_run(folder.path());
+  for (const auto* name :
+       {"episodes.csv", "cycles.csv", "tracks.csv", "events.jsonl"}) {
+    std::ofstream file{folder.path() / name, std::ios::app};
+    file << (std::string_view{name}.ends_with("csv") ? "101,\"to"
+                                                     : "{\"t_s\":");
+  }
+  CHECK(first_of<table>(describe_run(folder.path()), "Episodes").rows
+        == first_of<table>(whole, "Episodes").rows);
+  for (const auto* name : {"episodes.csv", "cycles.csv"})
+    std::ofstream{folder.path() / name}; // killed before its first line
+  CHECK_NOTHROW(describe_run(folder.path()));
 }
 
 TEST_CASE("a run without cycles and tracks is shown without them") {

@@ -72,9 +72,15 @@ function follow_reader(nav, sections) {
   for (const section of sections) seen.observe(section);
 }
 
+/// Who shows nothing, a printer, gives no frames.
+const NO_FRAME_MS = 50;
+
 /// @returns a promise that the browser has shown what there is so far.
 const shown = () =>
-  new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, NO_FRAME_MS);
+  });
 
 /// Shows titles at once and the blocks of each section after them.
 /// @returns a promise that all is there.
