@@ -15,11 +15,12 @@ double share_without_offloading(const cpu_shares& c) {
 }
 
 double share_with_offloading(const cpu_shares& c, double offloaded) {
-  return c.requester + (1 - offloaded) * c.active + offloaded * c.inactive;
+  return (1 - offloaded) * (c.active + c.requester)
+         + offloaded * (c.inactive + c.requester_remote);
 }
 
 std::optional<double> break_even_share(const cpu_shares& c) {
-  const auto saved = c.active - c.inactive;
+  const auto saved = c.active + c.requester - c.inactive - c.requester_remote;
   if (saved <= 0)
     return std::nullopt;
   return c.requester / saved;

@@ -8,9 +8,12 @@ namespace sofof {
 
 /// What one vehicle's computer does, percent of one core.
 struct cpu_shares {
-  double active = 0;    ///< c_TPLa: of the local function while it runs there,
-  double inactive = 0;  ///< c_TPLd: and while a provider runs it.
-  double requester = 0; ///< c_SR: of the offloading itself, at all times.
+  double active = 0;   ///< c_TPLa: of the local function while it runs there,
+  double inactive = 0; ///< c_TPLd: and while a provider runs it.
+  /// c_SR: of the offloading itself, while the function runs in the vehicle,
+  double requester = 0;
+  /// and while a provider runs it. The paper has one for both.
+  double requester_remote = 0;
 };
 
 /// @returns the mean share of a vehicle that never offloads, percent:
@@ -20,14 +23,15 @@ double share_without_offloading(const cpu_shares& c);
 
 /// @param offloaded  t_d / t_total, 0 … 1.
 /// @returns the mean share of a vehicle that offloads for a part of its time,
-/// percent: c_SR + t_a/t_total · c_TPLa + t_d/t_total · c_TPLd.
+/// percent: t_a/t_total · (c_TPLa + c_SR) + t_d/t_total · (c_TPLd + c_SR), each
+/// c_SR of its time.
 /// Source: Dehler & Buchholz 2025, c_with / t_total.
 double share_with_offloading(const cpu_shares& c, double offloaded);
 
 /// @returns the part of its time, t_d / t_total, that a vehicle must offload
-/// for more than, so that it computes less than without:
-/// c_SR / (c_TPLa − c_TPLd). Above 1 it never pays. nullopt when a function
-/// that is deactivated costs no less, so that nothing is ever gained.
+/// for more than, so that it computes less than without. With one c_SR that is
+/// c_SR / (c_TPLa − c_TPLd). Above 1 it never pays. nullopt when offloading
+/// saves nothing while it lasts.
 /// Source: Dehler & Buchholz 2025, the break-even inequality.
 std::optional<double> break_even_share(const cpu_shares& c);
 

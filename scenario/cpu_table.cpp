@@ -81,7 +81,7 @@ std::optional<double> percent_of_core(duration cpu, duration time) {
 
 std::optional<cpu_figures> figures_of(const cpu_table& table,
                                       std::string_view service) {
-  sum active, inactive, sofof, sofof_remote;
+  sum active, inactive, sofof_local, sofof_remote;
   std::uint64_t wakes = 0;
   std::set<station_id> stations;
   for (const auto& line : table.lines) {
@@ -94,26 +94,23 @@ std::optional<cpu_figures> figures_of(const cpu_table& table,
       continue;
     }
     stations.insert(station);
-    sofof.cpu += line.cpu;
     wakes += line.wakes;
-    if (remote)
-      sofof_remote.cpu += line.cpu;
-    if (line.actor != requester)
-      continue;
-    sofof.time += line.time;
-    if (remote)
-      sofof_remote.time += line.time;
+    auto& sofof = remote ? sofof_remote : sofof_local;
+    sofof.cpu += line.cpu;
+    if (line.actor == requester)
+      sofof.time += line.time;
   }
-  const auto a = active.percent(), d = inactive.percent(), r = sofof.percent();
-  if (!a || !d || !r)
+  const auto a = active.percent(), d = inactive.percent();
+  const auto local = sofof_local.percent(), far = sofof_remote.percent();
+  if (!a || !d || !local || !far)
     return std::nullopt;
+  const auto cpu = sofof_local.cpu + sofof_remote.cpu;
+  const auto time = sofof_local.time + sofof_remote.time;
   const auto looking = table.look * static_cast<std::int64_t>(wakes);
-  return cpu_figures{{*a, *d, *r},
-                     sofof_remote.percent(),
-                     stations.size(),
-                     to_seconds(active.time),
-                     to_seconds(inactive.time),
-                     percent_of_core(looking, sofof.time).value_or(0)};
+  return cpu_figures{
+      {*a, *d, *local, *far},    percent_of_core(cpu, time).value_or(0),
+      stations.size(),           to_seconds(active.time),
+      to_seconds(inactive.time), percent_of_core(looking, time).value_or(0)};
 }
 
 std::string to_csv(const cpu_table& table) {

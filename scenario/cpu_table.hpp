@@ -53,12 +53,11 @@ struct cpu_figures {
   /// managers, which also decode what providers send and encode what they get,
   /// and the watchdogs; of all services.
   cpu_shares shares;
-  /// c_SR while the service is remote, percent of a core.
-  std::optional<double> requester_while_remote;
+  double requester_mean = 0; ///< c_SR over all the time, percent of a core.
   std::size_t vehicles = 0;
   double active_s = 0;   ///< t_a, all vehicles together.
   double inactive_s = 0; ///< t_d, likewise.
-  /// What of `shares.requester` is the measuring itself, percent of a core.
+  /// What of `requester_mean` is the measuring itself, percent of a core.
   double overhead = 0;
 };
 

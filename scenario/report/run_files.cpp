@@ -45,6 +45,7 @@ csv_reader::ending ending_of(const fs::path& folder) {
                             : csv_reader::ending::whole;
 }
 
+/// @param levels  Of objects in objects; deeper ones are none of ours.
 void collect(const json& from, const std::string& prefix, int levels,
              std::map<std::string, double>& to) {
   for (const auto& [name, value] : from.items())
@@ -178,7 +179,8 @@ std::optional<run_summary> read_summary(const fs::path& folder) {
     throw input_error{fmt::format(
         "{}: this is no JSON object, which every run writes.", file.string())};
   run_summary summary;
-  collect(all, "", summary.figures);
+  constexpr int levels = 4;
+  collect(all, "", levels, summary.figures);
   summary.version = text_of(all, "version");
   summary.clock = text_of(all, "clock");
   summary.interrupted = all.value("interrupted", json{}) == true;

@@ -11,6 +11,14 @@
 
 namespace sofof::study {
 
+double measured_run::figure(const std::string& name) const {
+  const auto found = figures.find(name);
+  if (found == figures.end())
+    throw input_error{fmt::format("{}: its summary has no figure {}.",
+                                  folder.string(), name)};
+  return found->second;
+}
+
 measured_run read_run(const sweep_point& point,
                       const std::filesystem::path& folder) {
   const auto summary = report::read_summary(folder);

@@ -27,8 +27,8 @@ struct measured_run {
   std::vector<double> t_off_s;
   std::uint64_t ended_early = 0; ///< Episodes that ended by a violation.
 
-  /// @throws std::out_of_range for a name that is not there.
-  double figure(const std::string& name) const { return figures.at(name); }
+  /// @throws input_error for one that the summary does not have.
+  double figure(const std::string& name) const;
 };
 
 /// @param folder  Of a run that came to its end.
@@ -58,7 +58,7 @@ struct spread {
 };
 
 /// @param name  Of a figure with `.count`, `.mean` and `.std`.
-/// @returns those of all values of all these runs.
+/// @returns those of all values of all these runs that have two or more.
 spread pooled(std::span<const measured_run* const> runs,
               const std::string& name);
 

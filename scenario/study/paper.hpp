@@ -17,12 +17,11 @@ inline constexpr double saturation_s = 70;
 /// The real drives.
 inline constexpr double real_latency_mean_ms = 11.94;
 inline constexpr double real_latency_deviation_ms = 2.98;
-inline constexpr int real_drives = 15;
 inline constexpr int real_early_ends = 2;
 
 /// Table of CPU time, percent of one core: simulation at 20 Hz, real at 100 Hz.
-inline constexpr cpu_shares cpu_20_hz{19.5, 8.5, 0.96};
-inline constexpr cpu_shares cpu_100_hz{116.1, 28.3, 2.61};
+inline constexpr cpu_shares cpu_20_hz{19.5, 8.5, 0.96, 0.96};
+inline constexpr cpu_shares cpu_100_hz{116.1, 28.3, 2.61, 2.61};
 
 /// The break-even shares as it prints them, percent. Its own table gives 8.73
 /// and 2.97.

@@ -16,7 +16,7 @@ using report::paragraph;
 double sum(std::span<const measured_run* const> runs, const std::string& name) {
   double all = 0;
   for (const auto* run : runs)
-    all += run->figures.contains(name) ? run->figure(name) : 0;
+    all += run->figure(name);
   return all;
 }
 
@@ -24,8 +24,7 @@ double largest(std::span<const measured_run* const> runs,
                const std::string& name) {
   double all = 0;
   for (const auto* run : runs)
-    if (run->figures.contains(name))
-      all = std::max(all, std::abs(run->figure(name)));
+    all = std::max(all, std::abs(run->figure(name)));
   return all;
 }
 
@@ -48,7 +47,7 @@ report::table driving(const evidence& e) {
       return fmt::format("{:.0f}", sum(runs, name));
     });
   };
-  line("comfort cost per km, m/s³", [](const auto& runs) {
+  line("comfort cost, m²/s³ per km", [](const auto& runs) {
     constexpr double km = 1000;
     return fmt::format("{:.2f}", km * sum(runs, "driving.comfort_cost_m2ps3")
                                      / sum(runs, "driving.distance_m"));

@@ -58,7 +58,10 @@ report::table comparison(const evidence& e) {
        fmt::format("{:.2f} ± {:.2f}", latency.mean, latency.deviation),
        fmt::format("{:.2f} ± {:.2f}", paper::real_latency_mean_ms,
                    paper::real_latency_deviation_ms)},
-      {"drives of 15 that ended offloading early, mean (95 % interval)",
+      {fmt::format("drives of {:.0f} that ended offloading early, mean (95 % "
+                   "interval)",
+                   static_cast<double>(e.real_world.size())
+                       / static_cast<double>(early.size())),
        fmt::format("{:.2f} ({:.2f}–{:.2f})", mean.mean, mean.low, mean.high),
        std::to_string(paper::real_early_ends)},
       {"the same, least and most of all seeds",
@@ -78,19 +81,17 @@ report::table comparison(const evidence& e) {
 figure timelines(const evidence& e) {
   constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
   figure f;
-  f.title = "The 15 drives of seed 1";
+  f.title = "The drives of seed 1";
   f.x_label = "time since the start, s";
   f.y_label = "drive";
-  curve offloaded, early;
-  offloaded.name = "planned at the edge server";
-  early.name = "ended early";
-  early.drawn = curve::style::points;
-  std::vector<std::pair<double, double>> ends;
+  std::vector<std::pair<double, double>> early; // time, drive
   double number = 0;
   for (const auto& run : e.real_world) {
     if (run.point.seed != 1)
       continue;
     ++number;
+    auto& offloaded = f.curves.emplace_back();
+    offloaded.name = run.point.labels.at(0);
     for (const auto& episode : report::read_episodes(run.folder)) {
       if (!episode.by_requester || !episode.first_data_s)
         continue;
@@ -101,19 +102,20 @@ figure timelines(const evidence& e) {
       offloaded.x.push_back(episode.ended_s);
       offloaded.y.push_back(gap);
       if (episode.fallback)
-        ends.emplace_back(episode.ended_s, number);
+        early.emplace_back(episode.ended_s, number);
     }
   }
-  std::ranges::sort(ends);
-  for (const auto& [t, y] : ends) {
-    early.x.push_back(t);
-    early.y.push_back(y);
+  std::ranges::sort(early);
+  curve ends;
+  ends.name = "ended early";
+  ends.drawn = curve::style::points;
+  for (const auto& [t, drive] : early) {
+    ends.x.push_back(t);
+    ends.y.push_back(drive);
   }
-  f.curves.push_back(std::move(offloaded));
-  if (!ends.empty())
-    f.curves.push_back(std::move(early));
-  f.caption = "Drives 1 to 5 go from west to east, 6 to 10 from east to north, "
-              "11 to 15 from north to west.";
+  if (!early.empty())
+    f.curves.push_back(std::move(ends));
+  f.caption = "A line while the edge server plans.";
   return f;
 }
 

@@ -11,6 +11,12 @@
 
 namespace sofof::study {
 
+/// What a run on the wall's clock cost.
+struct measured_cpu {
+  cpu_figures figures;
+  double speed_mps = 0; ///< Mean of its vehicles.
+};
+
 /// The runs of all sweeps in config/paper.
 struct evidence {
   std::vector<measured_run> latency_plot; ///< Axes: vehicles, max_interarrival.
@@ -20,8 +26,8 @@ struct evidence {
   std::vector<measured_run> stalls;       ///< Axes as of latency_plot.
   std::vector<measured_run> real_world;   ///< Axis: drive.
   std::vector<measured_run> quality;      ///< Axis: codm; with tracks.
-  std::optional<cpu_figures> cpu_20_hz;
-  std::optional<cpu_figures> cpu_100_hz;
+  measured_cpu cpu_20_hz;
+  measured_cpu cpu_100_hz;
 };
 
 /// How long vehicles stay offloaded, against the longest gap that they accept.

@@ -11,8 +11,8 @@ using namespace sofof::test;
 namespace {
 
 // Dehler & Buchholz 2025, table "CPU".
-constexpr cpu_shares paper_simulation{19.5, 8.5, 0.96};
-constexpr cpu_shares paper_drives{116.1, 28.3, 2.61};
+constexpr cpu_shares paper_simulation{19.5, 8.5, 0.96, 0.96};
+constexpr cpu_shares paper_drives{116.1, 28.3, 2.61, 2.61};
 
 } // namespace
 
@@ -39,12 +39,20 @@ TEST_CASE("who never offloads pays for the requester all the same") {
 }
 
 TEST_CASE("a cheap planner never pays for a dear requester") {
-  CHECK(break_even_share({0.5, 0.1, 0.8}).value() == near(2, 1e-12));
+  CHECK(break_even_share({0.5, 0.1, 0.8, 0.8}).value() == near(2, 1e-12));
+}
+
+TEST_CASE("a requester that costs more while it is used moves the break-even") {
+  constexpr cpu_shares c{0.2, 0, 0.02, 0.12};
+  const auto even = break_even_share(c).value();
+  CHECK(even == near(0.2, 1e-12)); // 0.02 of 0.2 + 0.02 - 0.12
+  CHECK(share_with_offloading(c, even) == near(0.2, 1e-12));
+  CHECK(break_even_share({0.2, 0, 0.02, 0.22}) == std::nullopt);
 }
 
 TEST_CASE("a function that costs as much deactivated gains nothing") {
-  CHECK(break_even_share({1, 1, 0.1}) == std::nullopt);
-  CHECK(break_even_share({1, 2, 0.1}) == std::nullopt);
+  CHECK(break_even_share({1, 1, 0.1, 0.1}) == std::nullopt);
+  CHECK(break_even_share({1, 2, 0.1, 0.1}) == std::nullopt);
 }
 
 TEST_CASE("a core that is busy for a tenth of the time takes its watts") {
