@@ -1,15 +1,16 @@
 // The command-line arguments of everything that makes many runs.
 #pragma once
 
+#include "apps/host_arguments.hpp"
+#include "apps/program.hpp"
 #include "scenario/input_error.hpp"
-#include "scenario/run.hpp"
+#include "scenario/sweep/far_site.hpp"
 #include "scenario/sweep/sweep.hpp"
-#include "scenario/toml_file.hpp"
-#include "world/fingerprint.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <malloc.h>
 #include <memory>
 #include <string>
@@ -22,14 +23,23 @@ namespace sofof {
 struct sweep_arguments {
   std::string out;
   unsigned jobs = std::thread::hardware_concurrency();
+  std::vector<std::string> workers;
+  host_arguments host;
   bool quiet = false;
 
   void add_to(CLI::App& command) {
     command
         .add_option("-j,--jobs", jobs,
-                    "Runs at the same time (default: one per core)")
+                    "Runs at the same time on this host (default: one per "
+                    "core; 0: none)")
         ->type_name("N")
-        ->check(CLI::Range(1U, 1024U));
+        ->check(CLI::Range(0U, 1024U));
+    command
+        .add_option("--workers", workers,
+                    "Hosts that carry out runs as well, see `sofof worker`")
+        ->type_name("HOST:PORT,...")
+        ->delimiter(',');
+    host.add_to(command);
     command
         .add_option("--out", out,
                     "Folder of all results (default results/NAME)")
@@ -49,15 +59,23 @@ struct sweep_arguments {
                                             : progress::output::plain;
     for (unsigned i = 0; i < jobs; ++i)
       all.sites.push_back(std::make_shared<own_site>(SOFOF_VERSION));
+    if (jobs == 0 && workers.empty())
+      throw input_error("-j 0 leaves nobody to carry out runs; name hosts that "
+                        "do with --workers");
+    if (!workers.empty())
+      std::ranges::move(connect_to_workers(far_ones(all.program)),
+                        std::back_inserter(all.sites));
     return all;
   }
 
 private:
-  /// Another build may give other results.
-  static std::string this_program() {
-    const auto text = read_text("/proc/self/exe");
-    return fmt::format("{} {:016x}", SOFOF_VERSION,
-                       fingerprint(text.value_or("")));
+  far_site_options far_ones(const std::string& program) const {
+    far_site_options what;
+    host.give(what);
+    what.program = program;
+    for (const auto& text : workers)
+      what.workers.push_back(address_of(text));
+    return what;
   }
 };
 

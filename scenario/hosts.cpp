@@ -7,7 +7,7 @@
 #include "network/credentials.hpp"
 #include "network/nonce.hpp"
 #include "network/tls_dialer.hpp"
-#include "network/tls_door.hpp"
+#include "scenario/front.hpp"
 #include "scenario/input_error.hpp"
 #include "world/fingerprint.hpp"
 
@@ -89,48 +89,6 @@ std::size_t find_provider(const scenario& s, std::string_view name,
                                   name, option, names_of(s)));
   return static_cast<std::size_t>(i - s.providers.begin());
 }
-
-/// Nobody outside may hear or say anything in plain words.
-/// @returns what to show to others; nothing on this machine alone, unless it is
-/// asked for.
-std::optional<credentials> load_keys(const network_address& at,
-                                     const std::string& folder,
-                                     std::string_view option) {
-  if (!folder.empty())
-    return credentials{folder};
-  if (at.host != "127.0.0.1" && at.host != "localhost")
-    throw input_error(fmt::format(
-        "{} {} is not on this machine alone, as 127.0.0.1 is, and connections "
-        "beyond it must be secured; make certificates with `sofof keys` and "
-        "name their folder with --keys",
-        option, print_address(at)));
-  return std::nullopt;
-}
-
-/// Where the bytes of a gate come in: it listens in plain words on this
-/// machine, and in front of it, if it is secured, a door.
-class front {
-public:
-  front(const std::optional<credentials>& own, network_address listen)
-      : own_{own}, listen_{std::move(listen)} {}
-
-  /// @returns the address that others reach the gate at.
-  network_address open(network_runtime& time, const gate_actor& gate,
-                       std::function<void(const std::string&)> on_refusal) {
-    const auto port = time.publish(gate, own_ ? 0 : listen_.port);
-    if (!own_)
-      return {listen_.host, port};
-    door_.emplace(*own_, door_options{.listen = listen_,
-                                      .inner_port = port,
-                                      .on_refusal = std::move(on_refusal)});
-    return {listen_.host, door_->port()};
-  }
-
-private:
-  const std::optional<credentials>& own_;
-  network_address listen_;
-  std::optional<tls_door> door_;
-};
 
 /// On this machine alone nobody proves anything, and any stations are a peer.
 peer_finding believe(const peer_hello& hello) {

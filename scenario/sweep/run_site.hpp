@@ -4,10 +4,12 @@
 #include "scenario/scenario.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sofof {
 
@@ -17,10 +19,17 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Carries out one run at a time.
 class run_site {
 public:
   virtual ~run_site() = default;
+
+  /// Any thread may call this.
+  /// @returns how many runs may be carried out here now, each on a thread of
+  /// its own; 0 while the site is away.
+  virtual std::size_t slots() const = 0;
+
+  /// @returns what people should know since the last call, a line each.
+  virtual std::vector<std::string> news() { return {}; }
 
   /// Returns when the run has ended; its results are in the folder then.
   /// @param folder       Whatever is there of a run is replaced.
@@ -36,6 +45,7 @@ public:
   /// @param version  Of this program, for the summaries.
   explicit own_site(std::string version) : version_{std::move(version)} {}
 
+  std::size_t slots() const override { return 1; }
   void carry_out(const scenario& s, const std::filesystem::path& folder,
                  const std::atomic<bool>& interrupted) override;
 

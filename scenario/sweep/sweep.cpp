@@ -59,8 +59,10 @@ public:
       return cut_short;
     }
     if (jobs.waiting() > 0)
-      throw std::runtime_error{fmt::format("no site is left for {} runs: {}.",
-                                           jobs.waiting(), last_loss_)};
+      throw std::runtime_error{
+          fmt::format("no site is left for {} runs: {}; the "
+                      "same command goes on later.",
+                      jobs.waiting(), last_loss_)};
     return finish();
   }
 
@@ -109,31 +111,49 @@ private:
     progress shown{console_, options_.show};
     const stopwatch watch;
     std::vector<std::thread> hands;
-    working_ = options_.sites.size();
-    for (const auto& site : options_.sites)
-      hands.emplace_back([this, &jobs, site] { work(jobs, *site); });
+    at_site_.resize(options_.sites.size());
+    double last_there_s = 0;
     std::unique_lock lock{mutex_};
-    while (working_ > 0) {
-      constexpr std::chrono::milliseconds look_period{100};
-      changed_.wait_for(lock, look_period);
+    for (;;) {
       if (interrupted_)
         jobs.stop();
-      tell_errors(shown);
-      shown.show([&] { return line(jobs, watch.elapsed_s()); },
-                 watch.elapsed_s());
+      else
+        hire(jobs, hands);
+      hear_news();
+      tell_news(shown);
+      const auto wall_s = watch.elapsed_s();
+      if (working_ > 0)
+        last_there_s = wall_s;
+      else if (interrupted_ || jobs.waiting() == 0
+               || wall_s - last_there_s >= to_seconds(options_.patience))
+        break;
+      shown.show([&] { return line(jobs, wall_s); }, wall_s);
+      constexpr std::chrono::milliseconds look_period{100};
+      changed_.wait_for(lock, look_period);
     }
     shown.clear();
-    tell_errors(shown);
+    tell_news(shown);
     lock.unlock();
     for (auto& hand : hands)
       hand.join();
   }
 
-  void work(job_list<job>& jobs, run_site& site) {
+  /// Sites come and go: as many hands for each as it has slots now.
+  void hire(job_list<job>& jobs, std::vector<std::thread>& hands) {
+    for (std::size_t i = 0; i < at_site_.size(); ++i)
+      while (jobs.waiting() > 0 && at_site_[i] < options_.sites[i]->slots()) {
+        ++at_site_[i];
+        ++working_;
+        hands.emplace_back([this, &jobs, i] { work(jobs, i); });
+      }
+  }
+
+  void work(job_list<job>& jobs, std::size_t site) {
     while (auto next = jobs.take())
-      if (!try_one(jobs, site, *next))
+      if (!try_one(jobs, *options_.sites[site], *next))
         break;
     const std::lock_guard lock{mutex_};
+    --at_site_[site];
     --working_;
     changed_.notify_all();
   }
@@ -165,7 +185,16 @@ private:
                                 describe(plan_, points_[point]), why));
   }
 
-  void tell_errors(progress& shown) {
+  void hear_news() {
+    for (const auto& site : options_.sites)
+      for (auto& line : site->news()) {
+        if (site->slots() == 0)
+          last_loss_ = line;
+        news_.push_back(std::move(line));
+      }
+  }
+
+  void tell_news(progress& shown) {
     if (news_.empty())
       return;
     shown.clear();
@@ -216,7 +245,8 @@ private:
   std::condition_variable changed_;
   std::vector<std::string> news_;
   std::string last_loss_;
-  std::size_t working_ = 0; ///< Sites.
+  std::vector<std::size_t> at_site_; ///< Hands of each.
+  std::size_t working_ = 0;          ///< All hands.
   std::size_t found_ = 0, all_ = 0, done_ = 0;
   double cost_ = 0, cost_done_ = 0;
 };

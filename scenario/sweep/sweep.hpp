@@ -4,8 +4,10 @@
 #include "scenario/progress.hpp"
 #include "scenario/sweep/plan.hpp"
 #include "scenario/sweep/run_site.hpp"
+#include "world/time.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <iosfwd>
@@ -21,6 +23,8 @@ struct sweep_options {
   progress::output show = progress::output::quiet;
   /// Where runs are carried out, all at once; at least one.
   std::vector<std::shared_ptr<run_site>> sites;
+  /// So long it waits for a site to come back when all are away.
+  duration patience = std::chrono::seconds{10};
 };
 
 /// What became of the points of a sweep.

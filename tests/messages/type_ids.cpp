@@ -70,6 +70,13 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::session_actor",
       "sofof::entrance_actor",
       "sofof::gate_actor",
+      "sofof::worker_hello",
+      "sofof::file_piece",
+      "sofof::run_report",
+      "sofof::begin_atom",
+      "sofof::look_atom",
+      "sofof::next_atom",
+      "sofof::workbench_actor",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);
@@ -82,7 +89,7 @@ TEST_CASE("type ids are where they have always been") {
 }
 
 TEST_CASE("every type id is listed above") {
-  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 56);
+  CHECK(caf::id_block::sofof::end - caf::id_block::sofof::begin == 63);
 }
 
 TEST_CASE("numbers of some types, written out") {
@@ -95,4 +102,5 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<its_pdu> == 245);
   CHECK(caf::type_id_v<peer_hello> == 247);
   CHECK(caf::type_id_v<gate_actor> == 255);
+  CHECK(caf::type_id_v<workbench_actor> == 262);
 }

@@ -65,8 +65,8 @@ TEST_CASE("a sweep that is killed again and again ends with the same table") {
   constexpr int kills = 10;
   for (int i = 0; i < kills; ++i) {
     program killed{sweep_into("killed"), at.here()};
-    std::this_thread::sleep_for(std::chrono::milliseconds{
-        static_cast<int>(roll.between(0, 400))});
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds{static_cast<int>(roll.between(0, 400))});
     killed.send(SIGKILL);
     killed.wait();
     CHECK_FALSE(fs::exists(at / "killed/gaps.csv"));
@@ -74,7 +74,8 @@ TEST_CASE("a sweep that is killed again and again ends with the same table") {
       break;
   }
   REQUIRE(at.run_sofof(sweep_into("killed")).code == 0);
-  CHECK((read_file(at / "killed/gaps.csv") == read_file(at / "whole/gaps.csv")));
+  CHECK(
+      (read_file(at / "killed/gaps.csv") == read_file(at / "whole/gaps.csv")));
 }
 
 TEST_CASE("an interrupted sweep says so, and goes on later") {

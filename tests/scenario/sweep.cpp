@@ -39,14 +39,23 @@ seeds = 4
 /// Writes summaries instead of driving.
 class made_up_site : public run_site {
 public:
+  std::size_t slots() const override { return is_there ? 1 : 0; }
+  std::vector<std::string> news() override {
+    if (is_there || !comes_back)
+      return {};
+    is_there = true;
+    return {"it is back"};
+  }
   void carry_out(const scenario& s, const fs::path& folder,
                  const std::atomic<bool>&) override {
     const std::lock_guard lock{mutex_};
     seeds.insert(s.seed);
     if (s.seed == failing)
       throw std::runtime_error{"it must not be."};
-    if (lost_after-- == 0)
+    if (lost_after-- == 0) {
+      is_there = false;
       throw site_lost{"the site has gone"};
+    }
     fs::create_directories(folder);
     std::ofstream{folder / "summary.json"} << summary(s);
   }
@@ -54,7 +63,9 @@ public:
   std::multiset<std::int64_t> seeds; ///< Of all runs that it was asked for.
   std::int64_t failing = 0;          ///< The run of this seed fails.
   int lost_after = -1;               ///< So many runs; negative: never.
-  double collisions = 0;             ///< Of each run.
+  std::atomic<bool> is_there = true;
+  bool comes_back = false; ///< Once it is lost.
+  double collisions = 0;   ///< Of each run.
 
 private:
   std::string summary(const scenario& s) const {
@@ -86,6 +97,7 @@ struct sweep_of_four {
     all.out = at / "out";
     all.program = "this";
     all.sites = {site};
+    all.patience = {};
     return all;
   }
 
@@ -202,11 +214,24 @@ TEST_CASE("the runs of a lost site are given to others") {
   CHECK(outcome.good == 4);
 }
 
+TEST_CASE("a lost site that comes back gets runs again") {
+  sweep_of_four four;
+  four.site->lost_after = 1;
+  four.site->comes_back = true;
+  auto patient = four.options();
+  patient.patience = std::chrono::minutes{5};
+  CHECK(four.run(patient).good == 4);
+  CHECK(four.console.str()
+        == "the site has gone; others do its run\nit is back\n");
+}
+
 TEST_CASE("a sweep without a site ends with a sentence and can go on") {
   sweep_of_four four;
   four.site->lost_after = 2;
   CHECK_THROWS_WITH(four.run(),
-                    "no site is left for 2 runs: the site has gone.");
+                    "no site is left for 2 runs: the site has gone; the same "
+                    "command goes on later.");
+  four.site->is_there = true;
   four.run();
   CHECK(four.site->seeds.size() == 5); // the third was tried twice
 }
