@@ -40,8 +40,10 @@ struct report_arguments {
   std::filesystem::path obey() const {
     const std::vector<std::filesystem::path> from(folders.begin(),
                                                   folders.end());
-    auto to =
-        out.empty() ? from.front() / "report.html" : std::filesystem::path{out};
+    // A reproduction has its own report.html.
+    const auto* name =
+        study::is_sweep_folder(from.front()) ? "sweeps.html" : "report.html";
+    auto to = out.empty() ? from.front() / name : std::filesystem::path{out};
     check(to, from);
     report::write_html(what(from), to);
     return to;
@@ -61,7 +63,8 @@ void add_report(CLI::App& app, int&) {
       ->type_name(" ");
   command
       ->add_option("-o,--out", args->out,
-                   "The file (default report.html in the first folder)")
+                   "The file (default report.html in the first folder, of "
+                   "sweeps sweeps.html)")
       ->type_name("FILE");
   command->footer("One folder is shown by itself, two side by side, more one "
                   "after the other.\nExample:\n  sofof report "

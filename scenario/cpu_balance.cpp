@@ -20,7 +20,8 @@ double share_with_offloading(const cpu_shares& c, double offloaded) {
 }
 
 std::optional<double> break_even_share(const cpu_shares& c) {
-  const auto saved = c.active + c.requester - c.inactive - c.requester_remote;
+  const auto saved =
+      (c.active - c.inactive) - (c.requester_remote - c.requester);
   if (saved <= 0)
     return std::nullopt;
   return c.requester / saved;

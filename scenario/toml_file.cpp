@@ -155,6 +155,20 @@ void toml_file::set(std::string_view text) {
   assignment{text}.apply(content_->root);
 }
 
+std::string toml_file::numbered(std::string_view key) const {
+  std::string path;
+  toml::node* at = &content_->root;
+  while (!key.empty()) {
+    const auto segment = take_segment(key);
+    const auto* list = at ? at->as_array() : nullptr;
+    path += path.empty() ? "" : ".";
+    path += list ? std::to_string(find_index(*list, segment))
+                 : std::string{segment};
+    at = at ? find_child(*at, segment) : nullptr;
+  }
+  return path;
+}
+
 void toml_file::read(const std::function<void(settings&)>& list) const {
   toml_settings reader{content_->root, content_->file};
   list(reader);

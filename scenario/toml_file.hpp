@@ -30,6 +30,10 @@ public:
   /// @param assignment  "KEY=VALUE": a TOML value, or else text.
   void set(std::string_view assignment);
 
+  /// @returns a key with the elements of lists by number, however it names
+  /// them: "provider.mec.name" is "provider.0.name".
+  std::string numbered(std::string_view key) const;
+
   /// Loads: walks the options that `list` lists, and refuses what stands in
   /// the file and nobody asked for.
   void read(const std::function<void(settings&)>& list) const;

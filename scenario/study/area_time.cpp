@@ -10,18 +10,21 @@
 
 namespace sofof::study {
 
-std::optional<double> mean_time_in_area_s(const measured_run& run) {
+namespace {
+
+/// How long each stay of a run was, added up.
+group stays_in_area(const measured_run& run) {
   const auto what = load_scenario(run.folder / "config.toml");
   const auto area = what.providers.at(0).area();
-  const auto tracks = report::read_tracks(run.folder);
-  if (!tracks)
-    return std::nullopt;
   struct whereabouts {
     bool inside = false;
     std::optional<double> entered_s; ///< Nothing for who started inside.
   };
   std::map<std::uint64_t, whereabouts> vehicles;
   group stays;
+  const auto tracks = report::read_tracks(run.folder);
+  if (!tracks)
+    return stays;
   for (const auto& line : *tracks) {
     const auto inside = area.contains({line.x_m, line.y_m});
     const auto [at, is_new] = vehicles.try_emplace(line.station);
@@ -34,9 +37,22 @@ std::optional<double> mean_time_in_area_s(const measured_run& run) {
     }
     v.inside = inside;
   }
-  if (stays.count == 0)
+  return stays;
+}
+
+} // namespace
+
+std::optional<double>
+mean_time_in_area_s(std::span<const measured_run* const> runs) {
+  group all;
+  for (const auto* run : runs) {
+    const auto stays = stays_in_area(*run);
+    all.sum += stays.sum;
+    all.count += stays.count;
+  }
+  if (all.count == 0)
     return std::nullopt;
-  return stays.sum / stays.count;
+  return all.sum / all.count;
 }
 
 } // namespace sofof::study

@@ -8,10 +8,10 @@
 
 namespace sofof::study {
 
-/// @param run  With tracks.
+/// @param runs  With tracks.
 /// @returns the mean time from entering the first provider's area to leaving
 /// it, s, all vehicles together; nullopt when nobody did both.
 /// @throws input_error when the run's files are broken.
-std::optional<double> mean_time_in_area_s(const measured_run& run);
+std::optional<double> mean_time_in_area_s(std::span<const measured_run* const> runs);
 
 } // namespace sofof::study

@@ -107,13 +107,10 @@ report::section delay_plot(const evidence& e) {
       paper::max_interarrival_ms, "Δt_max"));
   s.blocks.emplace_back(paragraph{
       "The channel `paper-sim` is fitted to the paper's mean and deviation for "
-      "one vehicle; that they come out again says that the way of the data "
-      "adds "
-      "nothing of its own. The growth with the number of vehicles is not "
-      "fitted: "
-      "it is waiting for the one worker at the edge server, that of 30 % of "
-      "each "
-      "latency."});
+      "one vehicle, so that these only tell that the way of the data adds "
+      "little of its own. The growth with the number of vehicles is not "
+      "fitted: results wait for the one worker at the edge server, which takes "
+      "30 % of each latency."});
   return s;
 }
 

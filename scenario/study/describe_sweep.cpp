@@ -3,6 +3,7 @@
 
 #include "scenario/input_error.hpp"
 #include "scenario/study/swept.hpp"
+#include "scenario/units.hpp"
 
 #include <fmt/format.h>
 
@@ -79,12 +80,14 @@ const std::vector<measure>& measures() {
   return all;
 }
 
-/// @returns the number that a label begins with: 50 of "50ms".
+/// @returns the number that a label is, ms of a duration; nullopt for others.
 std::optional<double> number_of(const std::string& label) {
+  if (const auto d = parse_duration(label))
+    return to_milliseconds(*d);
   double x = 0;
-  const auto [end, error] =
-      std::from_chars(label.data(), label.data() + label.size(), x);
-  return error == std::errc{} ? std::optional{x} : std::nullopt;
+  const auto* last = label.data() + label.size();
+  const auto [end, error] = std::from_chars(label.data(), last, x);
+  return error == std::errc{} && end == last ? std::optional{x} : std::nullopt;
 }
 
 std::set<std::string> labels_of(const swept& s, std::size_t axis) {
@@ -135,7 +138,9 @@ report::figure figure_of(const swept& s, const measure& what,
                          std::size_t axis) {
   report::figure f;
   f.title = what.title;
-  f.x_label = s.axes[axis];
+  const auto durations =
+      parse_duration(s.runs.front().point.labels[axis]).has_value();
+  f.x_label = s.axes[axis] + (durations ? ", ms" : "");
   f.y_label = what.unit;
   f.caption = "Means over all seeds together, with 95 % bootstrap intervals "
               "over runs.";
@@ -204,7 +209,7 @@ report::document describe_sweeps(const fs::path& folder,
                                  std::string_view version) {
   std::set<fs::path> tables;
   for (const auto& entry : fs::directory_iterator{folder})
-    if (entry.path().extension() == ".csv")
+    if (entry.path().extension() == ".csv" && is_sweep_table(entry.path()))
       tables.insert(entry.path());
   if (tables.empty())
     throw input_error{fmt::format("{}: no sweep has come to its end here; the "

@@ -56,6 +56,7 @@ private:
     how.out = options_.out;
     how.program = options_.program;
     how.show = options_.show;
+    how.title = fmt::format("{} ({} of {})  ", name, ++begun_, sweeps);
     how.sites = options_.sites;
     const auto outcome = sweep(plan, how, interrupted_, console_);
     if (outcome.interrupted)
@@ -108,6 +109,8 @@ private:
   const reproduction_options& options_;
   const std::atomic<bool>& interrupted_;
   std::ostream& console_;
+  static constexpr int sweeps = 7;
+  int begun_ = 0;
 };
 
 } // namespace

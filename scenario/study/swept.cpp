@@ -41,6 +41,10 @@ std::vector<std::string> axes_of(const std::filesystem::path& table) {
 
 } // namespace
 
+bool is_sweep_table(const std::filesystem::path& file) {
+  return columns_of(file).front() == before_axes;
+}
+
 swept read_swept(const std::filesystem::path& table) {
   swept all{table.stem().string(), axes_of(table), {}, 0, 0};
   std::vector<std::string_view> wanted{"seed", "status", "run"};

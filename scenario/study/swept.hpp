@@ -19,6 +19,9 @@ struct swept {
   std::size_t unsafe = 0;
 };
 
+/// @returns whether a file begins as such a table does.
+bool is_sweep_table(const std::filesystem::path& file);
+
 /// @param table  NAME.csv, beside the folder `runs`.
 /// @throws input_error when it is no such table, or a run is missing.
 swept read_swept(const std::filesystem::path& table);

@@ -41,7 +41,7 @@ public:
     if (const auto* axes = root_.get("axis"))
       for (const auto* axis : tables_of(*axes, "axis"))
         plan.axes.push_back(axis_of(*axis));
-    check_axes(plan, overrides);
+    check_axes(plan);
     if (plan.size() > most_sweep_points)
       fail(root_, fmt::format("these are {} runs; {} are the most.",
                               plan.size(), most_sweep_points));
@@ -159,6 +159,7 @@ private:
     known(table, {"name", "key", "values", "value"});
     sweep_axis axis;
     if (table.contains("value")) {
+      known(table, {"name", "value"});
       axis.name = text_of(table, "name");
       for (const auto* value : tables_of(*table.get("value"), "axis.value")) {
         known(*value, {"name", "set"});
@@ -173,7 +174,8 @@ private:
       const auto* node = table.get("values");
       const auto* list = node ? node->as_array() : nullptr;
       if (!list || list->empty())
-        fail(node ? *node : table, "values must be a list, [1, 2, 3].");
+        fail(node ? *node : table,
+             "values must be a list of at least one value, [1, 2, 3].");
       for (const auto& value : *list)
         axis.values.push_back({label_of(value), {assignment(key, value)}});
     }
@@ -192,8 +194,7 @@ private:
                            axis.name));
   }
 
-  void check_axes(const sweep_plan& plan,
-                  std::span<const std::string> overrides) const {
+  void check_axes(const sweep_plan& plan) const {
     std::vector<std::string_view> names{"point", "seed", "status", "run"};
     for (const auto& axis : plan.axes) {
       if (axis.name.find_first_of(",\"\n") != axis.name.npos)
@@ -202,22 +203,11 @@ private:
                                 sofof::quoted(axis.name)));
       if (std::ranges::find(names, axis.name) != names.end())
         fail(root_, fmt::format("two columns of the results would be called "
-                                "\"{}\"; give an axis another name.",
+                                "\"{}\"; give an axis another name, and vary "
+                                "each option once.",
                                 axis.name));
       names.push_back(axis.name);
-      for (const auto& value : axis.values)
-        for (const auto& given : value.given)
-          for (const auto& other : overrides)
-            if (key_of(given) == key_of(other))
-              throw input_error{fmt::format(
-                  "--set {}: {} is varied by this sweep; change its values in "
-                  "{}.",
-                  other, key_of(other), file_)};
     }
-  }
-
-  static std::string_view key_of(std::string_view assignment) {
-    return assignment.substr(0, assignment.find('='));
   }
 
   std::string file_;
@@ -267,6 +257,23 @@ std::vector<sweep_point> points_of(const sweep_plan& plan) {
       next.given.push_back(fmt::format("seed={}", seed));
     }
   return seeded;
+}
+
+void check_given_once(const sweep_plan& plan, const sweep_point& point,
+                      std::string_view base) {
+  toml_file file{base, plan.scenario.string()};
+  std::vector<std::string> keys;
+  for (const auto& given : point.given) {
+    keys.push_back(file.numbered(given.substr(0, given.find('='))) + '.');
+    file.set(given);
+  }
+  for (std::size_t i = plan.given.size(); i < keys.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (keys[i].starts_with(keys[k]) || keys[k].starts_with(keys[i]))
+        throw input_error{fmt::format(
+            "{} and {} give the same option of {} twice; a sweep varies each "
+            "option in one place, seeds in `seeds`.",
+            point.given[k], point.given[i], plan.scenario.string())};
 }
 
 std::string describe(const sweep_plan& plan, const sweep_point& point) {

@@ -16,6 +16,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+constexpr std::string_view wall_clock = "timing"; // a member with its figures
+
 /// The columns of figures, in the order in which they are first met.
 class figure_columns {
 public:
@@ -41,7 +43,7 @@ std::string text_of(const json& value) {
 /// @returns the members that differ from run to run, and those that stand in
 /// other columns.
 std::set<std::string> left_out(const sweep_plan& plan) {
-  std::set<std::string> members{"timing", "wall_s", "seed", "interrupted"};
+  std::set<std::string> members{"wall_s", "seed", "interrupted"};
   for (const auto& axis : plan.axes)
     members.insert(axis.name);
   return members;
@@ -51,7 +53,8 @@ void flatten(const json& object, const std::string& prefix,
              const std::set<std::string>& without, figure_columns& columns,
              std::map<std::size_t, std::string>& row) {
   for (const auto& [key, value] : object.items()) {
-    if (without.contains(prefix + key))
+    if (value.is_object() ? prefix + key == wall_clock
+                          : without.contains(prefix + key))
       continue;
     if (value.is_object())
       flatten(value, prefix + key + '.', without, columns, row);

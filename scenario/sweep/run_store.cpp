@@ -33,8 +33,17 @@ constexpr auto for_everybody_to_read = 0644;
 
 } // namespace
 
-run_store::run_store(fs::path folder, std::string program)
-    : folder_{std::move(folder)}, program_{std::move(program)} {
+std::string name_of_run(const scenario& s, std::string_view program) {
+  const auto configuration = configuration_of(s);
+  std::string whole;
+  for (const auto text : {program, std::string_view{configuration},
+                          std::string_view{s.map_text},
+                          std::string_view{s.trace_text}})
+    whole += fmt::format("{}:{}", text.size(), text);
+  return fmt::format("{:016x}", fingerprint(whole));
+}
+
+run_store::run_store(fs::path folder) : folder_{std::move(folder)} {
   std::error_code error;
   fs::create_directories(folder_ / "runs", error);
   if (error)
@@ -52,14 +61,6 @@ run_store::run_store(fs::path folder, std::string program)
 
 run_store::~run_store() {
   ::close(lock_); // which unlocks it
-}
-
-std::string run_store::name_of(const scenario& s) const {
-  std::string whole;
-  for (const auto& text :
-       {program_, configuration_of(s), s.map_text, s.trace_text})
-    whole += fmt::format("{}:{}", text.size(), text);
-  return fmt::format("{:016x}", fingerprint(whole));
 }
 
 fs::path run_store::folder_of(const std::string& name) const {

@@ -7,24 +7,25 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace sofof {
+
+/// @param program  Tells programs apart whose results may differ.
+/// @returns the name of the run of this scenario: the same for the same
+/// configuration, map, trace and program.
+std::string name_of_run(const scenario& s, std::string_view program);
 
 /// The results folders below one folder. One process at a time has it.
 class run_store {
 public:
   /// Makes the folder where it is missing.
-  /// @param program  Tells programs apart whose results may differ.
   /// @throws input_error when it cannot be made, or another process has it.
-  run_store(std::filesystem::path folder, std::string program);
+  explicit run_store(std::filesystem::path folder);
 
   run_store(const run_store&) = delete;
   run_store& operator=(const run_store&) = delete;
   ~run_store();
-
-  /// @returns the name of the run of this scenario: the same for the same
-  /// configuration, map, trace and program.
-  std::string name_of(const scenario& s) const;
 
   std::filesystem::path folder_of(const std::string& name) const;
 
@@ -34,7 +35,6 @@ public:
 
 private:
   std::filesystem::path folder_;
-  std::string program_;
   int lock_ = -1;
 };
 

@@ -9,6 +9,7 @@
 #include "scenario/sweep/job_list.hpp"
 #include "scenario/sweep/point_table.hpp"
 #include "scenario/sweep/run_store.hpp"
+#include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,10 @@
 #include <chrono>
 #include <exception>
 #include <map>
+#include <optional>
+#include <set>
 #include <ostream>
+#include <system_error>
 #include <thread>
 
 namespace sofof {
@@ -47,8 +51,13 @@ public:
                 const std::atomic<bool>& interrupted, std::ostream& console)
       : plan_{plan}, options_{options},
         interrupted_{interrupted}, console_{console},
-        store_{options.out, options.program}, points_{points_of(plan)},
-        results_(points_.size()), errors_(points_.size()) {}
+        points_{points_of(plan)}, results_(points_.size()),
+        errors_(points_.size()) {
+    load_all();
+    store_.emplace(options.out);
+    std::error_code ignored; // an old one may be of other points
+    std::filesystem::remove(table(), ignored);
+  }
 
   sweep_outcome carry_out() {
     job_list<job> jobs{wanted()};
@@ -71,27 +80,40 @@ private:
     return load_scenario(plan_.scenario, points_[point].given);
   }
 
-  /// @returns what is not finished, the longest first, so that the last ones
-  /// to run are short.
-  std::deque<job> wanted() {
-    std::deque<job> jobs;
-    std::map<std::string, bool> met;
+  std::filesystem::path table() const {
+    return options_.out / (plan_.name + ".csv");
+  }
+
+  /// Names all runs, while nothing has been touched.
+  void load_all() {
+    const auto base = read_text(plan_.scenario).value_or("");
     for (std::size_t i = 0; i < points_.size() && !interrupted_; ++i) {
+      check_given_once(plan_, points_[i], base);
       try {
         const auto s = load(i);
-        results_[i].run = store_.name_of(s);
-        if (met[results_[i].run])
-          continue;
-        met[results_[i].run] = true;
-        if (store_.summary_of(results_[i].run))
-          ++found_;
-        else
-          jobs.push_back({results_[i].run, i, cost_of(s)});
+        results_[i].run = name_of_run(s, options_.program);
+        costs_.try_emplace(results_[i].run, cost_of(s));
       } catch (const std::exception& problem) {
         report(i, problem.what());
       }
     }
     refuse_if_none_can_be_loaded();
+  }
+
+  /// @returns what is not finished, the longest first, so that the last ones
+  /// to run are short.
+  std::deque<job> wanted() {
+    std::deque<job> jobs;
+    std::set<std::string> met;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const auto& run = results_[i].run;
+      if (run.empty() || !met.insert(run).second)
+        continue;
+      if (store_->summary_of(run))
+        ++found_;
+      else
+        jobs.push_back({run, i, costs_.at(run)});
+    }
     std::ranges::stable_sort(jobs, std::ranges::greater{}, &job::cost);
     for (const auto& one : jobs)
       cost_ += one.cost;
@@ -150,8 +172,12 @@ private:
 
   void work(job_list<job>& jobs, std::size_t site) {
     while (auto next = jobs.take())
-      if (!try_one(jobs, *options_.sites[site], *next))
+      if (interrupted_) {
+        jobs.hand_back(*next);
         break;
+      } else if (!try_one(jobs, *options_.sites[site], *next)) {
+        break;
+      }
     const std::lock_guard lock{mutex_};
     --at_site_[site];
     --working_;
@@ -161,7 +187,7 @@ private:
   /// @returns whether the site is still there.
   bool try_one(job_list<job>& jobs, run_site& site, const job& one) {
     try {
-      site.carry_out(load(one.point), store_.folder_of(one.run), interrupted_);
+      site.carry_out(load(one.point), store_->folder_of(one.run), interrupted_);
     } catch (const site_lost& loss) {
       jobs.hand_back(one);
       const std::lock_guard lock{mutex_};
@@ -205,7 +231,8 @@ private:
   }
 
   std::string line(const job_list<job>& jobs, double wall_s) const {
-    auto text = fmt::format("{} of {} runs", found_ + done_, found_ + all_);
+    auto text = fmt::format("{}{} of {} runs", options_.title, found_ + done_,
+                            found_ + all_);
     if (found_ > 0)
       text += fmt::format(" ({} from before)", found_);
     text += fmt::format("  {} at work", jobs.at_work());
@@ -219,15 +246,15 @@ private:
     sweep_outcome outcome;
     for (std::size_t i = 0; i < results_.size(); ++i) {
       auto& result = results_[i];
-      result.summary = store_.summary_of(result.run).value_or("");
+      result.summary = store_->summary_of(result.run).value_or("");
       outcome.folders.push_back(result.failed() ? std::filesystem::path{}
-                                                : store_.folder_of(result.run));
+                                                : store_->folder_of(result.run));
       if (result.failed())
         ++outcome.failed;
       else
         ++(result.safe() ? outcome.good : outcome.unsafe);
     }
-    outcome.table = options_.out / (plan_.name + ".csv");
+    outcome.table = table();
     write_file(outcome.table, point_table(plan_, results_));
     return outcome;
   }
@@ -236,7 +263,8 @@ private:
   const sweep_options& options_;
   const std::atomic<bool>& interrupted_;
   std::ostream& console_;
-  run_store store_;
+  std::optional<run_store> store_; ///< Once all points are known.
+  std::map<std::string, double> costs_; ///< Of runs by their names.
   std::vector<sweep_point> points_;
   std::vector<point_result> results_;
   std::vector<std::string> errors_;

@@ -21,6 +21,7 @@ struct sweep_options {
   std::filesystem::path out; ///< Gets NAME.csv and the folder `runs`.
   std::string program;       ///< See `run_store`.
   progress::output show = progress::output::quiet;
+  std::string title; ///< In front of the progress.
   /// Where runs are carried out, all at once; at least one.
   std::vector<std::shared_ptr<run_site>> sites;
   /// So long it waits for a site to come back when all are away.

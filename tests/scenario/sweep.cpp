@@ -193,7 +193,23 @@ TEST_CASE("a sweep of which no point can be loaded is refused as a whole") {
       four.run(),
       doctest::Contains("none of 4 points can be run; seed=1 because"),
       input_error);
-  CHECK_FALSE(fs::exists(four.at / "out/four.csv"));
+  CHECK_FALSE(fs::exists(four.at / "out"));
+}
+
+TEST_CASE("points of one configuration share a run") {
+  sweep_of_four four;
+  std::ofstream{four.at / "four.toml"} << four_seeds << R"(
+[[axis]]
+name = "same"
+[[axis.value]]
+name = "one"
+set = { "fleet.0.count" = 1 }
+[[axis.value]]
+name = "another"
+set = { "fleet.0.count" = 1 }
+)";
+  CHECK(four.run().good == 8);
+  CHECK(four.site->seeds.size() == 4);
 }
 
 TEST_CASE("a run that was unsafe is called so") {
@@ -245,7 +261,7 @@ TEST_CASE("an interrupted sweep writes no table") {
 
 TEST_CASE("two sweeps do not share a folder at the same time") {
   sweep_of_four four;
-  const run_store store{four.at / "out", "this"};
+  const run_store store{four.at / "out"};
   CHECK_THROWS_WITH_AS(four.run(),
                        doctest::Contains("another sweep is at work there"),
                        input_error);

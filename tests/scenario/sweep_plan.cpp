@@ -137,8 +137,42 @@ TEST_CASE("two columns of one name, or a value twice, are refused") {
         != std::string::npos);
 }
 
-TEST_CASE("what a sweep varies cannot be set besides") {
-  const auto error = error_of(text, {"fleet.0.count=3"});
-  CHECK(error.find("--set fleet.0.count=3") == 0);
-  CHECK(error.find("where.toml") != error.npos);
+TEST_CASE("an option is given in one place, whatever it is called there") {
+  constexpr auto base = R"([[fleet]]
+[[service]]
+name = "trajectory_planning"
+[network]
+profile = "ideal"
+)";
+  const auto refused = [&](const std::string& from,
+                           const std::vector<std::string>& overrides = {}) {
+    const auto plan = parsed(from, overrides);
+    try {
+      check_given_once(plan, points_of(plan).front(), base);
+    } catch (const input_error& problem) {
+      return std::string{problem.what()};
+    }
+    return std::string{};
+  };
+  CHECK(refused(text).empty());
+  CHECK(refused(text, {"duration=5s"}).empty()); // once more for all
+  const auto error = refused(text, {"fleet.0.count=3"});
+  CHECK(error.starts_with("fleet.0.count=3 and fleet.0.count=1 give the same"));
+  CHECK_FALSE(refused(text, {"seed=9"}).empty());
+  const auto with = [](std::string_view more) {
+    return text + std::string{more};
+  };
+  CHECK_FALSE(refused(with("[[axis]]\nname = 'x'\nkey = 'fleet.0.count'\n"
+                           "values = [3, 4]\n"))
+                  .empty());
+  CHECK_FALSE(refused(with("[[axis]]\nkey = 'service.0.period'\n"
+                           "values = ['5ms']\n"))
+                  .empty()); // which [set] gives by the service's name
+  CHECK_FALSE(refused(with("[[axis]]\nkey = 'fleet'\nvalues = [3]\n")).empty());
+}
+
+TEST_CASE("an axis has either values of one option or values by name") {
+  CHECK(error_of(changed("name = \"way\"", "name = \"way\"\nkey = \"seed\""))
+            .find("there is no option \"key\"")
+        != std::string::npos);
 }
