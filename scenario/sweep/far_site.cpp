@@ -41,7 +41,7 @@ class far_site final : public run_site {
 public:
   /// @param dialer  Leads to the worker; null: it is on this machine.
   far_site(std::shared_ptr<outside> out, const network_address& at,
-           const tls_dialer* dialer)
+           tls_dialer* dialer)
       : out_{std::move(out)}, name_{"worker " + print_address(at)},
         port_{dialer ? dialer->port() : at.port}, dialer_{dialer},
         noise_{0, name_}, thread_{[this] { keep_in_touch(); }} {}
@@ -52,6 +52,8 @@ public:
       stops_ = true;
       changed_.notify_all();
     }
+    if (dialer_)
+      dialer_->hang_up(); // an attempt ends now
     thread_.join();
   }
   far_site(const far_site&) = delete;
@@ -135,9 +137,11 @@ private:
   /// @param visit  When it was lost; there may have been a new one since then.
   [[noreturn]] void lose(std::uint64_t visit, std::string_view why) {
     const std::lock_guard lock{mutex_};
-    if (visit == visit_) {
+    if (visit == visit_ && slots_ > 0) {
       slots_ = 0;
       gate_ = nullptr;
+      if (dialer_)
+        dialer_->hang_up(); // the next attempt begins anew
       changed_.notify_all();
     }
     last_news_ = fmt::format("{} is lost: {}", name_, why);
@@ -210,7 +214,7 @@ private:
   const std::shared_ptr<outside> out_;
   const std::string name_;
   const std::uint16_t port_; ///< On this machine.
-  const tls_dialer* const dialer_;
+  tls_dialer* const dialer_;
   const random_stream noise_; ///< For the pauses between attempts.
 
   mutable std::mutex mutex_; ///< Of all below.
