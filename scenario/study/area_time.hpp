@@ -12,6 +12,7 @@ namespace sofof::study {
 /// @returns the mean time from entering the first provider's area to leaving
 /// it, s, all vehicles together; nullopt when nobody did both.
 /// @throws input_error when the run's files are broken.
-std::optional<double> mean_time_in_area_s(std::span<const measured_run* const> runs);
+std::optional<double>
+mean_time_in_area_s(std::span<const measured_run* const> runs);
 
 } // namespace sofof::study

@@ -102,11 +102,10 @@ report::table saturation(const evidence& e) {
     }
     if (!t_off || !stay)
       continue;
-    t.rows.push_back({n, fmt::format("{:.1f}", *stay),
-                      fmt::format("{:.1f}", t_off->mean),
-                      fmt::format("{:.1f} %", 100 * t_off->mean / *stay),
-                      episodes > early
-                          ? fmt::format("{:.2f}", early / (episodes - early))
+    t.rows.push_back(
+        {n, fmt::format("{:.1f}", *stay), fmt::format("{:.1f}", t_off->mean),
+         fmt::format("{:.1f} %", 100 * t_off->mean / *stay),
+         episodes > early ? fmt::format("{:.2f}", early / (episodes - early))
                           : "–"});
   }
   t.note = "The time in the area is that of vehicles that plan for themselves. "

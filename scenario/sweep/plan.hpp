@@ -62,8 +62,8 @@ sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
 std::vector<sweep_point> points_of(const sweep_plan& plan);
 
 /// Refuses a point of which one option is given twice: by two axes, by an axis
-/// and for all runs, or by a seed of its own. Options of the file's `set` may be
-/// given again on the command line.
+/// and for all runs, or by a seed of its own. Options of the file's `set` may
+/// be given again on the command line.
 /// @param base  The text of the plan's scenario.
 /// @throws input_error naming both.
 void check_given_once(const sweep_plan& plan, const sweep_point& point,

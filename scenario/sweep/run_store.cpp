@@ -36,9 +36,9 @@ constexpr auto for_everybody_to_read = 0644;
 std::string name_of_run(const scenario& s, std::string_view program) {
   const auto configuration = configuration_of(s);
   std::string whole;
-  for (const auto text : {program, std::string_view{configuration},
-                          std::string_view{s.map_text},
-                          std::string_view{s.trace_text}})
+  for (const auto text :
+       {program, std::string_view{configuration}, std::string_view{s.map_text},
+        std::string_view{s.trace_text}})
     whole += fmt::format("{}:{}", text.size(), text);
   return fmt::format("{:016x}", fingerprint(whole));
 }

@@ -18,8 +18,8 @@
 #include <exception>
 #include <map>
 #include <optional>
-#include <set>
 #include <ostream>
+#include <set>
 #include <system_error>
 #include <thread>
 
@@ -50,9 +50,8 @@ public:
   sweep_at_work(const sweep_plan& plan, const sweep_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console)
       : plan_{plan}, options_{options},
-        interrupted_{interrupted}, console_{console},
-        points_{points_of(plan)}, results_(points_.size()),
-        errors_(points_.size()) {
+        interrupted_{interrupted}, console_{console}, points_{points_of(plan)},
+        results_(points_.size()), errors_(points_.size()) {
     load_all();
     store_.emplace(options.out);
     std::error_code ignored; // an old one may be of other points
@@ -247,8 +246,9 @@ private:
     for (std::size_t i = 0; i < results_.size(); ++i) {
       auto& result = results_[i];
       result.summary = store_->summary_of(result.run).value_or("");
-      outcome.folders.push_back(result.failed() ? std::filesystem::path{}
-                                                : store_->folder_of(result.run));
+      outcome.folders.push_back(result.failed()
+                                    ? std::filesystem::path{}
+                                    : store_->folder_of(result.run));
       if (result.failed())
         ++outcome.failed;
       else
@@ -263,7 +263,7 @@ private:
   const sweep_options& options_;
   const std::atomic<bool>& interrupted_;
   std::ostream& console_;
-  std::optional<run_store> store_; ///< Once all points are known.
+  std::optional<run_store> store_;      ///< Once all points are known.
   std::map<std::string, double> costs_; ///< Of runs by their names.
   std::vector<sweep_point> points_;
   std::vector<point_result> results_;
