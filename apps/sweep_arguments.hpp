@@ -41,8 +41,7 @@ struct sweep_arguments {
         ->delimiter(',');
     host.add_to(command);
     command
-        .add_option("--out", out,
-                    "Folder of all results (default results/NAME)")
+        .add_option("--out", out, "Folder of all results (default in results/)")
         ->type_name("DIR");
     command.add_flag("--quiet", quiet, "No progress");
   }

@@ -26,6 +26,20 @@ std::string read_named(const fs::path& file, std::string_view key,
   return *std::move(text);
 }
 
+/// Streets never change, so a thread that loads one map again and again, for a
+/// sweep, parses it once.
+streets_ptr known_map(const std::string& text, const fs::path& file) {
+  struct parsed_map {
+    std::string text;
+    fs::path file;
+    streets_ptr streets;
+  };
+  thread_local parsed_map last;
+  if (!last.streets || last.text != text || last.file != file)
+    last = {text, file, parse_map(text, file)};
+  return last.streets;
+}
+
 void load_world(scenario& all, const fs::path& folder,
                 const toml_file& source) {
   if (all.grid == !all.map_file.empty())
@@ -41,7 +55,7 @@ void load_world(scenario& all, const fs::path& folder,
   const auto file = folder / all.map_file;
   all.map_text = read_named(file, "map", source);
   all.read_from.push_back(file);
-  all.world = parse_map(all.map_text, file);
+  all.world = known_map(all.map_text, file);
 }
 
 void load_trace(scenario& all, const fs::path& folder,

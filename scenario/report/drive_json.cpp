@@ -26,8 +26,9 @@ constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
 
 /// What befell an offloading or a vehicle: shown on the map when it happens.
-constexpr std::array<std::string_view, 5> alarming{
-    "violation", "collision", "peer_lost", "provider_lost", "requester_lost"};
+constexpr std::array<std::string_view, 6> alarming{
+    "violation", "collision",     "near_miss",
+    "peer_lost", "provider_lost", "requester_lost"};
 /// What else is worth a line.
 constexpr std::array<std::string_view, 5> notable{
     "refused", "clock_in_doubt", "clock_known", "provider_connected",

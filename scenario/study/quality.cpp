@@ -32,7 +32,7 @@ report::table driving(const evidence& e) {
   const auto offloaded = those(e.quality, 0, "location");
   const auto local = those(e.quality, 0, "never");
   report::table t;
-  t.title = "Driving, five seeds";
+  t.title = "Driving, all seeds";
   t.columns = {"figure", "offloaded", "local"};
   const auto line = [&](const std::string& what, const auto& figure) {
     t.rows.push_back({what, figure(offloaded), figure(local)});

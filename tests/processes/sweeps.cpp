@@ -62,17 +62,18 @@ TEST_CASE("a sweep that is killed again and again ends with the same table") {
   at.write("gaps.toml", sweep_file);
   REQUIRE(at.run_sofof(sweep_into("whole")).code == 0);
   dice roll{7};
-  constexpr int kills = 10;
-  for (int i = 0; i < kills; ++i) {
-    program killed{sweep_into("killed"), at.here()};
+  for (std::size_t finished = 0; finished < 5; ++finished) {
+    program killed{sweep_into("killed", "1"), at.here()};
+    REQUIRE(wait_until([&] {
+      return fs::exists(at / "killed/runs")
+             && summaries_in(at / "killed") >= finished;
+    }));
     std::this_thread::sleep_for(
-        std::chrono::milliseconds{static_cast<int>(roll.between(0, 400))});
+        std::chrono::milliseconds{static_cast<int>(roll.between(0, 40))});
     killed.send(SIGKILL);
     killed.wait();
-    CHECK_FALSE(fs::exists(at / "killed/gaps.csv"));
-    if (summaries_in(at / "killed") > 4)
-      break;
   }
+  CHECK(summaries_in(at / "killed") >= 4);
   REQUIRE(at.run_sofof(sweep_into("killed")).code == 0);
   CHECK(
       (read_file(at / "killed/gaps.csv") == read_file(at / "whole/gaps.csv")));

@@ -48,6 +48,8 @@ public:
   }
   void carry_out(const scenario& s, const fs::path& folder,
                  const std::atomic<bool>&) override {
+    while (waits_for && waits_for->is_there)
+      std::this_thread::yield();
     const std::lock_guard lock{mutex_};
     seeds.insert(s.seed);
     if (s.seed == failing)
@@ -66,6 +68,8 @@ public:
   std::atomic<bool> is_there = true;
   bool comes_back = false; ///< Once it is lost.
   double collisions = 0;   ///< Of each run.
+  /// Begins with nothing before this one is lost.
+  const made_up_site* waits_for = nullptr;
 
 private:
   std::string summary(const scenario& s) const {
@@ -226,8 +230,10 @@ TEST_CASE("the runs of a lost site are given to others") {
   four.site->lost_after = 1;
   auto both = four.options();
   both.sites.push_back(others);
+  others->waits_for = four.site.get();
   const auto outcome = four.run(both);
   CHECK(outcome.good == 4);
+  CHECK(four.console.str() == "the site has gone; others do its run\n");
 }
 
 TEST_CASE("a lost site that comes back gets runs again") {

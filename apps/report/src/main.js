@@ -4,4 +4,5 @@ import { render_page } from "./page.js";
 
 const text = document.getElementById("document").textContent;
 window.sofof = hook;
+addEventListener("beforeprint", () => hook.draw_all());
 hook.ready = render_page(document.getElementById("report"), JSON.parse(text));

@@ -1,0 +1,52 @@
+// The paper's evaluation as its users start it, made small.
+#include "tests/processes/workplace.hpp"
+
+#include <regex>
+
+using namespace sofof::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One seed, a minute, few limits.
+void make_small(const fs::path& file) {
+  auto text = read_file(file);
+  const auto change = [&text](const char* what, const char* to) {
+    text = std::regex_replace(text, std::regex{what}, to);
+  };
+  change("seeds = [0-9]+", "seeds = 1");
+  change("values = \\[\\s*\"10ms\"[^\\]]*\\]",
+         "values = [\"80ms\", \"150ms\"]");
+  change("duration = \"180s\"", "duration = \"60s\"");
+  change("duration = \"20s\"", "duration = \"14s\"");
+  std::ofstream{file} << text;
+}
+
+} // namespace
+
+TEST_CASE("the paper's evaluation becomes one page and one text") {
+  const workplace at;
+  for (const auto& file : fs::directory_iterator{at / "config/paper"})
+    make_small(file.path());
+  const auto end = at.run_sofof({"reproduce", "--out", "paper"});
+  CAPTURE(end.err);
+  CAPTURE(end.out);
+  REQUIRE(end.code == 0);
+  CHECK(end.out.find("report in paper/report.html") != end.out.npos);
+  const auto text = read_file(at / "paper/reproduction.md");
+  for (const auto* part :
+       {"# The paper's evaluation, reproduced", "## Offloading time",
+        "## Latency", "## Real drives", "## Computing time",
+        "## Quality of the offloaded result", "10.54 ± 9.83", "8.73 %"})
+    CHECK(text.find(part) != text.npos);
+  CHECK(read_file(at / "paper/report.html").find("</html>")
+        != std::string::npos);
+}
+
+TEST_CASE("a folder that is not the paper's is refused with a sentence") {
+  const workplace at;
+  const auto end = at.run_sofof({"reproduce", "config", "--out", "paper"});
+  CHECK(end.code == 2);
+  CHECK(end.err
+        == "sofof: config/latency_plot.toml: this file cannot be read.\n");
+}

@@ -1,0 +1,169 @@
+// Sections of the paper's evaluation, from runs that are made up.
+#include "scenario/input_error.hpp"
+#include "scenario/study/area_time.hpp"
+#include "scenario/study/describe_sweep.hpp"
+#include "scenario/study/deviation.hpp"
+#include "scenario/study/sections.hpp"
+#include "tests/support/near.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string_view>
+
+using namespace sofof;
+using namespace sofof::study;
+using test::near;
+using test::scratch;
+
+namespace {
+
+void write(const std::filesystem::path& file, std::string_view text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream{file} << text;
+}
+
+template <class Block>
+const Block& the(const report::section& s, std::string_view title) {
+  for (const auto& block : s.blocks)
+    if (const auto* found = std::get_if<Block>(&block))
+      if (found->title.starts_with(title))
+        return *found;
+  FAIL("there is no such block: ", title);
+  throw 0;
+}
+
+constexpr std::string_view tracks_header =
+    "t_s,station,x_m,y_m,s_m,lateral_m,heading_rad,speed_mps,source\n";
+
+/// A folder whose vehicle drives east at 10 m/s, a line a second.
+measured_run driven(const std::filesystem::path& folder, double lateral_m,
+                    double speed_mps, std::string_view source) {
+  std::string tracks{tracks_header};
+  for (int t = 0; t <= 100; ++t)
+    tracks += fmt::format("{0},101,{1},0,{2},{3},0,{4},{5}\n", t, -500 + 10 * t,
+                          10 * t, lateral_m, speed_mps, source);
+  write(folder / "tracks.csv", tracks);
+  write(folder / "config.toml", R"([street_grid]
+[[fleet]]
+routes = ["block *"]
+[[provider]]
+area_m = [[-200.0, -100.0], [300.0, -100.0], [300.0, 100.0], [-200.0, 100.0]]
+[[service]]
+name = "trajectory_planning"
+)");
+  return {{{"1"}, 1, {}}, folder, {}, {}, 0};
+}
+
+constexpr std::string_view episodes_header =
+    "side,station,provider,provider_id,service,counter,accepted_s,"
+    "first_data_s,ended_s,t_off_s,reason,fallback\n";
+
+/// A folder of a sweep over two gaps, two seeds each.
+void make_sweep(const std::filesystem::path& folder) {
+  std::string table = "point,gap,seed,status,run\n";
+  int number = 0;
+  for (const auto* gap : {"60ms", "1s"})
+    for (const auto seed : {1, 2}) {
+      ++number;
+      const auto run = fmt::format("a{}", number);
+      table += fmt::format("{},{},{},ok,{}\n", number, gap, seed, run);
+      write(folder / "runs" / run / "summary.json",
+            fmt::format(R"({{"interrupted":false,"vehicles":2,"virtual_s":100,
+                "offloaded_share":0.{0},"fallbacks":{0},
+                "latency_ms":{{"count":{0}0,"mean":{0},"std":1}}}})",
+                        number));
+      write(folder / "runs" / run / "episodes.csv",
+            fmt::format("{}requester,101,mec,1,trajectory_planning,1,1,2,12,{},"
+                        "left_area,0\n",
+                        episodes_header, 10 * number));
+    }
+  write(folder / "gaps.csv", table);
+}
+
+} // namespace
+
+TEST_CASE("the time in an area is from the entry to the exit") {
+  const scratch dir;
+  const auto run = driven(dir / "run", 0, 10, "local");
+  const measured_run* runs[] = {&run};
+  // In from x = -200 on, out after x = 300, a line every 10 m.
+  CHECK(mean_time_in_area_s(runs).value() == near(51, 1e-9));
+  CHECK_FALSE(mean_time_in_area_s({}));
+}
+
+TEST_CASE("two drives are compared at the same places, where one was remote") {
+  const scratch dir;
+  const auto local = driven(dir / "local", 0.5, 10, "local");
+  const auto remote = driven(dir / "remote", 0.2, 12, "remote");
+  const auto d = deviation_between(remote, local);
+  CHECK(d.path_rms_m == near(0.3, 1e-9));
+  CHECK(d.path_max_m == near(0.3, 1e-9));
+  CHECK(d.speed_rms_mps == near(2, 1e-9));
+  CHECK(d.samples > 90);
+  CHECK(deviation_between(local, remote).samples == 0);
+}
+
+TEST_CASE("computing time is shown beside the paper's, which does not add up") {
+  evidence e;
+  e.cpu_20_hz.figures = {{0.2, 0, 0.02, 0.12}, 0.07, 6, 60, 40, 0.001};
+  e.cpu_20_hz.speed_mps = 10;
+  e.cpu_100_hz.figures = {{0.2, 0, 0.02, 0.3}, 0.07, 6, 60, 40, 0.001};
+  e.cpu_100_hz.speed_mps = 10;
+  const auto s = cpu_cost(e);
+  const auto& shares = the<report::table>(s, "Computing time");
+  REQUIRE(shares.rows.size() == 6);
+  CHECK(shares.rows[0].back() == "8.73 %");
+  CHECK(shares.rows[1].back() == "20.00 %");
+  CHECK(shares.rows[2].back() == "2.97 %");
+  CHECK(shares.rows[3].back() == "never");
+  CHECK(shares.note.find("7.93 % and 6.15 %") != std::string::npos);
+  const auto& balance = the<report::table>(s, "With and without");
+  CHECK(balance.rows[0]
+        == std::vector<std::string>{"20 Hz", "6", "40.00 %", "0.200", "0.180",
+                                    "0.001"});
+  const auto& energy = the<report::table>(s, "What that is in energy");
+  CHECK(energy.rows[0][1] == "0.552"); // 0.2 % of 2.76 W for 100 s
+}
+
+TEST_CASE("a folder of sweeps is shown with curves over what was varied") {
+  const scratch dir;
+  make_sweep(dir.path());
+  write(dir / "other.csv", "not,of,a,sweep\n");
+  CHECK(is_sweep_folder(dir.path()));
+  CHECK_FALSE(is_sweep_folder(dir / "runs"));
+  const auto all = describe_sweeps(dir.path(), "1");
+  CHECK(all.title == "gaps");
+  REQUIRE(all.sections.size() == 1);
+  const auto& f = the<report::figure>(all.sections[0], "Offloading time");
+  CHECK(f.x_label == "gap, ms");
+  REQUIRE(f.curves.size() == 1);
+  CHECK(f.curves[0].x == std::vector<double>{60, 1000});
+  CHECK(f.curves[0].y == std::vector<double>{15, 35});
+  CHECK(f.curves[0].low[0] == 10);
+  CHECK(f.curves[0].high[0] == 20);
+  const auto& latency = the<report::figure>(all.sections[0], "Latency");
+  CHECK(latency.curves[0].y[0] == near(50.0 / 30, 1e-9)); // of all results
+  const auto& points = the<report::table>(all.sections[0], "All points");
+  REQUIRE(points.rows.size() == 2);
+  CHECK(points.rows[0][0] == "60ms");
+  CHECK(points.rows[1][2] == "35.000");
+}
+
+TEST_CASE("a sweep's folder without a table, or without a run, is refused") {
+  const scratch dir;
+  make_sweep(dir.path());
+  std::filesystem::remove_all(dir / "runs/a3");
+  CHECK_THROWS_WITH_AS(describe_sweeps(dir.path(), "1"),
+                       doctest::Contains("has not come to its end"),
+                       input_error);
+  write(dir / "gaps.csv", "point,gap,seed,status,run\n1,60ms,1,ok,../x\n");
+  CHECK_THROWS_WITH_AS(describe_sweeps(dir.path(), "1"),
+                       doctest::Contains("gaps.csv:2"), input_error);
+  std::filesystem::remove(dir / "gaps.csv");
+  CHECK_THROWS_WITH_AS(describe_sweeps(dir.path(), "1"),
+                       doctest::Contains("no sweep has come to its end"),
+                       input_error);
+}
