@@ -19,7 +19,6 @@ namespace sofof::study {
 namespace {
 
 namespace fs = std::filesystem;
-using report::curve;
 using runs_view = std::span<const measured_run* const>;
 
 /// A figure of some runs together.
