@@ -221,8 +221,9 @@ TEST_CASE("a worker that is stopped leaves nothing behind") {
   const sweep_place at;
   for (const auto signal : {SIGINT, SIGTERM}) {
     worker_process worker{at};
-    program sweep{sweep_into("out", worker.address()), at.here()};
-    REQUIRE(wait_until([&] { return fs::exists(at / "out/runs"); }));
+    const auto out = "out" + std::to_string(signal); // new, so that runs/ tells
+    program sweep{sweep_into(out, worker.address()), at.here()};
+    REQUIRE(wait_until([&] { return fs::exists(at / out / "runs"); }));
     pass(0.3);
     CHECK(kept(at).size() == 1);
     CHECK(stop(worker.run(), signal).code == 0);
