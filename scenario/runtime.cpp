@@ -137,9 +137,11 @@ private:
     if (why == caf::sec::disconnect_during_handshake)
       return "it closed the connection before it said anything; is it a port "
              "that wants --keys?";
+    if (why == caf::sec::connection_timeout)
+      return "it does not answer";
     if (why == caf::sec::incompatible_versions)
       return "it was built with another version of CAF";
-    return "who listens there is no provider";
+    return "who listens there speaks another language";
   }
 
   static constexpr auto this_machine = "127.0.0.1";

@@ -190,9 +190,12 @@ TEST_CASE("a worker that falls silent has its runs given to others") {
   const auto end = sweep.wait();
   one.run().send(SIGCONT);
   CAPTURE(end.out);
+  CAPTURE(end.err);
   CHECK(end.code == 0);
   CHECK(contains(end.out, "6 good, 0 unsafe, 0 failed"));
-  CHECK(stop(one.run()).code == 0);
+  const auto last = stop(one.run());
+  CAPTURE(last.err);
+  CHECK(last.code == 0);
 }
 
 TEST_CASE("a sweep whose workers are all lost ends with one sentence, and the "
