@@ -54,8 +54,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
                   "--out results/paper");
   command->callback([args, &exit_code] {
     const auto plan = load_sweep(args->file, args->set);
-    const auto how = args->runs.given(plan.name);
     catch_signals();
+    const auto how = args->runs.given(plan.name);
     exit_code = report(sweep(plan, how, interrupted, std::cout));
   });
 }

@@ -22,7 +22,7 @@ namespace sofof {
 
 struct sweep_arguments {
   std::string out;
-  unsigned jobs = std::thread::hardware_concurrency();
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> workers;
   host_arguments host;
   bool quiet = false;

@@ -1,9 +1,9 @@
 // Where processes of vehicles come in.
 #include "actors/remote/gate.hpp"
 
+#include "actors/remote/greeting.hpp"
 #include "actors/remote/origin.hpp"
 #include "actors/remote/session.hpp"
-#include "actors/remote/type_block.hpp"
 #include "actors/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -151,7 +151,6 @@ struct gate_state {
 
   gate_impl::stateful_pointer<gate_state> self;
   std::shared_ptr<const gate_setup> setup;
-  std::uint64_t types = fingerprint_of_types();
   std::vector<newcomer> newcomers; // the oldest first
   std::vector<guest> guests;
   std::uint64_t refused = 0;
@@ -262,15 +261,9 @@ gate_impl::behavior_type gate(gate_impl::stateful_pointer<gate_state> self,
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.gone(down.source); });
   return {
-      [self](std::uint32_t protocol, std::uint64_t types)
-          -> caf::result<std::uint32_t, std::uint64_t, std::string,
-                         caf::strong_actor_ptr> {
-        auto& state = self->state;
-        if (protocol != remote_protocol || types != state.types)
-          return {remote_protocol, state.types, std::string{},
-                  caf::strong_actor_ptr{}};
-        auto [nonce, in] = state.let_come();
-        return {remote_protocol, state.types, nonce, in};
+      [self](std::uint32_t protocol, std::uint64_t types) {
+        return greet(protocol, types,
+                     [self] { return self->state.let_come(); });
       },
       [self](tick_atom, const std::string& why) {
         if (is_from_here(self))

@@ -1,7 +1,7 @@
 // Where others reach a worker.
 #include "actors/remote/worker_gate.hpp"
 
-#include "actors/remote/type_block.hpp"
+#include "actors/remote/greeting.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -22,7 +22,6 @@ struct worker_gate_state {
 
   gate_actor::stateful_pointer<worker_gate_state> self;
   std::shared_ptr<const workbench_setup> setup;
-  std::uint64_t types = fingerprint_of_types();
   std::size_t benches = 0;
 
   /// @returns a number to sign, and where to do so; nothing if that cannot be.
@@ -51,15 +50,9 @@ worker_gate(gate_actor::stateful_pointer<worker_gate_state> self,
   self->set_down_handler(
       [self](const caf::down_msg&) { --self->state.benches; });
   return {
-      [self](std::uint32_t protocol, std::uint64_t types)
-          -> caf::result<std::uint32_t, std::uint64_t, std::string,
-                         caf::strong_actor_ptr> {
-        auto& state = self->state;
-        if (protocol != remote_protocol || types != state.types)
-          return {remote_protocol, state.types, std::string{},
-                  caf::strong_actor_ptr{}};
-        auto [nonce, bench] = state.make_bench();
-        return {remote_protocol, state.types, nonce, bench};
+      [self](std::uint32_t protocol, std::uint64_t types) {
+        return greet(protocol, types,
+                     [self] { return self->state.make_bench(); });
       },
   };
 }

@@ -47,11 +47,9 @@ report::table shares(const evidence& e) {
           with_their_planner(e.cpu_100_hz.figures.shares, paper::cpu_100_hz)));
   t.note = fmt::format(
       "The last column is the share of the time from which on a vehicle "
-      "computes "
-      "less than without offloading; with one c_SR for all times, as the paper "
-      "has it, c_SR / (c_TPLa − c_TPLd). The paper prints {} % and {} %; its "
-      "own "
-      "table gives {} and {}.",
+      "computes less than without offloading; with one c_SR for all times, "
+      "as the paper has it, c_SR / (c_TPLa − c_TPLd). The paper prints {} % "
+      "and {} %; its own table gives {} and {}.",
       paper::printed_share_20_hz, paper::printed_share_100_hz,
       percent(break_even_share(paper::cpu_20_hz)),
       percent(break_even_share(paper::cpu_100_hz)));
@@ -98,9 +96,8 @@ report::table energy(const evidence& e) {
   add("100 Hz", e.cpu_100_hz);
   t.note = fmt::format(
       "At the mean speeds of the runs, {:.1f} and {:.1f} m/s, with {:.2f} W "
-      "for "
-      "a busy core beyond an idle one: docs/results.md says whose figure that "
-      "is.",
+      "for a busy core beyond an idle one: docs/results.md says whose figure "
+      "that is.",
       e.cpu_20_hz.speed_mps, e.cpu_100_hz.speed_mps,
       core_power{}.more_when_busy_w());
   return t;
@@ -112,9 +109,9 @@ std::string verdict(const cpu_figures& c, const char* rate) {
     return fmt::format("At {} offloading pays from {} of the time on.", rate,
                        percent(share));
   return fmt::format("At {} offloading does not pay in computing time: our "
-                     "planner takes {:.2f} "
-                     "% of a core, the requester {:.3f} %.",
-                     rate, c.shares.active, c.shares.requester);
+                     "planner takes {:.2f} % of a core, the requester "
+                     "{:.3f} % while it is used.",
+                     rate, c.shares.active, c.shares.requester_remote);
 }
 
 } // namespace
@@ -123,12 +120,11 @@ report::section cpu_cost(const evidence& e) {
   report::section s{"Computing time", {}};
   s.blocks.emplace_back(paragraph{
       "Wall-clock runs of 20 s at 20 Hz and at 100 Hz, with vehicles in the "
-      "area "
-      "for a part of the time. Each actor's computing time is read "
-      "from its thread's clock around every turn. The planner's share includes "
-      "its environment model; the requester's is that of SOFOF in the vehicle: "
-      "offers, requests, the check of every result, decoding it and handing it "
-      "on."});
+      "area for a part of the time. Each actor's computing time is read from "
+      "its thread's clock around every turn. The planner's share includes "
+      "its environment model; the requester's is that of SOFOF in the "
+      "vehicle: offers, requests, the check of every result, decoding it and "
+      "handing it on."});
   s.blocks.emplace_back(shares(e));
   s.blocks.emplace_back(balance(e));
   s.blocks.emplace_back(energy(e));
@@ -136,8 +132,8 @@ report::section cpu_cost(const evidence& e) {
       verdict(e.cpu_20_hz.figures, "20 Hz") + ' '
       + verdict(e.cpu_100_hz.figures, "100 Hz")
       + " The paper's planners are processes of ROS 2 that go on listening "
-        "when "
-        "they are deactivated; ours is an actor that keeps its newest input."});
+        "when they are deactivated; ours is an actor that keeps its newest "
+        "input."});
   return s;
 }
 

@@ -89,20 +89,13 @@ std::optional<double> number_of(const std::string& label) {
   return error == std::errc{} && end == last ? std::optional{x} : std::nullopt;
 }
 
-std::set<std::string> labels_of(const swept& s, std::size_t axis) {
-  std::set<std::string> labels;
-  for (const auto& run : s.runs)
-    labels.insert(run.point.labels[axis]);
-  return labels;
-}
-
 /// @returns the axis with most values that are all numbers; nullopt if none
 /// has two.
 std::optional<std::size_t> axis_to_draw(const swept& s) {
   std::optional<std::size_t> best;
   std::size_t most = 1;
   for (std::size_t axis = 0; axis < s.axes.size(); ++axis) {
-    const auto labels = labels_of(s, axis);
+    const auto labels = labels_of(s.runs, axis);
     const auto numbers = std::ranges::all_of(
         labels, [](const auto& x) { return number_of(x).has_value(); });
     if (numbers && labels.size() > most) {

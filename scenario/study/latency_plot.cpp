@@ -17,15 +17,6 @@ using report::curve;
 using report::paragraph;
 
 /// The labels of an axis, in their order.
-std::vector<std::string> labels_of(std::span<const measured_run> runs,
-                                   std::size_t axis) {
-  std::vector<std::string> labels;
-  for (const auto& run : runs)
-    if (std::ranges::find(labels, run.point.labels[axis]) == labels.end())
-      labels.push_back(run.point.labels[axis]);
-  return labels;
-}
-
 double ms_of(const std::string& duration_text) {
   return to_milliseconds(parse_duration(duration_text).value());
 }

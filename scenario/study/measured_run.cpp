@@ -36,6 +36,15 @@ measured_run read_run(const sweep_point& point,
   return run;
 }
 
+std::vector<std::string> labels_of(std::span<const measured_run> runs,
+                                   std::size_t axis) {
+  std::vector<std::string> labels;
+  for (const auto& run : runs)
+    if (std::ranges::find(labels, run.point.labels[axis]) == labels.end())
+      labels.push_back(run.point.labels[axis]);
+  return labels;
+}
+
 std::vector<const measured_run*> those(std::span<const measured_run> runs,
                                        std::size_t axis,
                                        const std::string& label) {

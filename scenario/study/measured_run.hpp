@@ -36,6 +36,10 @@ struct measured_run {
 measured_run read_run(const sweep_point& point,
                       const std::filesystem::path& folder);
 
+/// @returns each value that the axis of this number takes, as it comes first.
+std::vector<std::string> labels_of(std::span<const measured_run> runs,
+                                   std::size_t axis);
+
 /// @returns those whose axis number `axis` has this value.
 std::vector<const measured_run*> those(std::span<const measured_run> runs,
                                        std::size_t axis,

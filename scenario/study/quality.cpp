@@ -120,11 +120,9 @@ report::section quality(const evidence& e) {
   report::section s{"Quality of the offloaded result", {}};
   s.blocks.emplace_back(paragraph{
       "The paper leaves this to future work: does the result of the edge "
-      "server "
-      "drive as well as that of the vehicle? The same six vehicles on the same "
-      "seeds, offloaded where they can be, and never. docs/results.md says "
-      "what "
-      "the figures measure."});
+      "server drive as well as that of the vehicle? The same six vehicles on "
+      "the same seeds, offloaded where they can be, and never. "
+      "docs/results.md says what the figures measure."});
   s.blocks.emplace_back(driving(e));
   s.blocks.emplace_back(switches(e));
   s.blocks.emplace_back(deviations(e));

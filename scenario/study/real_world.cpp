@@ -156,12 +156,11 @@ std::string about_the_tail(const evidence& e, const histogram& latencies) {
 report::section real_world(const evidence& e) {
   report::section s{"Real drives", {}};
   s.blocks.emplace_back(paragraph{
-      "The paper drove 15 times on three routes over the pilot crossing, about "
-      "220 m of each in the area, planned 100 times a second over 5G. We have "
-      "no "
-      "car there: this is an emulation with the channel `paper-5g`, whose mean "
-      "and deviation are fitted to the paper's, on the same routes, for 20 "
-      "seeds."});
+      "The paper drove 15 times on three routes over the pilot crossing, "
+      "about 220 m of each in the area, planned 100 times a second over 5G. "
+      "We have no car there: this is an emulation with the channel "
+      "`paper-5g`, whose mean and deviation are fitted to the paper's, on "
+      "the same routes, for 20 seeds."});
   s.blocks.emplace_back(comparison(e));
   s.blocks.emplace_back(timelines(e));
   const auto all = latencies(e);
