@@ -138,7 +138,7 @@ struct provider_state {
   }
 
   void offer(station_record& station, time_point t) {
-    service_offer offered{setup.boot, setup.position, {}};
+    service_offer offered{setup.boot, setup.position, {}, utilisation()};
     for (const auto& kind : setup.kinds)
       if (!find(station, kind->name()))
         offered.kinds.push_back(kind->name());
@@ -198,20 +198,40 @@ struct provider_state {
 
   std::vector<central_decision> decide(const service_request& request,
                                        station_record& station) {
-    std::vector<std::string_view> kinds;
+    std::vector<request_view> requests;
     for (const auto& kind : request.kinds) {
       // Who asks again no longer runs it: its service_end was lost.
       if (const auto* running = find(station, kind.view()))
         end(station, running->running, end_reason::no_data, true);
-      kinds.push_back(kind.view());
+      requests.push_back({request.station, kind.view(), request.route,
+                          request.speed_mps, utilisation_by(kind.view())});
     }
-    std::vector<central_context::session> sessions;
+    std::vector<session_view> sessions;
     for (const auto& [id, other] : stations)
       for (const auto& s : other.sessions)
         sessions.push_back({id, s.running.kind.view(), s.since});
-    return setup.codm->decide({now(self), request.station, kinds, request.route,
-                               request.speed_mps, setup.area, setup.world->map,
-                               sessions});
+    return setup.codm->decide({now(self), requests, sessions, utilisation(),
+                               setup.area, setup.world->map});
+  }
+
+  // @returns the share of the workers that a service of this kind takes.
+  double utilisation_by(std::string_view kind) const {
+    const auto number = find_kind(kind);
+    if (!number)
+      return 0;
+    const auto& options = setup.kinds[*number]->common;
+    return setup.profile->mean_service_s() * options.demand
+           / to_seconds(options.period)
+           / static_cast<double>(setup.profile->workers);
+  }
+
+  // @returns what all that runs here takes of them.
+  double utilisation() const {
+    double all = 0;
+    for (const auto& [id, station] : stations)
+      for (const auto& s : station.sessions)
+        all += utilisation_by(s.running.kind.view());
+    return all;
   }
 
   void respond(const service_request& request, station_record& station,

@@ -29,7 +29,9 @@ struct known_provider {
   provider_actor handle;
   std::optional<std::uint32_t> open_request;
   std::optional<time_point>
-      last_complaint; // about results of unknown running services
+      last_complaint;  // about results of unknown running services
+  service_offer offer; // the latest, without what was asked for since
+  time_point offered_at;
 };
 
 enum class phase { local, requested, starting, remote };
@@ -60,6 +62,7 @@ struct requester_state {
   std::map<boot_id, known_provider> providers;
   ego_state ego;
   std::uint32_t last_request = 0;
+  std::uint64_t decisions = 0;
 
   void start() {
     self->monitor(setup.vehicle);
@@ -151,16 +154,18 @@ struct requester_state {
   void take(const service_offer& offer, const provider_actor& from) {
     note("offer", offer.provider, {}, 0, {});
     auto& provider = meet(offer.provider, from);
+    provider.offer = offer;
+    provider.offered_at = now(self);
     if (provider.open_request)
       return;
-    std::vector<service_name> wanted;
+    std::map<boot_id, std::vector<service_name>> wanted;
     const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
                                            protocol::route_spacing_m);
     for (const auto& kind : offer.kinds)
-      if (wants(kind, offer, path))
-        wanted.push_back(kind);
-    if (!wanted.empty())
-      request(offer.provider, std::move(wanted), path);
+      if (const auto source = choose(kind, offer.provider, path); source != 0)
+        wanted[source].push_back(kind);
+    for (auto& [source, kinds] : wanted)
+      request(source, std::move(kinds), path);
   }
 
   known_provider& meet(boot_id id, const provider_actor& from) {
@@ -175,7 +180,8 @@ struct requester_state {
     std::erase_if(providers, [&](const auto& known) {
       return is_same(known) && !is_in_use(known.first);
     });
-    return providers.emplace(id, known_provider{from, {}, {}}).first->second;
+    return providers.emplace(id, known_provider{from, {}, {}, {}, {}})
+        .first->second;
   }
 
   bool is_in_use(boot_id id) const {
@@ -184,20 +190,44 @@ struct requester_state {
     });
   }
 
-  bool wants(const service_name& kind, const service_offer& offer,
-             std::span<const point> path) {
-    auto* slot = find(kind.view());
+  // @returns who shall be asked for a service now that somebody offers it;
+  // 0 for nobody.
+  boot_id choose(const service_name& kind, boot_id offering,
+                 std::span<const point> path) {
+    const auto* slot = find(kind.view());
     if (!slot || slot->at != phase::local)
-      return false;
-    const auto t = now(self);
-    if (auto i = slot->cool_until.find(offer.provider);
-        i != slot->cool_until.end() && t < i->second)
-      return false;
+      return 0;
+    auto offers = offers_for(*slot);
+    const auto this_one =
+        std::ranges::find(offers, offering, &provider_view::id);
+    if (this_one == offers.end())
+      return 0;
+    std::rotate(offers.begin(), this_one, this_one + 1);
     const auto decision = setup.lodm->decide(
-        {t, kind.view(), offer.position, path, ego.own.speed_mps});
-    if (!decision.request)
-      note("stay_local", offer.provider, kind, 0, decision.why);
-    return decision.request;
+        {now(self), kind.view(), offers, path, ego.own.speed_mps,
+         setup.noise.part("decisions"), ++decisions});
+    if (std::ranges::find(offers, decision.source, &provider_view::id)
+        != offers.end())
+      return decision.source;
+    note("stay_local", offering, kind, 0, decision.why);
+    return 0;
+  }
+
+  // @returns who may be asked for this service.
+  std::vector<provider_view> offers_for(const service_slot& slot) const {
+    const auto t = now(self);
+    std::vector<provider_view> all;
+    for (const auto& [id, provider] : providers) {
+      const auto& [boot, at, kinds, utilisation] = provider.offer;
+      const auto cool = slot.cool_until.find(id);
+      const auto cools = cool != slot.cool_until.end() && t < cool->second;
+      const auto offers =
+          std::ranges::find(kinds, slot.kind->name()) != kinds.end();
+      if (offers && t - provider.offered_at <= protocol::offer_validity
+          && !cools && !provider.open_request)
+        all.push_back({id, at, utilisation});
+    }
+    return all;
   }
 
   void request(boot_id id, std::vector<service_name> wanted,
@@ -206,6 +236,7 @@ struct requester_state {
     const auto number = ++last_request;
     provider.open_request = number;
     for (const auto& kind : wanted) {
+      std::erase(provider.offer.kinds, kind);
       auto* slot = find(kind.view());
       slot->at = phase::requested;
       slot->provider = id;

@@ -15,6 +15,7 @@ void add_reproduce(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_policies(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);

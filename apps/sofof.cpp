@@ -39,6 +39,7 @@ int obey(int argc, char** argv) {
   sofof::add_reproduce(app, exit_code);
   sofof::add_report(app, exit_code);
   sofof::add_check(app, exit_code);
+  sofof::add_policies(app, exit_code);
   sofof::add_solve(app, exit_code);
   sofof::add_decode(app, exit_code);
   sofof::add_encode(app, exit_code);

@@ -43,6 +43,8 @@ struct service_offer {
   boot_id provider = 0;
   point position; ///< Of the provider, m, east-north.
   std::vector<service_name> kinds;
+  /// What runs there needs this share of its workers; above 1 it falls behind.
+  double utilisation = 0;
 };
 
 /// A requester asks for some of the offered services.
@@ -139,9 +141,9 @@ bool inspect(Inspector& f, cam& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, service_offer& x) {
-  return f.object(x).fields(f.field("provider", x.provider),
-                            f.field("position", x.position),
-                            f.field("kinds", x.kinds));
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("position", x.position),
+      f.field("kinds", x.kinds), exact_field(f, "utilisation", x.utilisation));
 }
 
 template <class Inspector>

@@ -5,12 +5,13 @@
 
 namespace sofof {
 
-/// LODM that says the same to every offer: "always" or "never".
+/// LODM that asks whoever offers, or nobody: "always" or "never".
 class constant_lodm final : public local_policy {
 public:
   explicit constant_lodm(bool yes) : yes_{yes} {}
-  local_decision decide(const local_context&) override {
-    return {yes_, name()};
+  local_decision decide(const local_context& context) override {
+    const auto asks = yes_ && !context.providers.empty();
+    return {asks ? context.providers.front().id : boot_id{0}, name()};
   }
   std::string_view name() const override { return yes_ ? "always" : "never"; }
   std::unique_ptr<local_policy> clone() const override {
@@ -27,7 +28,8 @@ public:
   explicit constant_codm(bool yes) : yes_{yes} {}
   std::vector<central_decision>
   decide(const central_context& context) override {
-    return std::vector<central_decision>(context.kinds.size(), {yes_, name()});
+    return std::vector<central_decision>(context.requests.size(),
+                                         {yes_, name()});
   }
   std::string_view name() const override { return yes_ ? "always" : "never"; }
   std::unique_ptr<central_policy> clone() const override {

@@ -4,6 +4,7 @@
 #include "policies/policy.hpp"
 #include "world/geometry.hpp"
 #include "world/ids.hpp"
+#include "world/random.hpp"
 #include "world/road_map.hpp"
 
 #include <span>
@@ -12,38 +13,56 @@
 
 namespace sofof {
 
-/// What a requester weighs: one offered service of one provider.
+/// What a vehicle knows of a provider.
+struct provider_view {
+  boot_id id = 0;
+  point at; ///< m, east-north.
+  /// What runs there needs this share of its workers, as it says; above 1 it
+  /// falls behind.
+  double utilisation = 0;
+};
+
+/// What a requester weighs: one of its services, and who offers it.
 struct local_context {
   time_point now;
   std::string_view kind;
-  point provider_at;           ///< m, east-north.
+  /// Those that may be asked now: first who offers it just now, then by id.
+  std::span<const provider_view> providers;
   std::span<const point> path; ///< Planned, from the vehicle on, m.
   double speed_mps = 0;
+  random_stream noise{0, ""}; ///< Of this vehicle's decisions.
+  std::uint64_t number = 0;   ///< Of this decision: the counter of `noise`.
 };
 
 struct local_decision {
-  bool request = false;
+  boot_id source = 0;   ///< The provider to be asked; 0: the vehicle itself.
   std::string_view why; ///< A short literal, for the records.
 };
 
-/// What a provider weighs: one request, service by service, with everything
-/// that runs already.
-struct central_context {
-  /// One service of one station that runs now.
-  struct session {
-    station_id station = 0;
-    std::string_view kind;
-    time_point since;
-  };
-
-  time_point now;
+/// One service that a vehicle asks for.
+struct request_view {
   station_id station = 0;
-  std::span<const std::string_view> kinds; ///< Requested.
-  std::span<const point> route;            ///< Planned, m, at least 1.
+  std::string_view kind;
+  std::span<const point> route; ///< Planned, m, at least 1.
   double speed_mps = 0;
+  double utilisation = 0; ///< What it would add to that of the provider.
+};
+
+/// One service of one station that runs now.
+struct session_view {
+  station_id station = 0;
+  std::string_view kind;
+  time_point since;
+};
+
+/// What a provider weighs: requests, and what runs already.
+struct central_context {
+  time_point now;
+  std::span<const request_view> requests; ///< That came together.
+  std::span<const session_view> sessions; ///< Of all stations.
+  double utilisation = 0;                 ///< Of its workers, by the sessions.
   const polygon& area;
   const road_map& map;
-  std::span<const session> sessions; ///< Of all stations.
 };
 
 struct central_decision {
@@ -55,7 +74,7 @@ struct central_decision {
 using local_policy = policy<local_context, local_decision>;
 
 /// CODM: centralised offloading decision making, at the provider; one
-/// decision per requested service, in their order.
+/// decision per request, in their order.
 using central_policy = policy<central_context, std::vector<central_decision>>;
 
 } // namespace sofof

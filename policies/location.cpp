@@ -36,17 +36,57 @@ double distance_in_disc_m(std::span<const point> path, point centre,
   return passed_m;
 }
 
-local_decision location_lodm::decide(const local_context& context) {
-  const auto passed_m = distance_in_disc_m(context.path, context.provider_at,
-                                           radius_m_, min_distance_m_);
+std::string_view near_provider::objection(const local_context& context,
+                                          const provider_view& provider) const {
+  const auto passed_m =
+      distance_in_disc_m(context.path, provider.at, radius_m_, min_distance_m_);
   if (passed_m > min_distance_m_)
-    return {true, "d_passed > d_min"};
-  return {false, "path leaves r_off or ends before d_min"};
+    return {};
+  return "path leaves r_off or ends before d_min";
 }
 
-void location_lodm::fields(settings& s) {
+void near_provider::fields(settings& s) {
   s.field("radius_m", radius_m_, {0, 1e6});
   s.field("min_distance_m", min_distance_m_, {0, 1e6});
+}
+
+std::unique_ptr<local_filter> near_provider::clone() const {
+  return std::make_unique<near_provider>(*this);
+}
+
+std::string_view stays_in_area::objection(const central_context& context,
+                                          const request_view& request) const {
+  auto on_map = [&](point p) {
+    return context.map.near_lane(p, map_tolerance_m_);
+  };
+  if (!std::ranges::all_of(request.route, on_map))
+    return "route is not on the map";
+  const auto stay_s =
+      time_in_area_s(request.route, context.area, request.speed_mps);
+  if (!stay_s)
+    return "outside the area";
+  if (!(*stay_s >= to_seconds(min_time_))) // nor what is no number
+    return "t_in_area < t_min";
+  return {};
+}
+
+void stays_in_area::fields(settings& s) {
+  s.field("min_time", min_time_, duration{0});
+  s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
+}
+
+std::unique_ptr<central_filter> stays_in_area::clone() const {
+  return std::make_unique<stays_in_area>(*this);
+}
+
+local_decision location_lodm::decide(const local_context& context) {
+  std::string_view why = "nobody offers it";
+  for (const auto& provider : context.providers) {
+    why = near_.objection(context, provider);
+    if (why.empty())
+      return {provider.id, "d_passed > d_min"};
+  }
+  return {0, why};
 }
 
 std::unique_ptr<local_policy> location_lodm::clone() const {
@@ -55,26 +95,13 @@ std::unique_ptr<local_policy> location_lodm::clone() const {
 
 std::vector<central_decision>
 location_codm::decide(const central_context& context) {
-  auto all = [&](bool accept, std::string_view why) {
-    return std::vector<central_decision>(context.kinds.size(), {accept, why});
-  };
-  auto on_map = [&](point p) {
-    return context.map.near_lane(p, map_tolerance_m_);
-  };
-  if (!std::ranges::all_of(context.route, on_map))
-    return all(false, "route is not on the map");
-  const auto stay_s =
-      time_in_area_s(context.route, context.area, context.speed_mps);
-  if (!stay_s)
-    return all(false, "outside the area");
-  if (!(*stay_s >= to_seconds(min_time_))) // nor what is no number
-    return all(false, "t_in_area < t_min");
-  return all(true, "t_in_area >= t_min");
-}
-
-void location_codm::fields(settings& s) {
-  s.field("min_time", min_time_, duration{0});
-  s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
+  std::vector<central_decision> all;
+  for (const auto& request : context.requests) {
+    const auto why = stays_.objection(context, request);
+    all.push_back(why.empty() ? central_decision{true, "t_in_area >= t_min"}
+                              : central_decision{false, why});
+  }
+  return all;
 }
 
 std::unique_ptr<central_policy> location_codm::clone() const {

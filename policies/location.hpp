@@ -2,7 +2,7 @@
 // Source: Dehler & Buchholz 2025, section on location-based decisions.
 #pragma once
 
-#include "policies/context.hpp"
+#include "policies/filter.hpp"
 
 #include <optional>
 
@@ -25,32 +25,58 @@ std::optional<double> time_in_area_s(std::span<const point> route,
 double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m);
 
-/// LODM: accepts an offer as soon as the planned path stays long enough
-/// within r_off of the provider.
-class location_lodm final : public local_policy {
+/// A provider may be asked as soon as the planned path stays long enough
+/// within r_off of it.
+class near_provider final : public local_filter {
 public:
-  local_decision decide(const local_context& context) override;
+  std::string_view objection(const local_context& context,
+                             const provider_view& provider) const override;
   void fields(settings& s) override;
   std::string_view name() const override { return "location"; }
-  std::unique_ptr<local_policy> clone() const override;
+  std::unique_ptr<local_filter> clone() const override;
 
 private:
   double radius_m_ = 300;      // r_off
   double min_distance_m_ = 50; // d_min
 };
 
-/// CODM: accepts when the route is on the map and the vehicle will stay in
-/// the offloading area long enough.
-class location_codm final : public central_policy {
+/// A request may be accepted when its route is on the map and the vehicle will
+/// stay in the offloading area long enough.
+class stays_in_area final : public central_filter {
 public:
-  std::vector<central_decision> decide(const central_context& context) override;
+  std::string_view objection(const central_context& context,
+                             const request_view& request) const override;
   void fields(settings& s) override;
   std::string_view name() const override { return "location"; }
-  std::unique_ptr<central_policy> clone() const override;
+  std::unique_ptr<central_filter> clone() const override;
 
 private:
   duration min_time_ = std::chrono::seconds{5}; // t_min
   double map_tolerance_m_ = 3.0;
+};
+
+/// LODM: asks the first provider that is near enough.
+class location_lodm final : public local_policy {
+public:
+  local_decision decide(const local_context& context) override;
+  void fields(settings& s) override { near_.fields(s); }
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<local_policy> clone() const override;
+
+private:
+  near_provider near_;
+};
+
+/// CODM: accepts every vehicle that stays long enough.
+class location_codm final : public central_policy {
+public:
+  std::vector<central_decision> decide(const central_context& context) override;
+  void fields(settings& s) override { stays_.fields(s); }
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<central_policy> clone() const override;
+
+private:
+  stays_in_area stays_;
 };
 
 } // namespace sofof

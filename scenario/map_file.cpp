@@ -1,7 +1,7 @@
 // Reads a map: lanes, houses and named routes.
 #include "scenario/map_file.hpp"
 
-#include "scenario/listing.hpp"
+#include "world/listing.hpp"
 #include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>

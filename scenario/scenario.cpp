@@ -2,7 +2,7 @@
 #include "scenario/scenario.hpp"
 
 #include "policies/registry.hpp"
-#include "scenario/listing.hpp"
+#include "world/listing.hpp"
 #include "scenario/settings_printer.hpp"
 #include "world/protocol.hpp"
 

@@ -105,6 +105,10 @@ void burst_loss_options::fields(settings& s) {
              "has no effect alone; mean_good and mean_bad go together");
 }
 
+double channel_profile::mean_service_s() const {
+  return service.mean_s() + joint_service_share * joint.mean_s();
+}
+
 void channel_profile::fields(settings& s) {
   s.field("workers", workers, {1, 1024});
   s.field("loss", loss, probability);

@@ -70,6 +70,10 @@ struct channel_profile {
   /// Each vehicle starts at its own place in the trace, else all at its begin.
   bool scatters_trace = true;
 
+  /// @returns the mean computing time of a result of unit demand, s; 0 where
+  /// it is part of a trace.
+  double mean_service_s() const;
+
   /// What a scenario may change about a named profile.
   void fields(settings& s);
 };

@@ -46,4 +46,20 @@ double delay_law::draw_s(const random_stream& stream, std::uint64_t number,
   return 0;
 }
 
+double delay_law::mean_s() const {
+  switch (kind_) {
+    case shape::none:
+      return 0;
+    case shape::uniform:
+      return shift_s_ + p_ / 2;
+    case shape::exponential:
+      return shift_s_ + p_;
+    case shape::lognormal:
+      return shift_s_ + std::exp(p_ + q_ * q_ / 2);
+    case shape::beta:
+      return shift_s_ + p_ * q_ / (q_ + r_);
+  }
+  return 0;
+}
+
 } // namespace sofof

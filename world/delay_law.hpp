@@ -29,6 +29,9 @@ public:
   double draw_s(const random_stream& stream, std::uint64_t number,
                 std::uint32_t lane) const;
 
+  /// @returns the mean of this law, s, >= 0.
+  double mean_s() const;
+
 private:
   enum class shape { none, uniform, exponential, lognormal, beta };
 

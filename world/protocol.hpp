@@ -9,6 +9,8 @@ using namespace std::chrono_literals;
 
 /// Between two offers to a station that has an offered service not running.
 inline constexpr duration offer_period = 1s;
+/// An offer may be taken up for so long; one that is lost costs no choice.
+inline constexpr duration offer_validity = offer_period * 5 / 2;
 /// From a request to its response; then the services stay local.
 inline constexpr duration request_timeout = 500ms;
 /// From acceptance to the first data; the local service runs on meanwhile.

@@ -189,6 +189,23 @@ TEST_CASE_FIXTURE(provider_world, "the CODM sees what runs, of all stations") {
         == sessions{{station, "one"}, {station, "two"}});
 }
 
+TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
+                                  "workers is needed by what runs") {
+  // Every 50 ms 10 ms on one of two workers.
+  profile->service = delay_law::uniform(5ms, 15ms);
+  profile->workers = 2;
+  hear(inside);
+  CHECK(offers().back().utilisation == 0);
+  start({one});
+  CHECK(codm->used.back().first == 0);
+  CHECK(codm->used.back().second == doctest::Approx(0.1));
+  hear(inside, neighbour, 102);
+  CHECK(neighbour->all<service_offer>().back().utilisation
+        == doctest::Approx(0.1));
+  start({two});
+  CHECK(codm->used.back().first == doctest::Approx(0.1));
+}
+
 TEST_CASE_FIXTURE(provider_world, "a request is answered at once, a verdict "
                                   "for each service, in their order") {
   codm->accepted = {"two"};

@@ -21,6 +21,8 @@ struct provider_world : virtual_world {
   const service_name one{"one"}, two{"two"};
 
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
+  std::shared_ptr<channel_profile> profile =
+      std::make_shared<channel_profile>(*find_channel_profile("ideal"));
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<requester_actor> requester = listen<requester_actor>();
   probe<requester_actor> neighbour = listen<requester_actor>();
@@ -41,8 +43,7 @@ struct provider_world : virtual_world {
                std::make_shared<echo_service>("two")};
     s.codm = std::make_unique<spy_codm>(codm);
     s.recorder = recorder.handle;
-    s.profile =
-        std::make_shared<channel_profile>(*find_channel_profile("ideal"));
+    s.profile = profile;
     s.seed = random_stream{1, "network"};
     return s;
   }

@@ -1,5 +1,6 @@
 // Tests of the service requester: from an offer to the first data.
 #include "tests/actors/requester_world.hpp"
+#include "world/protocol.hpp"
 
 using namespace sofof;
 using namespace sofof::test;
@@ -87,6 +88,64 @@ TEST_CASE_FIXTURE(requester_world,
   REQUIRE(other->count<service_request>() == 1);
   CHECK(other->all<service_request>().front().kinds == std::vector{two});
   CHECK(other->all<service_request>().front().provider == elsewhere);
+}
+
+TEST_CASE_FIXTURE(requester_world, "the LODM sees all who offer a service, the "
+                                   "one that offers it just now first") {
+  lodm->wanted = {};
+  offer({one});
+  offer_from(other, elsewhere, {one, two});
+  const auto ids = [](const auto& question) {
+    std::vector<boot_id> all;
+    for (const auto& provider : question.providers)
+      all.push_back(provider.id);
+    return all;
+  };
+  REQUIRE(lodm->asked.size() == 3);
+  CHECK(ids(lodm->asked[0]) == std::vector{here});
+  CHECK(ids(lodm->asked[1]) == std::vector{elsewhere, here});
+  CHECK(ids(lodm->asked[2]) == std::vector{elsewhere});
+}
+
+TEST_CASE_FIXTURE(requester_world,
+                  "the LODM is told how busy a provider says it is") {
+  lodm->wanted = {};
+  tell_as(provider.handle, requester, service_offer{here, {}, {one}, 0.75});
+  REQUIRE(lodm->asked.size() == 1);
+  CHECK(lodm->asked[0].providers.front().utilisation == 0.75);
+}
+
+TEST_CASE_FIXTURE(requester_world, "who offered before may be chosen") {
+  lodm->wanted = {};
+  offer({one});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  offer_from(other, elsewhere, {one});
+  CHECK(requests() == 1);
+  CHECK(other->count<service_request>() == 0);
+}
+
+TEST_CASE_FIXTURE(requester_world, "an old offer is none, and neither is one "
+                                   "that was taken up") {
+  lodm->wanted = {};
+  lodm->preferred = here;
+  offer({one, two});
+  run_for(protocol::offer_validity + 1ms);
+  lodm->wanted = {"one", "two"};
+  offer_from(other, elsewhere, {one});
+  CHECK(requests() == 0);
+  offer({one});
+  REQUIRE(requests() == 1);
+  answer(last_request(), {{one, 0}});
+  offer_from(other, elsewhere, {one});
+  CHECK(requests() == 1);
+}
+
+TEST_CASE_FIXTURE(requester_world, "nobody is asked whom the LODM invents") {
+  lodm->preferred = 99;
+  offer({one});
+  CHECK(requests() == 0);
+  CHECK(!is_gone(requester));
 }
 
 TEST_CASE_FIXTURE(requester_world, "request numbers rise, whoever is asked") {

@@ -19,9 +19,11 @@ struct lodm_script {
     point provider_at;
     std::vector<point> path;
     double speed_mps = 0;
+    std::vector<provider_view> providers;
   };
   std::vector<question> asked;
   std::set<std::string, std::less<>> wanted{"one", "two"};
+  boot_id preferred = 0; ///< Whom it shall ask; 0: who offers just now.
 };
 
 class spy_lodm final : public local_policy {
@@ -32,10 +34,14 @@ public:
   local_decision decide(const local_context& c) override {
     script_->asked.push_back({c.now,
                               std::string{c.kind},
-                              c.provider_at,
+                              c.providers.front().at,
                               {c.path.begin(), c.path.end()},
-                              c.speed_mps});
-    return {script_->wanted.contains(c.kind), "as told"};
+                              c.speed_mps,
+                              {c.providers.begin(), c.providers.end()}});
+    if (!script_->wanted.contains(c.kind))
+      return {0, "as told"};
+    return {script_->preferred ? script_->preferred : c.providers.front().id,
+            "as told"};
   }
   std::string_view name() const override { return "spy"; }
   std::unique_ptr<local_policy> clone() const override {
@@ -58,6 +64,8 @@ struct codm_script {
     std::vector<std::pair<station_id, std::string>> sessions;
   };
   std::vector<question> asked;
+  /// Utilisation of the provider, and by the first request.
+  std::vector<std::pair<double, double>> used;
   std::set<std::string, std::less<>> accepted{"one", "two"};
 };
 
@@ -67,18 +75,22 @@ public:
       : script_{std::move(script)} {}
 
   std::vector<central_decision> decide(const central_context& c) override {
+    const auto first = c.requests.empty() ? request_view{} : c.requests.front();
+    script_->used.emplace_back(c.utilisation, first.utilisation);
     codm_script::question q{c.now,
-                            c.station,
-                            {c.kinds.begin(), c.kinds.end()},
-                            {c.route.begin(), c.route.end()},
-                            c.speed_mps,
+                            first.station,
+                            {},
+                            {first.route.begin(), first.route.end()},
+                            first.speed_mps,
                             {}};
+    for (const auto& request : c.requests)
+      q.kinds.emplace_back(request.kind);
     for (const auto& s : c.sessions)
       q.sessions.emplace_back(s.station, s.kind);
     script_->asked.push_back(std::move(q));
     std::vector<central_decision> all;
-    for (const auto& kind : c.kinds)
-      all.push_back({script_->accepted.contains(kind), "as told"});
+    for (const auto& request : c.requests)
+      all.push_back({script_->accepted.contains(request.kind), "as told"});
     return all;
   }
   std::string_view name() const override { return "spy"; }

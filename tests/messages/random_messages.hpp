@@ -26,7 +26,7 @@ inline constexpr std::size_t arity<running_service> = 4;
 template <>
 inline constexpr std::size_t arity<cam> = 9;
 template <>
-inline constexpr std::size_t arity<service_offer> = 3;
+inline constexpr std::size_t arity<service_offer> = 4;
 template <>
 inline constexpr std::size_t arity<service_request> = 6;
 template <>

@@ -114,7 +114,7 @@ TEST_CASE("whatever bytes come, they make a proper message or none") {
 TEST_CASE("a message that claims to hold more than it does is refused") {
   service_offer offer{1, {2, 3}, {}};
   auto bytes = save(offer);
-  bytes.pop_back(); // the number of kinds, 0
+  bytes.resize(bytes.size() - sizeof offer.utilisation - 1); // number of kinds
   for (int k = 0; k < 4; ++k)
     bytes.push_back(static_cast<caf::byte>(0xff));
   bytes.push_back(static_cast<caf::byte>(0x0f));

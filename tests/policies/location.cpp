@@ -33,9 +33,18 @@ line eastward(double from_m, double to_m) {
 }
 
 /// The LODM with r_off = 300 m and d_min = 50 m, the provider at the origin.
+bool wants(local_policy& lodm, const line& path, double speed_mps = 10,
+           point provider_at = {0, 0}) {
+  const std::vector<provider_view> one{{7, provider_at, 0}};
+  const auto decision =
+      lodm.decide({time_point{}, "any", one, path, speed_mps});
+  CHECK((decision.source == 7 || decision.source == 0));
+  return decision.source != 0;
+}
+
 bool wants(const line& path, double speed_mps = 10) {
   location_lodm lodm;
-  return lodm.decide({time_point{}, "any", {0, 0}, path, speed_mps}).request;
+  return wants(lodm, path, speed_mps);
 }
 
 /// A street along the east axis, and an area that ends at 100 m.
@@ -45,11 +54,18 @@ struct codm_world {
       "street", {}, {{"street", eastward(-500, 500), 1.75, {{0, 14}}, {}, 0}}};
   location_codm codm;
 
+  std::vector<central_decision> decide(central_policy& with, const line& route,
+                                       double speed_mps,
+                                       std::vector<std::string_view> kinds) {
+    std::vector<request_view> requests;
+    for (const auto kind : kinds)
+      requests.push_back({101, kind, route, speed_mps, 0});
+    return with.decide({time_point{}, requests, {}, 0, area, map});
+  }
   std::vector<central_decision> decide(const line& route, double speed_mps,
                                        std::vector<std::string_view> kinds = {
                                            "any"}) {
-    return codm.decide(
-        {time_point{}, 101, kinds, route, speed_mps, area, map, {}});
+    return decide(codm, route, speed_mps, std::move(kinds));
   }
   bool accepts(const line& route, double speed_mps) {
     return decide(route, speed_mps).front().accept;
@@ -134,9 +150,7 @@ TEST_CASE("the disc and the least way are options") {
   test::option_list options;
   options.numbers = {{"radius_m", 100}, {"min_distance_m", 10}};
   lodm.fields(options);
-  const auto decide = [&](const line& path) {
-    return lodm.decide({time_point{}, "any", {0, 0}, path, 10}).request;
-  };
+  const auto decide = [&](const line& path) { return wants(lodm, path); };
   CHECK(decide({{0, 0}, {11, 0}}));
   CHECK(!decide({{0, 0}, {10, 0}}));
   CHECK(!decide({{95, 0}, {105, 0}, {115, 0}}));
@@ -145,10 +159,8 @@ TEST_CASE("the disc and the least way are options") {
 TEST_CASE("a provider that is nowhere is not worth a request") {
   location_lodm lodm;
   const auto path = eastward(0, 100);
-  CHECK(
-      !lodm.decide({time_point{}, "any", {not_a_number, 0}, path, 10}).request);
-  CHECK(
-      !lodm.decide({time_point{}, "any", {0, not_a_number}, path, 10}).request);
+  CHECK(!wants(lodm, path, 10, {not_a_number, 0}));
+  CHECK(!wants(lodm, path, 10, {0, not_a_number}));
 }
 
 // -- CODM --------------------------------------------------------------------
@@ -235,10 +247,7 @@ TEST_CASE_FIXTURE(codm_world, "a clone keeps the options") {
   codm.fields(options);
   const auto copy = codm.clone();
   const auto route = eastward(50, 300);
-  const std::vector<std::string_view> kinds{"any"};
-  CHECK(!copy->decide({time_point{}, 101, kinds, route, 10, area, map, {}})
-             .front()
-             .accept);
+  CHECK(!decide(*copy, route, 10, {"any"}).front().accept);
 }
 
 TEST_CASE_FIXTURE(codm_world, "a request full of nonsense is refused") {

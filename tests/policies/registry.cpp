@@ -18,13 +18,15 @@ bool has(const Names& names, std::string_view name) {
 
 bool request(local_policy& lodm) {
   const std::vector<point> path{{1e6, 0}};
-  return lodm.decide({time_point{}, "any", {}, path, 10}).request;
+  const std::vector<provider_view> one{{7, {}, 0}};
+  return lodm.decide({time_point{}, "any", one, path, 10}).source == 7;
 }
 
 std::vector<central_decision> decide(central_policy& codm) {
-  const std::vector<std::string_view> kinds{"one", "two"};
   const std::vector<point> route{{1e6, 0}};
-  return codm.decide({time_point{}, 101, kinds, route, 10, {}, {}, {}});
+  const std::vector<request_view> requests{{101, "one", route, 10, 0},
+                                           {101, "two", route, 10, 0}};
+  return codm.decide({time_point{}, requests, {}, 0, {}, {}});
 }
 
 } // namespace
