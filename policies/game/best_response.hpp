@@ -35,7 +35,7 @@ struct equilibrium {
 
 /// Plays slots until nobody asks any more. That it ends follows from the
 /// potential; how soon, from experience: about one to one and a half slots a
-/// player. Each slot takes O(N·M + N²/M).
+/// player. Each slot takes O(N² + N·M).
 /// @param start  Any profile; the paper begins with all_local().
 equilibrium play(const offloading_game& game, profile start,
                  const std::optional<random_stream>& lottery);

@@ -63,21 +63,12 @@ double offloading_game::potential(const profile& a) const {
 std::optional<choice>
 offloading_game::improvement(const profile& a, std::size_t n,
                              const std::vector<double>& loads) const {
-  const auto now = a[n];
-  const auto received_on = [&](choice c) {
-    return c == now ? received(a, n, c) : loads[c];
-  };
-  choice emptiest = 1;
-  auto least = received_on(1);
-  for (choice c = 2; c <= channels_; ++c) {
-    const auto here = received_on(c);
-    if (here < least) {
-      emptiest = c;
-      least = here;
-    }
-  }
+  // One's own channel counts with one's own weight: staying there would be no
+  // improvement anyway.
+  const auto least = std::min_element(loads.begin() + 1, loads.end());
+  const auto emptiest = static_cast<choice>(least - loads.begin());
 
-  const auto offloaded = cost_of(n, emptiest, least);
+  const auto offloaded = cost_of(n, emptiest, *least);
   const auto best = offloaded < local_costs_[n] ? emptiest : locally;
   const auto enough = (1 - least_saving) * cost(a, n);
   if (std::min(offloaded, local_costs_[n]) < enough)

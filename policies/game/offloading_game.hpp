@@ -59,15 +59,16 @@ public:
   double cost(const profile& a, std::size_t n) const;
   double total_cost(const profile& a) const;
 
-  /// Falls with every improvement of anybody; by how much in proportion to
-  /// the player's weight.
+  /// Falls with every improvement of anybody, by as much weight as the mover
+  /// is spared times its own; computing locally counts as receiving one's
+  /// threshold. Rounding hides the moves of players who weigh less than
+  /// about 1e-8 of others.
   /// Source: Chen 2016, eqs. (16) and (31).
   double potential(const profile& a) const;
 
-  /// The choice that is cheapest for player n while the others stay: a free
-  /// channel before a used one, of equal ones the first.
-  /// @param loads  Those of the profile; O(M) with them, O(N) on one's own
-  ///               channel.
+  /// The choice that is cheapest for player n while the others stay; of equal
+  /// channels the first. O(N + M).
+  /// @param loads  Those of the profile.
   /// @returns nullopt when it saves less than `least_saving`.
   std::optional<choice> improvement(const profile& a, std::size_t n,
                                     const std::vector<double>& loads) const;

@@ -166,6 +166,11 @@ TEST_CASE("offloading costs sending, the cloud's time and the tail energy") {
   CHECK(offloading_cost(p, 0) == infinity);
 }
 
+TEST_CASE("at its beneficial rate offloading costs what computing here does") {
+  const auto p = plain_player();
+  CHECK(beneficial_rate_bps(p) == doctest::Approx(40e6 / 1.9));
+}
+
 TEST_CASE("who takes turns with equals shares the rate with them") {
   const contention model;
   const auto p = plain_player();
@@ -194,6 +199,7 @@ TEST_CASE("at its threshold a player does not care") {
 TEST_CASE("who would pay more in the cloud than here never offloads") {
   auto slow_cloud = plain_player();
   slow_cloud.cloud_clock_hz = 0.4e9;
+  CHECK(beneficial_rate_bps(slow_cloud) == infinity);
   for (const auto& model : both_models()) {
     const offloading_game game{{slow_cloud}, 3, model};
     CHECK(game.threshold(0) < 0);
