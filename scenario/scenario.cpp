@@ -2,8 +2,8 @@
 #include "scenario/scenario.hpp"
 
 #include "policies/registry.hpp"
-#include "world/listing.hpp"
 #include "scenario/settings_printer.hpp"
+#include "world/listing.hpp"
 #include "world/protocol.hpp"
 
 #include <fmt/format.h>
