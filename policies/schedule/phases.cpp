@@ -78,7 +78,7 @@ std::optional<duration> play(std::vector<job> jobs) {
 }
 
 /// @returns offsets of a task with which its jobs are released when a job of
-/// another would be done, and 0.
+/// another would be done, and 0; rising, each once.
 std::vector<duration> candidates(std::span<const periodic_task> running,
                                  const periodic_task& task, duration multiple) {
   std::vector<duration> offsets{duration{0}};
@@ -88,6 +88,9 @@ std::vector<duration> candidates(std::span<const periodic_task> running,
       const auto offset = (done - task.jitter) % task.period;
       offsets.push_back(offset < duration{0} ? offset + task.period : offset);
     }
+  std::ranges::sort(offsets);
+  const auto repeated = std::ranges::unique(offsets);
+  offsets.erase(repeated.begin(), repeated.end());
   return offsets;
 }
 
