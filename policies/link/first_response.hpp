@@ -21,6 +21,8 @@ public:
   explicit first_response(duration hedge_after) : hedge_after_{hedge_after} {}
 
   /// @param cycle  Number of the planning cycle that was answered; they rise.
+  ///               One that was asked for: a made-up one would shut out all
+  ///               below it.
   /// @returns whether to use the response; others are counted as dropped.
   bool use(std::uint64_t cycle);
 

@@ -30,7 +30,8 @@ public:
 
   /// Learns from a message. A latency below 1 µs counts as 1 µs, as clocks of
   /// two hosts disagree; a message that arrived before the last one is ignored.
-  /// @param created   When it was made, on our clock as far as that is known.
+  /// @param created   When it was made, on our clock as far as that is known;
+  ///                  plausible (`is_plausible`).
   /// @param received  When it arrived.
   void arrived(time_point created, time_point received);
 

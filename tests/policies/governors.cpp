@@ -91,6 +91,13 @@ TEST_CASE("after a fallback the dwell passes before anybody is asked again") {
   CHECK(back == 3010ms);
 }
 
+TEST_CASE("a fallback of who is local already is no switch") {
+  hysteresis governor;
+  CHECK(governor.next({near_one, 1, true}, at(0s)) == hysteresis::local);
+  governor.next({near_one, 1}, at(100ms));
+  CHECK(governor.next({near_one, 1}, at(600ms)) == near_one);
+}
+
 TEST_CASE("no fallback is delayed, and no two other switches come closer than "
           "the dwell") {
   dice random{3};

@@ -129,6 +129,13 @@ TEST_CASE("messages before the last one and from the future do no harm") {
   CHECK(std::isfinite(to_seconds(link.latency_quantile(0.999).value())));
 }
 
+TEST_CASE("a sender whose clock is ahead is heard at once") {
+  const auto link = steady(20, -30ms);
+  CHECK(!link.stale(at(2s)));
+  CHECK(link.late_probability(1ms, at(2s)) == 0);
+  CHECK(link.latency_quantile(0.99) == 1us);
+}
+
 TEST_CASE("a link that turns bad is known to be bad within two seconds") {
   const random_stream chance{2, "latency"};
   link_estimator link;
