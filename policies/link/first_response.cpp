@@ -1,0 +1,22 @@
+// Several providers plan the same cycles: the first response wins.
+#include "policies/link/first_response.hpp"
+
+namespace sofof {
+
+bool first_response::use(std::uint64_t cycle) {
+  if (answered(cycle)) {
+    ++dropped_;
+    return false;
+  }
+  newest_ = cycle;
+  return true;
+}
+
+double joint_miss_probability(std::span<const double> misses) {
+  double joint = 1;
+  for (const auto p : misses)
+    joint *= p;
+  return joint;
+}
+
+} // namespace sofof

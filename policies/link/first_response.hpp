@@ -1,0 +1,52 @@
+// Several providers plan the same cycles: the first response wins.
+#pragma once
+
+#include "world/time.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace sofof {
+
+/// Takes of each cycle the first response only, and none of a cycle before one
+/// that has been answered: the vehicle is past it. With `hedge_after` the
+/// second provider is asked only when the first has not answered by then.
+/// Whether two providers' plans may follow each other, `continues` tells.
+/// O(1) in time and memory. Source: Dean & Barroso 2013 (hedged requests).
+class first_response {
+public:
+  /// @param hedge_after  h > 0: a good choice is the latency that 70 to 80 %
+  ///                     of responses stay below.
+  explicit first_response(duration hedge_after) : hedge_after_{hedge_after} {}
+
+  /// @param cycle  Number of the planning cycle that was answered; they rise.
+  ///               One that was asked for: a made-up one would shut out all
+  ///               below it.
+  /// @returns whether to use the response; others are counted as dropped.
+  bool use(std::uint64_t cycle);
+
+  bool answered(std::uint64_t cycle) const {
+    return newest_ && cycle <= *newest_;
+  }
+
+  /// @param sent  When the first provider was asked about the cycle.
+  /// @returns whether it is time to ask the second.
+  bool hedge_due(std::uint64_t cycle, time_point sent, time_point now) const {
+    return !answered(cycle) && now - sent >= hedge_after_;
+  }
+
+  std::uint64_t dropped() const { return dropped_; }
+
+private:
+  duration hedge_after_;
+  std::optional<std::uint64_t> newest_; // answered
+  std::uint64_t dropped_ = 0;
+};
+
+/// @param misses  Probability of each provider to miss a cycle, in [0, 1].
+/// @returns the probability that all miss it, if they do so independently of
+/// each other; links that share a radio do not, and miss more often.
+double joint_miss_probability(std::span<const double> misses);
+
+} // namespace sofof
