@@ -120,18 +120,18 @@ TEST_CASE("ALTO explores with small tasks what it uses for large ones") {
 }
 
 TEST_CASE("ALTO gives a provider that appears late a clock of its own") {
-  // Two that are alike, one of which appears after 10 000 tasks. Tried once
-  // each, the one that was there has the wider doubt: ln 10 001 against ln 1.
+  // Two that are alike, one of which appears after 10 000 tasks. Heard of once
+  // each, the one that was there has the wider doubt: ln 10 002 against ln 1.
   alto bandit{{}};
-  const std::array old_one{boot_id{1}};
-  const std::array both{boot_id{1}, boot_id{2}};
-  bandit.choose(small, old_one);
+  constexpr boot_id newcomer = 1;
+  constexpr boot_id old_one = 2;
+  const std::array both{newcomer, old_one};
   for (int k = 0; k < 10'000; ++k)
-    bandit.choose(large, old_one);
-  bandit.learn(1, small, 0.5 * worst_s_per_bit * small);
-  CHECK(bandit.choose(small, both) == boot_id{2}); // never tried
-  bandit.learn(2, small, 0.5 * worst_s_per_bit * small);
-  CHECK(bandit.choose(small, both) == boot_id{1});
+    bandit.choose(small, std::array{old_one});
+  bandit.learn(old_one, small, 0.5 * worst_s_per_bit * small);
+  CHECK(bandit.choose(small, both) == newcomer); // never heard of
+  bandit.learn(newcomer, small, 0.5 * worst_s_per_bit * small);
+  CHECK(bandit.choose(small, both) == old_one);
 }
 
 TEST_CASE("ALTO tries a provider that comes and is better") {

@@ -99,8 +99,8 @@ TEST_CASE(
     options.rate = 0.01;
     dqn learner{options, random_stream{1, "dqn"}};
     for (int k = 0; k < 500; ++k) {
-      learner.learn({second, 0, 0, {}, {}});
-      learner.learn({second, 1, 2, {}, {}});
+      learner.learn({second, 0, 0, {}, first_actions(3)});
+      learner.learn({second, 1, 2, {}, first_actions(3)});
       learner.learn({first, 0, 0, second, action_set{hopeful ? 0b11u : 0b01u}});
     }
     CHECK(std::abs(learner.values(second)[1] - 2) < 0.05);
