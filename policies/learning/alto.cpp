@@ -61,6 +61,7 @@ void alto::learn(boot_id provider, double task_bits, double delay_s) {
 
 std::string alto::snapshot() const {
   state_writer out{kind, version};
+  out.word("worst").number(options_.worst_delay_s_per_bit).line();
   out.word("tasks").count(tasks_).word("providers").count(known_.size());
   for (const auto& [provider, known] : known_)
     out.line()
@@ -73,6 +74,9 @@ std::string alto::snapshot() const {
 
 std::optional<std::string> alto::restore(std::string_view snapshot) {
   state_reader in{snapshot, kind, version};
+  in.expect("worst");
+  if (in.number() != options_.worst_delay_s_per_bit)
+    in.refuse("expected the worst delay of this learner.");
   alto read{options_};
   in.expect("tasks");
   read.tasks_ = in.count();

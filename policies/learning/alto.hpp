@@ -59,8 +59,8 @@ public:
   void learn(boot_id provider, double task_bits, double delay_s);
 
   std::string snapshot() const;
-  /// @returns why the text is no snapshot, and then all stays as it was; else
-  /// nullopt.
+  /// @returns why the text is no snapshot of a learner with the same worst
+  /// delay, and then all stays as it was; else nullopt.
   std::optional<std::string> restore(std::string_view snapshot);
 
 private:

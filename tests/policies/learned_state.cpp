@@ -203,14 +203,22 @@ TEST_CASE("a refusal says what is wrong and where") {
 }
 
 TEST_CASE("ALTO's providers appear once, and not in the future") {
-  alto bandit{{}};
-  CHECK(
-      !bandit.restore("sofof alto 1 tasks 9 providers 2 5 1 1 .5 6 9 0 0 end"));
-  CHECK(
-      bandit.restore("sofof alto 1 tasks 9 providers 2 5 1 1 .5 5 9 0 0 end"));
-  CHECK(bandit.restore("sofof alto 1 tasks 9 providers 1 5 10 1 .5 end"));
-  CHECK(bandit.restore("sofof alto 1 tasks 9 providers 1 5 1 1 1.5 end"));
-  CHECK(bandit.restore("sofof alto 1 tasks 9 providers 9007199254740992 end"));
+  const std::string head = "sofof alto 1 worst 1e-6 tasks 9 providers ";
+  alto_options options;
+  options.worst_delay_s_per_bit = 1e-6;
+  alto bandit{options};
+  CHECK(!bandit.restore(head + "2 5 1 1 .5 6 9 0 0 end"));
+  CHECK(bandit.restore(head + "2 5 1 1 .5 5 9 0 0 end"));
+  CHECK(bandit.restore(head + "1 5 10 1 .5 end"));
+  CHECK(bandit.restore(head + "1 5 1 1 1.5 end"));
+  CHECK(bandit.restore(head + "9007199254740992 end"));
+}
+
+TEST_CASE("ALTO refuses delays in parts of another worst one") {
+  alto_options options;
+  options.worst_delay_s_per_bit = 1e-6;
+  CHECK(*alto{options}.restore(alto{{}}.snapshot())
+        == "word 5: expected the worst delay of this learner.");
 }
 
 TEST_CASE("every double reads back to the bit") {
