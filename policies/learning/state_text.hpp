@@ -1,0 +1,66 @@
+// What a learner has learned, as text that gives back the same bits.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sofof {
+
+/// Writes words, one space or one line end apart, and "end" as the last: a
+/// text that is cut off is none. Numbers are the shortest that read back as the
+/// same double.
+class state_writer {
+public:
+  /// Starts with a line "sofof KIND VERSION".
+  state_writer(std::string_view kind, std::uint64_t version);
+
+  state_writer& line(); ///< Starts a new one.
+  state_writer& word(std::string_view word);
+  state_writer& count(std::uint64_t number);
+  state_writer& number(double number);
+
+  std::string text() const { return text_ + "\nend\n"; }
+
+private:
+  std::string text_;
+};
+
+/// Reads what a state_writer has written; spaces and line ends are alike.
+/// After the first fault every read gives 0 and tells nothing more.
+class state_reader {
+public:
+  /// Expects the line "sofof KIND VERSION".
+  state_reader(std::string_view text, std::string_view kind,
+               std::uint64_t version);
+
+  void expect(std::string_view word);
+  /// Expects a whole number that is known already, e.g. a size.
+  void expect(std::string_view word, std::uint64_t number);
+  /// @returns a whole number from 0 to `most`; by default all that a double
+  /// can count.
+  std::uint64_t count(std::uint64_t most = 1ULL << 53);
+  /// @returns a finite number.
+  double number();
+  void expect_end();
+
+  /// Ends reading, unless it has ended already.
+  /// @param reason  Goes after "word 12: ".
+  void refuse(std::string_view reason);
+
+  bool failed() const { return fault_.has_value(); }
+  /// @returns a sentence that says what is wrong and where, if anything is.
+  const std::optional<std::string>& fault() const { return fault_; }
+
+private:
+  std::string_view next();
+  template <class Number>
+  Number read(std::string_view wanted);
+
+  std::string_view rest_;
+  std::uint64_t words_read_ = 0;
+  std::optional<std::string> fault_;
+};
+
+} // namespace sofof
