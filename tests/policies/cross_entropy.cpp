@@ -78,3 +78,15 @@ TEST_CASE("inadmissible samples may score minus infinity") {
   };
   CHECK(cross_entropy(counts, even, {}, draws).score == 6);
 }
+
+TEST_CASE("a longer search is never worse, whatever it draws last") {
+  const std::vector<int> counts(30, 4);
+  double before = 0;
+  for (int iterations = 1; iterations < 20; ++iterations) {
+    const auto found = cross_entropy(
+        counts, hits, {.samples = 10, .iterations = iterations}, draws);
+    CHECK(found.score >= before);
+    CHECK(found.score == hits(found.categories));
+    before = found.score;
+  }
+}

@@ -54,17 +54,17 @@ inline void place_at_random(assignment::problem& p, dice& random) {
 /// may occur: gains below zero, pairs that are not eligible, decimals that fill
 /// a capacity exactly, capacities of nothing and without end.
 inline assignment::problem any_problem(dice& random) {
-  const auto vehicles = 1 + below(random, 8);
+  const auto vehicles = 8 - below(random, 4) * below(random, 3);
   const auto providers = 1 + below(random, 3);
   auto p = open_problem(vehicles, providers);
-  p.gains = table_between(random, vehicles, providers, -0.3, 1);
+  p.gains = table_between(random, vehicles, providers, -0.1, 1);
   p.eligible = table_between(random, vehicles, providers, 0, 1)
-               < random.between(0.3, 1.3);
+               < random.between(0.5, 1.5);
   p.switching_price = below(random, 3) * random.between(0, 0.3);
   place_at_random(p, random);
-  const auto resources = below(random, 3);
+  const auto resources = below(random, 8) == 0 ? 0 : 1 + below(random, 2);
   for (int k = 0; k < resources; ++k) {
-    auto r = scarce(random, vehicles, providers, random.between(0.2, 1));
+    auto r = scarce(random, vehicles, providers, random.between(0.3, 0.8));
     if (below(random, 2) == 0)
       r.demand = table_between(random, vehicles, providers, 0, 5).floor() / 10;
     for (auto& capacity : r.capacity)
