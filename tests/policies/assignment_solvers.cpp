@@ -11,7 +11,6 @@
 #include <cmath>
 
 using namespace sofof::assignment;
-using sofof::cross_entropy_options;
 using sofof::random_stream;
 using sofof::test::any_problem;
 using sofof::test::below;
