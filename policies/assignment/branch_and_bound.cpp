@@ -130,7 +130,7 @@ search::search(const stakes& s, const Eigen::ArrayXXd& prices, double reached,
                std::int64_t node_limit)
     : stakes_{s}, prices_{prices},
       decisions_{decisions_of(s, prices)}, outlooks_{outlooks(s, decisions_)},
-      rooms_(s.vehicles() + 1, room{s.shares}),
+      rooms_(s.vehicles() + 1, room{s.shares, s.providers()}),
       choices_(s.vehicles()), best_reached_{reached}, node_limit_{node_limit} {}
 
 void search::keep(double reached) {

@@ -29,7 +29,8 @@ pair_table margins(const stakes& s) {
 class attempt {
 public:
   explicit attempt(const stakes& s)
-      : stakes_{s}, room_{s.shares}, choices_(s.vehicles(), local) {}
+      : stakes_{s}, room_{s.shares, s.providers()},
+        choices_(s.vehicles(), local) {}
 
   /// @param desire  How much a vehicle wants a provider; 0: not at all.
   void serve_by(const pair_table& desire);

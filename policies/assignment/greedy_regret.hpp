@@ -13,7 +13,7 @@ namespace sofof::assignment {
 ///
 /// Feasible, and never worse than everybody local; no bound on its distance
 /// from the optimum (with one resource and room for 60 %, 1 % in the mean and
-/// 4 % at most). O(N² M) and O(N²) a round of exchanges.
+/// 7 % at worst). O(N² M) and O(N²) a round of exchanges.
 /// @throws std::invalid_argument as check() does.
 /// Source: Martello & Toth, Knapsack Problems (1990), section 7.4, procedure
 /// MTHG; there every item must be assigned, here the rest stays local. Prices

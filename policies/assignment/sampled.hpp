@@ -11,8 +11,8 @@ namespace sofof::assignment {
 /// indices.
 ///
 /// Feasible, and never worse than everybody local; with the usual options, one
-/// resource and room for 60 %, 5 % from the optimum in the mean and 12 % at
-/// most.
+/// resource and room for 60 %, 6 % from the optimum in the mean and 12 % at
+/// worst.
 /// @throws std::invalid_argument as check() does.
 solution sampled(const problem& p, const cross_entropy_options& options,
                  const random_stream& random);

@@ -34,10 +34,9 @@ std::vector<pair_table> shares_of(const problem& p) {
   return result;
 }
 
-room::room(const std::vector<pair_table>& shares)
+room::room(const std::vector<pair_table>& shares, int providers)
     : shares_{&shares}, free_{Eigen::ArrayXXd::Constant(
-                            shares.empty() ? 0 : shares.front().cols(),
-                            static_cast<Eigen::Index>(shares.size()),
+                            providers, static_cast<Eigen::Index>(shares.size()),
                             1 + tolerance)} {}
 
 bool room::fits(int vehicle, int provider) const {
@@ -61,7 +60,7 @@ stakes stakes_of(const problem& p) {
   check(p);
   stakes result{pair_table::Zero(p.vehicles(), p.providers()), shares_of(p),
                 value(p, std::vector<choice>(p.vehicles(), local)), 0};
-  const room empty{result.shares};
+  const room empty{result.shares, p.providers()};
   for (int v = 0; v < p.vehicles(); ++v)
     for (int i = 0; i < p.providers(); ++i)
       if (p.eligible(v, i) && empty.fits(v, i))

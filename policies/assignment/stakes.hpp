@@ -17,7 +17,7 @@ class room {
 public:
   /// All of it is free.
   /// @param shares  Outlives the room.
-  explicit room(const std::vector<pair_table>& shares);
+  room(const std::vector<pair_table>& shares, int providers);
 
   bool fits(int vehicle, int provider) const;
   void take(int vehicle, int provider);
