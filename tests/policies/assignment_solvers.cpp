@@ -1,0 +1,227 @@
+// Tests of solvers against each other and against trying everything.
+#include "policies/assignment/branch_and_bound.hpp"
+#include "policies/assignment/capacity_prices.hpp"
+#include "policies/assignment/greedy_regret.hpp"
+#include "policies/assignment/min_cost_flow.hpp"
+#include "policies/assignment/sampled.hpp"
+#include "tests/support/assignments.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace sofof::assignment;
+using sofof::random_stream;
+using sofof::test::any_problem;
+using sofof::test::below;
+using sofof::test::best_by_trying;
+using sofof::test::dice;
+using sofof::test::open_problem;
+using sofof::test::place_at_random;
+using sofof::test::scarce;
+using sofof::test::table_between;
+
+namespace {
+
+constexpr double rounding = 1e-8;
+
+/// Vehicles that all want the same, which differs among providers.
+problem equal_demands(dice& random, int vehicles, int providers) {
+  auto p = open_problem(vehicles, providers);
+  p.gains = table_between(random, vehicles, providers, -0.3, 1);
+  p.eligible = table_between(random, vehicles, providers, 0, 1) < 0.8;
+  p.switching_price = 0.05;
+  place_at_random(p, random);
+  const auto demand = table_between(random, 1, providers, 0.1, 0.2);
+  p.resources.push_back(
+      {demand.replicate(vehicles, 1), std::vector<double>(providers, 0.55)});
+  return p;
+}
+
+problem scarce_problem(dice& random, int vehicles, int providers) {
+  auto p = open_problem(vehicles, providers);
+  p.gains = table_between(random, vehicles, providers, 0.1, 1);
+  p.switching_price = 0.05;
+  place_at_random(p, random);
+  p.resources.push_back(scarce(random, vehicles, providers, 0.6));
+  return p;
+}
+
+double all_local(const problem& p) {
+  return value(p, std::vector<choice>(p.vehicles(), local));
+}
+
+} // namespace
+
+TEST_CASE("branch and bound finds what trying everything finds") {
+  dice random{1};
+  for (int k = 0; k < 500; ++k) {
+    CAPTURE(k);
+    auto p = any_problem(random);
+    const auto found = branch_and_bound(p);
+    CHECK(found.proved);
+    CHECK(feasible(p, found.best.choices));
+    CHECK(found.best.value == value(p, found.best.choices));
+    CHECK(std::abs(found.best.value - best_by_trying(p)) < rounding);
+  }
+}
+
+TEST_CASE("the greedy assignment is feasible, between all local and the "
+          "optimum") {
+  dice random{2};
+  for (int k = 0; k < 500; ++k) {
+    CAPTURE(k);
+    const auto p = any_problem(random);
+    const auto found = greedy_regret(p);
+    CHECK(feasible(p, found.choices));
+    CHECK(found.value == value(p, found.choices));
+    CHECK(found.value >= all_local(p));
+    CHECK(found.value <= branch_and_bound(p).best.value + rounding);
+  }
+}
+
+TEST_CASE("the greedy assignment comes within 5 % of the optimum where 60 % "
+          "find room") {
+  dice random{3};
+  for (int k = 0; k < 20; ++k) {
+    const auto p = scarce_problem(random, 20, 3);
+    CHECK(greedy_regret(p).value > 0.95 * branch_and_bound(p).best.value);
+  }
+}
+
+TEST_CASE("min-cost flow finds the optimum where demands are equal") {
+  dice random{4};
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    const auto p =
+        equal_demands(random, 1 + below(random, 20), 1 + below(random, 4));
+    const auto found = min_cost_flow(p);
+    const auto proved = branch_and_bound(p);
+    REQUIRE(found);
+    REQUIRE(proved.proved);
+    CHECK(feasible(p, found->choices));
+    CHECK(found->value == value(p, found->choices));
+    CHECK(std::abs(found->value - proved.best.value) < rounding);
+  }
+}
+
+TEST_CASE("min-cost flow is not for demands that differ") {
+  auto p = open_problem(2, 1);
+  p.gains.setConstant(1);
+  p.resources.push_back({pair_table::Constant(2, 1, 0.5), {1}});
+  CHECK(min_cost_flow(p));
+  p.resources.front().demand(1, 0) = 0.25;
+  CHECK_FALSE(min_cost_flow(p));
+  p.eligible(1, 0) = false;
+  CHECK(min_cost_flow(p));
+}
+
+TEST_CASE("what the cross-entropy method finds is feasible, between all local "
+          "and the optimum") {
+  dice random{5};
+  for (int k = 0; k < 40; ++k) {
+    CAPTURE(k);
+    const auto p = any_problem(random);
+    const auto found =
+        sampled(p, {.iterations = 10}, random_stream{7, "samples"}.part(k));
+    CHECK(feasible(p, found.choices));
+    CHECK(found.value == value(p, found.choices));
+    CHECK(found.value >= all_local(p));
+    CHECK(found.value <= branch_and_bound(p).best.value + rounding);
+  }
+}
+
+TEST_CASE(
+    "the cross-entropy method comes within 10 % of the optimum where 60 % "
+    "find room, in the mean") {
+  dice random{6};
+  double sum = 0;
+  for (int k = 0; k < 5; ++k) {
+    const auto p = scarce_problem(random, 20, 3);
+    sum += sampled(p, {}, random_stream{1, "samples"}).value
+           / branch_and_bound(p).best.value;
+  }
+  CHECK(sum / 5 > 0.9);
+}
+
+TEST_CASE("without resources everybody takes the best offer") {
+  auto p = open_problem(3, 2);
+  p.gains << 0.1, 0.2, -0.1, -0.2, 0.4, 0.3;
+  const std::vector<choice> expected{1, local, 0};
+  const auto proved = branch_and_bound(p);
+  CHECK(proved.best.choices == expected);
+  CHECK(proved.nodes <= 1);
+  CHECK(greedy_regret(p).choices == expected);
+  CHECK(min_cost_flow(p).value().choices == expected);
+  CHECK(sampled(p, {}, random_stream{1, "samples"}).choices == expected);
+}
+
+TEST_CASE("nobody, or nobody to serve, is an assignment too") {
+  for (const auto& p :
+       {open_problem(0, 0), open_problem(0, 2), open_problem(2, 0)}) {
+    const std::vector<choice> expected(p.vehicles(), local);
+    CHECK(branch_and_bound(p).best.choices == expected);
+    CHECK(branch_and_bound(p).proved);
+    CHECK(greedy_regret(p).choices == expected);
+    CHECK(min_cost_flow(p).value().choices == expected);
+    CHECK(sampled(p, {}, random_stream{1, "samples"}).choices == expected);
+  }
+}
+
+TEST_CASE("a search that may look at nothing returns the greedy assignment, "
+          "unproved") {
+  dice random{1};
+  const auto p = scarce_problem(random, 20, 3);
+  const auto found = branch_and_bound(p, 0);
+  const auto all = branch_and_bound(p);
+  const auto optimum = all.best.value;
+  CHECK(all.proved);
+  CHECK(all.bound == optimum);
+  CHECK_FALSE(found.proved);
+  CHECK(found.nodes == 0);
+  CHECK(found.best.choices == greedy_regret(p).choices);
+  CHECK(found.best.value < optimum);
+  CHECK(found.bound > optimum);
+}
+
+TEST_CASE("a longer search is never worse, and its bound holds") {
+  dice random{9};
+  const auto p = scarce_problem(random, 20, 3);
+  const auto optimum = branch_and_bound(p).best.value;
+  double before = all_local(p);
+  for (const int limit : {0, 10, 100, 1000, 10'000, 100'000}) {
+    const auto found = branch_and_bound(p, limit);
+    CHECK(found.nodes <= limit);
+    CHECK(found.best.value >= before);
+    CHECK(found.bound >= optimum);
+    before = found.best.value;
+  }
+  CHECK(before == optimum);
+}
+
+TEST_CASE("prices of capacities bound every optimum from above, and closely "
+          "where many share") {
+  dice random{10};
+  for (int k = 0; k < 100; ++k) {
+    const auto p = any_problem(random);
+    const auto s = stakes_of(p);
+    const auto reached = branch_and_bound(p).best.value - s.all_local;
+    CHECK(price_capacities(s, 0).bound >= reached - rounding);
+  }
+  const auto p = scarce_problem(random, 40, 3);
+  const auto s = stakes_of(p);
+  const auto reached = branch_and_bound(p).best.value - s.all_local;
+  CHECK(price_capacities(s, 0).bound < 1.03 * reached);
+}
+
+TEST_CASE("a high switching price keeps everybody where they are") {
+  dice random{11};
+  auto p = scarce_problem(random, 10, 2);
+  p.present = branch_and_bound(p).best.choices;
+  p.gains = table_between(random, 10, 2, 0.1, 1);
+  const auto present = p.present;
+  p.switching_price = 0;
+  CHECK(branch_and_bound(p).best.choices != present);
+  p.switching_price = 10;
+  CHECK(branch_and_bound(p).best.choices == present);
+}
