@@ -28,7 +28,9 @@ struct instance_state {
       return;
     life = *next;
     ++epoch;
-    if (life == lifecycle_state::active)
+    if (life == lifecycle_state::active && setup.keeps_phase)
+      await_next();
+    else if (life == lifecycle_state::active)
       run_cycle();
     else if (life == lifecycle_state::finalized)
       self->quit();
@@ -39,10 +41,14 @@ struct instance_state {
       run_cycle();
   }
 
+  void await_next() {
+    send_at(self, self, next_on_grid(now(self), setup.phase, setup.period),
+            tick_atom_v, epoch);
+  }
+
   void run_cycle() {
+    await_next();
     const auto t = now(self);
-    send_at(self, self, next_on_grid(t, setup.phase, setup.period), tick_atom_v,
-            epoch);
     if (newest.what.type().empty())
       return;
     auto result = setup.function->run(t, newest);

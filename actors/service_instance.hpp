@@ -21,12 +21,14 @@ struct instance_setup {
   /// computer in virtual time, the identity where time is real.
   std::function<time_point(time_point start, std::uint64_t cycle)> finish;
   result_actor results; ///< Gets the result when the cycle is done.
+  /// Whether the first cycle waits for its phase too, and is not run at once.
+  bool keeps_phase = false;
 };
 
-/// Begins unconfigured. Active, it runs a cycle at once and then on its grid,
-/// always from the newest input; without any input it waits. Cycles are
-/// numbered by the grid, so that their noise does not depend on when the
-/// service was started. Quits when finalized.
+/// Begins unconfigured. Active, it runs a cycle at once and then on its grid
+/// (or on its grid only), always from the newest input; without any input it
+/// waits. Cycles are numbered by the grid, so that their noise does not depend
+/// on when the service was started. Quits when finalized.
 instance_actor spawn_instance(caf::actor_system& sys, instance_setup setup);
 
 } // namespace sofof

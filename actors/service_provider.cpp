@@ -27,6 +27,8 @@ struct session {
   running_service running;
   provider_manager_actor manager;
   time_point since;
+  periodic_task task;
+  std::size_t worker = 0;
 };
 
 // One station in the area, or that was there a moment ago.
@@ -204,14 +206,31 @@ struct provider_state {
       if (const auto* running = find(station, kind.view()))
         end(station, running->running, end_reason::no_data, true);
       requests.push_back({request.station, kind.view(), request.route,
-                          request.speed_mps, utilisation_by(kind.view())});
+                          request.speed_mps, utilisation_by(kind.view()),
+                          task_of(kind.view())});
     }
     std::vector<session_view> sessions;
     for (const auto& [id, other] : stations)
       for (const auto& s : other.sessions)
-        sessions.push_back({id, s.running.kind.view(), s.since});
+        sessions.push_back(
+            {id, s.running.kind.view(), s.since, s.task, s.worker});
     return setup.codm->decide({now(self), requests, sessions, utilisation(),
+                               static_cast<std::size_t>(setup.profile->workers),
                                setup.area, setup.world->map});
+  }
+
+  // @returns how a service of this kind computes, without an offset.
+  periodic_task task_of(std::string_view kind) const {
+    const auto number = find_kind(kind);
+    if (!number)
+      return {};
+    constexpr double deviations = 3;
+    const auto& options = setup.kinds[*number]->common;
+    const auto longest_s = setup.profile->mean_service_s()
+                           + deviations * setup.profile->service_deviation_s();
+    return {.wcet = from_seconds(longest_s * options.demand),
+            .period = options.period,
+            .deadline = options.limits.max_latency};
   }
 
   // @returns the share of the workers that a service of this kind takes.
@@ -253,7 +272,8 @@ struct provider_state {
         v.why = "named twice";
       } else if (v.accepted) {
         v.running.counter = ++counter;
-        managers.push_back(start(station, *offered, v.running, requester));
+        managers.push_back(
+            start(station, *offered, v.running, requester, decisions[k].place));
       }
       response.verdicts.push_back(std::move(v));
     }
@@ -262,7 +282,8 @@ struct provider_state {
 
   provider_manager_actor start(station_record& station, std::size_t number,
                                const running_service& running,
-                               const requester_actor& requester) {
+                               const requester_actor& requester,
+                               const std::optional<core_place>& place) {
     const auto& kind = *setup.kinds[number];
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
@@ -270,15 +291,23 @@ struct provider_state {
     remote.function =
         kind.make_function(setup_of(kind, running.station, noise));
     remote.period = kind.common.period;
-    remote.phase = duration{static_cast<duration::rep>(
-        noise.part("remote phase").uniform(0)
-        * static_cast<double>(remote.period.count()))};
+    remote.phase = place ? place->offset : drawn_phase(noise, remote.period);
+    remote.keeps_phase = place.has_value();
+    auto task = task_of(kind.name());
+    task.offset = remote.phase;
     remote.finish = computing_time(kind, running.station);
     auto manager = spawn_provider_manager(
         self->system(), {std::move(remote), requester, self, setup.recorder});
     self->monitor(manager);
-    station.sessions.push_back({running, manager, now(self)});
+    station.sessions.push_back(
+        {running, manager, now(self), task, place ? place->core : 0});
     return manager;
+  }
+
+  static duration drawn_phase(const random_stream& noise, duration period) {
+    return duration{
+        static_cast<duration::rep>(noise.part("remote phase").uniform(0)
+                                   * static_cast<double>(period.count()))};
   }
 
   std::function<time_point(time_point, std::uint64_t)>

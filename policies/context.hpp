@@ -2,11 +2,15 @@
 #pragma once
 
 #include "policies/policy.hpp"
+#include "policies/schedule/placement.hpp"
 #include "world/geometry.hpp"
 #include "world/ids.hpp"
 #include "world/random.hpp"
 #include "world/road_map.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -46,6 +50,9 @@ struct request_view {
   std::span<const point> route; ///< Planned, m, at least 1.
   double speed_mps = 0;
   double utilisation = 0; ///< What it would add to that of the provider.
+  /// How it computes on one worker: `wcet` is its mean and three standard
+  /// deviations more, `deadline` the latency that it may have.
+  periodic_task task;
 };
 
 /// One service of one station that runs now.
@@ -53,6 +60,8 @@ struct session_view {
   station_id station = 0;
   std::string_view kind;
   time_point since;
+  periodic_task task;     ///< With the offset that was assigned, or drawn.
+  std::size_t worker = 0; ///< That it was assigned to, else 0.
 };
 
 /// What a provider weighs: requests, and what runs already.
@@ -61,6 +70,7 @@ struct central_context {
   std::span<const request_view> requests; ///< That came together.
   std::span<const session_view> sessions; ///< Of all stations.
   double utilisation = 0;                 ///< Of its workers, by the sessions.
+  std::size_t workers = 1;
   const polygon& area;
   const road_map& map;
 };
@@ -68,6 +78,8 @@ struct central_context {
 struct central_decision {
   bool accept = false;
   std::string_view why; ///< A short literal, for the records.
+  /// Worker and offset of the cycles in their period, if it assigns them.
+  std::optional<core_place> place{};
 };
 
 /// LODM: local offloading decision making, in the vehicle.

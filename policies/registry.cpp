@@ -5,6 +5,7 @@
 #include "policies/capacity.hpp"
 #include "policies/choices.hpp"
 #include "policies/composition.hpp"
+#include "policies/deadline_admission.hpp"
 #include "policies/location.hpp"
 
 #include <array>
@@ -81,7 +82,7 @@ constexpr family<local_policy, 6> lodms{
         filtered_local<least_loaded_choice>,
     }}};
 
-constexpr family<central_policy, 4> codms{
+constexpr family<central_policy, 5> codms{
     {{
         {"location", "Accepts vehicles that will stay long enough in the area.",
          "t_in_area >= t_min, the way on the route before it leaves the area "
@@ -93,12 +94,20 @@ constexpr family<central_policy, 4> codms{
          "U + u <= most; u = mean computing time / (period workers)",
          "what runs, the mean computing time of a result",
          "utilisation test of Liu & Layland, J. ACM 20(1), 1973, per pool"},
+        {"edf", "Accepts as long as every result can be in time.",
+         "sum_j (floor((t - D_j) / T_j) + 1) C_j <= t for all deadlines t up "
+         "to "
+         "the busy period (demand); or an offset in the period for which no "
+         "deadline is missed (phases)",
+         "period, computing time, time limit and offset of all that runs",
+         "Baruah, Rosier & Howell, RTSS 1990; phases are ours"},
     }},
     {{
         whole<central_policy, location_codm>,
         whole<central_policy, constant_codm, true>,
         whole<central_policy, constant_codm, false>,
         filtered_central<capacity_codm>,
+        filtered_central<deadline_admission>,
     }}};
 
 } // namespace

@@ -43,19 +43,21 @@ channel::channel(std::shared_ptr<const channel_profile> profile,
 duration channel::service_time(std::uint64_t cycle) const {
   const auto& draws = of({way::down, message_class::result, cycle});
   const auto& p = *profile_;
-  return from_seconds(p.service.draw_s(draws, cycle, service_lane)
-                      + p.joint_service_share
-                            * p.joint.draw_s(draws, cycle, joint_lane));
+  return p.more_computing
+         + from_seconds(p.service.draw_s(draws, cycle, service_lane)
+                        + p.joint_service_share
+                              * p.joint.draw_s(draws, cycle, joint_lane));
 }
 
 duration channel::network_delay(const message_id& m, time_point sent) const {
   const auto& p = *profile_;
-  if (p.replays)
-    return m.direction == way::up
-               ? duration{}
-               : from_seconds(replayed_delay_s(
-                   p.trace, trace_start_s_ + to_seconds(sent)));
-  return network_draw(p, of(m), m.number);
+  if (!p.replays)
+    return p.more_delay + network_draw(p, of(m), m.number);
+  if (m.direction == way::up)
+    return p.more_delay;
+  return p.more_delay
+         + from_seconds(
+             replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent)));
 }
 
 duration channel::burst_delay(way direction, std::uint64_t stall) const {

@@ -2,6 +2,7 @@
 #include "world/channel_profile.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace sofof {
 
@@ -106,11 +107,19 @@ void burst_loss_options::fields(settings& s) {
 }
 
 double channel_profile::mean_service_s() const {
-  return service.mean_s() + joint_service_share * joint.mean_s();
+  return service.mean_s() + joint_service_share * joint.mean_s()
+         + to_seconds(more_computing);
+}
+
+double channel_profile::service_deviation_s() const {
+  return std::hypot(service.deviation_s(),
+                    joint_service_share * joint.deviation_s());
 }
 
 void channel_profile::fields(settings& s) {
   s.field("workers", workers, {1, 1024});
+  s.field("more_computing", more_computing, 0ns);
+  s.field("more_delay", more_delay, 0ns);
   s.field("loss", loss, probability);
   s.field("cell_mbps", cell_mbps, {0, 1e6});
   s.field("scatters_trace", scatters_trace);

@@ -70,9 +70,16 @@ struct channel_profile {
   /// Each vehicle starts at its own place in the trace, else all at its begin.
   bool scatters_trace = true;
 
-  /// @returns the mean computing time of a result of unit demand, s; 0 where
-  /// it is part of a trace.
+  /// Constant parts, on top of the above and of a trace.
+  duration more_computing{}; ///< Of a result of unit demand.
+  duration more_delay{};     ///< Of any message, one way.
+
+  /// @returns the mean computing time of a result of unit demand, s; without
+  /// what is part of a trace.
   double mean_service_s() const;
+
+  /// @returns its standard deviation, s.
+  double service_deviation_s() const;
 
   /// What a scenario may change about a named profile.
   void fields(settings& s);

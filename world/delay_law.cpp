@@ -62,4 +62,20 @@ double delay_law::mean_s() const {
   return 0;
 }
 
+double delay_law::deviation_s() const {
+  switch (kind_) {
+    case shape::none:
+      return 0;
+    case shape::uniform:
+      return p_ / std::sqrt(12.0);
+    case shape::exponential:
+      return p_;
+    case shape::lognormal:
+      return std::exp(p_ + q_ * q_ / 2) * std::sqrt(std::expm1(q_ * q_));
+    case shape::beta:
+      return p_ / (q_ + r_) * std::sqrt(q_ * r_ / (q_ + r_ + 1));
+  }
+  return 0;
+}
+
 } // namespace sofof

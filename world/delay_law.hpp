@@ -32,6 +32,9 @@ public:
   /// @returns the mean of this law, s, >= 0.
   double mean_s() const;
 
+  /// @returns its standard deviation, s.
+  double deviation_s() const;
+
 private:
   enum class shape { none, uniform, exponential, lognormal, beta };
 

@@ -206,6 +206,25 @@ TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
   CHECK(codm->used.back().first == doctest::Approx(0.1));
 }
 
+TEST_CASE_FIXTURE(provider_world, "a service computes at the offset that the "
+                                  "CODM has assigned, and stays there") {
+  codm->place = core_place{1, 30ms};
+  profile->workers = 2;
+  hear(inside);
+  start({one});
+  run_for(200ms);
+  const auto results = requester->all<service_result>();
+  REQUIRE(results.size() >= 3);
+  for (const auto& result : results)
+    CHECK(result.created.time_since_epoch() % 50ms == 30ms);
+  codm->place.reset();
+  start({two});
+  REQUIRE(codm->sessions.size() == 1);
+  CHECK(codm->sessions.front().worker == 1);
+  CHECK(codm->sessions.front().task.offset == 30ms);
+  CHECK(codm->sessions.front().task.period == 50ms);
+}
+
 TEST_CASE_FIXTURE(provider_world, "a request is answered at once, a verdict "
                                   "for each service, in their order") {
   codm->accepted = {"two"};

@@ -89,6 +89,18 @@ TEST_CASE_FIXTURE(
                        time_point{220ms}});
 }
 
+TEST_CASE_FIXTURE(instance_world, "an instance that keeps its phase runs on "
+                                  "its grid only") {
+  auto kept = setup();
+  kept.keeps_phase = true;
+  instance = own(spawn_instance(system(), kept));
+  run_for(100ms);
+  feed(1);
+  start();
+  run_for(75ms);
+  CHECK(starts() == std::vector{time_point{120ms}, time_point{170ms}});
+}
+
 TEST_CASE_FIXTURE(instance_world,
                   "an instance activated on its grid runs once there") {
   run_for(120ms);

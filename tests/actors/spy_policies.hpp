@@ -5,6 +5,7 @@
 #include "policies/context.hpp"
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -66,7 +67,9 @@ struct codm_script {
   std::vector<question> asked;
   /// Utilisation of the provider, and by the first request.
   std::vector<std::pair<double, double>> used;
+  std::vector<session_view> sessions; ///< Of the latest question.
   std::set<std::string, std::less<>> accepted{"one", "two"};
+  std::optional<core_place> place; ///< Assigned to all.
 };
 
 class spy_codm final : public central_policy {
@@ -85,12 +88,14 @@ public:
                             {}};
     for (const auto& request : c.requests)
       q.kinds.emplace_back(request.kind);
+    script_->sessions.assign(c.sessions.begin(), c.sessions.end());
     for (const auto& s : c.sessions)
       q.sessions.emplace_back(s.station, s.kind);
     script_->asked.push_back(std::move(q));
     std::vector<central_decision> all;
     for (const auto& request : c.requests)
-      all.push_back({script_->accepted.contains(request.kind), "as told"});
+      all.push_back({script_->accepted.contains(request.kind), "as told",
+                     script_->place});
     return all;
   }
   std::string_view name() const override { return "spy"; }

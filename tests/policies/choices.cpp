@@ -133,7 +133,7 @@ struct room {
       requests.push_back({101, "any", path, speed_mps, share});
     std::vector<bool> all;
     for (const auto& d :
-         codm.decide({time_point{}, requests, {}, used, area, map}))
+         codm.decide({time_point{}, requests, {}, used, 1, area, map}))
       all.push_back(d.accept);
     return all;
   }

@@ -60,7 +60,7 @@ struct codm_world {
     std::vector<request_view> requests;
     for (const auto kind : kinds)
       requests.push_back({101, kind, route, speed_mps, 0});
-    return with.decide({time_point{}, requests, {}, 0, area, map});
+    return with.decide({time_point{}, requests, {}, 0, 1, area, map});
   }
   std::vector<central_decision> decide(const line& route, double speed_mps,
                                        std::vector<std::string_view> kinds = {

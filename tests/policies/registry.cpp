@@ -26,7 +26,7 @@ std::vector<central_decision> decide(central_policy& codm) {
   const std::vector<point> route{{1e6, 0}};
   const std::vector<request_view> requests{{101, "one", route, 10, 0},
                                            {101, "two", route, 10, 0}};
-  return codm.decide({time_point{}, requests, {}, 0, {}, {}});
+  return codm.decide({time_point{}, requests, {}, 0, 1, {}, {}});
 }
 
 } // namespace

@@ -3,13 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 using namespace sofof;
 using namespace std::chrono_literals;
 
-TEST_CASE("the mean of a law is that of its draws") {
+TEST_CASE("mean and deviation of a law are those of its draws") {
   const std::vector<std::pair<std::string, delay_law>> laws{
       {"none", {}},
       {"uniform", delay_law::uniform(5ms, 25ms)},
@@ -21,9 +22,16 @@ TEST_CASE("the mean of a law is that of its draws") {
   constexpr int draws = 40000;
   for (const auto& [name, law] : laws) {
     CAPTURE(name);
-    double sum_s = 0;
-    for (std::uint64_t k = 0; k < draws; ++k)
-      sum_s += law.draw_s(noise, k, 0);
-    CHECK(law.mean_s() == doctest::Approx(sum_s / draws).epsilon(0.015));
+    double sum = 0, squares = 0;
+    for (std::uint64_t k = 0; k < draws; ++k) {
+      const auto x = law.draw_s(noise, k, 0);
+      sum += x;
+      squares += x * x;
+    }
+    const auto mean = sum / draws;
+    CHECK(law.mean_s() == doctest::Approx(mean).epsilon(0.015));
+    CHECK(law.deviation_s()
+          == doctest::Approx(std::sqrt(squares / draws - mean * mean))
+                 .epsilon(0.03));
   }
 }

@@ -1,0 +1,106 @@
+// Tests of admission by deadlines as a policy.
+#include "policies/deadline_admission.hpp"
+
+#include "tests/support/option_list.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Planning of 8 ms every 100 ms within 50 ms, of which 30 are the network's.
+constexpr periodic_task planning{
+    .wcet = 8ms, .period = 100ms, .deadline = 50ms};
+
+struct server {
+  const polygon area{{{0, 0}, {1, 0}, {1, 1}}};
+  const road_map map{"street", {}, {}};
+  deadline_admission codm;
+
+  explicit server(const std::string& test = "phases", double margin = 0) {
+    test::option_list options;
+    options.texts = {{"test", test}};
+    options.numbers = {{"margin", margin}};
+    codm.fields(options);
+    CHECK(options.refused.empty());
+  }
+
+  std::vector<central_decision>
+  decide(std::size_t requests, const std::vector<session_view>& sessions = {},
+         std::size_t workers = 1) {
+    const std::vector<request_view> all(requests,
+                                        {101, "any", {}, 10, 0.08, planning});
+    return codm.decide({time_point{}, all, sessions, 0, workers, area, map});
+  }
+
+  static std::size_t accepted(const std::vector<central_decision>& all) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(all, &central_decision::accept));
+  }
+};
+
+/// One that runs, on a worker and with an offset.
+session_view running(std::size_t worker, duration offset) {
+  auto task = planning;
+  task.offset = offset;
+  return {102, "any", {}, task, worker};
+}
+
+} // namespace
+
+TEST_CASE("a worker takes twelve by utilisation, two by demand, twelve with "
+          "phases") {
+  CHECK(server::accepted(server{"utilisation"}.decide(14)) == 12);
+  CHECK(server::accepted(server{"demand"}.decide(14)) == 2);
+  CHECK(server::accepted(server{"phases"}.decide(14)) == 12);
+}
+
+TEST_CASE("three workers take three times as many, spread evenly") {
+  const auto all = server{"phases"}.decide(40, {}, 3);
+  CHECK(server::accepted(all) == 36);
+  std::vector<int> on(3);
+  for (const auto& decision : all)
+    if (decision.accept)
+      ++on.at(decision.place.value().core);
+  CHECK(on == std::vector{12, 12, 12});
+}
+
+TEST_CASE("who is accepted does not compute while another one does") {
+  const auto offset =
+      server{}.decide(1, {running(0, 0ms)}).front().place.value().offset;
+  CHECK(offset >= 8ms);
+  CHECK(offset <= 92ms);
+}
+
+TEST_CASE("what runs counts, on the worker where it runs") {
+  const std::vector<session_view> two{running(0, 0ms), running(0, 8ms)};
+  CHECK(server::accepted(server{"demand"}.decide(1, two)) == 0);
+  const auto beside = server{"demand"}.decide(1, two, 2).front();
+  REQUIRE(beside.accept);
+  CHECK(beside.place->core == 1);
+}
+
+TEST_CASE("a session on a worker that is not there counts on the last one") {
+  CHECK(server::accepted(
+            server{"demand"}.decide(1, {running(7, 0ms), running(9, 0ms)}))
+        == 0);
+}
+
+TEST_CASE("a margin is added to computing times") {
+  CHECK(server::accepted(server{"utilisation", 0.1}.decide(14)) == 11);
+}
+
+TEST_CASE("an unknown test is refused, and a clone keeps the known one") {
+  deadline_admission codm;
+  test::option_list options;
+  options.texts = {{"test", "utilization"}};
+  codm.fields(options);
+  CHECK(options.refused.contains("test"));
+  CHECK(server{}.codm.clone()->name() == "edf");
+}
