@@ -273,7 +273,7 @@ struct provider_state {
       } else if (v.accepted) {
         v.running.counter = ++counter;
         managers.push_back(
-            start(station, *offered, v.running, requester, decisions[k].place));
+            start(station, *offered, v.running, requester, decisions[k]));
       }
       response.verdicts.push_back(std::move(v));
     }
@@ -283,7 +283,7 @@ struct provider_state {
   provider_manager_actor start(station_record& station, std::size_t number,
                                const running_service& running,
                                const requester_actor& requester,
-                               const std::optional<core_place>& place) {
+                               const central_decision& how) {
     const auto& kind = *setup.kinds[number];
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
@@ -291,16 +291,15 @@ struct provider_state {
     remote.function =
         kind.make_function(setup_of(kind, running.station, noise));
     remote.period = kind.common.period;
-    remote.phase = place ? place->offset : drawn_phase(noise, remote.period);
-    remote.keeps_phase = place.has_value();
+    remote.phase = how.offset.value_or(drawn_phase(noise, remote.period));
+    remote.keeps_phase = how.offset.has_value();
     auto task = task_of(kind.name());
     task.offset = remote.phase;
     remote.finish = computing_time(kind, running.station);
     auto manager = spawn_provider_manager(
         self->system(), {std::move(remote), requester, self, setup.recorder});
     self->monitor(manager);
-    station.sessions.push_back(
-        {running, manager, now(self), task, place ? place->core : 0});
+    station.sessions.push_back({running, manager, now(self), task, how.worker});
     return manager;
   }
 

@@ -16,7 +16,7 @@ namespace sofof {
 
 namespace {
 
-std::string list(std::string_view title, std::span<const policy_notes> all) {
+std::string list(std::string_view title, const std::vector<policy_notes>& all) {
   auto text = fmt::format("{}\n", title);
   for (const auto& one : all)
     text += fmt::format("  {:<14} {}\n", one.name, one.summary);
@@ -47,8 +47,8 @@ std::string describe(const policy_notes& one, std::string_view key,
 
 template <class Make>
 void describe_if_known(std::string& text, std::string_view name,
-                       std::string_view key, std::span<const policy_notes> all,
-                       Make make) {
+                       std::string_view key,
+                       const std::vector<policy_notes>& all, Make make) {
   const auto found = std::ranges::find(all, name, &policy_notes::name);
   if (found == all.end())
     return;

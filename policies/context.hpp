@@ -2,7 +2,7 @@
 #pragma once
 
 #include "policies/policy.hpp"
-#include "policies/schedule/placement.hpp"
+#include "policies/schedule/periodic_task.hpp"
 #include "world/geometry.hpp"
 #include "world/ids.hpp"
 #include "world/random.hpp"
@@ -61,7 +61,7 @@ struct session_view {
   std::string_view kind;
   time_point since;
   periodic_task task;     ///< With the offset that was assigned, or drawn.
-  std::size_t worker = 0; ///< That it was assigned to, else 0.
+  std::size_t worker = 0; ///< As `central_decision` has it.
 };
 
 /// What a provider weighs: requests, and what runs already.
@@ -77,9 +77,10 @@ struct central_context {
 
 struct central_decision {
   bool accept = false;
-  std::string_view why; ///< A short literal, for the records.
-  /// Worker and offset of the cycles in their period, if it assigns them.
-  std::optional<core_place> place{};
+  std::string_view why;   ///< A short literal, for the records.
+  std::size_t worker = 0; ///< That it counts on.
+  /// When in the period its cycles begin; drawn if nobody assigns it.
+  std::optional<duration> offset{};
 };
 
 /// LODM: local offloading decision making, in the vehicle.

@@ -79,33 +79,4 @@ std::unique_ptr<central_filter> stays_in_area::clone() const {
   return std::make_unique<stays_in_area>(*this);
 }
 
-local_decision location_lodm::decide(const local_context& context) {
-  std::string_view why = "nobody offers it";
-  for (const auto& provider : context.providers) {
-    why = near_.objection(context, provider);
-    if (why.empty())
-      return {provider.id, "d_passed > d_min"};
-  }
-  return {0, why};
-}
-
-std::unique_ptr<local_policy> location_lodm::clone() const {
-  return std::make_unique<location_lodm>(*this);
-}
-
-std::vector<central_decision>
-location_codm::decide(const central_context& context) {
-  std::vector<central_decision> all;
-  for (const auto& request : context.requests) {
-    const auto why = stays_.objection(context, request);
-    all.push_back(why.empty() ? central_decision{true, "t_in_area >= t_min"}
-                              : central_decision{false, why});
-  }
-  return all;
-}
-
-std::unique_ptr<central_policy> location_codm::clone() const {
-  return std::make_unique<location_codm>(*this);
-}
-
 } // namespace sofof

@@ -55,28 +55,4 @@ private:
   double map_tolerance_m_ = 3.0;
 };
 
-/// LODM: asks the first provider that is near enough.
-class location_lodm final : public local_policy {
-public:
-  local_decision decide(const local_context& context) override;
-  void fields(settings& s) override { near_.fields(s); }
-  std::string_view name() const override { return "location"; }
-  std::unique_ptr<local_policy> clone() const override;
-
-private:
-  near_provider near_;
-};
-
-/// CODM: accepts every vehicle that stays long enough.
-class location_codm final : public central_policy {
-public:
-  std::vector<central_decision> decide(const central_context& context) override;
-  void fields(settings& s) override { stays_.fields(s); }
-  std::string_view name() const override { return "location"; }
-  std::unique_ptr<central_policy> clone() const override;
-
-private:
-  stays_in_area stays_;
-};
-
 } // namespace sofof

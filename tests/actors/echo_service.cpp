@@ -5,7 +5,7 @@
 #include "actors/network_link.hpp"
 #include "actors/service_provider.hpp"
 #include "actors/service_requester.hpp"
-#include "policies/baselines.hpp"
+#include "policies/registry.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -55,7 +55,7 @@ struct echo_world : virtual_world {
     s.world = world;
     s.where = in_ulm();
     s.kinds = kinds;
-    s.codm = std::make_unique<constant_codm>(true);
+    s.codm = make_codm("always");
     s.recorder = recorder.handle;
     s.profile = profile();
     return spawn_service_provider(system(), std::move(s));
@@ -73,7 +73,7 @@ struct echo_world : virtual_world {
     s.world = world;
     s.where = in_ulm();
     s.kinds = kinds;
-    s.lodm = std::make_unique<constant_lodm>(true);
+    s.lodm = make_lodm("always");
     s.vehicle = vehicle.handle;
     s.recorder = recorder.handle;
     return spawn_service_requester(system(), std::move(s));

@@ -208,7 +208,8 @@ TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
 
 TEST_CASE_FIXTURE(provider_world, "a service computes at the offset that the "
                                   "CODM has assigned, and stays there") {
-  codm->place = core_place{1, 30ms};
+  codm->worker = 1;
+  codm->offset = 30ms;
   profile->workers = 2;
   hear(inside);
   start({one});
@@ -217,7 +218,7 @@ TEST_CASE_FIXTURE(provider_world, "a service computes at the offset that the "
   REQUIRE(results.size() >= 3);
   for (const auto& result : results)
     CHECK(result.created.time_since_epoch() % 50ms == 30ms);
-  codm->place.reset();
+  codm->offset.reset();
   start({two});
   REQUIRE(codm->sessions.size() == 1);
   CHECK(codm->sessions.front().worker == 1);

@@ -69,7 +69,8 @@ struct codm_script {
   std::vector<std::pair<double, double>> used;
   std::vector<session_view> sessions; ///< Of the latest question.
   std::set<std::string, std::less<>> accepted{"one", "two"};
-  std::optional<core_place> place; ///< Assigned to all.
+  std::size_t worker = 0;         ///< Assigned to all.
+  std::optional<duration> offset; ///< Likewise.
 };
 
 class spy_codm final : public central_policy {
@@ -95,7 +96,7 @@ public:
     std::vector<central_decision> all;
     for (const auto& request : c.requests)
       all.push_back({script_->accepted.contains(request.kind), "as told",
-                     script_->place});
+                     script_->worker, script_->offset});
     return all;
   }
   std::string_view name() const override { return "spy"; }

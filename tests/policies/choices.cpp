@@ -1,9 +1,6 @@
 // Tests of simple choices among providers, of filters before them, and of
 // admission by room.
-#include "policies/choices.hpp"
-
-#include "policies/capacity.hpp"
-#include "policies/composition.hpp"
+#include "policies/registry.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +15,7 @@ const std::vector<point> path{{0, 0}, {200, 0}};
 
 /// Three providers along the way, each with its utilisation.
 std::vector<provider_view> three(double a = 0, double b = 0, double c = 0) {
-  return {{1, {100, 0}, a}, {2, {20, 10}, b}, {3, {9000, 0}, c}};
+  return {{1, {100, 0}, a}, {2, {20, 10}, b}, {3, {150, 20}, c}};
 }
 
 boot_id choose(local_policy& lodm, const std::vector<provider_view>& among,
@@ -41,77 +38,74 @@ std::map<boot_id, int> choices(local_policy& lodm,
 } // namespace
 
 TEST_CASE("nobody is chosen where nobody offers") {
-  random_choice random;
-  nearest_choice nearest;
-  least_loaded_choice least_loaded;
-  CHECK(choose(random, {}) == 0);
-  CHECK(choose(nearest, {}) == 0);
-  CHECK(choose(least_loaded, {}) == 0);
+  for (const auto name : lodm_names())
+    CHECK(choose(*make_lodm(name), {}) == 0);
 }
 
 TEST_CASE("the random choice asks as often as it is told, everybody alike") {
-  random_choice lodm;
+  const auto lodm = make_lodm("random");
   test::option_list options;
   options.numbers = {{"probability", 0.75}};
-  lodm.fields(options);
-  auto counts = choices(lodm, three());
+  lodm->fields(options);
+  auto counts = choices(*lodm, three());
   CHECK(counts[0] == doctest::Approx(750).epsilon(0.1));
   for (boot_id id = 1; id <= 3; ++id)
     CHECK(counts[id] == doctest::Approx(750).epsilon(0.1));
 }
 
 TEST_CASE("a decision that is made again is the same") {
-  random_choice lodm;
+  const auto lodm = make_lodm("random");
   for (std::uint64_t k = 0; k < 100; ++k)
-    CHECK(choose(lodm, three(), k) == choose(lodm, three(), k));
+    CHECK(choose(*lodm, three(), k) == choose(*lodm, three(), k));
 }
 
 TEST_CASE("the nearest provider is the one nearest to the vehicle") {
-  nearest_choice lodm;
-  CHECK(choose(lodm, three()) == 2);
-  CHECK(choose(lodm, {{7, {5, 0}, 0.9}, {8, {6, 0}, 0}}) == 7);
+  const auto lodm = make_lodm("nearest");
+  CHECK(choose(*lodm, three()) == 2);
+  CHECK(choose(*lodm, {{7, {5, 0}, 0.9}, {8, {6, 0}, 0}}) == 7);
 }
 
 TEST_CASE("of two the less loaded is chosen, and of three never the most "
           "loaded") {
-  least_loaded_choice lodm;
-  CHECK(choices(lodm, {{1, {}, 0.6}, {2, {}, 0.5}})[2] == 3000);
-  auto counts = choices(lodm, three(0.3, 0.2, 0.9));
+  const auto lodm = make_lodm("least_loaded");
+  CHECK(choices(*lodm, {{1, {}, 0.6}, {2, {}, 0.5}})[2] == 3000);
+  auto counts = choices(*lodm, three(0.3, 0.2, 0.9));
   CHECK(counts[3] == 0);
   CHECK(counts[2] == doctest::Approx(2000).epsilon(0.1));
   CHECK(counts[1] == doctest::Approx(1000).epsilon(0.1));
 }
 
 TEST_CASE("who has no room is not asked, nor who talks nonsense") {
-  least_loaded_choice lodm;
-  CHECK(choose(lodm, {{1, {}, 1}}) == 0);
-  CHECK(choose(lodm, {{1, {}, 0.99}}) == 1);
-  CHECK(choose(lodm, {{1, {}, std::numeric_limits<double>::quiet_NaN()}}) == 0);
+  const auto lodm = make_lodm("least_loaded");
+  CHECK(choose(*lodm, {{1, {}, 1}}) == 0);
+  CHECK(choose(*lodm, {{1, {}, 0.99}}) == 1);
+  CHECK(choose(*lodm, {{1, {}, std::numeric_limits<double>::quiet_NaN()}})
+        == 0);
 }
 
 TEST_CASE("a choice is made among those that are near enough") {
-  filtered_lodm lodm{std::make_unique<nearest_choice>()};
+  const auto lodm = make_lodm("nearest");
   // The second is nearer, but the way leads away from it.
-  CHECK(choose(lodm, {{1, {100, 200}, 0}, {2, {-150, -10}, 0}}) == 1);
-  CHECK(choose(lodm, {{2, {-10, -320}, 0}}) == 0);
-  CHECK(lodm.name() == "nearest");
+  CHECK(choose(*lodm, {{1, {100, 200}, 0}, {2, {-150, -10}, 0}}) == 1);
+  CHECK(choose(*lodm, {{2, {-10, -320}, 0}}) == 0);
+  CHECK(lodm->name() == "nearest");
 }
 
 TEST_CASE("a filter is an option, and a clone keeps it") {
-  filtered_lodm lodm{std::make_unique<nearest_choice>()};
+  const auto lodm = make_lodm("nearest");
   test::option_list options;
   options.texts = {{"filter.name", "none"}};
-  lodm.fields(options);
+  lodm->fields(options);
   CHECK(options.refused.empty());
-  CHECK(choose(lodm, {{2, {-10, -320}, 0}}) == 2);
-  CHECK(choose(*lodm.clone(), {{2, {-10, -320}, 0}}) == 2);
+  CHECK(choose(*lodm, {{2, {-10, -320}, 0}}) == 2);
+  CHECK(choose(*lodm->clone(), {{2, {-10, -320}, 0}}) == 2);
 }
 
 TEST_CASE("an unknown filter is refused") {
-  filtered_lodm lodm{std::make_unique<nearest_choice>()};
+  const auto lodm = make_lodm("nearest");
   test::option_list options;
   options.texts = {{"filter.name", "locaton"}};
-  lodm.fields(options);
+  lodm->fields(options);
   CHECK(options.refused.contains("filter.name"));
 }
 
@@ -142,18 +136,18 @@ struct room {
 } // namespace
 
 TEST_CASE_FIXTURE(room, "who fits is accepted, first come, first served") {
-  capacity_codm codm;
+  const auto codm = make_codm("capacity");
   using all = std::vector<bool>;
-  CHECK(accepted(codm, 0, {0.5, 0.3, 0.01}) == all{true, true, false});
-  CHECK(accepted(codm, 0, {0.9, 0.3, 0.5}) == all{false, true, true});
-  CHECK(accepted(codm, 0.7, {0.2}) == all{false});
+  CHECK(accepted(*codm, 0, {0.5, 0.3, 0.01}) == all{true, true, false});
+  CHECK(accepted(*codm, 0, {0.9, 0.3, 0.5}) == all{false, true, true});
+  CHECK(accepted(*codm, 0.7, {0.2}) == all{false});
 }
 
 TEST_CASE_FIXTURE(room, "who leaves too soon is refused before room is "
                         "counted") {
-  filtered_codm codm{std::make_unique<capacity_codm>()};
+  const auto codm = make_codm("capacity");
   using all = std::vector<bool>;
-  CHECK(accepted(codm, 0, {0.5, 0.5}) == all{true, false});
-  CHECK(accepted(codm, 0, {0.5}, 100) == all{false});
-  CHECK(codm.clone()->name() == "capacity");
+  CHECK(accepted(*codm, 0, {0.5, 0.5}) == all{true, false});
+  CHECK(accepted(*codm, 0, {0.5}, 100) == all{false});
+  CHECK(codm->clone()->name() == "capacity");
 }

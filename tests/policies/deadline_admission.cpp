@@ -1,6 +1,5 @@
 // Tests of admission by deadlines as a policy.
-#include "policies/deadline_admission.hpp"
-
+#include "policies/registry.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -21,14 +20,20 @@ constexpr periodic_task planning{
 struct server {
   const polygon area{{{0, 0}, {1, 0}, {1, 1}}};
   const road_map map{"street", {}, {}};
-  deadline_admission codm;
+  std::unique_ptr<central_policy> codm = make_codm("edf");
 
   explicit server(const std::string& test = "phases", double margin = 0) {
     test::option_list options;
-    options.texts = {{"test", test}};
+    options.texts = {{"test", test}, {"filter.name", "none"}};
     options.numbers = {{"margin", margin}};
-    codm.fields(options);
+    codm->fields(options);
     CHECK(options.refused.empty());
+  }
+
+  server clone() const {
+    server other;
+    other.codm = codm->clone();
+    return other;
   }
 
   std::vector<central_decision>
@@ -36,7 +41,7 @@ struct server {
          std::size_t workers = 1) {
     const std::vector<request_view> all(requests,
                                         {101, "any", {}, 10, 0.08, planning});
-    return codm.decide({time_point{}, all, sessions, 0, workers, area, map});
+    return codm->decide({time_point{}, all, sessions, 0, workers, area, map});
   }
 
   static std::size_t accepted(const std::vector<central_decision>& all) {
@@ -67,13 +72,13 @@ TEST_CASE("three workers take three times as many, spread evenly") {
   std::vector<int> on(3);
   for (const auto& decision : all)
     if (decision.accept)
-      ++on.at(decision.place.value().core);
+      ++on.at(decision.worker);
   CHECK(on == std::vector{12, 12, 12});
 }
 
 TEST_CASE("who is accepted does not compute while another one does") {
   const auto offset =
-      server{}.decide(1, {running(0, 0ms)}).front().place.value().offset;
+      server{}.decide(1, {running(0, 0ms)}).front().offset.value();
   CHECK(offset >= 8ms);
   CHECK(offset <= 92ms);
 }
@@ -83,7 +88,7 @@ TEST_CASE("what runs counts, on the worker where it runs") {
   CHECK(server::accepted(server{"demand"}.decide(1, two)) == 0);
   const auto beside = server{"demand"}.decide(1, two, 2).front();
   REQUIRE(beside.accept);
-  CHECK(beside.place->core == 1);
+  CHECK(beside.worker == 1);
 }
 
 TEST_CASE("a session on a worker that is not there counts on the last one") {
@@ -92,15 +97,19 @@ TEST_CASE("a session on a worker that is not there counts on the last one") {
         == 0);
 }
 
+TEST_CASE("without phases nobody is told when to compute") {
+  for (const auto& decision : server{"demand"}.decide(2))
+    CHECK(!decision.offset);
+}
+
 TEST_CASE("a margin is added to computing times") {
   CHECK(server::accepted(server{"utilisation", 0.1}.decide(14)) == 11);
 }
 
 TEST_CASE("an unknown test is refused, and a clone keeps the known one") {
-  deadline_admission codm;
   test::option_list options;
   options.texts = {{"test", "utilization"}};
-  codm.fields(options);
+  make_codm("edf")->fields(options);
   CHECK(options.refused.contains("test"));
-  CHECK(server{}.codm.clone()->name() == "edf");
+  CHECK(server::accepted(server{"demand"}.clone().decide(14)) == 2);
 }

@@ -1,6 +1,7 @@
 // Tests of the paper's decisions: the LODM's disc, the CODM's area and map.
 #include "policies/location.hpp"
 
+#include "policies/registry.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/option_list.hpp"
 
@@ -43,8 +44,7 @@ bool wants(local_policy& lodm, const line& path, double speed_mps = 10,
 }
 
 bool wants(const line& path, double speed_mps = 10) {
-  location_lodm lodm;
-  return wants(lodm, path, speed_mps);
+  return wants(*make_lodm("location"), path, speed_mps);
 }
 
 /// A street along the east axis, and an area that ends at 100 m.
@@ -52,7 +52,7 @@ struct codm_world {
   const polygon area{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
   const road_map map{
       "street", {}, {{"street", eastward(-500, 500), 1.75, {{0, 14}}, {}, 0}}};
-  location_codm codm;
+  std::unique_ptr<central_policy> codm = make_codm("location");
 
   std::vector<central_decision> decide(central_policy& with, const line& route,
                                        double speed_mps,
@@ -65,7 +65,7 @@ struct codm_world {
   std::vector<central_decision> decide(const line& route, double speed_mps,
                                        std::vector<std::string_view> kinds = {
                                            "any"}) {
-    return decide(codm, route, speed_mps, std::move(kinds));
+    return decide(*codm, route, speed_mps, std::move(kinds));
   }
   bool accepts(const line& route, double speed_mps) {
     return decide(route, speed_mps).front().accept;
@@ -146,21 +146,21 @@ TEST_CASE("the way in the disc is that of a literal reference") {
 }
 
 TEST_CASE("the disc and the least way are options") {
-  location_lodm lodm;
+  const auto lodm = make_lodm("location");
   test::option_list options;
   options.numbers = {{"radius_m", 100}, {"min_distance_m", 10}};
-  lodm.fields(options);
-  const auto decide = [&](const line& path) { return wants(lodm, path); };
+  lodm->fields(options);
+  const auto decide = [&](const line& path) { return wants(*lodm, path); };
   CHECK(decide({{0, 0}, {11, 0}}));
   CHECK(!decide({{0, 0}, {10, 0}}));
   CHECK(!decide({{95, 0}, {105, 0}, {115, 0}}));
 }
 
 TEST_CASE("a provider that is nowhere is not worth a request") {
-  location_lodm lodm;
+  const auto lodm = make_lodm("location");
   const auto path = eastward(0, 100);
-  CHECK(!wants(lodm, path, 10, {not_a_number, 0}));
-  CHECK(!wants(lodm, path, 10, {0, not_a_number}));
+  CHECK(!wants(*lodm, path, 10, {not_a_number, 0}));
+  CHECK(!wants(*lodm, path, 10, {0, not_a_number}));
 }
 
 // -- CODM --------------------------------------------------------------------
@@ -235,7 +235,7 @@ TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
   test::option_list options;
   options.times = {{"min_time", 10s}};
   options.numbers = {{"map_tolerance_m", 1}};
-  codm.fields(options);
+  codm->fields(options);
   CHECK(!accepts(eastward(50, 300), 10));
   CHECK(accepts(eastward(0, 300), 10));
   CHECK(!accepts({{0, 2}, {100, 2}}, 10));
@@ -244,8 +244,8 @@ TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
 TEST_CASE_FIXTURE(codm_world, "a clone keeps the options") {
   test::option_list options;
   options.times = {{"min_time", 10s}};
-  codm.fields(options);
-  const auto copy = codm.clone();
+  codm->fields(options);
+  const auto copy = codm->clone();
   const auto route = eastward(50, 300);
   CHECK(!decide(*copy, route, 10, {"any"}).front().accept);
 }

@@ -8,7 +8,7 @@
 #include "actors/service_requester.hpp"
 #include "messages/v2x/awareness.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "policies/baselines.hpp"
+#include "policies/registry.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/toy_streets.hpp"
@@ -180,7 +180,7 @@ struct faulty_world : virtual_world {
     setup.way = world->routes.front();
     setup.world = world;
     setup.kinds = kinds;
-    setup.lodm = std::make_unique<constant_lodm>(true);
+    setup.lodm = make_lodm("always");
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
     vehicle = system().spawn(drive, diary, links, &setup);
@@ -194,7 +194,7 @@ struct faulty_world : virtual_world {
     setup.area = polygon::regular({100.0 * k, 0}, 300, 24);
     setup.world = world;
     setup.kinds = kinds;
-    setup.codm = std::make_unique<constant_codm>(true);
+    setup.codm = make_codm("always");
     setup.recorder = recorder;
     setup.profile = profile;
     setup.seed = random_stream{seed, "network"};

@@ -1,0 +1,13 @@
+// CODM "always".
+#include "policies/entry.hpp"
+#include "policies/same_for_all.hpp"
+
+namespace sofof {
+
+codm_entry codm_always() {
+  return {{"always", "Accepts everybody.", "yes", "nothing",
+           "ours, to compare with"},
+          alone<central_policy, same_for_all<true>>};
+}
+
+} // namespace sofof

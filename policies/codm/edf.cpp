@@ -1,0 +1,100 @@
+// CODM "edf": every result of every service is to be in time.
+#include "policies/entry.hpp"
+#include "policies/schedule/placement.hpp"
+#include "world/spelling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace sofof {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> tests{"utilisation", "demand",
+                                                "phases"};
+
+admission_test test_of(std::string_view name) {
+  const auto found = std::ranges::find(tests, name);
+  return static_cast<admission_test>(found - tests.begin());
+}
+
+/// Accepts a service if some worker keeps all deadlines with it,
+/// earliest deadline first; of these workers the one with most room. Sessions
+/// that run keep their workers and offsets. Of the time limit of a service, a
+/// part goes to the network.
+///
+/// Which test a worker must pass: "phases" assigns each service its offset in
+/// the period, so that they do not wait for each other; "demand" is the exact
+/// test for services that may begin together; "utilisation" does not look at
+/// deadlines and breaks those shorter than periods, to compare with.
+///
+/// Source: Liu & Layland 1973; Baruah, Rosier & Howell 1990; phases are ours.
+class deadline_admission final : public central_policy {
+public:
+  std::vector<central_decision> decide(const central_context& context) override;
+  void fields(settings& s) override;
+  std::string_view name() const override { return "edf"; }
+  std::unique_ptr<central_policy> clone() const override {
+    return std::make_unique<deadline_admission>(*this);
+  }
+
+private:
+  periodic_task to_schedule(const periodic_task& told) const;
+
+  std::string test_ = "phases";
+  duration network_ = std::chrono::milliseconds{30};
+  double margin_ = 0.1; // of the computing time, to be safe
+};
+
+periodic_task deadline_admission::to_schedule(const periodic_task& told) const {
+  auto task = told;
+  task.wcet = from_seconds(to_seconds(told.wcet) * (1 + margin_));
+  task.deadline -= network_;
+  return task;
+}
+
+std::vector<central_decision>
+deadline_admission::decide(const central_context& context) {
+  std::vector<std::vector<periodic_task>> workers(context.workers);
+  for (const auto& session : context.sessions)
+    workers[std::min(session.worker, context.workers - 1)].push_back(
+        to_schedule(session.task));
+  std::vector<central_decision> all;
+  for (const auto& request : context.requests) {
+    auto task = to_schedule(request.task);
+    const auto place = worst_fit(workers, task, test_of(test_));
+    if (!place) {
+      all.push_back({false, "a deadline would be missed"});
+      continue;
+    }
+    task.offset = place->offset;
+    workers[place->core].push_back(task);
+    all.push_back({true, "all deadlines are kept", place->core});
+    if (test_of(test_) == admission_test::phases)
+      all.back().offset = place->offset;
+  }
+  return all;
+}
+
+void deadline_admission::fields(settings& s) {
+  s.field("test", test_);
+  if (std::ranges::find(tests, test_) == tests.end())
+    s.refuse("test", unknown_word("test", test_, tests));
+  s.field("network", network_, duration{0});
+  s.field("margin", margin_, {0, 10});
+}
+
+} // namespace
+
+codm_entry codm_edf() {
+  return {{"edf", "Accepts as long as every result can be in time.",
+           "sum_j (floor((t - D_j) / T_j) + 1) C_j <= t for all deadlines t up "
+           "to the busy period (demand); or an offset in the period for which "
+           "no deadline is missed (phases)",
+           "period, computing time, time limit and offset of all that runs",
+           "Baruah, Rosier & Howell, RTSS 1990; phases are ours"},
+          behind_codm_filter<deadline_admission>};
+}
+
+} // namespace sofof

@@ -1,0 +1,45 @@
+// CODM "location": the paper's.
+#include "policies/location.hpp"
+
+#include "policies/entry.hpp"
+
+namespace sofof {
+
+namespace {
+
+/// Accepts every vehicle that stays long enough.
+class location final : public central_policy {
+public:
+  std::vector<central_decision>
+  decide(const central_context& context) override {
+    std::vector<central_decision> all;
+    for (const auto& request : context.requests) {
+      const auto why = stays_.objection(context, request);
+      all.push_back(why.empty() ? central_decision{true, "t_in_area >= t_min"}
+                                : central_decision{false, why});
+    }
+    return all;
+  }
+  void fields(settings& s) override { stays_.fields(s); }
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<central_policy> clone() const override {
+    return std::make_unique<location>(*this);
+  }
+
+private:
+  stays_in_area stays_;
+};
+
+} // namespace
+
+codm_entry codm_location() {
+  return {{"location",
+           "Accepts vehicles that will stay long enough in the area.",
+           "t_in_area >= t_min, the way on the route before it leaves the area "
+           "by the present speed; and the whole route is on the map",
+           "the route and the speed that requests tell",
+           "Dehler & Buchholz, IEEE RA-L 10(5), 2025"},
+          alone<central_policy, location>};
+}
+
+} // namespace sofof

@@ -1,0 +1,45 @@
+// A policy as the registry knows it: a file policies/lodm/NAME.cpp defines
+// lodm_NAME(), a file policies/codm/NAME.cpp defines codm_NAME().
+#pragma once
+
+#include "policies/composition.hpp"
+
+#include <memory>
+#include <string_view>
+
+namespace sofof {
+
+/// What users are told of a policy, besides its options.
+struct policy_notes {
+  std::string_view name;
+  std::string_view summary; ///< What it does, in a line.
+  std::string_view rule;    ///< What it decides by.
+  std::string_view sees;    ///< What it needs to know.
+  std::string_view source;
+};
+
+template <class Policy>
+struct policy_entry {
+  policy_notes notes;
+  std::unique_ptr<Policy> (*make)(); ///< With its default options.
+};
+using lodm_entry = policy_entry<local_policy>;
+using codm_entry = policy_entry<central_policy>;
+
+/// Makes a policy that sees everything.
+template <class Policy, class Whole>
+std::unique_ptr<Policy> alone() {
+  return std::make_unique<Whole>();
+}
+
+/// Makes one that chooses among what a filter lets through.
+template <class Choice>
+std::unique_ptr<local_policy> behind_lodm_filter() {
+  return std::make_unique<filtered_lodm>(std::make_unique<Choice>());
+}
+template <class Choice>
+std::unique_ptr<central_policy> behind_codm_filter() {
+  return std::make_unique<filtered_codm>(std::make_unique<Choice>());
+}
+
+} // namespace sofof

@@ -1,0 +1,44 @@
+// LODM "location": the paper's.
+#include "policies/location.hpp"
+
+#include "policies/entry.hpp"
+
+namespace sofof {
+
+namespace {
+
+/// Asks the first provider that is near enough.
+class location final : public local_policy {
+public:
+  local_decision decide(const local_context& context) override {
+    std::string_view why = "nobody offers it";
+    for (const auto& provider : context.providers) {
+      why = near_.objection(context, provider);
+      if (why.empty())
+        return {provider.id, "d_passed > d_min"};
+    }
+    return {0, why};
+  }
+  void fields(settings& s) override { near_.fields(s); }
+  std::string_view name() const override { return "location"; }
+  std::unique_ptr<local_policy> clone() const override {
+    return std::make_unique<location>(*this);
+  }
+
+private:
+  near_provider near_;
+};
+
+} // namespace
+
+lodm_entry lodm_location() {
+  return {{"location",
+           "Asks as soon as the way ahead stays long enough near a provider.",
+           "d_passed > d_min, the way on the planned path before it leaves the "
+           "disc of radius r_off round the provider",
+           "the planned path, where providers are",
+           "Dehler & Buchholz, IEEE RA-L 10(5), 2025"},
+          alone<local_policy, location>};
+}
+
+} // namespace sofof
