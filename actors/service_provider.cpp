@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
 
 namespace sofof {
 
@@ -198,17 +199,39 @@ struct provider_state {
     self->send(requester, response, std::vector<provider_manager_actor>{});
   }
 
+  // @returns a decision for each kind that was asked for; the CODM is asked
+  // about those that are offered, once each.
   std::vector<central_decision> decide(const service_request& request,
                                        station_record& station) {
-    std::vector<request_view> requests;
-    for (const auto& kind : request.kinds) {
-      // Who asks again no longer runs it: its service_end was lost.
-      if (const auto* running = find(station, kind.view()))
-        end(station, running->running, end_reason::no_data, true);
-      requests.push_back({request.station, kind.view(), request.route,
-                          request.speed_mps, utilisation_by(kind.view()),
-                          task_of(kind.view())});
+    std::vector<central_decision> all;
+    std::vector<request_view> asked;
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < request.kinds.size(); ++k) {
+      const auto& kind = request.kinds[k];
+      const auto before = std::span{request.kinds}.first(k);
+      if (!find_kind(kind.view())) {
+        all.push_back({false, "not offered here"});
+      } else if (std::ranges::find(before, kind) != before.end()) {
+        all.push_back({false, "named twice"});
+      } else {
+        // Who asks again no longer runs it: its service_end was lost.
+        if (const auto* running = find(station, kind.view()))
+          end(station, running->running, end_reason::no_data, true);
+        all.emplace_back();
+        places.push_back(k);
+        asked.push_back({request.station, kind.view(), request.route,
+                         request.speed_mps, utilisation_by(kind.view()),
+                         task_of(kind.view())});
+      }
     }
+    const auto decided = ask_codm(asked);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      all[places[i]] = decided[i];
+    return all;
+  }
+
+  std::vector<central_decision>
+  ask_codm(std::span<const request_view> requests) {
     std::vector<session_view> sessions;
     for (const auto& [id, other] : stations)
       for (const auto& s : other.sessions)
@@ -263,17 +286,10 @@ struct provider_state {
       verdict v{{setup.boot, request.station, kind, 0},
                 decisions[k].accept,
                 std::string{decisions[k].why}};
-      const auto offered = find_kind(kind.view());
-      if (!offered) {
-        v.accepted = false;
-        v.why = "not offered here";
-      } else if (v.accepted && find(station, kind.view())) {
-        v.accepted = false;
-        v.why = "named twice";
-      } else if (v.accepted) {
+      if (v.accepted) {
         v.running.counter = ++counter;
-        managers.push_back(
-            start(station, *offered, v.running, requester, decisions[k]));
+        managers.push_back(start(station, find_kind(kind.view()).value(),
+                                 v.running, requester, decisions[k]));
       }
       response.verdicts.push_back(std::move(v));
     }

@@ -154,6 +154,8 @@ struct requester_state {
   void take(const service_offer& offer, const provider_actor& from) {
     note("offer", offer.provider, {}, 0, {});
     auto& provider = meet(offer.provider, from);
+    if (provider.handle != from)
+      return; // nobody speaks for another one
     provider.offer = offer;
     provider.offered_at = now(self);
     if (provider.open_request)
@@ -161,9 +163,10 @@ struct requester_state {
     std::map<boot_id, std::vector<service_name>> wanted;
     const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
                                            protocol::route_spacing_m);
-    for (const auto& kind : offer.kinds)
-      if (const auto source = choose(kind, offer.provider, path); source != 0)
-        wanted[source].push_back(kind);
+    for (const auto& slot : slots)
+      if (slot.at == phase::local && offers(provider, slot))
+        if (const auto source = choose(slot, offer.provider, path); source != 0)
+          wanted[source].push_back(slot.kind->name());
     for (auto& [source, kinds] : wanted)
       request(source, std::move(kinds), path);
   }
@@ -192,22 +195,19 @@ struct requester_state {
 
   // @returns who shall be asked for a service now that somebody offers it;
   // 0 for nobody.
-  boot_id choose(const service_name& kind, boot_id offering,
+  boot_id choose(const service_slot& slot, boot_id offering,
                  std::span<const point> path) {
-    const auto* slot = find(kind.view());
-    if (!slot || slot->at != phase::local)
+    auto all = offers_for(slot);
+    const auto this_one = std::ranges::find(all, offering, &provider_view::id);
+    if (this_one == all.end())
       return 0;
-    auto offers = offers_for(*slot);
-    const auto this_one =
-        std::ranges::find(offers, offering, &provider_view::id);
-    if (this_one == offers.end())
-      return 0;
-    std::rotate(offers.begin(), this_one, this_one + 1);
+    std::rotate(all.begin(), this_one, this_one + 1);
+    const service_name kind{slot.kind->name()};
     const auto decision = setup.lodm->decide(
-        {now(self), kind.view(), offers, path, ego.own.speed_mps,
+        {now(self), kind.view(), all, path, ego.own.speed_mps,
          setup.noise.part("decisions"), ++decisions});
-    if (std::ranges::find(offers, decision.source, &provider_view::id)
-        != offers.end())
+    if (std::ranges::find(all, decision.source, &provider_view::id)
+        != all.end())
       return decision.source;
     note("stay_local", offering, kind, 0, decision.why);
     return 0;
@@ -218,16 +218,19 @@ struct requester_state {
     const auto t = now(self);
     std::vector<provider_view> all;
     for (const auto& [id, provider] : providers) {
-      const auto& [boot, at, kinds, utilisation] = provider.offer;
       const auto cool = slot.cool_until.find(id);
       const auto cools = cool != slot.cool_until.end() && t < cool->second;
-      const auto offers =
-          std::ranges::find(kinds, slot.kind->name()) != kinds.end();
-      if (offers && t - provider.offered_at <= protocol::offer_validity
-          && !cools && !provider.open_request)
-        all.push_back({id, at, utilisation});
+      const auto is_old = t - provider.offered_at > protocol::offer_validity;
+      if (offers(provider, slot) && !is_old && !cools && !provider.open_request)
+        all.push_back({id, provider.offer.position,
+                       std::max(0.0, provider.offer.utilisation)});
     }
     return all;
+  }
+
+  static bool offers(const known_provider& provider, const service_slot& slot) {
+    const auto& kinds = provider.offer.kinds;
+    return std::ranges::find(kinds, slot.kind->name()) != kinds.end();
   }
 
   void request(boot_id id, std::vector<service_name> wanted,

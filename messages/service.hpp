@@ -43,7 +43,8 @@ struct service_offer {
   boot_id provider = 0;
   point position; ///< Of the provider, m, east-north.
   std::vector<service_name> kinds;
-  /// What runs there needs this share of its workers; above 1 it falls behind.
+  /// What runs there needs this share of its workers, ≥ 0; above 1 it falls
+  /// behind.
   double utilisation = 0;
 };
 

@@ -48,17 +48,17 @@ filtered_lodm::filtered_lodm(std::unique_ptr<local_policy> choice)
     : filtered_policy{std::make_unique<near_provider>(), std::move(choice)} {}
 
 local_decision filtered_lodm::decide(const local_context& context) {
-  std::string_view objection = "nobody offers it";
+  std::string_view objection; // the first
   std::vector<provider_view> left;
   for (const auto& provider : context.providers) {
     const auto why = filter_->objection(context, provider);
     if (why.empty())
       left.push_back(provider);
-    else
+    else if (objection.empty())
       objection = why;
   }
   if (left.empty())
-    return {0, objection};
+    return {0, objection.empty() ? "nobody offers it" : objection};
   auto rest = context;
   rest.providers = left;
   return choice_->decide(rest);

@@ -21,8 +21,8 @@ namespace sofof {
 struct provider_view {
   boot_id id = 0;
   point at; ///< m, east-north.
-  /// What runs there needs this share of its workers, as it says; above 1 it
-  /// falls behind.
+  /// What runs there needs this share of its workers, as it says, ≥ 0; above 1
+  /// it falls behind.
   double utilisation = 0;
 };
 

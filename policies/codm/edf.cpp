@@ -1,6 +1,7 @@
 // CODM "edf": every result of every service is to be in time.
 #include "policies/entry.hpp"
 #include "policies/schedule/placement.hpp"
+#include "world/protocol.hpp"
 #include "world/spelling.hpp"
 
 #include <algorithm>
@@ -28,6 +29,11 @@ admission_test test_of(std::string_view name) {
 /// the period, so that they do not wait for each other; "demand" is the exact
 /// test for services that may begin together; "utilisation" does not look at
 /// deadlines and breaks those shorter than periods, to compare with.
+///
+/// All this is about workers of their own with preemption, as the tests have
+/// it. The provider's take jobs as they come, whichever is free: what waits for
+/// nothing on its own worker ("phases" with room) waits for nothing there
+/// either, all else is as near as the jobs are alike.
 ///
 /// Source: Liu & Layland 1973; Baruah, Rosier & Howell 1990; phases are ours.
 class deadline_admission final : public central_policy {
@@ -63,15 +69,21 @@ deadline_admission::decide(const central_context& context) {
   std::vector<central_decision> all;
   for (const auto& request : context.requests) {
     auto task = to_schedule(request.task);
-    const auto place = worst_fit(workers, task, test_of(test_));
+    const auto test = test_of(test_);
+    if (test == admission_test::phases
+        && task.period + task.deadline > protocol::start_timeout) {
+      all.push_back({false, "its first result would come too late"});
+      continue;
+    }
+    const auto place = worst_fit(workers, task, test);
     if (!place) {
-      all.push_back({false, "a deadline would be missed"});
+      all.push_back({false, "no worker keeps all deadlines"});
       continue;
     }
     task.offset = place->offset;
     workers[place->core].push_back(task);
     all.push_back({true, "all deadlines are kept", place->core});
-    if (test_of(test_) == admission_test::phases)
+    if (test == admission_test::phases)
       all.back().offset = place->offset;
   }
   return all;

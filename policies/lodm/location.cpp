@@ -11,13 +11,15 @@ namespace {
 class location final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
-    std::string_view why = "nobody offers it";
+    std::string_view objection; // the first
     for (const auto& provider : context.providers) {
-      why = near_.objection(context, provider);
+      const auto why = near_.objection(context, provider);
       if (why.empty())
         return {provider.id, "d_passed > d_min"};
+      if (objection.empty())
+        objection = why;
     }
-    return {0, why};
+    return {0, objection.empty() ? "nobody offers it" : objection};
   }
   void fields(settings& s) override { near_.fields(s); }
   std::string_view name() const override { return "location"; }

@@ -16,7 +16,6 @@ namespace {
 using report::curve;
 using report::paragraph;
 
-/// The labels of an axis, in their order.
 double ms_of(const std::string& duration_text) {
   return to_milliseconds(parse_duration(duration_text).value());
 }

@@ -367,6 +367,22 @@ TEST_CASE_FIXTURE(provider_world, "a request for nothing is answered so") {
   CHECK(verdicts().empty());
 }
 
+TEST_CASE_FIXTURE(provider_world, "the CODM is asked about offered services "
+                                  "alone, once each") {
+  hear(inside);
+  ask(make_request({"unheard_of", one, one, two, "unheard_of"}));
+  REQUIRE(codm->asked.size() == 1);
+  CHECK(codm->asked.front().kinds == std::vector<std::string>{"one", "two"});
+  std::vector<std::string> why;
+  for (const auto& v : verdicts())
+    why.push_back(v.why);
+  CHECK(why
+        == std::vector<std::string>{"not offered here", "as told",
+                                    "named twice", "as told",
+                                    "not offered here"});
+  CHECK(managers().size() == 2);
+}
+
 TEST_CASE_FIXTURE(provider_world,
                   "a request that names a service twice starts it once") {
   hear(inside);

@@ -141,6 +141,31 @@ TEST_CASE_FIXTURE(requester_world, "an old offer is none, and neither is one "
   CHECK(requests() == 1);
 }
 
+TEST_CASE_FIXTURE(requester_world,
+                  "a service that an offer names often is asked "
+                  "for once") {
+  offer({one, one, two, one});
+  REQUIRE(requests() == 1);
+  CHECK(last_request().kinds == std::vector{one, two});
+}
+
+TEST_CASE_FIXTURE(requester_world, "nobody speaks for another provider") {
+  lodm->wanted = {};
+  offer({one});
+  lodm->wanted = {"one"};
+  offer_from(other, here, {one});
+  CHECK(requests() == 0);
+  CHECK(other->count<service_request>() == 0);
+  CHECK(lodm->asked.size() == 1);
+}
+
+TEST_CASE_FIXTURE(requester_world, "who claims to be less than idle counts as "
+                                   "idle") {
+  tell_as(provider.handle, requester, service_offer{here, {}, {one}, -7});
+  REQUIRE(lodm->asked.size() == 1);
+  CHECK(lodm->asked[0].providers.front().utilisation == 0);
+}
+
 TEST_CASE_FIXTURE(requester_world, "nobody is asked whom the LODM invents") {
   lodm->preferred = 99;
   offer({one});

@@ -5,7 +5,11 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace sofof;
 
@@ -143,11 +147,26 @@ TEST_CASE_FIXTURE(room, "who fits is accepted, first come, first served") {
   CHECK(accepted(*codm, 0.7, {0.2}) == all{false});
 }
 
-TEST_CASE_FIXTURE(room, "who leaves too soon is refused before room is "
-                        "counted") {
+TEST_CASE_FIXTURE(room,
+                  "who leaves too soon is refused, and takes no room from "
+                  "those who stay") {
   const auto codm = make_codm("capacity");
-  using all = std::vector<bool>;
-  CHECK(accepted(*codm, 0, {0.5, 0.5}) == all{true, false});
-  CHECK(accepted(*codm, 0, {0.5}, 100) == all{false});
-  CHECK(codm->clone()->name() == "capacity");
+  std::vector<request_view> requests;
+  for (const auto& [speed_mps, share] : {std::pair{100.0, 0.5},
+                                         {10.0, 0.5},
+                                         {100.0, 0.5},
+                                         {10.0, 0.4},
+                                         {10.0, 0.3}})
+    requests.push_back({101, "any", path, speed_mps, share});
+  const auto all =
+      codm->clone()->decide({time_point{}, requests, {}, 0, 1, area, map});
+  std::vector<std::string> why;
+  for (const auto& decision : all)
+    why.emplace_back(decision.why);
+  CHECK(why
+        == std::vector<std::string>{"t_in_area < t_min", "there is room",
+                                    "t_in_area < t_min", "no room",
+                                    "there is room"});
+  CHECK(all[1].accept);
+  CHECK(!all[2].accept);
 }

@@ -102,6 +102,17 @@ TEST_CASE("without phases nobody is told when to compute") {
     CHECK(!decision.offset);
 }
 
+TEST_CASE("who would wait too long for its first phase is refused") {
+  server at{"phases"};
+  auto slow = planning;
+  slow.period = 1s;
+  const std::vector<request_view> one{{101, "any", {}, 10, 0.01, slow}};
+  const auto decided =
+      at.codm->decide({time_point{}, one, {}, 0, 1, at.area, at.map});
+  CHECK(!decided.front().accept);
+  CHECK(decided.front().why == "its first result would come too late");
+}
+
 TEST_CASE("a margin is added to computing times") {
   CHECK(server::accepted(server{"utilisation", 0.1}.decide(14)) == 11);
 }

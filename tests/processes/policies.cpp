@@ -2,6 +2,7 @@
 #include "tests/processes/workplace.hpp"
 
 #include <sstream>
+#include <utility>
 
 using namespace sofof::test;
 
@@ -11,43 +12,49 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != text.npos;
 }
 
-/// @returns the names listed, those of the vehicle's policies first.
-std::vector<std::string> listed(const std::string& text) {
+/// @returns side and name of each that is listed.
+std::vector<std::pair<std::string, std::string>>
+listed(const std::string& text) {
   std::istringstream lines{text};
-  std::vector<std::string> all;
+  std::vector<std::pair<std::string, std::string>> all;
+  std::string side;
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("  "))
-      all.push_back(line.substr(2, line.find(' ', 2) - 2));
+      all.emplace_back(side, line.substr(2, line.find(' ', 2) - 2));
+    else
+      side = line.substr(0, line.find(','));
   return all;
 }
 
 } // namespace
 
 TEST_CASE("every policy that is listed is described, and what is said of its "
-          "options is a scenario") {
+          "options is what a scenario gets") {
   const workplace at;
   const auto end = at.run_sofof({"policies"});
   CHECK(end.code == 0);
   CHECK(end.err == "");
-  const auto names = listed(end.out);
-  CHECK(names.size() >= 10);
-  for (const auto& name : names) {
+  const auto all = listed(end.out);
+  CHECK(all.size() >= 11);
+  for (const auto& [side, name] : all) {
+    CAPTURE(side);
     CAPTURE(name);
-    const auto one = at.run_sofof({"policies", name});
-    CHECK(one.code == 0);
-    CHECK(contains(one.out, "decides by: "));
-    CHECK(contains(one.out, "source: "));
-    const auto side = contains(one.out, name + " as lodm") ? "lodm" : "codm";
-    const auto table = one.out.find(std::string{"[policies."} + side + "]");
-    REQUIRE(table != one.out.npos);
-    const auto effective =
-        at.run_sofof({"check", "config/ulm_lehr.toml", "--set",
-                      std::string{"policies."} + side + "=" + name});
-    CHECK(effective.code == 0);
-    const auto options =
-        one.out.substr(table, one.out.find(" as codm", table) - table);
-    const auto first_lines = options.substr(0, options.find("\n\n"));
-    CHECK(contains(effective.out, first_lines));
+    const auto told = at.run_sofof({"policies", name}).out;
+    const auto begin = told.find(name + " as " + side + ": ");
+    REQUIRE(begin != told.npos);
+    CHECK(contains(told.substr(begin), "decides by: "));
+    CHECK(contains(told.substr(begin), "source: "));
+    const auto options = told.find("[policies." + side + "]", begin);
+    REQUIRE(options != told.npos);
+    const auto next = told.find("\n\n" + name + " as ", options);
+    const auto set = "policies." + side + "=" + name;
+    const auto check =
+        at.run_sofof({"check", "config/ulm_lehr.toml", "--set", set});
+    CHECK(check.code == 0);
+    auto table = told.substr(options, next - options);
+    table.resize(table.find_last_not_of('\n') + 1);
+    // What ulm_lehr.toml says for itself are the defaults as well.
+    CHECK(contains(check.out, table));
   }
 }
 
