@@ -20,6 +20,7 @@ drive_figures::take(const trajectory& in_use, const trajectory& next,
   stops_ = false;
   emergency_ = report.emergency;
   ++plans_.count;
+  plans_.on_board += !is_remote(running);
   plans_.kept += report.origin == plan_origin::kept;
   plans_.stops += report.origin == plan_origin::stop;
   plans_.imperfect +=

@@ -140,6 +140,8 @@ link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
   state.self = self;
   state.far = std::move(far);
   state.setup.emplace(std::move(setup));
+  state.setup->up.begin(now(self));
+  state.setup->down.begin(now(self));
   self->monitor(state.far);
   self->set_down_handler([self](const caf::down_msg& down) {
     self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);

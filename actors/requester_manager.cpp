@@ -4,14 +4,18 @@
 #include "actors/qos_watchdog.hpp"
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
+#include "policies/link/first_response.hpp"
 #include "policies/qos_monitor.hpp"
+#include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sofof {
 
@@ -23,9 +27,11 @@ struct remote_source {
   provider_manager_actor manager;
   bool in_use = false;
   bool in_doubt = false; // latencies cannot be judged
+  bool given_up = false;
   std::optional<std::uint64_t> last_cycle;
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
+  std::optional<time_point> last_in_time;
 };
 
 std::string in_ms(duration d) {
@@ -39,9 +45,13 @@ struct manager_state {
   requester_manager_setup setup;
   instance_actor local;
   watchdog_actor watchdog;
-  std::optional<remote_source> remote;
+  std::vector<remote_source> remotes;
+  first_response answers{duration{0}}; // of planning cycles, by any of them
+  running_service watched;             // by whose name the watchdog watches
   service_input newest;
-  payload in_use; // the last result that the client got
+  payload in_use;         // the last result that the client got,
+  running_service source; // of whom,
+  time_point used_at;     // and when
 
   void start() {
     setup.local.running = {0, setup.station, setup.kind, 0};
@@ -59,84 +69,131 @@ struct manager_state {
 
   // For whom they work, in case somebody keeps accounts.
   void charge_all() {
-    const cpu_account to{setup.station, setup.kind, remote && remote->in_use};
+    const cpu_account to{setup.station, setup.kind, is_remote()};
     for (const auto who : {self->id(), local.id(), watchdog.id()})
       charge(self->system(), who, to);
   }
 
+  std::ptrdiff_t sources() const {
+    return std::ranges::count(remotes, true, &remote_source::in_use);
+  }
+  bool is_remote() const { return sources() > 0; }
+
   void feed(service_input& input) {
     newest = std::move(input);
     self->send(local, newest);
-    if (remote && input_due())
-      feed_remote();
+    for (auto& remote : remotes)
+      if (input_due(remote))
+        feed_remote(remote);
   }
 
-  bool input_due() const {
-    return !remote->last_sent
-           || now(self) - *remote->last_sent >= setup.options.input_period;
+  bool input_due(const remote_source& remote) const {
+    return !remote.last_sent
+           || now(self) - *remote.last_sent >= setup.options.input_period;
   }
 
-  void feed_remote() {
+  void feed_remote(remote_source& remote) {
     if (newest.what.type().empty())
       return;
-    remote->last_sent = now(self);
-    auto input = setup.on_air({remote->running, newest.at, newest.what, in_use},
-                              !remote->in_use);
+    remote.last_sent = now(self);
+    auto input = setup.on_air({remote.running, newest.at, newest.what, in_use},
+                              !remote.in_use);
     if (input.what.type().empty())
       return; // nothing to say
     note_on_air(self, setup.recorder, input.what);
-    self->send(remote->manager, std::move(input));
+    self->send(remote.manager, std::move(input));
   }
 
   void await(const running_service& running,
              const provider_manager_actor& manager) {
-    be_local();
-    remote = remote_source{running, manager, false, false, {}, {}, {}};
-    feed_remote();
+    remotes.push_back({running, manager, false, false, false, {}, {}, {}, {}});
+    feed_remote(remotes.back());
   }
 
   void take(const service_result& result) {
     if (result.running.counter == 0) {
-      if (!remote || !remote->in_use)
+      if (!is_remote())
         use(result);
-    } else if (remote && remote->running == result.running
-               && result.cycle > remote->last_cycle) {
-      auto meant = setup.off_air(
-          result.what, {remote->running, newest.at, newest.what, in_use},
-          now(self));
-      if (!meant.type().empty())
-        take_remote({result.running, result.cycle, result.created,
-                     std::move(meant), result.about, result.doubt});
+      return;
     }
+    const auto remote =
+        std::ranges::find(remotes, result.running, &remote_source::running);
+    if (remote == remotes.end() || !(result.cycle > remote->last_cycle))
+      return;
+    auto meant = setup.off_air(
+        result.what, {remote->running, newest.at, newest.what, in_use},
+        now(self));
+    if (!meant.type().empty())
+      take_remote(*remote, {result.running, result.cycle, result.created,
+                            std::move(meant), result.about, result.doubt});
   }
 
-  void take_remote(const service_result& result) {
+  void take_remote(remote_source& remote, const service_result& result) {
     const auto t = now(self);
-    const auto usable =
-        can_judge(result)
+    const auto in_limits =
+        can_judge(remote, result)
         && in_time(result.created, t, setup.options.limits.max_latency);
+    const auto first = in_limits && answers.use(cycle_of(result));
+    const auto alone = !is_remote() || (remote.in_use && sources() == 1);
+    const auto usable = in_limits && (alone || (first && continues(result)));
     std::optional<duration> gap; // only while in use
-    if (remote->last_received)
-      gap = t - *remote->last_received;
+    if (remote.last_received)
+      gap = t - *remote.last_received;
     self->send(setup.recorder,
                cycle_record{result.running, result.cycle, result.created, t,
                             gap, usable, result.doubt});
-    remote->last_cycle = result.cycle;
-    if (remote->in_use || usable)
-      remote->last_received = t;
-    if (!remote->in_use && usable)
-      be_remote(t);
-    else if (remote->in_use)
-      self->send(watchdog, arrival{result.running, result.created, t});
+    remote.last_cycle = result.cycle;
+    if (remote.in_use || in_limits)
+      remote.last_received = t;
+    if (in_limits)
+      remote.last_in_time = t;
+    if (remote.in_use && alone)
+      self->send(watchdog, arrival{watched, result.created, t});
+    else if (is_remote() && usable)
+      // The gap between results that are used is what counts; one that is late
+      // harms nobody.
+      self->send(watchdog, arrival{watched, t, t});
+    if (!remote.in_use && in_limits)
+      be_remote(remote);
     if (usable)
       use(result);
+    if (sources() > 1)
+      give_up_silent();
+  }
+
+  // All providers count them alike: a period of theirs is one of the service.
+  std::uint64_t cycle_of(const service_result& result) const {
+    return static_cast<std::uint64_t>(
+        std::max(duration{0}, result.created.time_since_epoch())
+        / setup.options.period);
+  }
+
+  // Two providers may disagree; the vehicle stays with the one that it follows
+  // as long as that one goes on.
+  bool continues(const service_result& result) const {
+    constexpr auto patience = 2; // periods
+    return result.running == source
+           || now(self) - used_at > patience * setup.options.period
+           || setup.continues(in_use, result.what, now(self));
+  }
+
+  // One of several that has not been in time for long is of no use.
+  void give_up_silent() {
+    const auto t = now(self);
+    for (auto& remote : remotes)
+      if (remote.in_use && !remote.given_up
+          && t - remote.last_in_time.value_or(t) > protocol::start_timeout) {
+        remote.given_up = true;
+        self->send(setup.requester,
+                   qos_violation{remote.running, qos_breach::gap, t, true});
+      }
   }
 
   // Whose clock is not known well enough is not trusted with a latency.
-  bool can_judge(const service_result& result) {
+  bool can_judge(remote_source& remote, const service_result& result) {
     const auto can = result.doubt <= setup.options.limits.max_latency / 2;
-    if (can == remote->in_doubt) {
-      remote->in_doubt = !can;
+    if (can == remote.in_doubt) {
+      remote.in_doubt = !can;
       self->send(setup.recorder,
                  event_record{now(self), can ? "clock_known" : "clock_in_doubt",
                               setup.station, result.running.provider,
@@ -148,23 +205,29 @@ struct manager_state {
 
   void use(const service_result& result) {
     in_use = result.what;
+    source = result.running;
+    used_at = now(self);
     self->send(setup.client, result);
   }
 
-  void be_remote(time_point first) {
-    remote->in_use = true;
-    charge_all();
-    self->send(local, lifecycle_step::deactivate);
-    self->send(watchdog, remote->running, first);
-    self->send(setup.client, source_change{setup.kind, true});
-    self->send(setup.requester, remote->running);
+  void be_remote(remote_source& remote) {
+    const auto was_remote = is_remote();
+    remote.in_use = true;
+    if (!was_remote) {
+      charge_all();
+      self->send(local, lifecycle_step::deactivate);
+      watch(remote.running, now(self));
+      self->send(setup.client, source_change{setup.kind, true});
+    }
+    self->send(setup.requester, remote.running);
+  }
+
+  void watch(const running_service& running, time_point last) {
+    watched = running;
+    self->send(watchdog, running, last);
   }
 
   void be_local() {
-    const auto was_remote = remote && remote->in_use;
-    remote.reset();
-    if (!was_remote)
-      return;
     charge_all();
     self->send(local, service_input{{}, newest.at, newest.what, in_use});
     self->send(local, lifecycle_step::activate);
@@ -172,10 +235,22 @@ struct manager_state {
   }
 
   void end(const service_end& e) {
-    if (!remote || remote->running != e.running)
+    const auto remote =
+        std::ranges::find(remotes, e.running, &remote_source::running);
+    if (remote == remotes.end())
       return;
-    self->send(watchdog, e);
-    be_local();
+    const auto was_in_use = remote->in_use;
+    remotes.erase(remote);
+    if (!was_in_use)
+      return;
+    if (!is_remote()) {
+      self->send(watchdog, e);
+      be_local();
+    } else if (watched == e.running) {
+      const auto other =
+          std::ranges::find(remotes, true, &remote_source::in_use);
+      watch(other->running, used_at);
+    }
   }
 };
 

@@ -2,6 +2,7 @@
 #include "actors/road.hpp"
 
 #include "actors/time.hpp"
+#include "world/free_place.hpp"
 #include "world/near_miss.hpp"
 #include "world/protocol.hpp"
 #include "world/traffic.hpp"
@@ -35,6 +36,7 @@ struct road_state {
   std::optional<traffic> users;
   scene visible;
   std::map<station_id, vehicle_actor> vehicles;
+  std::map<station_id, std::pair<motion_report, vehicle_actor>> waiting;
   std::vector<std::pair<station_id, station_id>> touching;
   near_miss_watch encounters;
 
@@ -60,9 +62,29 @@ struct road_state {
       users->remove(station);
   }
 
+  // In the order of their stations; who was let in is in the others' way.
+  void let_in() {
+    if (waiting.empty())
+      return;
+    const auto all = users->bodies();
+    std::vector<road_body> present{all.begin(), all.end()};
+    std::erase_if(waiting, [&](const auto& entry) {
+      const auto& [report, vehicle] = entry.second;
+      const auto place = body(report.state, setup.car);
+      const auto speed_mps = report.state.speed_mps;
+      if (!is_free(place, speed_mps, present))
+        return false;
+      present.push_back({report.station, place, speed_mps, 0});
+      take(report, vehicle);
+      self->send(vehicle, begin_atom_v);
+      return true;
+    });
+  }
+
   void tick() {
     const auto t = now(self);
     send_at(self, self, t + protocol::sensor_period, tick_atom_v);
+    let_in();
     users->update(t);
     visible.place(users->bodies());
     show_vehicles(t);
@@ -124,6 +146,10 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
   return {
       [self](const motion_report& report, const vehicle_actor& vehicle) {
         self->state.take(report, vehicle);
+      },
+      [self](begin_atom, const motion_report& report,
+             const vehicle_actor& vehicle) {
+        self->state.waiting.try_emplace(report.station, report, vehicle);
       },
       [self](station_id station) { self->state.forget(station); },
       [self](tick_atom) { self->state.tick(); },

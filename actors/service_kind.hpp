@@ -4,6 +4,7 @@
 
 #include "messages/interfaces.hpp"
 #include "messages/v2x/datum.hpp"
+#include "world/cycle_cost.hpp"
 #include "world/random.hpp"
 #include "world/settings.hpp"
 #include "world/streets.hpp"
@@ -26,12 +27,19 @@ struct service_options {
   duration input_period{};  ///< At least this between two inputs on the air.
   double demand = 1;        ///< Provider's computing time, in units of the
                             ///< channel profile's service time.
-  duration run_time_mean{}; ///< Of a local cycle, in virtual time.
+  duration run_time_mean{}; ///< Of a local cycle, in virtual time, at
+                            ///< `usual_clock_ghz`.
   duration run_time_sd{};
   duration run_time_max{};
+  task_options task; ///< What a cycle asks of who computes it.
 
   void fields(settings& s);
 };
+
+/// @returns the options with run times as on this computer: in proportion to
+/// its clock, on a slower one at most a period, since a cycle ends before the
+/// next one begins.
+service_options on(const computer_options& computer, service_options options);
 
 /// What one cycle of a function gives.
 struct service_output {
@@ -135,6 +143,17 @@ public:
     if (!takes_over)
       input.in_use = {};
     return input;
+  }
+
+  /// Whether results may come from one provider and from another in turns.
+  /// @param in_use   The result in use.
+  /// @param offered  The first one of another provider.
+  virtual bool continues(const payload& in_use, const payload& offered,
+                         time_point now) const {
+    static_cast<void>(in_use);
+    static_cast<void>(offered);
+    static_cast<void>(now);
+    return true;
   }
 
   /// What a result that came over the air is to the vehicle; as it is, unless

@@ -21,6 +21,11 @@ struct requester_manager_setup {
   std::function<payload(const payload& result, const service_input& latest,
                         time_point now)>
       off_air;
+  /// `service_kind::continues`.
+  std::function<bool(const payload& in_use, const payload& offered,
+                     time_point now)>
+      continues =
+          [](const payload&, const payload&, time_point) { return true; };
   instance_setup local; ///< `running`, `results` are filled in.
   client_actor client;
   onboard_requester_actor requester;
@@ -32,7 +37,10 @@ struct requester_manager_setup {
 /// one that comes in time on: then the local instance is deactivated in the
 /// same turn, the watchdog armed and the requester told. Results that come
 /// too late, twice or out of order are not used; those that are not understood
-/// are as if they had not come.
+/// are as if they had not come. While several providers run the service, the
+/// first result of each planning cycle is used, if the plan in use may be
+/// followed by it; a provider that has not been in time for a second is given
+/// up (`qos_violation::others_hold`).
 requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup);
 

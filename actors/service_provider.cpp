@@ -5,6 +5,7 @@
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
 #include "messages/v2x/reception.hpp"
+#include "world/drawn_phase.hpp"
 #include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -14,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace sofof {
 
@@ -21,7 +23,9 @@ namespace {
 
 using provider_impl = roadside_provider_actor::extend<
     // Has the station fallen silent, whose record has this number?
-    takes<tick_atom, station_id, std::uint64_t>>;
+    takes<tick_atom, station_id, std::uint64_t>,
+    // An epoch of the policy is over.
+    takes<tick_atom>>;
 
 // One running service.
 struct session {
@@ -30,6 +34,7 @@ struct session {
   time_point since;
   periodic_task task;
   std::size_t worker = 0;
+  std::vector<candidate> candidates; // as the station told
 };
 
 // One station in the area, or that was there a moment ago.
@@ -43,6 +48,19 @@ struct station_record {
   std::vector<session> sessions;
 };
 
+// A request that waits for its answer.
+struct open_request {
+  service_request what;
+  requester_actor from;
+};
+
+// What the CODM is asked about one request, and what it gets for an answer.
+struct question {
+  std::vector<central_decision> verdicts; // one for each kind that it names
+  std::vector<request_view> asked;
+  std::vector<std::size_t> places; // of what is asked, among the kinds
+};
+
 struct provider_state {
   static inline const char* name = "service_provider";
 
@@ -53,6 +71,10 @@ struct provider_state {
   std::map<station_id, station_record> stations;
   std::uint32_t counter = 0;
   std::uint64_t records = 0;
+  std::uint64_t decisions = 0;
+  duration epoch{};                  // of the policy; 0: none
+  bool in_epoch = false;             // one has begun
+  std::vector<open_request> waiting; // for its end
 
   // -- what is known beyond a vehicle's input -----------------------------
 
@@ -117,12 +139,11 @@ struct provider_state {
     const auto t = now(self);
     if (is_new) {
       station.number = ++records;
-      station.next_offer = t;
       send_after(self, self, protocol::cam_timeout + duration{1}, tick_atom_v,
                  c.station, station.number);
     }
     if (station.requester != requester)
-      meet(station, requester);
+      meet(c.station, station, requester, t);
     station.latest = c;
     station.heard = t;
     if (t >= station.next_offer)
@@ -130,18 +151,27 @@ struct provider_state {
   }
 
   // A new requester knows nothing of what ran for the one before.
-  void meet(station_record& station, const requester_actor& requester) {
+  void meet(station_id id, station_record& station,
+            const requester_actor& requester, time_point t) {
     if (station.requester) {
+      drop_waiting(id);
       end_all(station, end_reason::peer_lost);
       self->demonitor(station.requester);
     }
     station.requester = requester;
+    station.next_offer = t;
     station.last_request = 0;
     self->monitor(requester);
   }
 
   void offer(station_record& station, time_point t) {
-    service_offer offered{setup.boot, setup.position, {}, utilisation()};
+    service_offer offered{setup.boot,
+                          setup.position,
+                          {},
+                          utilisation(),
+                          static_cast<std::uint32_t>(setup.profile->workers),
+                          from_seconds(setup.profile->mean_service_s()),
+                          t};
     for (const auto& kind : setup.kinds)
       if (!find(station, kind->name()))
         offered.kinds.push_back(kind->name());
@@ -187,7 +217,45 @@ struct provider_state {
     if (request.number <= station.last_request)
       return; // a duplicate, or overtaken by a newer one
     station.last_request = request.number;
-    respond(request, station, requester, decide(request, station));
+    if (epoch == duration{0}) {
+      answer({{request, requester}});
+      return;
+    }
+    drop_waiting(request.station); // it has given that up
+    waiting.push_back({request, requester});
+    if (!std::exchange(in_epoch, true))
+      send_after(self, self, epoch, tick_atom_v);
+  }
+
+  void drop_waiting(station_id station) {
+    std::erase_if(waiting, [station](const open_request& open) {
+      return open.what.station == station;
+    });
+  }
+
+  void end_epoch() {
+    in_epoch = false;
+    if (!waiting.empty())
+      answer(std::exchange(waiting, {}));
+  }
+
+  // Answers the requests of one epoch together.
+  void answer(std::vector<open_request> requests) {
+    std::vector<question> questions;
+    for (const auto& open : requests)
+      questions.push_back(question_of(open));
+    std::vector<request_view> asked;
+    for (const auto& q : questions)
+      asked.insert(asked.end(), q.asked.begin(), q.asked.end());
+    const auto decided = ask_codm(asked);
+    auto next = decided.begin();
+    for (auto& q : questions)
+      for (const auto place : q.places)
+        q.verdicts[place] = next == decided.end()
+                                ? central_decision{false, "not decided"}
+                                : *next++;
+    for (std::size_t k = 0; k < requests.size(); ++k)
+      respond(requests[k], questions[k].verdicts);
   }
 
   void refuse(const service_request& request, const requester_actor& requester,
@@ -199,47 +267,60 @@ struct provider_state {
     self->send(requester, response, std::vector<provider_manager_actor>{});
   }
 
-  // @returns a decision for each kind that was asked for; the CODM is asked
-  // about those that are offered, once each.
-  std::vector<central_decision> decide(const service_request& request,
-                                       station_record& station) {
-    std::vector<central_decision> all;
-    std::vector<request_view> asked;
-    std::vector<std::size_t> places;
+  // The CODM is asked about the kinds that are offered, once each.
+  question question_of(const open_request& open) {
+    const auto& request = open.what;
+    question all;
     for (std::size_t k = 0; k < request.kinds.size(); ++k) {
       const auto& kind = request.kinds[k];
       const auto before = std::span{request.kinds}.first(k);
-      if (!find_kind(kind.view())) {
-        all.push_back({false, "not offered here"});
+      const auto station = stations.find(request.station);
+      if (station == stations.end()) {
+        all.verdicts.push_back({false, "not in the area"});
+      } else if (!find_kind(kind.view())) {
+        all.verdicts.push_back({false, "not offered here"});
       } else if (std::ranges::find(before, kind) != before.end()) {
-        all.push_back({false, "named twice"});
+        all.verdicts.push_back({false, "named twice"});
       } else {
         // Who asks again no longer runs it: its service_end was lost.
-        if (const auto* running = find(station, kind.view()))
-          end(station, running->running, end_reason::no_data, true);
-        all.emplace_back();
-        places.push_back(k);
-        asked.push_back({request.station, kind.view(), request.route,
-                         request.speed_mps, utilisation_by(kind.view()),
-                         task_of(kind.view())});
+        if (const auto* running = find(station->second, kind.view()))
+          end(station->second, running->running, end_reason::no_data, true);
+        all.verdicts.emplace_back();
+        all.places.push_back(k);
+        all.asked.push_back({request.station, kind.view(), request.route,
+                             request.speed_mps, utilisation_by(kind.view()),
+                             task_of(kind.view()), request.candidates});
       }
     }
-    const auto decided = ask_codm(asked);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      all[places[i]] = decided[i];
     return all;
   }
 
+  // @returns one decision for each request; sessions that the CODM wants to be
+  // rid of are ended.
   std::vector<central_decision>
   ask_codm(std::span<const request_view> requests) {
     std::vector<session_view> sessions;
+    std::vector<running_service> running;
     for (const auto& [id, other] : stations)
-      for (const auto& s : other.sessions)
-        sessions.push_back(
-            {id, s.running.kind.view(), s.since, s.task, s.worker});
-    return setup.codm->decide({now(self), requests, sessions, utilisation(),
-                               static_cast<std::size_t>(setup.profile->workers),
-                               setup.area, setup.world->map});
+      for (const auto& s : other.sessions) {
+        const auto kind = s.running.kind.view();
+        sessions.push_back({id, kind, s.since, s.task, s.worker,
+                            utilisation_by(kind), s.candidates});
+        running.push_back(s.running);
+      }
+    auto decided =
+        setup.codm->decide({now(self), requests, sessions, utilisation(),
+                            static_cast<std::size_t>(setup.profile->workers),
+                            setup.area, setup.world->map, setup.boot,
+                            setup.seed.part("decisions"), ++decisions});
+    const auto most = requests.size() + running.size();
+    for (auto k = requests.size(); k < std::min(decided.size(), most); ++k)
+      if (const auto& r = running[k - requests.size()]; !decided[k].accept)
+        if (const auto i = stations.find(r.station); i != stations.end())
+          end(i->second, r, end_reason::revoked, true);
+    if (decided.size() > requests.size())
+      decided.resize(requests.size());
+    return decided;
   }
 
   // @returns how a service of this kind computes, without an offset.
@@ -276,53 +357,51 @@ struct provider_state {
     return all;
   }
 
-  void respond(const service_request& request, station_record& station,
-               const requester_actor& requester,
+  void respond(const open_request& open,
                const std::vector<central_decision>& decisions) {
+    const auto& request = open.what;
     service_response response{setup.boot, request.station, request.number, {}};
     std::vector<provider_manager_actor> managers;
     for (std::size_t k = 0; k < request.kinds.size(); ++k) {
       const auto& kind = request.kinds[k];
       verdict v{{setup.boot, request.station, kind, 0},
                 decisions[k].accept,
-                std::string{decisions[k].why}};
-      if (v.accepted) {
+                std::string{decisions[k].why},
+                decisions[k].instead};
+      const auto station = stations.find(request.station);
+      if (v.accepted && station != stations.end()) {
         v.running.counter = ++counter;
-        managers.push_back(start(station, find_kind(kind.view()).value(),
-                                 v.running, requester, decisions[k]));
+        managers.push_back(
+            start(station->second, v.running, open, decisions[k]));
       }
       response.verdicts.push_back(std::move(v));
     }
-    self->send(requester, response, managers);
+    self->send(open.from, response, managers);
   }
 
-  provider_manager_actor start(station_record& station, std::size_t number,
+  provider_manager_actor start(station_record& station,
                                const running_service& running,
-                               const requester_actor& requester,
+                               const open_request& open,
                                const central_decision& how) {
-    const auto& kind = *setup.kinds[number];
+    const auto& kind = *setup.kinds[find_kind(running.kind.view()).value()];
     const auto noise = setup.seed.part(kind.name()).part(running.station);
     instance_setup remote;
     remote.running = running;
     remote.function =
         kind.make_function(setup_of(kind, running.station, noise));
     remote.period = kind.common.period;
-    remote.phase = how.offset.value_or(drawn_phase(noise, remote.period));
+    remote.phase = how.offset.value_or(
+        drawn_phase(noise.part("remote phase"), remote.period));
     remote.keeps_phase = how.offset.has_value();
     auto task = task_of(kind.name());
     task.offset = remote.phase;
     remote.finish = computing_time(kind, running.station);
     auto manager = spawn_provider_manager(
-        self->system(), {std::move(remote), requester, self, setup.recorder});
+        self->system(), {std::move(remote), open.from, self, setup.recorder});
     self->monitor(manager);
-    station.sessions.push_back({running, manager, now(self), task, how.worker});
+    station.sessions.push_back(
+        {running, manager, now(self), task, how.worker, open.what.candidates});
     return manager;
-  }
-
-  static duration drawn_phase(const random_stream& noise, duration period) {
-    return duration{
-        static_cast<duration::rep>(noise.part("remote phase").uniform(0)
-                                   * static_cast<double>(period.count()))};
   }
 
   std::function<time_point(time_point, std::uint64_t)>
@@ -422,6 +501,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
   state.self = self;
   state.setup = std::move(setup);
   state.make_sites();
+  state.epoch = from_seconds(state.setup.codm->epoch_s());
   state.workers = std::make_shared<fifo_servers>(state.setup.profile->workers);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down); });
@@ -444,6 +524,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
       [self](tick_atom, station_id station, std::uint64_t number) {
         self->state.check(station, number);
       },
+      [self](tick_atom) { self->state.end_epoch(); },
   };
 }
 

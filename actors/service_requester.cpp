@@ -4,15 +4,19 @@
 #include "actors/cpu_accounts.hpp"
 #include "actors/on_air.hpp"
 #include "actors/service_manager.hpp"
+#include "actors/service_slot.hpp"
 #include "actors/time.hpp"
+#include "world/drawn_phase.hpp"
 #include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace sofof {
 
@@ -22,36 +26,12 @@ using requester_impl = onboard_requester_actor::extend<
     // The request with this number has been open for too long.
     takes<tick_atom, boot_id, std::uint32_t>,
     // This running service should have given its first data by now.
-    takes<tick_atom, running_service>>;
+    takes<tick_atom, running_service>,
+    // An epoch of the policy is over.
+    takes<tick_atom>>;
 
-// A provider that this station has heard of.
-struct known_provider {
-  provider_actor handle;
-  std::optional<std::uint32_t> open_request;
-  std::optional<time_point>
-      last_complaint;  // about results of unknown running services
-  service_offer offer; // the latest, without what was asked for since
-  time_point offered_at;
-};
-
-enum class phase { local, requested, starting, remote };
-
-// One kind of service in this vehicle.
-struct service_slot {
-  service_kind_ptr kind;
-  requester_manager_actor manager;
-  phase at = phase::local;
-  boot_id provider = 0;    // asked, or running there
-  running_service running; // from acceptance on
-  time_point accepted;
-  time_point first_data;
-  std::map<boot_id, time_point> cool_until;
-};
-
-// A return to the local service that nobody planned.
-bool is_fallback(end_reason reason) {
-  return reason != end_reason::left_area && reason != end_reason::shutdown;
-}
+// A provider's clock, GHz, where it tells itself how long it computes.
+constexpr auto takes_no_time = std::numeric_limits<double>::infinity();
 
 struct requester_state {
   static inline const char* name = "service_requester";
@@ -63,18 +43,31 @@ struct requester_state {
   ego_state ego;
   std::uint32_t last_request = 0;
   std::uint64_t decisions = 0;
+  duration epoch{}; // of the policy; 0: none
 
   void start() {
     self->monitor(setup.vehicle);
     for (const auto& kind : setup.kinds)
-      slots.push_back({kind, spawn_manager(kind), {}, {}, {}, {}, {}, {}});
+      slots.push_back(
+          {kind,
+           spawn_manager(kind),
+           on_board_cost(setup.computer, kind->common.task),
+           offloaded_cost(setup.computer, kind->common.task, takes_no_time),
+           {},
+           {},
+           now(self),
+           {},
+           {}});
     charge_self();
+    epoch = from_seconds(setup.lodm->epoch_s());
+    if (epoch > duration{0})
+      send_after(self, self, epoch, tick_atom_v);
   }
 
   // For whom it works, in case somebody keeps accounts.
   void charge_self() {
-    const auto any_remote = std::ranges::any_of(
-        slots, [](const auto& slot) { return slot.at == phase::remote; });
+    const auto any_remote =
+        std::ranges::any_of(slots, &service_slot::is_remote);
     charge(self->system(), self->id(), {setup.station, {}, any_remote});
   }
 
@@ -105,6 +98,10 @@ struct requester_state {
                         time_point now) {
            return shared->off_air(here, result, latest, now);
          },
+         [shared](const payload& in_use, const payload& offered,
+                  time_point now) {
+           return shared->continues(in_use, offered, now);
+         },
          local_instance(kind, here), client, self, setup.recorder});
     self->link_to(manager);
     return manager;
@@ -115,10 +112,8 @@ struct requester_state {
     instance_setup local;
     local.function = kind.make_function(here);
     local.period = kind.common.period;
-    local.phase = duration{static_cast<duration::rep>(
-        here.noise.part("local phase").uniform(0)
-        * static_cast<double>(local.period.count()))};
-    local.finish = local_run_time(kind.common, here.noise);
+    local.phase = drawn_phase(here.noise.part("local phase"), local.period);
+    local.finish = local_run_time(on(setup.computer, kind.common), here.noise);
     return local;
   }
 
@@ -141,15 +136,22 @@ struct requester_state {
     return i == slots.end() ? nullptr : &*i;
   }
 
-  // The slot in which `running` is starting or remote.
-  service_slot* find(const running_service& running) {
+  struct found {
+    service_slot* slot = nullptr;
+    offloading* at = nullptr;
+    explicit operator bool() const { return at != nullptr; }
+  };
+
+  // Where `running` is starting or remote.
+  found find(const running_service& running) {
     auto* slot = find(running.kind.view());
-    const auto alive =
-        slot && slot->at >= phase::starting && slot->running == running;
-    return alive ? slot : nullptr;
+    auto* at = slot ? slot->find(running.provider) : nullptr;
+    if (!at || at->at == phase::requested || at->running != running)
+      return {};
+    return {slot, at};
   }
 
-  // -- offer and request --------------------------------------------------
+  // -- offer, decision, request -------------------------------------------
 
   void take(const service_offer& offer, const provider_actor& from) {
     note("offer", offer.provider, {}, 0, {});
@@ -158,14 +160,50 @@ struct requester_state {
       return; // nobody speaks for another one
     provider.offer = offer;
     provider.offered_at = now(self);
+    learn(offer);
     if (provider.open_request)
       return;
+    weigh(
+        [&](const service_slot& slot) {
+          return provider.offers(slot.kind->name());
+        },
+        offer.provider);
+  }
+
+  // How good the way is, also while nothing runs there.
+  void learn(const service_offer& offer) {
+    const auto t = now(self);
+    if (!offer.created || *offer.created > t)
+      return;
+    for (auto& slot : slots)
+      if (!slot.find(offer.provider))
+        slot.link_of(offer.provider)
+            .answered(*offer.created - slot.computing(offer), t);
+  }
+
+  // Cycles on board are told at the pace of the epoch.
+  void take_epoch() {
+    send_after(self, self, epoch, tick_atom_v);
+    const auto t = now(self);
+    for (auto& slot : slots)
+      if (!slot.is_remote())
+        setup.lodm->observe(cycle_outcome{
+            t, slot.kind->name(), 0, slot.on_board.time_s, false,
+            slot.on_board.energy_j,
+            to_seconds(epoch) / to_seconds(slot.kind->common.period)});
+    weigh([](const service_slot&) { return true; }, 0);
+  }
+
+  // Decides about the services for which `is_due`.
+  // @param offering  Who offers them just now; 0: nobody.
+  template <class Predicate>
+  void weigh(Predicate is_due, boot_id offering) {
     std::map<boot_id, std::vector<service_name>> wanted;
     const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
                                            protocol::route_spacing_m);
-    for (const auto& slot : slots)
-      if (slot.at == phase::local && offers(provider, slot))
-        if (const auto source = choose(slot, offer.provider, path); source != 0)
+    for (auto& slot : slots)
+      if (!slot.is_moving() && is_due(slot))
+        for (const auto source : decide(slot, offering, path))
           wanted[source].push_back(slot.kind->name());
     for (auto& [source, kinds] : wanted)
       request(source, std::move(kinds), path);
@@ -183,73 +221,112 @@ struct requester_state {
     std::erase_if(providers, [&](const auto& known) {
       return is_same(known) && !is_in_use(known.first);
     });
+    for (auto& slot : slots)
+      std::erase_if(slot.links, [&](const auto& link) {
+        return !providers.contains(link.first);
+      });
     return providers.emplace(id, known_provider{from, {}, {}, {}, {}})
         .first->second;
   }
 
-  bool is_in_use(boot_id id) const {
-    return std::ranges::any_of(slots, [id](const service_slot& slot) {
-      return slot.at != phase::local && slot.provider == id;
-    });
+  bool is_in_use(boot_id id) {
+    return std::ranges::any_of(
+        slots, [id](auto& slot) { return slot.find(id) != nullptr; });
   }
 
-  // @returns who shall be asked for a service now that somebody offers it;
-  // 0 for nobody.
-  boot_id choose(const service_slot& slot, boot_id offering,
-                 std::span<const point> path) {
-    auto all = offers_for(slot);
-    const auto this_one = std::ranges::find(all, offering, &provider_view::id);
-    if (this_one == all.end())
-      return 0;
-    std::rotate(all.begin(), this_one, this_one + 1);
+  // @returns who shall be asked for a service.
+  std::vector<boot_id> decide(service_slot& slot, boot_id offering,
+                              std::span<const point> path) {
+    auto all = views(slot, offering);
+    const auto knows = [&all](boot_id id) {
+      return std::ranges::find(all, id, &provider_view::id) != all.end();
+    };
+    if (all.empty() || (offering != 0 && !knows(offering)))
+      return {};
+    const auto& common = slot.kind->common;
     const service_name kind{slot.kind->name()};
-    const auto decision = setup.lodm->decide(
-        {now(self), kind.view(), all, path, ego.own.speed_mps,
-         setup.noise.part("decisions"), ++decisions});
-    if (std::ranges::find(all, decision.source, &provider_view::id)
-        != all.end())
-      return decision.source;
-    note("stay_local", offering, kind, 0, decision.why);
-    return 0;
+    auto decision =
+        setup.lodm->decide({now(self),
+                            kind.view(),
+                            all,
+                            path,
+                            ego.own.speed_mps,
+                            setup.noise.part("decisions"),
+                            ++decisions,
+                            slot.current(),
+                            slot.since,
+                            {common.period, common.limits.max_latency,
+                             common.limits.max_interarrival},
+                            slot.on_board,
+                            setup.future.get()});
+    if (decision.release) {
+      come_home(slot, end_reason::released);
+      return {};
+    }
+    if (decision.source == 0 && decision.second != 0)
+      decision.source = slot.current();
+    std::vector<boot_id> wanted;
+    for (const auto id : {decision.source, decision.second})
+      if (id != 0 && knows(id) && !std::ranges::count(wanted, id))
+        wanted.push_back(id);
+    if (wanted.empty()) {
+      if (slot.elsewhere.empty() && offering != 0)
+        note("stay_local", offering, kind, 0, decision.why);
+      return {};
+    }
+    slot.wanted = wanted;
+    std::erase_if(wanted, [&](boot_id id) { return slot.find(id); });
+    if (wanted.empty())
+      leave_others(slot);
+    return wanted;
   }
 
-  // @returns who may be asked for this service.
-  std::vector<provider_view> offers_for(const service_slot& slot) const {
+  // @returns first where a service runs, then who may be asked for it: who
+  // offers just now, then by id.
+  std::vector<provider_view> views(service_slot& slot, boot_id offering) {
     const auto t = now(self);
     std::vector<provider_view> all;
-    for (const auto& [id, provider] : providers) {
-      const auto cool = slot.cool_until.find(id);
-      const auto cools = cool != slot.cool_until.end() && t < cool->second;
-      const auto is_old = t - provider.offered_at > protocol::offer_validity;
-      if (offers(provider, slot) && !is_old && !cools && !provider.open_request)
-        all.push_back({id, provider.offer.position,
-                       std::max(0.0, provider.offer.utilisation)});
-    }
+    for (const auto& at : slot.elsewhere)
+      if (const auto i = providers.find(at.provider); i != providers.end())
+        all.push_back(slot.view_of(i->second, t));
+    const auto add = [&](boot_id id, const known_provider& provider) {
+      if (!slot.find(id) && slot.may_ask(provider, t))
+        all.push_back(slot.view_of(provider, t));
+    };
+    if (const auto i = providers.find(offering); i != providers.end())
+      add(i->first, i->second);
+    for (const auto& [id, provider] : providers)
+      if (id != offering)
+        add(id, provider);
     return all;
-  }
-
-  static bool offers(const known_provider& provider, const service_slot& slot) {
-    const auto& kinds = provider.offer.kinds;
-    return std::ranges::find(kinds, slot.kind->name()) != kinds.end();
   }
 
   void request(boot_id id, std::vector<service_name> wanted,
                const std::vector<point>& path) {
     auto& provider = providers.at(id);
     const auto number = ++last_request;
+    auto candidates = candidates_for(*find(wanted.front().view()));
     provider.open_request = number;
     for (const auto& kind : wanted) {
       std::erase(provider.offer.kinds, kind);
       auto* slot = find(kind.view());
-      slot->at = phase::requested;
-      slot->provider = id;
+      slot->elsewhere.push_back({id, phase::requested, {}, {}, {}});
       note("request", id, kind, 0, {});
     }
     self->send(provider.handle,
                service_request{id, setup.station, number, std::move(wanted),
-                               path, ego.own.speed_mps},
+                               path, ego.own.speed_mps, std::move(candidates)},
                requester_actor{self});
     send_after(self, self, protocol::request_timeout, tick_atom_v, id, number);
+  }
+
+  // What the vehicle tells of whom it could ask.
+  std::vector<candidate> candidates_for(service_slot& slot) {
+    std::vector<candidate> all;
+    for (const auto& view : views(slot, 0))
+      all.push_back(
+          {view.id, gain(view, slot.on_board, slot.needs()), view.utilisation});
+    return all;
   }
 
   void request_timed_out(boot_id id, std::uint32_t number) {
@@ -257,9 +334,14 @@ struct requester_state {
     if (i == providers.end() || i->second.open_request != number)
       return;
     i->second.open_request.reset();
+    refuse_requested(id, "no answer");
+  }
+
+  void refuse_requested(boot_id provider, std::string_view why) {
     for (auto& slot : slots)
-      if (slot.at == phase::requested && slot.provider == id)
-        refused(slot, "no answer");
+      if (const auto* at = slot.find(provider);
+          at && at->at == phase::requested)
+        refused(slot, provider, why);
   }
 
   // -- response -----------------------------------------------------------
@@ -276,21 +358,19 @@ struct requester_state {
       if (v.accepted && (manager == managers.end() || !is_sound(v, response)))
         break; // a broken peer
       auto* slot = find(v.running.kind.view());
-      const auto open = expected && slot && slot->at == phase::requested
-                        && slot->provider == response.provider;
+      auto* at = slot ? slot->find(response.provider) : nullptr;
+      const auto open = expected && at && at->at == phase::requested;
       if (open && v.accepted)
-        accepted(*slot, v, *manager);
+        accepted(*slot, *at, v, *manager);
       else if (open)
-        refused(*slot, v.why);
+        refused(*slot, response.provider, v.why, v.instead);
       else if (v.accepted && !find(v.running)) // not just a duplicate
         tell_provider({v.running, end_reason::no_data, side::requester});
       if (v.accepted)
         ++manager;
     }
     if (expected)
-      for (auto& slot : slots)
-        if (slot.at == phase::requested && slot.provider == response.provider)
-          refused(slot, "not answered");
+      refuse_requested(response.provider, "not answered");
   }
 
   // Counter 0 is the local service; nobody else may go by that name.
@@ -299,42 +379,63 @@ struct requester_state {
            && v.running.station == setup.station && v.running.counter != 0;
   }
 
-  void accepted(service_slot& slot, const verdict& v,
+  void accepted(service_slot& slot, offloading& at, const verdict& v,
                 const provider_manager_actor& manager) {
-    slot.at = phase::starting;
-    slot.running = v.running;
-    slot.accepted = now(self);
-    decided(slot, true, v.why);
+    at.at = phase::starting;
+    at.running = v.running;
+    at.accepted = now(self);
+    decided(slot, at.provider, true, v.running.counter, v.why);
     self->send(slot.manager, v.running, manager);
     send_after(self, self, protocol::start_timeout, tick_atom_v, v.running);
   }
 
-  void refused(service_slot& slot, std::string_view why) {
-    decided(slot, false, why);
-    slot.at = phase::local;
+  // @param instead  Whom the provider would have asked; 0: nobody.
+  void refused(service_slot& slot, boot_id provider, std::string_view why,
+               boot_id instead = 0) {
+    decided(slot, provider, false, 0, why);
+    setup.lodm->observe(
+        refusal_outcome{now(self), slot.kind->name(), provider, why});
+    slot.drop(provider);
+    const auto other = providers.find(instead);
+    if (other == providers.end() || slot.find(instead)
+        || !slot.may_ask(other->second, now(self)))
+      return;
+    slot.wanted = {instead};
+    request(instead, {service_name{slot.kind->name()}},
+            setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
+                                 protocol::route_spacing_m));
   }
 
-  void decided(const service_slot& slot, bool yes, std::string_view why) {
+  static void drop(service_slot& slot, boot_id provider) {
+    std::erase_if(slot.elsewhere,
+                  [provider](const auto& x) { return x.provider == provider; });
+  }
+
+  void decided(const service_slot& slot, boot_id provider, bool yes,
+               std::uint32_t counter, std::string_view why) {
     const service_name kind{slot.kind->name()};
     self->send(setup.recorder,
                decision_record{now(self), setup.station, kind, yes});
-    note(yes ? "accepted" : "refused", slot.provider, kind,
-         yes ? slot.running.counter : 0, why);
+    note(yes ? "accepted" : "refused", provider, kind, counter, why);
   }
 
   // -- data ---------------------------------------------------------------
 
   void take(const service_result& result) {
-    auto* slot = find(result.running);
-    if (!slot) {
+    const auto at = find(result.running);
+    if (!at) {
       complain(result.running);
       return;
     }
-    const auto latency = now(self) - result.created;
+    auto& slot = *at.slot;
+    const auto t = now(self);
+    const auto latency = t - result.created;
+    slot.link_of(result.running.provider).arrived(result.created, t);
     setup.lodm->observe(cycle_outcome{
-        result.running.kind.view(), result.running.provider,
-        to_seconds(latency), latency > slot->kind->common.limits.max_latency});
-    self->send(slot->manager, result);
+        t, result.running.kind.view(), result.running.provider,
+        to_seconds(latency), latency > slot.kind->common.limits.max_latency,
+        slot.offloaded.energy_j});
+    self->send(slot.manager, result);
   }
 
   // A provider that sends what nobody wants has missed a service_end.
@@ -351,38 +452,79 @@ struct requester_state {
   }
 
   void first_data(const running_service& running) {
-    auto* slot = find(running);
-    if (!slot || slot->at != phase::starting)
+    const auto at = find(running);
+    if (!at || at.at->at != phase::starting)
       return;
-    slot->at = phase::remote;
-    slot->first_data = now(self);
+    auto& [slot, there] = at;
+    if (!slot->is_remote())
+      slot->since = now(self);
+    there->joined = std::ranges::any_of(slot->elsewhere, [&](const auto& x) {
+      return x.at == phase::remote && slot->wants(x.provider);
+    });
+    there->at = phase::remote;
+    there->first_data = now(self);
     charge_self();
+    if (there->joined)
+      note("joined", running.provider, running.kind, running.counter, {});
+    else
+      note_remote(running);
+    leave_others(*slot);
+  }
+
+  void note_remote(const running_service& running) {
     note("switch", running.provider, running.kind, running.counter, "remote");
   }
 
+  // Ends a service where it is no longer wanted.
+  void leave_others(service_slot& slot) {
+    const auto all = slot.elsewhere; // a copy: it shrinks
+    for (const auto& at : all)
+      if (at.at == phase::remote && !slot.wants(at.provider)) {
+        end(slot, at.provider, end_reason::handed_over, true);
+        slot.since = now(self);
+      }
+  }
+
+  // Ends a service wherever it runs.
+  void come_home(service_slot& slot, end_reason reason) {
+    const auto all = slot.elsewhere;
+    for (const auto& at : all)
+      if (at.at == phase::remote)
+        end(slot, at.provider, reason, true);
+  }
+
   void start_timed_out(const running_service& running) {
-    auto* slot = find(running);
-    if (slot && slot->at == phase::starting)
-      end(*slot, end_reason::no_data, true);
+    const auto at = find(running);
+    if (at && at.at->at == phase::starting)
+      end(*at.slot, running.provider, end_reason::no_data, true);
   }
 
   // -- the end of an offloading -------------------------------------------
 
   void take(const qos_violation& violation) {
-    auto* slot = find(violation.running);
-    if (!slot)
+    const auto at = find(violation.running);
+    if (!at)
       return;
     const auto reason = violation.breach == qos_breach::latency
                             ? end_reason::qos_latency
                             : end_reason::qos_gap;
-    note("violation", slot->provider, violation.running.kind,
-         violation.running.counter, name_of(reason));
-    end(*slot, reason, true);
+    const auto& running = violation.running;
+    note("violation", running.provider, running.kind, running.counter,
+         name_of(reason));
+    if (violation.breach == qos_breach::gap)
+      setup.lodm->observe(cycle_outcome{now(self), running.kind.view(),
+                                        running.provider,
+                                        std::numeric_limits<double>::infinity(),
+                                        true, at.slot->offloaded.energy_j});
+    if (violation.others_hold || at.at->at != phase::remote)
+      end(*at.slot, running.provider, reason, true);
+    else
+      come_home(*at.slot, reason);
   }
 
   void take(const service_end& e) {
-    if (auto* slot = find(e.running); slot && e.from == side::provider)
-      end(*slot, e.reason, false);
+    if (const auto at = find(e.running); at && e.from == side::provider)
+      end(*at.slot, e.running.provider, e.reason, false);
   }
 
   void lost(const caf::actor_addr& who) {
@@ -400,20 +542,23 @@ struct requester_state {
       i = providers.erase(i);
       note("peer_lost", id, {}, 0, {});
       for (auto& slot : slots) {
-        if (slot.at == phase::local || slot.provider != id)
-          continue;
-        if (slot.at == phase::requested)
-          refused(slot, "peer lost");
-        else
-          end(slot, end_reason::peer_lost, false);
+        const auto* at = slot.find(id);
+        if (at && at->at == phase::requested)
+          refused(slot, id, "peer lost");
+        else if (at)
+          end(slot, id, end_reason::peer_lost, false);
+        slot.links.erase(id);
       }
     }
   }
 
-  // Closes the slot's running service, once. The manager activates the local
-  // service in the turn after this one, at the same time.
-  void end(service_slot& slot, end_reason reason, bool tell) {
-    service_end e{slot.running, reason, side::requester};
+  // Closes a running service, once. The manager activates the local service,
+  // unless another provider runs it too, in the turn after this one, at the
+  // same time.
+  void end(service_slot& slot, boot_id provider, end_reason reason, bool tell) {
+    const auto at = *slot.find(provider);
+    slot.drop(provider);
+    service_end e{at.running, reason, side::requester};
     self->send(slot.manager, e);
     const auto t = now(self);
     if (tell) {
@@ -421,24 +566,31 @@ struct requester_state {
       note_on_air(self, setup.recorder, e.what);
       tell_provider(e);
     }
-    const auto was_remote = slot.at == phase::remote;
-    const auto fallback = was_remote && is_fallback(reason);
+    const auto was_remote = at.at == phase::remote;
+    const auto failed = was_remote && is_fallback(reason);
+    const auto comes_home = was_remote && !slot.is_remote();
     self->send(setup.recorder,
-               episode_record{slot.running, side::requester, slot.accepted,
-                              was_remote ? slot.first_data : slot.accepted,
-                              was_remote, t, reason, fallback});
-    if (was_remote) {
-      note("switch", slot.provider, slot.running.kind, slot.running.counter,
-           "local");
-      setup.lodm->observe(episode_outcome{slot.kind->name(), slot.provider,
-                                          to_seconds(t - slot.first_data),
-                                          name_of(reason)});
+               episode_record{at.running, side::requester, at.accepted,
+                              was_remote ? at.first_data : at.accepted,
+                              was_remote, t, reason, failed && comes_home});
+    if (comes_home) {
+      slot.since = t;
+      note("switch", provider, at.running.kind, at.running.counter, "local");
+    } else if (was_remote) {
+      note("left", provider, at.running.kind, at.running.counter,
+           name_of(reason));
+      auto& other = *slot.find(slot.current());
+      if (!at.joined && std::exchange(other.joined, false))
+        note_remote(other.running);
     }
+    if (was_remote)
+      setup.lodm->observe(episode_outcome{slot.kind->name(), provider,
+                                          to_seconds(t - at.first_data),
+                                          name_of(reason)});
     std::erase_if(slot.cool_until,
                   [t](const auto& other) { return other.second <= t; });
-    if (fallback)
-      slot.cool_until[slot.provider] = t + protocol::cool_down;
-    slot.at = phase::local;
+    if (failed)
+      slot.cool_until[provider] = t + protocol::cool_down;
     if (was_remote)
       charge_self();
   }
@@ -449,9 +601,12 @@ struct requester_state {
   }
 
   void shut_down() {
-    for (auto& slot : slots)
-      if (slot.at >= phase::starting)
-        end(slot, end_reason::shutdown, true);
+    for (auto& slot : slots) {
+      const auto all = slot.elsewhere;
+      for (const auto& at : all)
+        if (at.at != phase::requested)
+          end(slot, at.provider, end_reason::shutdown, true);
+    }
   }
 
   void note(std::string what, boot_id provider, service_name kind,
@@ -499,6 +654,7 @@ requester(requester_impl::stateful_pointer<requester_state> self,
       [self](tick_atom, const running_service& running) {
         self->state.start_timed_out(running);
       },
+      [self](tick_atom) { self->state.take_epoch(); },
   };
 }
 

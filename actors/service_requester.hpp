@@ -4,6 +4,7 @@
 #include "actors/service_kind.hpp"
 #include "messages/type_ids.hpp"
 #include "policies/context.hpp"
+#include "world/cycle_cost.hpp"
 
 #include <caf/actor_system.hpp>
 
@@ -25,12 +26,19 @@ struct requester_setup {
   random_stream noise{0, ""};    ///< Of this vehicle.
   bool virtual_time = true;      ///< Model run times instead of taking time.
   bool crossings_granted = true; ///< As functions are told.
+  computer_options computer = {};
+  /// What is to come, where a run can tell; else null.
+  std::shared_ptr<const foresight> future{};
 };
 
 /// Weighs offers, requests services, and owns the states of all services of
-/// its vehicle; one state machine per kind:
+/// its vehicle; one state machine per kind and provider:
 ///
 ///   local → requested → starting → remote → local
+///
+/// A service that runs at one provider goes on there until another one that it
+/// was requested from gives first data (hand-over), or at both of them, if that
+/// was decided.
 ///
 /// It spawns a manager and a client for each kind. At a violation, or when
 /// the provider is lost or ends the service, the local service is activated

@@ -58,7 +58,7 @@ struct vehicle_actor_state {
   time_point due;                    // of the next step; time does not drift
   std::uint64_t steps = 0;
   safety_record safety;
-  std::optional<drive_figures> figures; // from the start on
+  std::optional<drive_figures> figures; // from when it appears on
   std::optional<v2x_broadcast> broadcast;
   perception newest; // of what it perceives
 
@@ -68,6 +68,24 @@ struct vehicle_actor_state {
     car.heading_rad = p.heading_rad;
     car.speed_mps = setup.start_speed_mps;
     s_m = setup.start_s_m;
+    if (setup.appears_after > 0ms)
+      send_after(self, self, setup.appears_after, tick_atom_v);
+    else
+      appear();
+  }
+
+  // What it does of itself: before it is there, it asks to be.
+  void act() {
+    if (figures)
+      tick();
+    else
+      self->send(setup.road, begin_atom_v,
+                 motion_report{setup.station, s_m, car}, vehicle_actor{self});
+  }
+
+  void appear() {
+    if (setup.appears_after > 0ms)
+      note("appeared");
     due = now(self);
     figures.emplace(setup.station, setup.car, car.speed_mps);
     plan = std::make_shared<const trajectory>(
@@ -86,7 +104,8 @@ struct vehicle_actor_state {
 
   // The requester goes first: it has episodes to close.
   void leave(const caf::error& reason) {
-    flush_figures();
+    if (figures)
+      flush_figures();
     leaving = reason;
     if (requester)
       self->send_exit(requester, reason);
@@ -312,7 +331,8 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
         self->state.planning = manager;
       },
       [self](perception& others) { self->state.take(others); },
-      [self](tick_atom) { self->state.tick(); },
+      [self](begin_atom) { self->state.appear(); },
+      [self](tick_atom) { self->state.act(); },
   };
 }
 

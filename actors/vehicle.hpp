@@ -28,7 +28,9 @@ struct vehicle_setup {
   station_id station = 0;
   route_ptr way;
   double start_s_m = 0;       ///< Where it starts on its route,
-  double start_speed_mps = 0; ///< and how fast.
+  double start_speed_mps = 0; ///< and how fast,
+  duration appears_after{};   ///< so long after it was spawned, or later, when
+                              ///< its place is free; zero: at once.
   vehicle_params car;
   sensor_params sensor; ///< As its CPMs tell it.
   /// What it tells everybody; nothing if it is not connected.

@@ -33,6 +33,7 @@ int obey(int argc, char** argv) {
   int exit_code = 0;
   sofof::add_run(app, exit_code);
   sofof::add_sweep(app, exit_code);
+  sofof::add_bench(app, exit_code);
   sofof::add_worker(app, exit_code);
   sofof::add_provide(app, exit_code);
   sofof::add_drive(app, exit_code);

@@ -171,12 +171,16 @@ using workbench_actor = caf::typed_actor<
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<
     // What the driver has to know about the others.
-    takes<perception>>;
+    takes<perception>,
+    // It is on the road now: its place was free.
+    takes<begin_atom>>;
 
 /// The streets and all that moves on them, and what sensors see of it.
 using road_actor = caf::typed_actor<
     // A vehicle is here now; it wants to know what it perceives.
     takes<motion_report, vehicle_actor>,
+    // A vehicle wants to appear here; it waits until its place is free.
+    takes<begin_atom, motion_report, vehicle_actor>,
     // A vehicle has arrived and leaves the streets.
     takes<station_id>>;
 

@@ -25,6 +25,7 @@ struct qos_violation {
   running_service running;
   qos_breach breach = qos_breach::gap;
   time_point at;
+  bool others_hold = false; ///< Another provider runs the service as it should.
 };
 
 template <class Inspector>
@@ -48,7 +49,8 @@ bool inspect(Inspector& f, qos_breach& x) {
 template <class Inspector>
 bool inspect(Inspector& f, qos_violation& x) {
   return f.object(x).fields(f.field("running", x.running),
-                            f.field("breach", x.breach), f.field("at", x.at));
+                            f.field("breach", x.breach), f.field("at", x.at),
+                            f.field("others_hold", x.others_hold));
 }
 
 } // namespace sofof

@@ -163,7 +163,7 @@ bool inspect(Inspector& f, plan_figures& x) {
       f.field("count", x.count), f.field("emergency", x.emergency),
       f.field("kept", x.kept), f.field("stops", x.stops),
       f.field("imperfect", x.imperfect), f.field("safe_stops", x.safe_stops),
-      f.field("extremes", x.extremes));
+      f.field("extremes", x.extremes), f.field("on_board", x.on_board));
 }
 
 template <class Inspector>

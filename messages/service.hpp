@@ -4,10 +4,12 @@
 #include "messages/inspect.hpp"
 #include "messages/payload.hpp"
 #include "messages/service_name.hpp"
+#include "world/candidate.hpp"
 #include "world/ids.hpp"
 #include "world/time.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +48,10 @@ struct service_offer {
   /// What runs there needs this share of its workers, ≥ 0; above 1 it falls
   /// behind.
   double utilisation = 0;
+  std::uint32_t workers = 1;
+  duration computing{}; ///< Mean time of a result of unit demand, > 0 if any.
+  /// When it was made: tells how good the way is; none if clocks disagree.
+  std::optional<time_point> created{};
 };
 
 /// A requester asks for some of the offered services.
@@ -56,13 +62,16 @@ struct service_request {
   std::vector<service_name> kinds;
   std::vector<point> route; ///< Planned waypoints from the vehicle on, m.
   double speed_mps = 0;
+  /// Whom it could ask, and what it would win; for the first of the kinds.
+  std::vector<candidate> candidates{};
 };
 
 /// What a provider says to one requested service.
 struct verdict {
   running_service running; ///< Counter 0 when refused.
   bool accepted = false;
-  std::string why; ///< Short; for records.
+  std::string why;     ///< Short; for records.
+  boot_id instead = 0; ///< If refused: who should be asked; 0: nobody.
 };
 
 /// A provider's answer to one request: a verdict for each requested service.
@@ -103,13 +112,17 @@ enum class end_reason : std::uint8_t {
   no_data,
   refused,
   peer_lost,
+  handed_over, ///< The service goes on at another provider.
+  released,    ///< The vehicle took it back, for no fault.
+  revoked,     ///< The provider wants its room for others.
   shutdown,
 };
 
 inline constexpr std::string_view name_of(end_reason reason) {
   constexpr std::string_view names[] = {
       "left_area", "cam_timeout", "qos_latency", "qos_gap",
-      "no_data",   "refused",     "peer_lost",   "shutdown"};
+      "no_data",   "refused",     "peer_lost",   "handed_over",
+      "released",  "revoked",     "shutdown"};
   return names[static_cast<std::size_t>(reason)];
 }
 
@@ -144,7 +157,16 @@ template <class Inspector>
 bool inspect(Inspector& f, service_offer& x) {
   return f.object(x).fields(
       f.field("provider", x.provider), f.field("position", x.position),
-      f.field("kinds", x.kinds), exact_field(f, "utilisation", x.utilisation));
+      f.field("kinds", x.kinds), exact_field(f, "utilisation", x.utilisation),
+      f.field("workers", x.workers), f.field("computing", x.computing),
+      f.field("created", x.created));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, candidate& x) {
+  return f.object(x).fields(f.field("provider", x.provider),
+                            exact_field(f, "gain", x.gain),
+                            exact_field(f, "utilisation", x.utilisation));
 }
 
 template <class Inspector>
@@ -152,14 +174,15 @@ bool inspect(Inspector& f, service_request& x) {
   return f.object(x).fields(
       f.field("provider", x.provider), f.field("station", x.station),
       f.field("number", x.number), f.field("kinds", x.kinds),
-      f.field("route", x.route), exact_field(f, "speed_mps", x.speed_mps));
+      f.field("route", x.route), exact_field(f, "speed_mps", x.speed_mps),
+      f.field("candidates", x.candidates));
 }
 
 template <class Inspector>
 bool inspect(Inspector& f, verdict& x) {
-  return f.object(x).fields(f.field("running", x.running),
-                            f.field("accepted", x.accepted),
-                            f.field("why", x.why));
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("accepted", x.accepted),
+      f.field("why", x.why), f.field("instead", x.instead));
 }
 
 template <class Inspector>

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <deque>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -86,8 +87,9 @@ private:
   struct call {
     descriptor near;
     deadline until;
-    /// The next one to try is last. None: they are looked up.
-    std::optional<std::vector<socket_address>> addresses;
+    /// Those that may answer; the first has its turn. None: they are looked up.
+    std::optional<std::deque<socket_address>> addresses;
+    deadline connected_by;
     descriptor far;
     std::optional<tls_handshake> handshake; ///< Once connected.
     short waits_for = POLLOUT;
@@ -159,6 +161,7 @@ private:
                       {},
                       {},
                       {},
+                      {},
                       POLLOUT});
   }
 
@@ -170,14 +173,14 @@ private:
     if (!found)
       return;
     lookup_.reset();
-    std::ranges::reverse(*found);
     for (auto at = calls_.begin(); at != calls_.end();)
       if (const auto current = at++; is_nowhere(*current)) {
-        current->addresses = found;
+        current->addresses.emplace(found->begin(), found->end());
+        current->connected_by = now_ + options_.connect_timeout;
         if (found->empty())
           give_up(current, "nobody knows this host");
         else
-          connect_next(current, 0);
+          connect_first(current, 0);
       }
   }
 
@@ -192,19 +195,29 @@ private:
 
   static bool is_nowhere(const call& x) { return !x.addresses; }
 
-  /// Tries the next address.
+  /// Gives the first address its turn that can have one.
   /// @param error  Why the one before it did not do.
-  void connect_next(call_list::iterator at, int error) {
-    while (!at->addresses->empty()) {
-      auto started = start_connecting(at->addresses->back());
-      at->addresses->pop_back();
+  void connect_first(call_list::iterator at, int error) {
+    auto& all = *at->addresses;
+    for (; !all.empty(); all.pop_front()) {
+      auto started = start_connecting(all.front());
       at->far = std::move(started.socket);
-      at->until = now_ + options_.connect_timeout;
+      at->until = std::min(now_ + options_.turn, at->connected_by);
       if (at->far)
         return;
       error = started.error;
     }
     give_up(at, explain_connect_error(error));
+  }
+
+  void end_turn(call_list::iterator at) {
+    if (now_ >= at->connected_by) {
+      give_up(at, explain_connect_error(ETIMEDOUT));
+      return;
+    }
+    at->addresses->push_back(at->addresses->front());
+    at->addresses->pop_front();
+    connect_first(at, ETIMEDOUT);
   }
 
   void time_out(call_list::iterator at) {
@@ -215,7 +228,7 @@ private:
       give_up(at, "it did not finish the TLS handshake in time; is it a plain "
                   "port?");
     else
-      connect_next(at, ETIMEDOUT);
+      end_turn(at);
   }
 
   void advance(call_list::iterator at) {
@@ -224,7 +237,8 @@ private:
       return;
     }
     if (const auto error = connection_error(at->far); error != 0) {
-      connect_next(at, error);
+      at->addresses->pop_front();
+      connect_first(at, error);
       return;
     }
     give_up_after(at->far, options_.idle);

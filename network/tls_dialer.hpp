@@ -19,8 +19,12 @@ struct dialer_options {
   std::string provider; ///< Whom its certificate must name; empty: anybody.
   name_resolver resolver = &resolve;
   std::chrono::milliseconds lookup_timeout{2000};
-  /// For each address that the host has, one after the other.
+  /// From the addresses to a connection with one of them.
   std::chrono::milliseconds connect_timeout{1000};
+  /// An address that does not answer for so long makes room for the next, and
+  /// has another turn after the last: the system says again after a second
+  /// only what got lost, and then after two.
+  std::chrono::milliseconds turn{300};
   std::chrono::milliseconds handshake_timeout{2000};
   /// A connection through which nothing at all crosses for so long is closed,
   /// and so is one whose peer does not acknowledge for so long.

@@ -79,24 +79,23 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
     best = nullptr;
   };
   // The pieces of a cell come in the order of lanes.
-  cells_.any_near(body.centre, 0, [&](cell_grid::item i) {
+  cells_.for_each_near(body.centre, 0, [&](cell_grid::item i) {
     const auto& p = pieces_[i];
     const auto ahead = p.to - p.from;
     const auto c = dot(ahead, along);
     if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
-      return false;
+      return;
     const auto to = body.centre - p.from;
     const auto share = dot(ahead, to) / dot(ahead, ahead);
     if (share < -wedge || share > 1 + wedge)
-      return false;
+      return;
     const auto away_m = distance_to_segment_m(body.centre, p.from, p.to);
     if (away_m > half_widths_m_[p.lane])
-      return false;
+      return;
     if (best && best->lane != p.lane)
       settle();
     if (!best || away_m < best_m)
       best = &p, best_m = away_m;
-    return false;
   });
   settle();
   return found;

@@ -3,20 +3,11 @@
 #pragma once
 
 #include "policies/composition.hpp"
+#include "policies/notes.hpp"
 
 #include <memory>
-#include <string_view>
 
 namespace sofof {
-
-/// What users are told of a policy, besides its options.
-struct policy_notes {
-  std::string_view name;
-  std::string_view summary; ///< What it does, in a line.
-  std::string_view rule;    ///< What it decides by.
-  std::string_view sees;    ///< What it needs to know.
-  std::string_view source;
-};
 
 template <class Policy>
 struct policy_entry {

@@ -50,16 +50,19 @@ void near_provider::fields(settings& s) {
   s.field("min_distance_m", min_distance_m_, {0, 1e6});
 }
 
+std::vector<parameter_note> near_provider::parameters() {
+  return {{"radius_m", "m", "r_off, of the disc round the provider"},
+          {"min_distance_m", "m",
+           "d_min; the way ahead must stay longer than this within r_off"}};
+}
+
 std::unique_ptr<local_filter> near_provider::clone() const {
   return std::make_unique<near_provider>(*this);
 }
 
 std::string_view stays_in_area::objection(const central_context& context,
                                           const request_view& request) const {
-  auto on_map = [&](point p) {
-    return context.map.near_lane(p, map_tolerance_m_);
-  };
-  if (!std::ranges::all_of(request.route, on_map))
+  if (!context.map.near_lanes(request.route, map_tolerance_m_))
     return "route is not on the map";
   const auto stay_s =
       time_in_area_s(request.route, context.area, request.speed_mps);
@@ -73,6 +76,13 @@ std::string_view stays_in_area::objection(const central_context& context,
 void stays_in_area::fields(settings& s) {
   s.field("min_time", min_time_, duration{0});
   s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
+}
+
+std::vector<parameter_note> stays_in_area::parameters() {
+  return {
+      {"min_time", "time",
+       "t_min; the vehicle must stay at least this long in the area"},
+      {"map_tolerance_m", "m", "so near to a lane must be all of its route"}};
 }
 
 std::unique_ptr<central_filter> stays_in_area::clone() const {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "policies/filter.hpp"
+#include "policies/notes.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace sofof {
 
@@ -32,6 +34,7 @@ public:
   std::string_view objection(const local_context& context,
                              const provider_view& provider) const override;
   void fields(settings& s) override;
+  static std::vector<parameter_note> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<local_filter> clone() const override;
 
@@ -47,6 +50,7 @@ public:
   std::string_view objection(const central_context& context,
                              const request_view& request) const override;
   void fields(settings& s) override;
+  static std::vector<parameter_note> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<central_filter> clone() const override;
 

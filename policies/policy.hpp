@@ -6,17 +6,29 @@
 #include "world/time.hpp"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace sofof {
 
-/// What one cycle of a running service was like.
+/// What cycles of a service were like.
 struct cycle_outcome {
+  time_point at;         ///< When the result came.
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;  ///< Who computed it; 0: the vehicle itself.
+  double latency_s = 0;  ///< Infinite when nothing came.
+  bool missed = false;   ///< Later than the limit, or not at all.
+  double energy_j = 0;   ///< Of the vehicle, for each of them.
+  double cycles = 1;     ///< How many it stands for, > 0.
+};
+
+/// A request that came to nothing.
+struct refusal_outcome {
+  time_point at;
   std::string_view kind; ///< Of the service.
   boot_id provider = 0;
-  double latency_s = 0;
-  bool missed = false; ///< Later than the limit, so not used.
+  std::string_view why; ///< As the provider says; "no answer" if it does not.
 };
 
 /// What one whole offloading was like.
@@ -36,10 +48,28 @@ public:
 
   virtual Decision decide(const Context& context) = 0;
 
-  /// Feedback: one planning cycle.
+  /// Feedback: planning cycles.
   virtual void observe(const cycle_outcome&) {}
+  /// Feedback: nobody took it.
+  virtual void observe(const refusal_outcome&) {}
   /// Feedback: one offloading, when it has ended.
   virtual void observe(const episode_outcome&) {}
+
+  /// How often it wants to be asked, s, >= 0. In the vehicle 0 is whenever a
+  /// provider offers something; else also so often, wherever the service runs,
+  /// and cycles on board are told at the same pace. At a provider 0 is for
+  /// every request as it comes; else requests wait, and those of one epoch are
+  /// decided together.
+  virtual double epoch_s() const { return 0; }
+
+  /// @returns what it has learned, as text for `restore`; empty for nothing.
+  virtual std::string snapshot() const { return {}; }
+  /// Takes up what another one of this kind and options has learned.
+  /// @returns why the text is no such snapshot, and then all stays as it was;
+  /// else nullopt.
+  virtual std::optional<std::string> restore(std::string_view) {
+    return "this policy learns nothing";
+  }
 
   /// Lists the options once (world/settings.hpp).
   virtual void fields(settings&) {}

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "policies/entry.hpp"
+#include "policies/notes.hpp"
 
 #include <memory>
 #include <string_view>

@@ -2,6 +2,7 @@
 #include "scenario/build.hpp"
 
 #include "actors/network_link.hpp"
+#include "actors/power_cut.hpp"
 #include "actors/recorder.hpp"
 #include "actors/remote/uplink.hpp"
 #include "actors/road.hpp"
@@ -9,6 +10,7 @@
 #include "actors/service_requester.hpp"
 #include "actors/supervisor.hpp"
 #include "actors/vehicle.hpp"
+#include "scenario/foresight.hpp"
 #include "scenario/placement.hpp"
 
 #include <caf/exit_reason.hpp>
@@ -30,11 +32,15 @@ random_stream noise_of(const scenario& s, std::string_view what) {
 /// So long what was said last may take to leave this process.
 constexpr duration last_words = std::chrono::milliseconds{200};
 
-/// A provider and the radio cell round it.
+/// A provider, from one boot to its end, and the radio cell round it.
 struct site {
   std::uint32_t place; // in the file
   roadside_provider_actor provider;
   const provider_options* options;
+  std::shared_ptr<const channel_profile> channel;
+
+  bool may_die() const { return options->fails_at.has_value(); }
+
   std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
   std::shared_ptr<fifo_servers> cell_down = std::make_shared<fifo_servers>(1);
 };
@@ -77,12 +83,20 @@ roadside_provider_actor spawn_provider(caf::actor_system& sys,
   setup.kinds = offered(s, options);
   setup.codm = s.policies.codm->clone();
   setup.recorder = recorder;
-  setup.profile = s.network.channel;
+  setup.profile = s.channel_to(number);
   setup.seed = noise_of(s, "network");
   setup.number = number;
   setup.virtual_time = virtual_time;
   setup.crossings_granted = s.traffic.grants_crossings();
   return spawn_service_provider(sys, std::move(setup));
+}
+
+/// One that boots later lives from the start on, but nothing reaches it.
+std::shared_ptr<const channel_profile>
+silent_before(duration boot, const channel_profile& channel) {
+  auto silent = channel;
+  silent.outages.push_back({duration{}, boot});
+  return std::make_shared<const channel_profile>(std::move(silent));
 }
 
 std::vector<roadside_sensor> sensors_beside(const scenario& s,
@@ -107,8 +121,8 @@ std::vector<oriented_box> obstacles(const scenario& s) {
 
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
                 const site& at) {
-  const channel draws{s.network.channel, noise_of(s, "network"), station,
-                      at.place};
+  const channel draws{at.channel, noise_of(s, "network"), station, at.place,
+                      at.options->radio};
   return {spawn_network_link(sys, at.provider,
                              {{draws, way::up, at.cell_up},
                               {draws, way::down, at.cell_down},
@@ -128,16 +142,19 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 // The vehicle calls it later, from its own thread: nothing is borrowed.
 auto requester_maker(caf::actor_system& sys, const scenario& s,
                      const placed_vehicle& v, const datum_ptr& where,
-                     const recorder_actor& recorder, bool virtual_time) {
-  return
-      [&sys, v, where, recorder, virtual_time, world = s.world,
-       kinds = s.services, lodm = s.policies.lodm,
-       noise = noise_of(s, "vehicle").part(v.station),
-       granted = s.traffic.grants_crossings()](const vehicle_actor& vehicle) {
-        return spawn_service_requester(
-            sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
-                  recorder, noise, virtual_time, granted});
-      };
+                     const recorder_actor& recorder, bool virtual_time,
+                     const decltype(foresee(s))& future) {
+  return [&sys, v, where, recorder, virtual_time, world = s.world,
+          kinds = s.services, lodm = s.policies.lodm,
+          noise = noise_of(s, "vehicle").part(v.station),
+          granted = s.traffic.grants_crossings(),
+          computer = s.fleets[v.fleet].computer,
+          future](const vehicle_actor& vehicle) {
+    return spawn_service_requester(sys, {v.station, v.way, world, where, kinds,
+                                         lodm->clone(), vehicle, recorder,
+                                         noise, virtual_time, granted, computer,
+                                         future ? future(v.station) : nullptr});
+  };
 }
 
 /// Actors that must live as long as the run, and what they are called.
@@ -185,16 +202,30 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   name(watched, world.recorder, "the recorder");
   world.has_peers = here.serves_others || !here.remotes.empty();
   std::vector<site> sites;
-  for (std::uint32_t k = 0; k < s.providers.size(); ++k)
-    if (here.provides(k)) {
-      sites.push_back({k,
-                       spawn_provider(sys, s, k, where, world.recorder,
-                                      here.start, virtual_time),
-                       &s.providers[k]});
-      world.providers.push_back(sites.back().provider);
+  const auto boot = [&](std::uint32_t k, std::uint64_t start,
+                        std::shared_ptr<const channel_profile> channel) {
+    sites.push_back(
+        {k,
+         spawn_provider(sys, s, k, where, world.recorder, start, virtual_time),
+         &s.providers[k], std::move(channel)});
+    world.providers.push_back(sites.back().provider);
+  };
+  for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
+    if (!here.provides(k))
+      continue;
+    const auto& options = s.providers[k];
+    boot(k, here.start, s.channel_to(k));
+    if (options.fails_at)
+      world.power_cuts.push_back(spawn_power_cut(
+          sys, caf::actor_cast<caf::actor>(world.providers.back()),
+          *options.fails_at));
+    else
       name(watched, world.providers.back(),
-           fmt::format("provider {}", s.providers[k].name));
-    }
+           fmt::format("provider {}", options.name));
+    if (options.returns_at)
+      boot(k, here.start + 1,
+           silent_before(*options.returns_at, *s.channel_to(k)));
+  }
   for (const auto& to : here.remotes) {
     world.uplinks.push_back(to.spawn_uplink(world.recorder));
     name(watched, world.uplinks.back(),
@@ -205,33 +236,41 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                        sensors_beside(s, sites), obstacles(s), world.recorder,
                        s.traffic.grants_crossings()});
   name(watched, world.road, "the road");
+  const auto future = virtual_time ? foresee(s) : nullptr;
   for (const auto& v : placed) {
     vehicle_setup setup;
     setup.station = v.station;
     setup.way = v.way;
     setup.start_s_m = v.start_s_m;
     setup.start_speed_mps = s.fleets[v.fleet].start_speed_mps;
+    setup.appears_after = v.appears;
     setup.car = car;
     setup.sensor = s.sensors;
     setup.where = where;
     setup.fresh_limit = fresh_limit(s);
     setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
+    const auto watch_link = [&](const antenna& a) {
+      name(watched, a.link, fmt::format("a link of vehicle {}", v.station));
+    };
     if (s.fleets[v.fleet].connected) {
       setup.v2x = s.v2x;
-      for (const auto& at : sites)
+      for (const auto& at : sites) {
         setup.antennas.push_back(connect(sys, s, v.station, at));
-      for (std::size_t k = 0; k < here.remotes.size(); ++k)
+        if (!at.may_die())
+          watch_link(setup.antennas.back());
+      }
+      for (std::size_t k = 0; k < here.remotes.size(); ++k) {
         setup.antennas.push_back(
             connect(sys, s, v.station, here.remotes[k], world.uplinks[k]));
+        watch_link(setup.antennas.back());
+      }
     }
-    for (const auto& a : setup.antennas) {
+    for (const auto& a : setup.antennas)
       world.links.push_back(a.link);
-      name(watched, a.link, fmt::format("a link of vehicle {}", v.station));
-    }
     setup.road = world.road;
     setup.recorder = world.recorder;
     setup.spawn_requester =
-        requester_maker(sys, s, v, where, world.recorder, virtual_time);
+        requester_maker(sys, s, v, where, world.recorder, virtual_time, future);
     world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
     name(watched, world.vehicles.back(), fmt::format("vehicle {}", v.station));
   }
@@ -244,6 +283,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
 void dismiss(const world_actors& actors, runtime& time) {
   if (actors.supervisor)
     end(std::vector{actors.supervisor}, time);
+  end(actors.power_cuts, time);
   end(actors.vehicles, time);
   end(actors.providers, time);
   if (actors.has_peers)

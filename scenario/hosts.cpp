@@ -161,6 +161,11 @@ run_outcome provide(const scenario& s, const provide_options& what,
                     std::ostream& console) {
   const auto place = find_provider(s, what.name, "--name");
   const auto& name = s.providers[place].name;
+  if (s.providers[place].fails_at)
+    throw input_error(fmt::format("provider {} has fails_at, which is for runs "
+                                  "of one process; remove it, and end this "
+                                  "process instead",
+                                  name));
   const auto own = load_keys(what.listen, what.keys, "--listen");
   if (own)
     check_identity(*own, what.keys, name);

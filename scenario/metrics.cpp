@@ -20,7 +20,34 @@ std::optional<double> service_metrics::offloaded_share(std::size_t vehicles,
   const auto driving_s = static_cast<double>(vehicles) * virtual_s;
   if (driving_s <= 0)
     return std::nullopt;
-  return t_off_s.sum() / driving_s;
+  double sum = 0;
+  for (const auto& [station, seconds] : remote_s)
+    sum += seconds;
+  return sum / driving_s;
+}
+
+std::optional<double> service_metrics::fairness(std::size_t vehicles) const {
+  double sum = 0, squares = 0;
+  for (const auto& [station, seconds] : remote_s) {
+    sum += seconds;
+    squares += seconds * seconds;
+  }
+  if (squares <= 0 || vehicles == 0)
+    return std::nullopt;
+  return sum * sum / (static_cast<double>(vehicles) * squares);
+}
+
+std::optional<double> cycle_figures::saved_share() const {
+  if (all_on_board_j <= 0)
+    return std::nullopt;
+  return 1 - energy_j() / all_on_board_j;
+}
+
+std::optional<double> cycle_figures::offloaded_share() const {
+  const auto all = on_board + offloaded;
+  if (all == 0)
+    return std::nullopt;
+  return static_cast<double>(offloaded) / static_cast<double>(all);
 }
 
 void safety_metrics::add(const safety_record& x) {
@@ -31,7 +58,8 @@ void safety_metrics::add(const safety_record& x) {
 }
 
 metrics::metrics(const run_info& run)
-    : headline_{run.headline_kind}, obstacles_{run.obstacles} {
+    : headline_{run.headline_kind}, costs_{run.energy}, obstacles_{
+                                                            run.obstacles} {
   for (const auto& kind : run.kinds)
     of(service_name{kind});
 }
@@ -42,12 +70,31 @@ void metrics::take(const event_record& x) {
   } else if (x.what == "near_miss") {
     ++together_.safety.near_misses;
   } else if (x.what == "switch") {
-    if (x.detail == "remote")
-      open_[{x.kind, x.station}] = {{x.provider, x.station, x.kind, x.counter},
-                                    x.at};
-    else
-      open_.erase({x.kind, x.station});
+    source_changed(x);
   }
+}
+
+void metrics::source_changed(const event_record& x) {
+  const user who{x.kind, x.station};
+  const auto open = open_.find(who);
+  if (x.detail != "remote") {
+    left_[who] = {x.provider, x.at};
+    if (open != open_.end())
+      open_.erase(open);
+    return;
+  }
+  auto& service = of(x.kind);
+  const auto straight = open != open_.end();
+  service.hand_overs += straight ? 1U : 0U;
+  const auto left = left_.find(who);
+  if (left != left_.end() && x.at - left->second.at <= ping_pong_limit
+      && (!straight || left->second.provider == x.provider))
+    ++service.ping_pongs;
+  if (straight)
+    left_[who] = {open->second.running.provider, x.at};
+  open_[who] = {{x.provider, x.station, x.kind, x.counter},
+                x.at,
+                straight ? open->second.remote_since : x.at};
 }
 
 void metrics::take(const decision_record& x) {
@@ -61,6 +108,14 @@ void metrics::take(const cycle_record& x) {
   service.results_used += x.used;
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
+  if (x.running.kind != headline_)
+    return;
+  auto& counts = cycles_[x.running.station];
+  ++counts.sent;
+  if (counts.sent > 1 && x.cycle <= counts.newest)
+    return; // another provider has computed it too
+  ++counts.offloaded;
+  counts.newest = x.cycle;
 }
 
 void metrics::take(const episode_record& x) {
@@ -80,7 +135,12 @@ void metrics::take(const episode_record& x) {
   service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.running.kind, x.running.station});
-  if (open != open_.end() && open->second.running == x.running)
+  if (open != open_.end() && open->second.running != x.running)
+    return;
+  const auto since =
+      open == open_.end() ? x.first_data : open->second.remote_since;
+  service.remote_s[x.running.station] += to_seconds(x.ended - since);
+  if (open != open_.end())
     open_.erase(open);
 }
 
@@ -101,6 +161,7 @@ void metrics::take(const drive_record& x) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
   }
+  cycles_[x.station].on_board += x.plans.on_board;
 }
 
 void metrics::take(const air_record& x) {
@@ -129,6 +190,7 @@ void metrics::finish(time_point end) {
     ++service.episodes;
     ++service.running_at_end;
     service.t_off_s.add(to_seconds(end - episode.since));
+    service.remote_s[who.second] += to_seconds(end - episode.remote_since);
   }
   open_.clear();
 }
@@ -137,6 +199,35 @@ const service_metrics& metrics::headline() const {
   const auto found =
       std::ranges::find(services_, headline_, &service_metrics::kind);
   return found != services_.end() ? *found : nothing_happened;
+}
+
+cycle_figures metrics::cycles() const {
+  cycle_figures all;
+  for (const auto& [station, counts] : cycles_) {
+    const auto x = cycles(station);
+    all.on_board += x.on_board;
+    all.offloaded += x.offloaded;
+    all.on_board_j += x.on_board_j;
+    all.offloaded_j += x.offloaded_j;
+    all.all_on_board_j += x.all_on_board_j;
+  }
+  return all;
+}
+
+cycle_figures metrics::cycles(station_id station) const {
+  const auto found = cycles_.find(station);
+  if (found == cycles_.end())
+    return {};
+  const auto& counts = found->second;
+  const auto known = costs_.find(station);
+  const auto cost = known != costs_.end() ? known->second : cycle_energy{};
+  const auto times = [](std::uint64_t count, double energy_j) {
+    return static_cast<double>(count) * energy_j;
+  };
+  return {counts.on_board, counts.offloaded,
+          times(counts.on_board, cost.on_board_j),
+          times(counts.sent, cost.offloaded_j),
+          times(counts.on_board + counts.offloaded, cost.on_board_j)};
 }
 
 std::size_t metrics::offloaded_now() const {

@@ -6,6 +6,7 @@
 #include "scenario/statistics.hpp"
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -17,6 +18,9 @@ namespace sofof {
 
 inline constexpr std::size_t end_reason_count =
     static_cast<std::size_t>(end_reason::shutdown) + 1;
+
+/// Who comes back to a provider so soon has gone in vain.
+inline constexpr duration ping_pong_limit = std::chrono::seconds{5};
 
 /// How often something ended why.
 using end_counts = std::array<std::uint64_t, end_reason_count>;
@@ -33,9 +37,15 @@ struct service_metrics {
   std::uint64_t running_at_end = 0; ///< Those of them that the end cut off.
   std::uint64_t no_data = 0;        ///< Offloadings that ended without any.
   std::uint64_t fallbacks = 0;
+  std::uint64_t hand_overs = 0; ///< From one provider straight to another.
+  /// Times that the source was remote again within `ping_pong_limit`.
+  std::uint64_t ping_pongs = 0;
   /// Reasons of all that ended, with data or without.
   end_counts ended_by{};
   statistics t_off_s; ///< Switch to remote → switch back, of each episode.
+  /// Of each vehicle, the time that it was not local, at one provider or at
+  /// several at once.
+  std::map<station_id, double> remote_s;
 
   // As the providers see it.
   statistics served_s; ///< Acceptance → end, of all that ran there.
@@ -49,6 +59,11 @@ struct service_metrics {
   /// all vehicles together; nullopt for no vehicle or no time.
   std::optional<double> offloaded_share(std::size_t vehicles,
                                         double virtual_s) const;
+
+  /// @returns how evenly vehicles are offloaded, by the time x that each is:
+  /// (Σx)² / (n Σx²), from 1/n, one alone, to 1; nullopt if none ever is.
+  /// Source: Jain, Chiu, Hawe, DEC-TR-301, 1984.
+  std::optional<double> fairness(std::size_t vehicles) const;
 };
 
 /// How safely vehicles drove.
@@ -67,6 +82,22 @@ struct safety_metrics {
     return without_fresh_plan == duration::zero()
            && off_road == duration::zero() && collisions == 0;
   }
+};
+
+/// Cycles of the headline service, and what they took out of the batteries of
+/// one vehicle, or of all together.
+struct cycle_figures {
+  std::uint64_t on_board = 0;  ///< Computed in the vehicle, and used.
+  std::uint64_t offloaded = 0; ///< Whose result a provider has sent.
+  double on_board_j = 0;
+  double offloaded_j = 0;    ///< Each provider costs that was asked.
+  double all_on_board_j = 0; ///< If nothing had been offloaded.
+
+  double energy_j() const { return on_board_j + offloaded_j; }
+  /// @returns the share of energy that offloading saves; nullopt for none.
+  std::optional<double> saved_share() const;
+  /// @returns the share of cycles that were offloaded; nullopt for none.
+  std::optional<double> offloaded_share() const;
 };
 
 /// How one vehicle drove, or all together.
@@ -139,6 +170,10 @@ public:
   const std::map<station_id, drive_metrics>& vehicles() const {
     return vehicles_;
   }
+  /// @returns the sums of all vehicles.
+  cycle_figures cycles() const;
+  /// @returns the same of one vehicle.
+  cycle_figures cycles(station_id station) const;
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
   /// @returns the vehicles whose headline service is remote just now.
@@ -148,15 +183,33 @@ private:
   struct open_episode {
     running_service running;
     time_point since;
+    time_point remote_since; ///< Perhaps at other providers before.
+  };
+
+  /// Where a service was remote before.
+  struct left_provider {
+    boot_id provider = 0;
+    time_point at;
+  };
+  using user = std::pair<service_name, station_id>;
+  struct cycle_counts {
+    std::uint64_t on_board = 0;
+    std::uint64_t offloaded = 0;
+    std::uint64_t sent = 0; // to all providers
+    std::uint64_t newest = 0;
   };
 
   service_metrics& of(const service_name& kind);
+  void source_changed(const event_record& x);
 
   service_name headline_;
+  std::map<station_id, cycle_energy> costs_;
+  std::map<station_id, cycle_counts> cycles_;
   std::uint32_t obstacles_;
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;
-  std::map<std::pair<service_name, station_id>, open_episode> open_;
+  std::map<user, open_episode> open_;
+  std::map<user, left_provider> left_; ///< The last one.
   drive_metrics together_;
   std::map<station_id, drive_metrics> vehicles_;
   switch_metrics switches_;

@@ -70,7 +70,8 @@ std::vector<placed_vehicle> place_vehicles(const scenario& all) {
       const auto place = standing[way->name()]++;
       placed.push_back({static_cast<station_id>(fleet.first_station + i), f,
                         way,
-                        start_of_m(fleet, *way, place, sharing[way->name()])});
+                        start_of_m(fleet, *way, place, sharing[way->name()]),
+                        fleet.appears_at + i * fleet.appear_every});
     }
   }
   return placed;
@@ -80,7 +81,8 @@ std::optional<std::pair<std::size_t, std::size_t>>
 find_too_near(std::span<const placed_vehicle> vehicles) {
   std::vector<std::pair<oriented_box, std::size_t>> rooms; // west to east
   for (std::size_t i = 0; i < vehicles.size(); ++i)
-    rooms.emplace_back(room(vehicles[i]), i);
+    if (vehicles[i].appears == duration{})
+      rooms.emplace_back(room(vehicles[i]), i);
   std::ranges::stable_sort(rooms, {},
                            [](const auto& r) { return r.first.centre.x_m; });
   for (auto a = rooms.begin(); a != rooms.end(); ++a) {

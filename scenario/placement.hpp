@@ -17,6 +17,7 @@ struct placed_vehicle {
   std::size_t fleet = 0; ///< Index into the scenario's fleets.
   route_ptr way;
   double start_s_m = 0; ///< On a closed route in [0, length).
+  duration appears{};   ///< When; zero: it is there from the start on.
 
   /// Whether it stands before the start or beyond the end of an open route.
   bool off_its_way() const {
@@ -40,8 +41,9 @@ std::vector<route_ptr> find_routes(const streets& world, std::string_view name);
 /// @param all  Loaded: its routes are in its world.
 std::vector<placed_vehicle> place_vehicles(const scenario& all);
 
-/// @returns indices of two vehicles of which one stands on the other, or less
-/// than `min_start_gap_m` before or behind it; nullopt if there are none.
+/// @returns indices of two vehicles, there from the start on, of which one
+/// stands on the other, or less than `min_start_gap_m` before or behind it;
+/// nullopt if there are none.
 std::optional<std::pair<std::size_t, std::size_t>>
 find_too_near(std::span<const placed_vehicle> vehicles);
 

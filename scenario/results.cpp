@@ -27,7 +27,8 @@ constexpr std::string_view vehicles_header =
     "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,collisions,"
     "max_plan_age_ms,plans,emergency_plans,kept_plans,stop_plans,"
     "imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
-    "max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3";
+    "max_lateral_accel_mps2,hard_brakes,comfort_cost_m2ps3,on_board_cycles,"
+    "offloaded_cycles,energy_j,all_on_board_j";
 constexpr std::string_view distributions_header =
     "service,figure,up_to_ms,count";
 constexpr duration distribution_width = std::chrono::microseconds{100};
@@ -36,6 +37,7 @@ constexpr int length_places = 3;
 constexpr int angle_places = 6;
 constexpr int comfort_places = 6;
 constexpr int timing_places = 6;
+constexpr int energy_places = 6;
 
 std::optional<pcap_file> capture_of(const run_info& run) {
   if (run.pcap.empty())
@@ -217,7 +219,8 @@ std::string_view results::name_of(boot_id provider) const {
 
 void results::write_vehicles() const {
   csv_file file{folder_ / "vehicles.csv", vehicles_header};
-  for (const auto& [station, x] : metrics_.vehicles())
+  for (const auto& [station, x] : metrics_.vehicles()) {
+    const auto cycles = metrics_.cycles(station);
     file.row(station, seconds(x.safety.driven),
              rounded(x.ride.distance_m, length_places),
              seconds(x.safety.without_fresh_plan), seconds(x.safety.off_road),
@@ -228,7 +231,11 @@ void results::write_vehicles() const {
              rounded(x.ride.extremes.jerk_mps3, comfort_places),
              rounded(x.ride.extremes.lateral_accel_mps2, comfort_places),
              x.ride.hard_brakes,
-             rounded(x.ride.comfort_cost_m2ps3, comfort_places));
+             rounded(x.ride.comfort_cost_m2ps3, comfort_places),
+             cycles.on_board, cycles.offloaded,
+             rounded(cycles.energy_j(), energy_places),
+             rounded(cycles.all_on_board_j, energy_places));
+  }
   file.close();
 }
 

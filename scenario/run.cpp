@@ -3,6 +3,7 @@
 
 #include "actors/cpu_accounts.hpp"
 #include "scenario/build.hpp"
+#include "scenario/decision_timer.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/pcap_file.hpp"
 #include "scenario/placement.hpp"
@@ -33,23 +34,35 @@ constexpr double flush_every_s = 2;
 /// filled once, at the start.
 constexpr duration settling = 1s;
 
+/// What a cycle of a service costs with this computer.
+cycle_energy energy_of(const scenario& s, std::string_view kind,
+                       const computer_options& computer) {
+  for (const auto& k : s.services)
+    if (k->name() == kind)
+      return {on_board_cost(computer, k->common.task).energy_j,
+              offloaded_cost(computer, k->common.task).energy_j};
+  return {};
+}
+
 run_info describe(const scenario& s, const run_options& options,
                   const part& here) {
   run_info info;
   info.scenario = s.name;
   info.version = options.version;
   info.clock = options.realtime ? "wall" : "virtual";
-  info.profile = options.network.empty() ? s.network.profile : options.network;
+  info.profile = options.network.empty() ? s.profiles() : options.network;
   info.lodm = s.policies.lodm->name();
   info.codm = s.policies.codm->name();
   info.config_toml = configuration_of(s);
   info.map_toml = s.map_text;
   info.trace_text = s.trace_text;
   info.seed = s.seed;
-  info.vehicles = static_cast<std::size_t>(
-      std::ranges::count_if(place_vehicles(s), [&here](const auto& v) {
-        return here.drives(v.station);
-      }));
+  for (const auto& v : place_vehicles(s))
+    if (here.drives(v.station)) {
+      ++info.vehicles;
+      info.energy[v.station] =
+          energy_of(s, info.headline_kind, s.fleets[v.fleet].computer);
+    }
   if (info.vehicles == 0)
     for (std::size_t k = 0; k < s.providers.size(); ++k)
       if (here.provides(k))
@@ -172,8 +185,10 @@ run_outcome run_part(const scenario& s, const run_options& options,
   const auto keeper = std::make_shared<record_keeper>(folder, info);
   progress shown{console, options.show};
   const stopwatch watch;
+  auto timed = s;
+  const auto deciding = add_timers(timed.policies);
   const auto actors = build(
-      time.system(), s, keeper, time.clock(), !options.realtime,
+      time.system(), timed, keeper, time.clock(), !options.realtime,
       [keeper](const auto& why) { keeper->fail(why); }, here);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   time_point ended;
@@ -200,6 +215,8 @@ run_outcome run_part(const scenario& s, const run_options& options,
   return keeper->with([&](results& r) {
     if (computed)
       r.take(*computed);
+    for (const auto& [name, value] : deciding.figures())
+      r.take_timing(name, value);
     const auto last =
         r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
     if (options.show != progress::output::quiet)

@@ -7,12 +7,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sofof {
+
+/// What a cycle of the headline service costs one vehicle.
+struct cycle_energy {
+  double on_board_j = 0;
+  double offloaded_j = 0;
+};
 
 /// Known before the first record.
 struct run_info {
@@ -33,6 +40,8 @@ struct run_info {
   std::vector<std::string> kinds; ///< Of services, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
+  /// Of each vehicle that is driven here.
+  std::map<station_id, cycle_energy> energy;
   bool cycles = true; ///< Write cycles.csv.
   bool tracks = true; ///< Write tracks.csv.
   std::string pcap;   ///< Where to capture all ITS messages; empty: nowhere.

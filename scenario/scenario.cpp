@@ -50,6 +50,9 @@ void fleet_options::fields(settings& s) {
   s.field("start_m", start_m, any_length_m);
   s.field("start_speed_mps", start_speed_mps, {0, max_start_speed_mps});
   s.field("connected", connected);
+  s.field("appears_at", appears_at, 0ns);
+  s.field("appear_every", appear_every, 0ns);
+  s.table("computer", [this](settings& t) { computer.fields(t); });
 }
 
 void traffic_options::fields(settings& s) {
@@ -110,6 +113,25 @@ void provider_options::fields(settings& s) {
                            "offer all.");
   }
   list_all(s, "sensor", sensors);
+  if (s.has("fails_at", fails_at.has_value()))
+    s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
+  if (s.has("returns_at", returns_at.has_value())) {
+    s.field("returns_at", returns_at ? *returns_at : returns_at.emplace(), 1ns);
+    if (!fails_at)
+      s.refuse("returns_at", "has no effect without fails_at.");
+    else if (*returns_at <= *fails_at)
+      s.refuse("returns_at", "must be later than fails_at.");
+  }
+  if (s.has("radio", !radio.empty()))
+    s.field("radio", radio);
+  if (s.has("network", network.has_value()))
+    s.table("network", [this](settings& t) {
+      if (!network)
+        network.emplace();
+      network->fields(t);
+      if (network->channel && network->channel->replays)
+        t.refuse("profile", "replays a file, which only [network] can.");
+    });
 }
 
 void network_options::fields(settings& s) {
@@ -151,6 +173,24 @@ void record_options::fields(settings& s) {
                               "step.");
   s.field("cycles", cycles);
   s.field("tracks", tracks);
+}
+
+const std::shared_ptr<const channel_profile>&
+scenario::channel_to(std::size_t place) const {
+  const auto& own = providers[place].network;
+  return own ? own->channel : network.channel;
+}
+
+std::string scenario::profiles() const {
+  std::vector<std::string_view> names;
+  for (const auto& p : providers) {
+    const std::string_view name =
+        p.network ? p.network->profile : network.profile;
+    if (std::ranges::find(names, name) == names.end())
+      names.push_back(name);
+  }
+  return names.empty() ? network.profile
+                       : fmt::format("{}", fmt::join(names, ", "));
 }
 
 void scenario::fields(settings& s) {

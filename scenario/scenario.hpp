@@ -5,6 +5,7 @@
 #include "messages/v2x/v2x_options.hpp"
 #include "policies/context.hpp"
 #include "world/channel.hpp"
+#include "world/cycle_cost.hpp"
 #include "world/sensors.hpp"
 #include "world/settings.hpp"
 #include "world/street_grid.hpp"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,11 @@ struct fleet_options {
   /// Whether they can talk to providers; else they send nothing and never
   /// offload.
   bool connected = true;
+  /// The first one appears then, each next one so much later; who finds
+  /// somebody near its place waits.
+  duration appears_at{};
+  duration appear_every{};
+  computer_options computer; ///< In each of them.
 
   void fields(settings& s);
 };
@@ -75,6 +82,17 @@ struct roadside_options {
   void fields(settings& s);
 };
 
+/// The channel between vehicles and providers.
+struct network_options {
+  std::string profile = "paper-sim";
+  /// File with measured delays, for the profile "trace"; relative to the
+  /// scenario file.
+  std::string trace;
+  std::shared_ptr<const channel_profile> channel; ///< The profile, resolved.
+
+  void fields(settings& s);
+};
+
 /// Where a provider is, and what it offers.
 struct provider_options {
   std::string name = "mec";
@@ -85,21 +103,16 @@ struct provider_options {
   double range_m = 2000;             ///< CAMs from farther away are not heard.
   std::vector<std::string> services; ///< Offered kinds; empty: all.
   std::vector<roadside_options> sensors; ///< `sensor` in the file.
+  /// Radio that reaches it: vehicles are stalled, and fade, on one radio at the
+  /// same times; providers without a name share one.
+  std::string radio;
+  std::optional<network_options> network; ///< Its own; else everybody's.
+  std::optional<duration> fails_at;       ///< It dies then, without goodbye,
+  std::optional<duration> returns_at;     ///< and boots again.
 
   /// A loaded scenario's provider has one.
   /// @throws std::invalid_argument for a bad polygon.
   polygon area() const;
-
-  void fields(settings& s);
-};
-
-/// The channel between vehicles and providers.
-struct network_options {
-  std::string profile = "paper-sim";
-  /// File with measured delays, for the profile "trace"; relative to the
-  /// scenario file.
-  std::string trace;
-  std::shared_ptr<const channel_profile> channel; ///< The profile, resolved.
 
   void fields(settings& s);
 };
@@ -141,11 +154,19 @@ struct scenario {
   policy_options policies;
   record_options record;
 
-  streets_ptr world;      ///< The map, loaded.
-  std::string map_text;   ///< What the map's file says; empty for a grid.
-  std::string trace_text; ///< What the trace's file says; empty for none.
+  streets_ptr world;    ///< The map, loaded.
+  std::string map_text; ///< What the map's file says; empty for a grid.
+  /// What the trace's file says; empty for none. There is at most one file.
+  std::string trace_text;
   /// The files that all this was read from.
   std::vector<std::filesystem::path> read_from;
+
+  /// @returns the channel between vehicles and a provider, by its place.
+  const std::shared_ptr<const channel_profile>&
+  channel_to(std::size_t place) const;
+
+  /// @returns the names of the profiles in use, each once, by commas.
+  std::string profiles() const;
 
   /// Lists everything once.
   void fields(settings& s);

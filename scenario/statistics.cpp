@@ -30,11 +30,11 @@ std::optional<double> statistics::max() const {
 
 void distribution::add(duration d) {
   ms_.add(to_milliseconds(d));
-  if (d > span)
+  if (d > span_)
     return;
   const auto positive = std::max(d, duration::zero());
   const auto bin = static_cast<std::size_t>(
-      (positive + resolution - duration{1}) / resolution);
+      (positive + resolution_ - duration{1}) / resolution_);
   if (bin >= bins_.size())
     bins_.resize(bin + 1);
   ++bins_[bin];
@@ -48,14 +48,14 @@ std::optional<double> distribution::quantile_ms(double p) const {
   for (std::size_t k = 0; k < bins_.size(); ++k) {
     seen += bins_[k];
     if (static_cast<double>(seen) >= wanted)
-      return std::min(static_cast<double>(k) * to_milliseconds(resolution),
+      return std::min(static_cast<double>(k) * to_milliseconds(resolution_),
                       *ms_.max());
   }
   return ms_.max();
 }
 
 std::vector<distribution::bin> distribution::bins(duration width) const {
-  const auto fine = static_cast<std::size_t>(width / resolution);
+  const auto fine = static_cast<std::size_t>(width / resolution_);
   std::vector<bin> coarse;
   std::uint64_t within = 0;
   for (std::size_t k = 0; k < bins_.size(); ++k) {

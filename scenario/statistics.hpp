@@ -36,10 +36,16 @@ private:
 /// from a histogram of fixed resolution.
 class distribution {
 public:
-  /// Quantiles are rounded up to a multiple of this.
+  /// Those of latencies.
   static constexpr duration resolution = std::chrono::microseconds{10};
-  /// Beyond it a quantile is only known to be the maximum or less.
   static constexpr duration span = std::chrono::seconds{10};
+
+  distribution() = default;
+  /// @param step    Quantiles are rounded up to a multiple of this; > 0.
+  /// @param widest  Beyond it a quantile is only known to be the maximum or
+  ///                less.
+  distribution(duration step, duration widest)
+      : resolution_{step}, span_{widest} {}
 
   void add(duration d);
 
@@ -63,6 +69,8 @@ public:
   std::vector<bin> bins(duration width) const;
 
 private:
+  duration resolution_ = resolution;
+  duration span_ = span;
   statistics ms_;
   /// Bin k counts durations in (k − 1, k] · resolution, bin 0 all up to 0;
   /// as long as the largest duration within the span needs it.

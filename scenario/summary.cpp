@@ -13,6 +13,7 @@ constexpr int millisecond_places = 6;
 constexpr int share_places = 6;
 constexpr int motion_places = 6;
 constexpr int octet_places = 3;
+constexpr int energy_places = 6;
 constexpr int wall_places = 3;
 
 void mean_and_max(json_object& to, std::string_view name,
@@ -32,6 +33,7 @@ void distribution_of(json_object& to, std::string_view name,
   object.member("mean", ms(figures.ms().mean()));
   object.member("std", ms(figures.ms().deviation()));
   object.member("p50", ms(figures.quantile_ms(0.5)));
+  object.member("p95", ms(figures.quantile_ms(0.95)));
   object.member("p99", ms(figures.quantile_ms(0.99)));
   object.member("max", ms(figures.ms().max()));
 }
@@ -45,10 +47,13 @@ void counts_and_times(json_object& to, const service_metrics& service,
   to.member("running_at_end", service.running_at_end);
   to.member("fallbacks", service.fallbacks);
   to.member("no_data", service.no_data);
+  to.member("hand_overs", service.hand_overs);
+  to.member("ping_pongs", service.ping_pongs);
   mean_and_max(to, "t_off_s", service.t_off_s);
   to.member("offloaded_share",
             rounded(service.offloaded_share(run.vehicles, end.virtual_s),
                     share_places));
+  to.member("fairness", rounded(service.fairness(run.vehicles), share_places));
   to.member("results_used", service.results_used);
   distribution_of(to, "latency_ms", service.latency);
   distribution_of(to, "interarrival_ms", service.interarrival);
@@ -78,6 +83,30 @@ void safety_of(json_object& to, const safety_metrics& safety) {
   object.member("off_road_s", seconds(safety.off_road));
   object.member("max_plan_age_s",
                 recorded ? seconds(safety.max_plan_age) : decimal{});
+}
+
+void cycles_of(json_object& to, const cycle_figures& x) {
+  auto object = to.object("cycles");
+  object.member("on_board", x.on_board);
+  object.member("offloaded", x.offloaded);
+  object.member("offloaded_share", rounded(x.offloaded_share(), share_places));
+}
+
+void energy_of(json_object& to, const cycle_figures& x, double distance_m) {
+  constexpr auto m_per_km = 1e3;
+  const auto recorded = x.all_on_board_j > 0;
+  const auto joules = [recorded](double figure) {
+    return recorded ? rounded(figure, energy_places) : decimal{};
+  };
+  auto object = to.object("energy");
+  object.member("j", joules(x.energy_j()));
+  object.member("local_j", joules(x.on_board_j));
+  object.member("offloading_j", joules(x.offloaded_j));
+  object.member("all_on_board_j", joules(x.all_on_board_j));
+  object.member("per_km_j", distance_m > 0
+                                ? joules(x.energy_j() * m_per_km / distance_m)
+                                : decimal{});
+  object.member("saved_share", rounded(x.saved_share(), share_places));
 }
 
 void switches_of(json_object& to, const switch_metrics& switches) {
@@ -166,6 +195,8 @@ std::string summary_json(const metrics& m, const run_info& run,
     safety_of(top, m.safety());
     plans_of(top, m.together().plans);
     driving_of(top, m.together());
+    cycles_of(top, m.cycles());
+    energy_of(top, m.cycles(), m.together().ride.distance_m);
     switches_of(top, m.switches());
     air_of(top, m.air());
     endings(top, m.headline().ended_by);

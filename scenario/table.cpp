@@ -1,6 +1,8 @@
 // Lining up figures.
 #include "scenario/table.hpp"
 
+#include "scenario/painter.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,24 +28,6 @@ constexpr std::size_t drive_column_width = 14;
 /// What a reader sees of an absent figure.
 constexpr auto absent = "-";
 
-class painter {
-public:
-  explicit painter(bool colour) : colour_{colour} {}
-
-  std::string heading(std::string_view text) const { return paint("1", text); }
-  std::string good(std::string_view text) const { return paint("32", text); }
-  std::string bad(std::string_view text) const { return paint("1;31", text); }
-
-private:
-  /// @param style  As terminals number them (ECMA-48, SGR).
-  std::string paint(std::string_view style, std::string_view text) const {
-    return colour_ ? fmt::format("\x1b[{}m{}\x1b[0m", style, text)
-                   : std::string{text};
-  }
-
-  bool colour_;
-};
-
 std::string with_unit(std::optional<double> x, int places,
                       std::string_view unit) {
   return x ? fmt::format("{:.{}f} {}", *x, places, unit) : absent;
@@ -60,13 +44,6 @@ std::string mean_and_deviation(const statistics& ms) {
   if (!ms.deviation())
     return in_ms(ms.mean());
   return fmt::format("{:.2f} ± {:.2f} ms", *ms.mean(), *ms.deviation());
-}
-
-/// @returns how many columns of a screen this takes: letters and signs of one
-/// column each, in UTF-8.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
 /// Figures in lines, a column for each kind of service.
@@ -246,6 +223,20 @@ void comfort_lines(std::string& out, const painter& paint,
   drive_line(out, "emergency plans", fmt::format("{}", drive.plans.emergency));
 }
 
+void energy_lines(std::string& out, const painter& paint,
+                  const cycle_figures& cycles, double distance_m) {
+  constexpr auto m_per_km = 1e3;
+  if (cycles.all_on_board_j <= 0)
+    return;
+  out += '\n' + paint.heading("energy of planning in the vehicles") + '\n';
+  drive_line(out, "all together", with_unit(cycles.energy_j(), 1, "J"));
+  if (distance_m > 0)
+    drive_line(out, "per km",
+               with_unit(cycles.energy_j() * m_per_km / distance_m, 1, "J"));
+  drive_line(out, "saved by offloading",
+             with_unit(100 * *cycles.saved_share(), 1, "%"));
+}
+
 std::uint64_t messages_of(const air_metrics& air) {
   return air.cam.messages + air.cpm.messages + air.mcm_up.messages
          + air.mcm_down.messages;
@@ -309,6 +300,7 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   if (run.provider.empty()) {
     safety_lines(out, paint, m.safety());
     comfort_lines(out, paint, m.together());
+    energy_lines(out, paint, m.cycles(), m.together().ride.distance_m);
   }
   air_lines(out, paint, m.air());
   out += fmt::format("\nresults in {}\n", folder.string());

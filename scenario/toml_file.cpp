@@ -2,11 +2,11 @@
 #include "scenario/toml_file.hpp"
 
 #include "scenario/input_error.hpp"
+#include "scenario/toml_nodes.hpp"
 #include "scenario/toml_settings.hpp"
 #include "scenario/toml_text.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <charconv>
 #include <fstream>
@@ -63,15 +63,6 @@ void put_child(toml::node& parent, std::string_view segment,
   });
 }
 
-toml::table parse(std::string_view text, std::string_view file) {
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& problem) {
-    throw input_error{fmt::format("{}: {}.", place_of(problem.source(), file),
-                                  problem.description())};
-  }
-}
-
 /// One `--set`. The nodes that it makes know that they come from there.
 class assignment {
 public:
@@ -108,7 +99,7 @@ private:
   /// Makes a table; a string in its place becomes its `name`.
   toml::node& make_table(toml::node& parent, std::string_view segment,
                          toml::node* name) const {
-    auto made = parse("", place_);
+    auto made = parse_toml("", place_);
     if (name)
       put_child(made, "name", std::move(*name));
     put_child(parent, segment, std::move(made));
@@ -123,7 +114,7 @@ private:
     } catch (const toml::parse_error&) {
       // Then it is text without quotes.
     }
-    return parse(fmt::format("value = {}", quoted(value_)), place_);
+    return parse_toml(fmt::format("value = {}", quoted(value_)), place_);
   }
 
   std::string place_;
@@ -147,7 +138,7 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
 }
 
 toml_file::toml_file(std::string_view text, const std::string& file)
-    : content_{new content{file, parse(text, file)}} {}
+    : content_{new content{file, parse_toml(text, file)}} {}
 
 toml_file::~toml_file() = default;
 

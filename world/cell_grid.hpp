@@ -4,8 +4,10 @@
 
 #include "world/geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -47,18 +49,23 @@ public:
     });
   }
 
-  /// @returns whether `holds(item)` is true for something in the cells within
-  /// `radius_m` of `p`; an item may be asked twice.
+  /// Looks in the cells within `radius_m` of `p`, first in that of `p`; an item
+  /// may be asked twice.
+  /// @returns something for which `holds(item)` is true; nullopt if it is true
+  /// for nothing there.
   template <class Predicate>
-  bool any_near(point p, double radius_m, Predicate holds) const {
-    auto found = false;
-    for_cells(p, p, radius_m, [&](std::uint64_t key) {
-      if (found)
-        return;
-      if (const auto cell = cells_.find(key); cell != cells_.end())
-        for (const auto it : cell->second)
-          found = found || holds(it);
-    });
+  std::optional<item> any_near(point p, double radius_m,
+                               Predicate holds) const {
+    std::optional<item> found;
+    const auto look = [&](std::uint64_t key) {
+      if (const auto cell = cells_.find(key); !found && cell != cells_.end())
+        if (const auto it = std::ranges::find_if(cell->second, holds);
+            it != cell->second.end())
+          found = *it;
+    };
+    for_cells(p, p, 0, look);
+    if (!found)
+      for_cells(p, p, radius_m, look);
     return found;
   }
 

@@ -1,6 +1,9 @@
 // How long messages travel and results are computed: the draws of one vehicle.
 #include "world/channel.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -14,21 +17,37 @@ enum lane : std::uint32_t {
   service_lane,
   network_lane,
   airtime_lane,
-  loss_lane
+  loss_lane,
+  spike_lane,
+  spike_length_lane
 };
 
-duration network_draw(const channel_profile& p, const random_stream& draws,
+double network_draw_s(const channel_profile& p, const random_stream& draws,
                       std::uint64_t number) {
-  return from_seconds(p.network.draw_s(draws, number, network_lane)
-                      + (1 - p.joint_service_share)
-                            * p.joint.draw_s(draws, number, joint_lane));
+  return p.network.draw_s(draws, number, network_lane)
+         + (1 - p.joint_service_share)
+               * p.joint.draw_s(draws, number, joint_lane);
+}
+
+double spike_s(const spike_options& p, const random_stream& draws,
+               std::uint64_t number) {
+  if (p.probability <= 0 || draws.uniform(number, spike_lane) >= p.probability)
+    return 0;
+  return draws.uniform(to_seconds(p.shortest), to_seconds(p.longest), number,
+                       spike_length_lane);
+}
+
+random_stream radio_of(const random_stream& vehicle, std::string_view name) {
+  return name.empty() ? vehicle : vehicle.part("radio").part(name);
 }
 
 } // namespace
 
 channel::channel(std::shared_ptr<const channel_profile> profile,
-                 random_stream seed, station_id station, std::uint32_t provider)
-    : of_vehicle_{seed.part("channel").part(station)}, // stalls by vehicle
+                 random_stream seed, station_id station, std::uint32_t provider,
+                 std::string_view radio)
+    : of_radio_{radio_of(seed.part("channel").part(station), radio)},
+      drift_{of_radio_.part("drift").part(provider)}, // stalls by radio
       up_{split("up", provider)}, // the rest by provider, too
       down_{split("down", provider)}, profile_{std::move(profile)} {
   if (!profile_->replays)
@@ -36,8 +55,8 @@ channel::channel(std::shared_ptr<const channel_profile> profile,
   if (profile_->trace.empty())
     throw std::invalid_argument{"the trace to replay has no samples"};
   if (profile_->scatters_trace)
-    trace_start_s_ = of_vehicle_.part("trace").uniform(
-        0, replay_length_s(profile_->trace), 0);
+    trace_start_s_ =
+        of_radio_.part("trace").uniform(0, replay_length_s(profile_->trace), 0);
 }
 
 duration channel::service_time(std::uint64_t cycle) const {
@@ -51,17 +70,36 @@ duration channel::service_time(std::uint64_t cycle) const {
 
 duration channel::network_delay(const message_id& m, time_point sent) const {
   const auto& p = *profile_;
+  const auto extra =
+      p.more_delay + from_seconds(spike_s(p.spikes, of(m), m.number));
   if (!p.replays)
-    return p.more_delay + network_draw(p, of(m), m.number);
+    return extra
+           + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));
   if (m.direction == way::up)
-    return p.more_delay;
-  return p.more_delay
+    return extra;
+  return extra
          + from_seconds(
-             replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent)));
+             drift(sent)
+             * replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent)));
+}
+
+// Between values that are drawn for the ends of each period the weights turn
+// from one to the other; their squares add up to 1, so g is as wide anywhere.
+double channel::drift(time_point sent) const {
+  const auto& [sd, period] = profile_->drift;
+  if (sd <= 0 || period <= duration{})
+    return 1;
+  const auto periods = to_seconds(sent) / to_seconds(period);
+  const auto before = std::floor(periods);
+  const auto angle = std::numbers::pi / 2 * (periods - before);
+  const auto number = static_cast<std::uint64_t>(before);
+  const auto g = std::cos(angle) * drift_.normal(0, 1, number)
+                 + std::sin(angle) * drift_.normal(0, 1, number + 1);
+  return std::exp(sd * g);
 }
 
 duration channel::burst_delay(way direction, std::uint64_t stall) const {
-  return network_draw(*profile_, of(direction).bursts, stall);
+  return from_seconds(network_draw_s(*profile_, of(direction).bursts, stall));
 }
 
 duration channel::airtime(const message_id& m, std::size_t octets) const {
@@ -87,7 +125,7 @@ interruptions channel::stalls() const {
   const auto mean_quiet = from_seconds(1 / rate_hz) - (shortest + longest) / 2;
   if (mean_quiet <= duration{})
     throw std::invalid_argument{"no time is left between two stalls"};
-  return {of_vehicle_.part("stalls"), delay_law::exponential(mean_quiet),
+  return {of_radio_.part("stalls"), delay_law::exponential(mean_quiet),
           delay_law::uniform(shortest, longest)};
 }
 
@@ -95,13 +133,19 @@ interruptions channel::fades() const {
   const auto& burst = profile_->burst_loss;
   if (burst.mean_good <= duration{} || burst.mean_bad <= duration{})
     return {};
-  return {of_vehicle_.part("fades"), delay_law::exponential(burst.mean_good),
+  return {of_radio_.part("fades"), delay_law::exponential(burst.mean_good),
           delay_law::exponential(burst.mean_bad)};
+}
+
+bool channel::is_out(duration since_start) const {
+  return std::ranges::any_of(profile_->outages, [since_start](const auto& x) {
+    return x.from <= since_start && since_start < x.to;
+  });
 }
 
 channel::streams channel::split(std::string_view direction,
                                 std::uint32_t provider) const {
-  const auto s = of_vehicle_.part(direction).part(provider);
+  const auto s = of_radio_.part(direction).part(provider);
   return {s.part("results"), s.part("others"), s.part("bursts")};
 }
 

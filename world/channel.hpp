@@ -36,16 +36,19 @@ struct message_id {
 /// Draws for one vehicle at one provider. Cheap to make and to copy.
 class channel {
 public:
+  /// @param radio  Over which the vehicle reaches the provider: providers of
+  ///               one radio are reached, and stalled, at the same times.
   /// @throws std::invalid_argument  when the profile replays a trace and has
   /// no samples.
   channel(std::shared_ptr<const channel_profile> profile, random_stream seed,
-          station_id station, std::uint32_t provider);
+          station_id station, std::uint32_t provider,
+          std::string_view radio = {});
 
   /// Computing time of one result of unit demand on one worker.
   duration service_time(std::uint64_t cycle) const;
 
   /// Network delay without queues and stalls.
-  /// @param sent  Matters when a trace is replayed.
+  /// @param sent  Matters when a trace is replayed, or where delays drift.
   duration network_delay(const message_id& m, time_point sent) const;
 
   /// Network delay of result number `cycle`.
@@ -64,14 +67,19 @@ public:
   /// @param fading  Whether the connection is in its bad state.
   bool lost(const message_id& m, bool fading) const;
 
-  /// Stalls of this vehicle, for both directions and all providers.
+  /// Stalls of this vehicle, for both directions and all providers of a radio.
   /// @throws std::invalid_argument  when they leave no time in between.
   interruptions stalls() const;
 
   /// Times in which this vehicle's connection is in the bad state, likewise.
   interruptions fades() const;
 
+  /// @param since_start  Of the run.
+  /// @returns whether nothing gets through then, for anybody.
+  bool is_out(duration since_start) const;
+
 private:
+  double drift(time_point sent) const;
   struct streams {
     random_stream results;
     random_stream others;
@@ -81,7 +89,8 @@ private:
   const streams& of(way direction) const;
   const random_stream& of(const message_id& m) const;
 
-  random_stream of_vehicle_;
+  random_stream of_radio_; // of this vehicle
+  random_stream drift_;
   streams up_;
   streams down_;
   std::shared_ptr<const channel_profile> profile_;

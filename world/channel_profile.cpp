@@ -1,6 +1,8 @@
 // The named channel profiles.
 #include "world/channel_profile.hpp"
 
+#include "world/listing.hpp"
+
 #include <array>
 #include <cmath>
 
@@ -59,6 +61,19 @@ channel_profile cicv5g_n78() {
   return p;
 }
 
+// Ours, of no measured network: 20 ms in the median, phases of some seconds
+// in which it is late, which can be foreseen, and single messages that are,
+// which cannot. docs/channels.md tells what it does.
+channel_profile spiky_5g() {
+  channel_profile p;
+  p.workers = 8;
+  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_law::lognormal_about(0ms, 16500us, 0.17);
+  p.drift = {0.45, 15s};
+  p.spikes = {0.01, 5ms, 32ms};
+  return p;
+}
+
 channel_profile trace() {
   channel_profile p;
   p.replays = true;
@@ -77,10 +92,11 @@ constexpr std::array known_profiles{
     entry{"paper-5g", paper_5g},
     entry{"cicv5g-n8", cicv5g_n8},
     entry{"cicv5g-n78", cicv5g_n78},
+    entry{"spiky-5g", spiky_5g},
     entry{"trace", trace},
 };
 
-constexpr settings::range probability{0, 1};
+constexpr settings::range chances{0, 1};
 
 } // namespace
 
@@ -99,11 +115,35 @@ void stall_options::fields(settings& s) {
 void burst_loss_options::fields(settings& s) {
   s.field("mean_good", mean_good, 0ns);
   s.field("mean_bad", mean_bad, 0ns);
-  s.field("loss_good", loss_good, probability);
-  s.field("loss_bad", loss_bad, probability);
+  s.field("loss_good", loss_good, chances);
+  s.field("loss_bad", loss_bad, chances);
   if ((mean_good > 0ns) != (mean_bad > 0ns))
     s.refuse(mean_good > 0ns ? "mean_good" : "mean_bad",
              "has no effect alone; mean_good and mean_bad go together");
+}
+
+void drift_options::fields(settings& s) {
+  s.field("sd", sd, {0, 3});
+  s.field("period", period, 0ns);
+  if (sd > 0 && period <= 0ns)
+    s.refuse("sd", "has no effect while period is \"0s\"");
+}
+
+void spike_options::fields(settings& s) {
+  s.field("probability", probability, chances);
+  s.field("shortest", shortest, 0ns);
+  s.field("longest", longest, 0ns);
+  if (longest < shortest)
+    s.refuse("longest", "must not be less than shortest");
+  if (probability > 0 && longest == 0ns)
+    s.refuse("probability", "has no effect while longest is \"0s\"");
+}
+
+void outage_options::fields(settings& s) {
+  s.field("from", from, 0ns);
+  s.field("to", to, 0ns);
+  if (to <= from)
+    s.refuse("to", "must be later than from");
 }
 
 double channel_profile::mean_service_s() const {
@@ -120,11 +160,14 @@ void channel_profile::fields(settings& s) {
   s.field("workers", workers, {1, 1024});
   s.field("more_computing", more_computing, 0ns);
   s.field("more_delay", more_delay, 0ns);
-  s.field("loss", loss, probability);
+  s.field("loss", loss, chances);
   s.field("cell_mbps", cell_mbps, {0, 1e6});
   s.field("scatters_trace", scatters_trace);
   s.table("stalls", [this](settings& t) { stalls.fields(t); });
   s.table("burst_loss", [this](settings& t) { burst_loss.fields(t); });
+  s.table("drift", [this](settings& t) { drift.fields(t); });
+  s.table("spikes", [this](settings& t) { spikes.fields(t); });
+  list_all(s, "outage", outages);
 }
 
 std::vector<std::string_view> channel_profile_names() {

@@ -40,6 +40,34 @@ struct burst_loss_options {
   void fields(settings& s);
 };
 
+/// Good and bad phases of one vehicle's way to one provider: all its delays at
+/// a time are exp(sd · g(t)) as long, with a Gaussian g of mean 0 and deviation
+/// 1 that forgets its past within about a period.
+struct drift_options {
+  double sd = 0;     ///< Of the logarithm of delays; 0: no drift.
+  duration period{}; ///< From one independent value of g to the next.
+
+  void fields(settings& s);
+};
+
+/// Messages that take longer, at random: nothing before tells which.
+struct spike_options {
+  double probability = 0; ///< In [0, 1], for each message.
+  duration shortest{};    ///< Added to its delay, uniformly up to
+  duration longest{};     ///< this.
+
+  void fields(settings& s);
+};
+
+/// A time in which nothing gets through, for anybody: what is sent meanwhile is
+/// lost.
+struct outage_options {
+  duration from{}; ///< Since the start of the run,
+  duration to{};   ///< up to here.
+
+  void fields(settings& s);
+};
+
 /// Everything that tells one kind of channel from another. docs/channels.md
 /// has the sources and the measured figures.
 struct channel_profile {
@@ -62,6 +90,9 @@ struct channel_profile {
   stall_options stalls;
   double loss = 0; ///< Probability in [0, 1] for each message.
   burst_loss_options burst_loss;
+  drift_options drift; ///< Of network delays, without `more_delay`.
+  spike_options spikes;
+  std::vector<outage_options> outages; ///< `outage` in files.
 
   /// Replays `trace`: a result takes the measured round trip, messages to the
   /// provider take no time, so that the loop takes what was measured.

@@ -20,7 +20,8 @@ std::optional<time_point> link_direction::arrival(time_point sent,
   const auto queues = cell_ && airtime > duration{};
   const auto on_air = queues ? cell_->finish(sent, airtime) : sent + airtime;
   const auto stall = stalls_.at(sent);
-  if (draws_.lost(m, fades_.at(sent).has_value()))
+  if (draws_.lost(m, fades_.at(sent).has_value())
+      || draws_.is_out(sent - start_))
     return std::nullopt;
   const auto arrives = stall
                            ? std::max(on_air, stall->end)

@@ -22,6 +22,9 @@ public:
   link_direction(channel draws, way direction,
                  std::shared_ptr<fifo_servers> cell);
 
+  /// The run begins now: outages are counted from here, else from time zero.
+  void begin(time_point start) { start_ = start; }
+
   /// @param sent    When the message leaves; not earlier than before. Calls
   ///                of links that share a cell are in the order of `sent`.
   /// @param number  Number of the draw: the cycle of a result, a running
@@ -39,6 +42,7 @@ private:
   std::shared_ptr<fifo_servers> cell_;
   interruptions stalls_;
   interruptions fades_;
+  time_point start_;
   time_point last_arrival_ = time_point::min();
 };
 

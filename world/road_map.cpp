@@ -13,7 +13,7 @@ namespace {
 /// How far apart the ends of two lanes in a row may be, m.
 constexpr auto joint_tolerance_m = 0.5;
 
-/// Length of the straight pieces that `near_lane` measures to, m.
+/// Length of the straight pieces that `near_lanes` measures to, m.
 constexpr auto piece_m = 1.0;
 
 template <class... Args>
@@ -113,11 +113,27 @@ route_ptr road_map::make_route(std::string name,
                                  closed);
 }
 
-bool road_map::near_lane(point p, double tolerance_m) const {
-  return cells_.any_near(p, tolerance_m, [&](cell_grid::item i) {
-    const auto& [a, b] = pieces_[i];
-    return distance_to_segment_m(p, a, b) <= tolerance_m;
-  });
+bool road_map::near_lanes(std::span<const point> points,
+                          double tolerance_m) const {
+  auto last = points.begin();
+  std::size_t there = 0; // the piece that is near the last point
+  for (auto p = points.begin(); p != points.end(); last = p++) {
+    const auto is_near = [&](std::size_t i) {
+      const auto& [a, b] = pieces_[i];
+      return distance_to_segment_m(*p, a, b) <= tolerance_m;
+    };
+    const auto moved = distance_m(*last, *p) / piece_m;
+    const auto guess = there + static_cast<std::size_t>(std::min(1e6, moved));
+    if (guess < pieces_.size() && is_near(guess)) {
+      there = guess;
+      continue;
+    }
+    const auto found = cells_.any_near(*p, tolerance_m, is_near);
+    if (!found)
+      return false;
+    there = *found;
+  }
+  return true;
 }
 
 } // namespace sofof

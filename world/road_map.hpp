@@ -54,8 +54,9 @@ public:
                        bool closed) const;
 
   /// @returns whether some lane's centre line passes within `tolerance_m` of
-  /// `p`; hashed, O(1).
-  bool near_lane(point p, double tolerance_m) const;
+  /// each of these points. O(1) for each; soonest done where they follow each
+  /// other along a lane.
+  bool near_lanes(std::span<const point> points, double tolerance_m) const;
 
 private:
   void cut(const path& line);

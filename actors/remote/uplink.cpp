@@ -16,6 +16,7 @@
 
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace sofof {
 
@@ -35,14 +36,21 @@ constexpr std::size_t streams_per_station = 8;
 
 struct uplink_state {
   static inline const char* name = "uplink";
+  static constexpr auto closed = "it has closed the connection meanwhile";
 
   uplink_impl::stateful_pointer<uplink_state> self;
   uplink_setup setup;
   std::uint64_t types = fingerprint_of_types();
   std::map<station_id, link_actor> vehicles;
+  struct last_cam {
+    its_pdu message;
+    time_point said;
+  };
+  std::map<station_id, last_cam> cams;
   // -- while connected
   session_actor session;
   std::optional<pulse> life;
+  bool is_heard = false; // it has asked for our clock
   std::set<running_service> running;
   using word = std::variant<its_pdu, service_input>;
   std::optional<latest_values<stream_id, word>> words;
@@ -50,7 +58,8 @@ struct uplink_state {
   back_off pauses;
   std::uint64_t attempts = 0;
   time_point next_attempt;
-  bool introducing = false;
+  std::optional<time_point> trying_since;
+  gate_actor gate; // while we introduce ourselves there
   bool was_connected = false;
   std::string last_news;
 
@@ -68,7 +77,7 @@ struct uplink_state {
         disconnected("it has answered nothing for a second");
       else
         self->send(session, life->beat(t));
-    } else if (t >= next_attempt) {
+    } else if (t >= next_attempt && !is_trying(t)) {
       attempt();
     }
     send_after(self, self, protocol::life_sign_period, tick_atom_v);
@@ -81,36 +90,50 @@ struct uplink_state {
     ++attempts;
   }
 
+  // A second attempt would wait for the same connection as the first, and end
+  // with it.
+  bool is_trying(time_point t) const {
+    return trying_since && t - *trying_since <= protocol::introduction_timeout;
+  }
+
   void attempt() {
+    trying_since = now(self);
     plan_attempt();
-    const auto help = [connect = setup.connect, uplink = uplink_impl{self}](
-                          caf::event_based_actor* helper) {
+    auto helper = [connect = setup.connect, uplink = uplink_impl{self}] {
       const auto found = connect();
       if (const auto* gate = std::get_if<gate_actor>(&found))
-        helper->send(uplink, tick_atom_v, *gate);
+        caf::send_as(uplink, uplink, tick_atom_v, *gate);
       else
-        helper->send(uplink, tick_atom_v, std::get<std::string>(found));
+        caf::send_as(uplink, uplink, tick_atom_v, std::get<std::string>(found));
     };
-    if (setup.takes_time)
-      self->system().spawn<caf::detached>(help);
+    if (setup.aside)
+      setup.aside(std::move(helper));
     else
-      self->system().spawn(help);
+      self->system().spawn<caf::detached>(
+          [helper = std::move(helper)](caf::event_based_actor*) { helper(); });
   }
 
   void failed(const std::string& why) {
-    if (!session)
-      tell(fmt::format("no connection to provider {} at {}: {}; trying again",
-                       setup.provider, setup.address, why));
+    if (session || gate)
+      return; // another attempt was faster
+    trying_since.reset();
+    tell(fmt::format("no connection to provider {} at {}: {}; trying again",
+                     setup.provider, setup.address, why));
   }
 
-  void introduce_to(const gate_actor& gate) {
-    if (session || introducing)
+  void introduce_to(const gate_actor& found) {
+    if (session || gate)
       return; // another attempt was faster
-    introducing = true;
+    gate = found;
+    // Who has forwarded a question does not tell when the connection is gone.
+    self->monitor(gate);
     self->request(gate, protocol::introduction_timeout, setup.protocol, types)
         .then(
-            [this](std::uint32_t protocol, std::uint64_t theirs,
-                   const std::string& nonce, const caf::strong_actor_ptr& in) {
+            [this, found](std::uint32_t protocol, std::uint64_t theirs,
+                          const std::string& nonce,
+                          const caf::strong_actor_ptr& in) {
+              if (gate != found)
+                return;
               if (protocol != setup.protocol || theirs != types)
                 refused(fmt::format("it speaks {}, this program {}; install "
                                     "the same version on both sides",
@@ -121,7 +144,10 @@ struct uplink_state {
               else
                 introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
             },
-            [this](const caf::error& error) { not_now(sentence(error)); });
+            [this, found](const caf::error& error) {
+              if (gate == found)
+                not_now(sentence(error));
+            });
   }
 
   void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
@@ -135,8 +161,10 @@ struct uplink_state {
     self->request(entrance, protocol::introduction_timeout, std::move(hello),
                   uplink_actor{uplink_impl{self}})
         .then(
-            [this, at = entrance.node()](const peer_welcome& welcome,
-                                         const session_actor& with) {
+            [this, to = gate, at = entrance.node()](const peer_welcome& welcome,
+                                                    const session_actor& with) {
+              if (gate != to)
+                return;
               if (!with || with.node() != at)
                 not_now("it has no end of its own");
               else if (!is_time_of_day(welcome.epoch_unix_ms))
@@ -144,7 +172,9 @@ struct uplink_state {
               else
                 connected(welcome, with);
             },
-            [this](const caf::error& error) {
+            [this, to = gate](const caf::error& error) {
+              if (gate != to)
+                return;
               if (error == caf::sec::invalid_argument)
                 refused(sentence(error));
               else
@@ -152,14 +182,20 @@ struct uplink_state {
             });
   }
 
+  void leave_gate() {
+    self->demonitor(gate);
+    gate = nullptr;
+    trying_since.reset();
+  }
+
   void not_now(const std::string& why) {
-    introducing = false;
+    leave_gate();
     failed(why);
   }
 
   // Whoever drives goes on driving, even if nobody will ever plan for it.
   void refused(const std::string& why) {
-    introducing = false;
+    leave_gate();
     const auto news = fmt::format("provider {} at {} refuses: {}",
                                   setup.provider, setup.address, why);
     if (was_connected)
@@ -173,11 +209,11 @@ struct uplink_state {
       return error.context().get_as<std::string>(0);
     if (error == caf::sec::request_timeout)
       return "it does not answer";
-    return "it has closed the connection meanwhile";
+    return closed;
   }
 
   void connected(const peer_welcome& welcome, const session_actor& with) {
-    introducing = false;
+    leave_gate();
     was_connected = true;
     session = with;
     const auto t = now(self);
@@ -193,6 +229,7 @@ struct uplink_state {
   void disconnected(std::string_view why) {
     self->demonitor(session);
     session = nullptr;
+    is_heard = false;
     life.reset();
     words->clear();
     setup.hang_up();
@@ -208,12 +245,21 @@ struct uplink_state {
   void lost(const caf::actor_addr& who) {
     if (session && session.address() == who)
       disconnected("the connection is gone");
+    else if (gate && gate.address() == who)
+      not_now(closed);
   }
 
   // -- what vehicles say ----------------------------------------------------
 
+  void say(station_id station, const its_pdu& message) {
+    const auto stream = stream_of(station, message);
+    if (stream.of == stream_id::what::cam)
+      cams.insert_or_assign(station, last_cam{message, now(self)});
+    say(stream, word{message});
+  }
+
   void say(const stream_id& stream, word what) {
-    if (!session)
+    if (!is_heard)
       return;
     if (auto next = words->offer(stream, std::move(what), now(self)))
       send(stream, *next);
@@ -261,10 +307,30 @@ struct uplink_state {
       self->send(i->second, message);
   }
 
+  // By the answer the session knows our clock, and thus how old CAMs are.
+  void answer(const life_sign& sign) {
+    const auto t = now(self);
+    self->send(session, pulse::answer(sign, t));
+    if (std::exchange(is_heard, true))
+      return;
+    for (const auto& [station, last] : cams)
+      if (t - last.said <= protocol::cam_timeout)
+        say(stream_of(station, last.message), last.message);
+  }
+
   // Who accepts at once and hangs up again has not succeeded.
   void take(const life_echo& echo) {
     life->take(echo, now(self));
     pauses.succeeded();
+  }
+
+  void take(station_id station, service_offer offer) {
+    const auto clock = life->clock(now(self));
+    if (clock && offer.created)
+      *offer.created -= clock->ahead;
+    else
+      offer.created.reset();
+    down(station, offer);
   }
 
   void take(const service_response& response) {
@@ -330,7 +396,7 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
   return {
       [self](station_id station, const service_offer& offer) {
         if (self->state.is_from_session())
-          self->state.down(station, offer);
+          self->state.take(station, offer);
       },
       [self](const service_response& response) {
         if (self->state.is_from_session())
@@ -348,7 +414,7 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       },
       [self](const life_sign& sign) {
         if (self->state.is_from_session())
-          self->send(self->state.session, pulse::answer(sign, now(self)));
+          self->state.answer(sign);
       },
       [self](const life_echo& echo) {
         if (self->state.is_from_session())
@@ -360,7 +426,7 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       },
       [self](station_id station, const its_pdu& message) {
         if (is_from_here(self))
-          self->state.say(stream_of(station, message), message);
+          self->state.say(station, message);
       },
       [self](const service_request& request) {
         if (is_from_here(self))

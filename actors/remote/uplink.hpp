@@ -15,8 +15,7 @@
 
 namespace sofof {
 
-/// What an uplink is made of. The functions are called from threads of their
-/// own.
+/// What an uplink is made of. Its functions are called from any thread.
 struct uplink_setup {
   std::string provider; ///< The name that it must have.
   std::string address;  ///< For people.
@@ -30,8 +29,9 @@ struct uplink_setup {
   std::function<std::variant<gate_actor, std::string>()> connect;
   /// Closes what may be left of a connection that is given up.
   std::function<void()> hang_up = [] {};
-  /// Whether connecting keeps a thread busy for a while.
-  bool takes_time = true;
+  /// Carries an attempt out, which calls `connect`; empty: on a thread of its
+  /// own.
+  std::function<void(std::function<void()> attempt)> aside;
   std::uint32_t protocol = remote_protocol;
   /// Adds the proof that we may speak for our stations, where one is needed.
   std::function<void(peer_hello&, const std::string& nonce)> prove;
@@ -43,11 +43,13 @@ struct uplink_setup {
 };
 
 /// Connects, introduces itself, and connects again whenever the connection is
-/// lost: with growing pauses, one attempt at least every second, each by a
-/// helper of its own, and the first that gets through counts. Meanwhile it
-/// loses what it is given, and ends what ran for its vehicles (peer_lost), so
-/// that they plan for themselves at once. CAMs, CPMs and inputs go out one at a
-/// time, always the latest. Translates the provider's times to ours.
+/// lost: with pauses that grow to a second from the beginning of one attempt to
+/// that of the next, which waits for the end of the one before, but not for one
+/// that hangs. Meanwhile it loses what it is given, and ends what ran for its
+/// vehicles (peer_lost), so that they plan for themselves at once. A provider
+/// hears of each vehicle's latest CAM as soon as it can: the next one may be a
+/// second off. CAMs, CPMs and inputs go out one at a time, always the latest.
+/// Translates the provider's times to ours.
 uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
 
 /// Tells an uplink who speaks and listens for a station.

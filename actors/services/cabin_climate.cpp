@@ -143,6 +143,7 @@ public:
     common.run_time_mean = 200us;
     common.run_time_sd = 50us;
     common.run_time_max = 1ms;
+    common.task = {.gigacycles = 6e-4, .input_kbit = 1}; // 200 us at 3 GHz
   }
 
   std::string_view name() const override { return "cabin_climate"; }

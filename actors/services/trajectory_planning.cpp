@@ -6,9 +6,11 @@
 #include "actors/service_kind.hpp"
 #include "messages/v2x/coordination.hpp"
 #include "messages/v2x/encoded.hpp"
+#include "policies/link/continuity.hpp"
 #include "world/protocol.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -50,6 +52,8 @@ etsi::termination_status status_of(end_reason why) {
   using enum etsi::termination_status;
   switch (why) {
     case end_reason::left_area:
+    case end_reason::handed_over:
+    case end_reason::released:
     case end_reason::shutdown:
       return regular_end;
     case end_reason::cam_timeout:
@@ -59,6 +63,7 @@ etsi::termination_status status_of(end_reason why) {
     case end_reason::qos_gap:
       return abort_by_constraint_violation;
     case end_reason::refused:
+    case end_reason::revoked:
       return abort_by_reject;
     case end_reason::peer_lost:
       break;
@@ -151,6 +156,23 @@ public:
     if (fault != maneuver_fault::none || !begins_at(plan, request->own))
       return {};
     return payload::of(std::move(plan));
+  }
+
+  bool continues(const payload& in_use, const payload& offered,
+                 time_point now) const override {
+    const auto one = in_use.as<trajectory>();
+    const auto other = offered.as<trajectory>();
+    if (!one || !other || one->empty() || other->empty())
+      return false;
+    constexpr duration step = std::chrono::milliseconds{100};
+    constexpr std::size_t count = 6; // 0.5 s
+    std::array<point, count> here, there;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto t = now + k * step;
+      here[k] = one->at(t).at;
+      there[k] = other->at(t).at;
+    }
+    return sofof::continues(here, there, step);
   }
 
   payload farewell(const service_setup& setup, const service_end& end,

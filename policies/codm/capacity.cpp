@@ -34,11 +34,13 @@ private:
 } // namespace
 
 codm_entry codm_capacity() {
-  return {{"capacity", "Accepts as long as the workers have room.",
+  return {{"capacity",
+           "Accepts as long as the workers have room.",
            "U + u <= most; u = mean computing time / (period workers). A mean "
            "wait w asks for most = 2 w / (S + 2 w) (M/D/1, service time S)",
            "what runs, the mean computing time of a result",
-           "Liu & Layland, J. ACM 20(1), 1973, for a pool of workers"},
+           "Liu & Layland, J. ACM 20(1), 1973, for a pool of workers",
+           {{"most", "1", "utilisation, of all services together"}}},
           behind_codm_filter<capacity>};
 }
 

@@ -100,12 +100,17 @@ void deadline_admission::fields(settings& s) {
 } // namespace
 
 codm_entry codm_edf() {
-  return {{"edf", "Accepts as long as every result can be in time.",
+  return {{"edf",
+           "Accepts as long as every result can be in time.",
            "sum_j (floor((t - D_j) / T_j) + 1) C_j <= t for all deadlines t up "
            "to the busy period (demand); or an offset in the period for which "
            "no deadline is missed (phases)",
            "period, computing time, time limit and offset of all that runs",
-           "Baruah, Rosier & Howell, RTSS 1990; phases are ours"},
+           "Baruah, Rosier & Howell, RTSS 1990; phases are ours",
+           {{"test", "\"phases\", \"demand\" or \"utilisation\"",
+             "that a worker must pass"},
+            {"network", "time", "part of the time limit that the way takes"},
+            {"margin", "1", "part of the computing time added, to be safe"}}},
           behind_codm_filter<deadline_admission>};
 }
 

@@ -40,6 +40,13 @@ public:
 
   boot_id source() const { return source_; }
 
+  /// The source has changed without being asked, or not changed though asked.
+  /// @param since  When it came there.
+  void is_at(boot_id source, time_point since) {
+    if (source != source_)
+      switch_to(source, since);
+  }
+
 private:
   void switch_to(boot_id source, time_point now);
 

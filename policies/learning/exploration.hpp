@@ -18,6 +18,8 @@ struct exploration {
 
   /// @returns the share after so many decisions.
   double share(std::uint64_t decisions_taken) const;
+
+  friend bool operator==(const exploration&, const exploration&) = default;
 };
 
 /// @param values   One per action, at most 32.

@@ -59,6 +59,18 @@ state_reader::state_reader(std::string_view text, std::string_view kind,
   expect(kind, version);
 }
 
+std::string_view state_reader::word() {
+  const auto found = next();
+  if (found.empty())
+    refuse("expected a word.");
+  return found;
+}
+
+std::string_view state_reader::after_end() {
+  expect("end");
+  return failed() ? std::string_view{} : rest_;
+}
+
 void state_reader::expect(std::string_view word) {
   const auto found = next();
   if (found != word)

@@ -35,6 +35,8 @@ public:
   state_reader(std::string_view text, std::string_view kind,
                std::uint64_t version);
 
+  /// @returns any word; an empty one is refused.
+  std::string_view word();
   void expect(std::string_view word);
   /// Expects a whole number that is known already, e.g. a size.
   void expect(std::string_view word, std::uint64_t number);
@@ -52,6 +54,10 @@ public:
   bool failed() const { return fault_.has_value(); }
   /// @returns a sentence that says what is wrong and where, if anything is.
   const std::optional<std::string>& fault() const { return fault_; }
+
+  /// @returns what follows the "end" of this text; to be asked instead of
+  /// `expect_end` where texts follow each other.
+  std::string_view after_end();
 
 private:
   std::string_view next();

@@ -18,21 +18,43 @@ duration forecast(double seconds) {
 } // namespace
 
 link_estimator::link_estimator(const link_estimator_options& options)
-    : options_{options}, log_latency_{options.alpha}, gap_s_{options.alpha} {}
+    : options_{options}, log_latency_{options.alpha}, gap_s_{options.alpha},
+      answer_gap_s_{options.alpha} {}
 
 void link_estimator::arrived(time_point created, time_point received) {
   if (last_ && received < *last_)
     return;
+  learn(created, received, 1);
+  // What was silent for long has begun anew.
+  if (last_result_ && last_result_ >= last_answer_)
+    gap_s_.add(to_seconds(received - *last_result_));
+  last_result_ = received;
+}
+
+void link_estimator::answered(time_point created, time_point received) {
+  if (last_ && received < *last_)
+    return;
+  const auto missed =
+      last_ ? to_seconds(received - *last_) / to_seconds(options_.period) : 1;
+  learn(created, received, std::clamp(missed, 1.0, options_.most_missed));
+  if (last_answer_ && last_answer_ >= last_result_)
+    answer_gap_s_.add(to_seconds(received - *last_answer_));
+  last_answer_ = received;
+}
+
+void link_estimator::learn(time_point created, time_point received,
+                           double times) {
   const auto latency_s = to_seconds(received - created);
-  log_latency_.add(std::log(std::max(latency_s, least_latency_s)));
-  if (last_)
-    gap_s_.add(to_seconds(received - *last_));
+  log_latency_.add(std::log(std::max(latency_s, least_latency_s)), times);
   last_ = received;
 }
 
 bool link_estimator::stale(time_point now) const {
-  return !known()
-         || to_seconds(now - *last_) > options_.stale_periods * gap_s_.mean();
+  if (!known())
+    return true;
+  const auto silent_s = to_seconds(now - *last_);
+  const auto& gaps = last_result_ >= last_answer_ ? gap_s_ : answer_gap_s_;
+  return gaps.count() > 0 && silent_s > options_.stale_periods * gaps.mean();
 }
 
 double link_estimator::late_probability(duration limit, time_point now) const {
@@ -43,7 +65,7 @@ double link_estimator::late_probability(duration limit, time_point now) const {
 }
 
 double link_estimator::gap_probability(duration limit, time_point now) const {
-  if (stale(now))
+  if (stale(now) || gap_s_.count() == 0)
     return 1;
   return gap_s_.probability_above(to_seconds(limit));
 }
@@ -55,7 +77,7 @@ std::optional<duration> link_estimator::latency_quantile(double p) const {
 }
 
 std::optional<duration> link_estimator::gap_quantile(double p) const {
-  if (!known())
+  if (!known() || gap_s_.count() == 0)
     return std::nullopt;
   return forecast(gap_s_.quantile(p));
 }

@@ -8,11 +8,12 @@
 
 namespace sofof {
 
-void moving_normal::add(double x) {
+void moving_normal::add(double x, double times) {
   if (!std::isfinite(x))
     return;
   ++count_;
-  const auto weight = std::max(alpha_, 1 / static_cast<double>(count_));
+  const auto fading = times == 1 ? alpha_ : 1 - std::pow(1 - alpha_, times);
+  const auto weight = std::max(fading, 1 / static_cast<double>(count_));
   const auto off = x - mean_;
   mean_ += weight * off;
   variance_ = (1 - weight) * (variance_ + weight * off * off);

@@ -19,7 +19,9 @@ public:
   explicit moving_normal(double alpha) : alpha_{alpha} {}
 
   /// Learns from a number; one that is not finite is ignored.
-  void add(double x);
+  /// @param times  As how many equal ones in a row it counts, ≥ 1: then a is
+  ///               1 − (1 − α)^times, at least 1/n.
+  void add(double x, double times = 1);
 
   std::size_t count() const { return count_; }
   double mean() const { return mean_; }

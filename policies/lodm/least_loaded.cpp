@@ -12,6 +12,8 @@ class least_loaded final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
+    if (context.current != 0)
+      return as_it_is("it runs already");
     if (all.empty())
       return {0, "nobody comes into question"};
     const auto& best = better_of_two(context);
@@ -44,10 +46,12 @@ private:
 } // namespace
 
 lodm_entry lodm_least_loaded() {
-  return {{"least_loaded", "Asks the less loaded of two providers.",
+  return {{"least_loaded",
+           "Asks the less loaded of two providers.",
            "min utilisation of two providers drawn at random, if below `most`",
            "the utilisation that offers tell",
-           "Mitzenmacher, IEEE TPDS 12(10), 2001 (two choices)"},
+           "Mitzenmacher, IEEE TPDS 12(10), 2001 (two choices)",
+           {{"most", "1", "utilisation from which on nobody is asked"}}},
           behind_lodm_filter<least_loaded>};
 }
 

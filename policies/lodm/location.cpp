@@ -7,7 +7,8 @@ namespace sofof {
 
 namespace {
 
-/// Asks the first provider that is near enough.
+/// Asks the first provider that is near enough; goes on to the next one when
+/// the way leaves the one where the service runs.
 class location final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
@@ -39,7 +40,8 @@ lodm_entry lodm_location() {
            "d_passed > d_min, the way on the planned path before it leaves the "
            "disc of radius r_off round the provider",
            "the planned path, where providers are",
-           "Dehler & Buchholz, IEEE RA-L 10(5), 2025"},
+           "Dehler & Buchholz, IEEE RA-L 10(5), 2025",
+           near_provider::parameters()},
           alone<local_policy, location>};
 }
 

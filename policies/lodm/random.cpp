@@ -11,6 +11,8 @@ class random_choice final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
+    if (context.current != 0)
+      return as_it_is("it runs already");
     if (all.empty())
       return {0, "nobody comes into question"};
     constexpr std::uint32_t whether = 0, whom = 1;
@@ -33,9 +35,12 @@ private:
 } // namespace
 
 lodm_entry lodm_random() {
-  return {{"random", "Asks by the toss of a coin.",
-           "U < probability; then any provider", "nothing",
-           "ours, to compare with"},
+  return {{"random",
+           "Asks by the toss of a coin.",
+           "U < probability; then any provider",
+           "nothing",
+           "ours, to compare with",
+           {{"probability", "1", "of asking anybody"}}},
           behind_lodm_filter<random_choice>};
 }
 

@@ -126,7 +126,7 @@ std::string what_was_run(const recorded_run& run) {
     text += fmt::format(", {:.0f} s", *length_s);
   if (!run.clock.empty())
     text += fmt::format(", {} clock", run.clock);
-  text += fmt::format(", channel {}", run.what.network.profile);
+  text += fmt::format(", channel {}", run.what.profiles());
   if (!run.version.empty())
     text += fmt::format(", sofof {}", run.version);
   return text;

@@ -2,6 +2,7 @@
 // anybody decides how they look.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -47,6 +48,23 @@ struct figure {
   std::string caption;
 };
 
+/// Named points of a plane, of which more than one quantity counts.
+struct scatter {
+  struct dot {
+    std::string name;
+    double x = 0;
+    double y = 0;
+    bool hollow = false; ///< Out of competition.
+  };
+
+  std::string title;
+  std::string x_label; ///< With its unit.
+  std::string y_label;
+  std::vector<dot> dots;
+  std::vector<std::size_t> joined; ///< Numbers of dots, by a line of steps.
+  std::string caption;
+};
+
 /// The vehicles of one results folder, moving on their streets, and what
 /// became of their offloadings.
 struct drive {
@@ -59,7 +77,7 @@ struct listing {
   std::string text;
 };
 
-using block = std::variant<paragraph, table, figure, drive, listing>;
+using block = std::variant<paragraph, table, figure, scatter, drive, listing>;
 
 /// Drives that follow each other stand side by side and share a clock.
 struct section {

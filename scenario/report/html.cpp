@@ -56,6 +56,18 @@ json to_json(const figure& x) {
           {"caption", x.caption}};
 }
 
+json to_json(const scatter& x) {
+  auto dots = json::array();
+  for (const auto& one : x.dots)
+    dots.push_back({{"name", one.name},
+                    {"x", one.x},
+                    {"y", one.y},
+                    {"hollow", one.hollow}});
+  return {{"kind", "scatter"},    {"title", x.title}, {"x_label", x.x_label},
+          {"y_label", x.y_label}, {"dots", dots},     {"joined", x.joined},
+          {"caption", x.caption}};
+}
+
 json to_json(const drive& x) {
   auto all = drive_json(x.folder);
   all["kind"] = "drive";

@@ -72,6 +72,8 @@ constexpr shown_figure of_safety[]{
     {"driving.min_accel_mps2", "acceleration, lowest, m/s²", 2},
     {"driving.hard_brakes", "hard brakes"},
     {"driving.comfort_cost_m2ps3", "comfort cost, m²/s³", 1},
+    {"energy.per_km_j", "energy of planning in the vehicles, J/km", 1},
+    {"energy.saved_share", "energy saved by offloading, %", 1, percent},
     {"switch.count", "changes of the plan's source"},
     {"switch.max_d_m", "jump at a change, largest, m", 3},
 };

@@ -77,6 +77,13 @@ void write(std::string& out, const figure& f) {
   write(out, points);
 }
 
+void write(std::string& out, const scatter& s) {
+  table points{s.title, {"", s.x_label, s.y_label}, {}, s.caption};
+  for (const auto& one : s.dots)
+    points.rows.push_back({one.name, number(one.x), number(one.y)});
+  write(out, points);
+}
+
 void write(std::string& out, const paragraph& p) {
   out += p.text + "\n\n";
 }

@@ -8,6 +8,7 @@
 #include "scenario/run.hpp"
 #include "scenario/stopwatch.hpp"
 #include "scenario/study/sections.hpp"
+#include "scenario/study/swept.hpp"
 #include "scenario/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -65,10 +66,7 @@ private:
       throw std::runtime_error{fmt::format(
           "{} runs of {} failed and {} were unsafe: {} says which.",
           outcome.failed, name, outcome.unsafe, outcome.table.string())};
-    const auto points = points_of(plan);
-    std::vector<measured_run> runs;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      runs.push_back(read_run(points[i], outcome.folders[i]));
+    auto runs = study::runs_of(plan, outcome);
     say(fmt::format("{}: {} runs, {}", name, runs.size(),
                     for_people(watch.elapsed_s())));
     return runs;

@@ -41,6 +41,16 @@ std::vector<std::string> axes_of(const std::filesystem::path& table) {
 
 } // namespace
 
+std::vector<measured_run> runs_of(const sweep_plan& plan,
+                                  const sweep_outcome& outcome) {
+  const auto points = points_of(plan);
+  std::vector<measured_run> runs;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!outcome.folders[i].empty())
+      runs.push_back(read_run(points[i], outcome.folders[i]));
+  return runs;
+}
+
 bool is_sweep_table(const std::filesystem::path& file) {
   return columns_of(file).front() == before_axes;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/study/measured_run.hpp"
+#include "scenario/sweep/sweep.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -18,6 +19,12 @@ struct swept {
   std::size_t failed = 0;
   std::size_t unsafe = 0;
 };
+
+/// @param outcome  Of this plan, at its end.
+/// @returns the runs of all points that did not fail, in their order.
+/// @throws input_error when a file is missing or broken.
+std::vector<measured_run> runs_of(const sweep_plan& plan,
+                                  const sweep_outcome& outcome);
 
 /// @returns whether a file begins as such a table does.
 bool is_sweep_table(const std::filesystem::path& file);

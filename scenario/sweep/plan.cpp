@@ -3,18 +3,17 @@
 
 #include "scenario/input_error.hpp"
 #include "scenario/toml_file.hpp"
+#include "scenario/toml_nodes.hpp"
 #include "scenario/toml_settings.hpp"
 #include "scenario/toml_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <numeric>
-#include <sstream>
 
 namespace sofof {
 
@@ -24,7 +23,7 @@ namespace {
 class sweep_reader {
 public:
   sweep_reader(std::string_view text, const std::filesystem::path& file)
-      : file_{file.string()}, root_{parsed(text)} {}
+      : file_{file.string()}, root_{parse_toml(text, file_)} {}
 
   sweep_plan read(std::span<const std::string> overrides) {
     known(root_, {"name", "scenario", "seeds", "set", "axis"});
@@ -50,15 +49,6 @@ public:
 
 private:
   using keys = std::initializer_list<std::string_view>;
-
-  toml::table parsed(std::string_view text) const {
-    try {
-      return toml::parse(text, file_);
-    } catch (const toml::parse_error& problem) {
-      throw input_error{fmt::format(
-          "{}: {}.", place_of(problem.source(), file_), problem.description())};
-    }
-  }
 
   [[noreturn]] void fail(const toml::node& at, std::string_view why) const {
     throw input_error{fmt::format("{}: {}", place_of(at.source(), file_), why)};
@@ -120,11 +110,7 @@ private:
 
   /// @returns "KEY=VALUE" with the value as TOML.
   static std::string assignment(std::string_view key, const toml::node& value) {
-    std::ostringstream text;
-    value.visit([&](const auto& exact) {
-      text << toml::toml_formatter{exact, toml::format_flags::none};
-    });
-    return fmt::format("{}={}", key, text.str());
+    return fmt::format("{}={}", key, value_text(value));
   }
 
   std::vector<std::string> assignments(const toml::node& node) const {

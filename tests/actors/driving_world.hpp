@@ -31,6 +31,7 @@ struct driving_world : virtual_world {
   const double start_speed_mps;
   const std::optional<v2x_options> v2x;
   const double range_m; // of both antennas
+  const duration appears_after;
   route_ptr way = street();
   lane_follow planner{way, {}};
   vehicle_actor car = spawn();
@@ -39,9 +40,9 @@ struct driving_world : virtual_world {
 
   explicit driving_world(double starts_at_mps = 0,
                          std::optional<v2x_options> says = v2x_options{},
-                         double heard_within_m = 100)
+                         double heard_within_m = 100, duration appears = {})
       : start_speed_mps{starts_at_mps}, v2x{std::move(says)},
-        range_m{heard_within_m} {
+        range_m{heard_within_m}, appears_after{appears} {
     settle();
   }
 
@@ -57,6 +58,7 @@ struct driving_world : virtual_world {
     setup.way = way;
     setup.start_s_m = 100;
     setup.start_speed_mps = start_speed_mps;
+    setup.appears_after = appears_after;
     setup.v2x = v2x;
     setup.where = in_ulm();
     setup.fresh_limit = 200ms;
@@ -178,6 +180,11 @@ struct flying_start_world : driving_world {
       v = std::min(v, r.state.speed_mps);
     return v;
   }
+};
+
+/// The same, standing, when its time has come.
+struct late_world : driving_world {
+  late_world() : driving_world{0, v2x_options{}, 100, 10s} {}
 };
 
 inline void tell_of_a_car(driving_world& world) {

@@ -257,11 +257,13 @@ TEST_CASE_FIXTURE(provider_world, "a station that comes back with a new "
   const auto closed = recorder->all<episode_record>();
   REQUIRE(closed.size() == 1);
   CHECK(closed.front().reason == end_reason::peer_lost);
+  REQUIRE(neighbour->count<service_offer>() == 1); // at once
+  CHECK(neighbour->all<service_offer>().front().kinds == std::vector{one, two});
   // The old one's end is nobody's business any more.
   kill(requester.handle);
   run_for(1s);
   hear(inside, neighbour);
-  CHECK(neighbour->count<service_offer>() >= 1);
+  CHECK(neighbour->count<service_offer>() == 2);
   CHECK(neighbour->count<service_end>() == 0);
 }
 

@@ -137,6 +137,27 @@ TEST_CASE_FIXTURE(fleet_world, "a wire that is cut for less than a second "
   CHECK(all_remote());
 }
 
+TEST_CASE("however long a wire is cut, and whenever, vehicles are planned for "
+          "again soon after it is back, even with a CAM a second") {
+  for (const auto cut : {400ms, 900ms, 1000ms, 1050ms, 1100ms, 1200ms, 3000ms})
+    for (auto phase = 0ms; phase < 1s; phase += 150ms) {
+      CAPTURE(cut.count());
+      CAPTURE(phase.count());
+      fleet_world w;
+      w.cam_period = 1s;
+      w.drive(3s + phase);
+      REQUIRE(w.all_remote());
+      w.line->cut = true;
+      w.drive(cut);
+      REQUIRE(w.none_remote());
+      w.line->cut = false;
+      // A connection that lasts: what is left of the time at home, an offer's
+      // period and a CAM's. A new one: a pause between attempts.
+      w.drive(cut <= 1050ms ? 2900ms : 1300ms);
+      CHECK(w.all_remote());
+    }
+}
+
 TEST_CASE_FIXTURE(fleet_world, "vehicles whose host dies are forgotten by the "
                                "provider at once") {
   drive(2s);

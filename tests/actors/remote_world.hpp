@@ -51,6 +51,7 @@ struct remote_world : virtual_world {
   std::vector<std::string> news, refusals;
   std::vector<car> cars;
   std::uint64_t said = 0;
+  duration cam_period = 100ms;
 
   explicit remote_world(std::size_t count = 1) {
     run_for(10s); // the clock's zero is no special time
@@ -88,7 +89,7 @@ struct remote_world : virtual_world {
         return gate;
       return "nobody is there";
     };
-    s.takes_time = false;
+    s.aside = [](const std::function<void()>& attempt) { attempt(); };
     s.prove = [](peer_hello& hello, const std::string&) {
       hello.certificate = "honest";
     };
@@ -176,7 +177,8 @@ struct remote_world : virtual_world {
       return;
     const cam own{c.station, now(), {500, 0}, 0, 10, 0};
     tell(c.requester, ego_state{own, 500});
-    tell(c.far, pdu_of(own), requester_actor{c.requester});
+    if (said % static_cast<std::uint64_t>(cam_period / 50ms) == 1)
+      tell(c.far, pdu_of(own), requester_actor{c.requester});
   }
 
   // -- what came of it --------------------------------------------------------

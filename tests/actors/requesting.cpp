@@ -446,3 +446,99 @@ TEST_CASE_FIXTURE(requester_world,
   }
   CHECK(episodes().empty());
 }
+
+// -- several providers -------------------------------------------------------
+
+TEST_CASE_FIXTURE(requester_world, "a request tells whom else the vehicle "
+                                   "could ask, and the one that is asked") {
+  lodm->wanted = {};
+  tell_as(other.handle, requester,
+          service_offer{elsewhere, {500, 20}, {one}, 0.75});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  tell_as(provider.handle, requester,
+          service_offer{here, {500, 20}, {one}, 0.25, 2, 10ms});
+  const auto told = last_request().candidates;
+  REQUIRE(told.size() == 2);
+  CHECK(told[0].provider == here);
+  CHECK(told[0].utilisation == 0.25);
+  CHECK(told[1].provider == elsewhere);
+  CHECK(told[1].utilisation == 0.75);
+  // It computes for 10 ms of 50: lambda_T 10 / 50 more.
+  CHECK(told[0].gain == doctest::Approx(told[1].gain - 0.3 * 10 / 50));
+}
+
+namespace {
+
+void refuse_and_name(requester_world& world, const service_request& request,
+                     boot_id instead) {
+  service_response response{
+      request.provider, world.station, request.number, {}};
+  for (const auto& kind : request.kinds)
+    response.verdicts.push_back(
+        {{request.provider, world.station, kind, 0}, false, "full", instead});
+  world.tell(world.requester, response, std::vector<provider_manager_actor>{});
+}
+
+} // namespace
+
+TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is asked at "
+                                   "once, if it offers") {
+  lodm->wanted = {};
+  offer_from(other, elsewhere, {one});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  offer({one});
+  REQUIRE(requests() == 1);
+  CHECK(other->count<service_request>() == 0);
+  run_for(100ms);
+  refuse_and_name(*this, last_request(), elsewhere);
+  REQUIRE(other->count<service_request>() == 1);
+  CHECK(other->times<service_request>().front() == now());
+  const auto second = other->all<service_request>().front();
+  CHECK(second.provider == elsewhere);
+  CHECK(second.kinds == std::vector{one});
+  // They could send it back and forth.
+  refuse_and_name(*this, second, here);
+  CHECK(requests() == 1);
+  CHECK(other->count<service_request>() == 1);
+}
+
+TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "
+                                   "is not asked") {
+  for (const boot_id name : {boot_id{0}, boot_id{99}, here}) {
+    offer({one});
+    const auto before = requests();
+    refuse_and_name(*this, last_request(), name);
+    CHECK(requests() == before);
+  }
+  // Its offer was of something else.
+  lodm->wanted = {};
+  offer_from(other, elsewhere, {two});
+  lodm->wanted = {"one"};
+  offer({one});
+  refuse_and_name(*this, last_request(), elsewhere);
+  CHECK(other->count<service_request>() == 0);
+  CHECK(!is_gone(requester));
+}
+
+TEST_CASE_FIXTURE(requester_world, "what a provider revokes goes on in the "
+                                   "vehicle, and ends for that reason") {
+  start_remote({one});
+  REQUIRE(is_remote(one));
+  tell(requester,
+       service_end{at_here(one, 7), end_reason::revoked, side::provider});
+  CHECK(!is_remote(one));
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::revoked);
+  CHECK(episodes().front().of == side::requester);
+  CHECK(ends().empty()); // it knows
+  vehicle->clear();
+  run_for(100ms);
+  CHECK(
+      std::ranges::count_if(
+          local_results(), [&](const auto& r) { return r.running.kind == one; })
+      >= 1);
+  offer({one}); // within a second of the fallback
+  CHECK(requests() == 1);
+}

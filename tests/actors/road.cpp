@@ -161,6 +161,45 @@ TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
   CHECK(ahead->entries().empty());
 }
 
+TEST_CASE_FIXTURE(road_world, "who wants to appear on an empty street is let "
+                              "in, and perceives") {
+  tell(road, begin_atom_v, motion_report{1, 100, {{100, 0}, 0, 0, 0, 0}},
+       behind.handle);
+  run_for(50ms);
+  CHECK(behind->count<begin_atom>() == 1);
+  CHECK(behind->count<perception>() > 0);
+  run_for(1s);
+  CHECK(behind->count<begin_atom>() == 1);
+}
+
+TEST_CASE_FIXTURE(road_world,
+                  "who wants to appear waits until nobody is near") {
+  report(2, 110, 0, ahead);
+  run_for(100ms);
+  tell(road, begin_atom_v, motion_report{1, 100, {{100, 0}, 0, 0, 0, 0}},
+       behind.handle);
+  run_for(10s);
+  CHECK(behind->entries().empty());
+  report(2, 300, 0, ahead);
+  run_for(100ms);
+  CHECK(behind->count<begin_atom>() == 1);
+  CHECK(last(ahead).objects.empty()); // too far to be seen
+}
+
+TEST_CASE_FIXTURE(road_world, "of two who want one place the lower station "
+                              "appears") {
+  run_for(10ms); // between two looks
+  for (const auto who : {2, 1})
+    tell(road, begin_atom_v,
+         motion_report{
+             static_cast<station_id>(who), 100, {{100, 0}, 0, 0, 0, 0}},
+         (who == 1 ? behind : ahead).handle);
+  run_for(10s);
+  CHECK(behind->count<begin_atom>() == 1);
+  CHECK(ahead->entries().empty());
+  CHECK(collisions() == 0);
+}
+
 TEST_CASE_FIXTURE(road_world, "everybody sees the others from the middle of "
                               "the own body, not quite where they are") {
   report(1, 100, 5, behind);

@@ -99,6 +99,20 @@ TEST_CASE("trajectory planning promises what the paper chose") {
   CHECK(kind->common.run_time_sd == 2ms);
 }
 
+TEST_CASE("a slow computer takes longer, and never longer than a period") {
+  const auto usual = make_service_kind("trajectory_planning")->common;
+  const auto same = on(computer_options{}, usual);
+  CHECK(same.run_time_mean == usual.run_time_mean);
+  CHECK(same.run_time_max == usual.run_time_max);
+  const auto slow = on(computer_options{.clock_ghz = 1.5}, usual);
+  CHECK(slow.run_time_mean == 11ms);
+  CHECK(slow.run_time_sd == 4ms);
+  CHECK(slow.run_time_max == usual.period);
+  const auto fast = on(computer_options{.clock_ghz = 6}, usual);
+  CHECK(fast.run_time_mean == 2750us);
+  CHECK(fast.run_time_max == 22500us);
+}
+
 TEST_CASE("cabin climate is slow and patient") {
   const auto kind = make_service_kind("cabin_climate");
   CHECK(kind->common.limits.max_latency == 2s);

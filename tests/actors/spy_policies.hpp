@@ -21,10 +21,18 @@ struct lodm_script {
     std::vector<point> path;
     double speed_mps = 0;
     std::vector<provider_view> providers;
+    boot_id current = 0;
+    time_point since;
   };
   std::vector<question> asked;
   std::set<std::string, std::less<>> wanted{"one", "two"};
-  boot_id preferred = 0; ///< Whom it shall ask; 0: who offers just now.
+  boot_id preferred = 0; ///< Whom it shall ask; 0: who stands first.
+  boot_id second = 0;
+  bool release = false;
+  double epoch_s = 0;
+  std::vector<cycle_outcome> cycles; ///< What it was told; no names.
+  std::vector<refusal_outcome> refusals;
+  std::vector<episode_outcome> episodes;
 };
 
 class spy_lodm final : public local_policy {
@@ -38,12 +46,27 @@ public:
                               c.providers.front().at,
                               {c.path.begin(), c.path.end()},
                               c.speed_mps,
-                              {c.providers.begin(), c.providers.end()}});
+                              {c.providers.begin(), c.providers.end()},
+                              c.current,
+                              c.since});
     if (!script_->wanted.contains(c.kind))
       return {0, "as told"};
     return {script_->preferred ? script_->preferred : c.providers.front().id,
-            "as told"};
+            "as told", script_->second, script_->release};
   }
+  void observe(const cycle_outcome& x) override {
+    script_->cycles.push_back(x);
+    script_->cycles.back().kind = {};
+  }
+  void observe(const refusal_outcome& x) override {
+    script_->refusals.push_back(x);
+    script_->refusals.back().kind = script_->refusals.back().why = {};
+  }
+  void observe(const episode_outcome& x) override {
+    script_->episodes.push_back(x);
+    script_->episodes.back().kind = {};
+  }
+  double epoch_s() const override { return script_->epoch_s; }
   std::string_view name() const override { return "spy"; }
   std::unique_ptr<local_policy> clone() const override {
     return std::make_unique<spy_lodm>(*this);
@@ -68,9 +91,16 @@ struct codm_script {
   /// Utilisation of the provider, and by the first request.
   std::vector<std::pair<double, double>> used;
   std::vector<session_view> sessions; ///< Of the latest question.
+  std::vector<candidate> served;      ///< Told of its first session.
+  std::vector<candidate> candidates;  ///< Of its first request.
   std::set<std::string, std::less<>> accepted{"one", "two"};
   std::size_t worker = 0;         ///< Assigned to all.
   std::optional<duration> offset; ///< Likewise.
+  boot_id instead = 0;            ///< Told to all who are refused.
+  double epoch_s = 0;             ///< Read when a provider begins.
+  /// If there are any, it decides about sessions too: those go.
+  std::set<std::string, std::less<>> revoked{};
+  std::optional<std::size_t> at_most; ///< Decisions that it makes.
 };
 
 class spy_codm final : public central_policy {
@@ -90,15 +120,29 @@ public:
     for (const auto& request : c.requests)
       q.kinds.emplace_back(request.kind);
     script_->sessions.assign(c.sessions.begin(), c.sessions.end());
+    script_->candidates.assign(first.candidates.begin(),
+                               first.candidates.end());
+    if (!c.sessions.empty()) {
+      const auto& told = c.sessions.front().candidates;
+      script_->served.assign(told.begin(), told.end());
+    }
     for (const auto& s : c.sessions)
       q.sessions.emplace_back(s.station, s.kind);
     script_->asked.push_back(std::move(q));
     std::vector<central_decision> all;
-    for (const auto& request : c.requests)
-      all.push_back({script_->accepted.contains(request.kind), "as told",
-                     script_->worker, script_->offset});
+    for (const auto& request : c.requests) {
+      const auto yes = script_->accepted.contains(request.kind);
+      all.push_back({yes, "as told", script_->worker, script_->offset,
+                     yes ? 0 : script_->instead});
+    }
+    if (!script_->revoked.empty())
+      for (const auto& s : c.sessions)
+        all.push_back({!script_->revoked.contains(s.kind), "as told"});
+    if (script_->at_most && all.size() > *script_->at_most)
+      all.resize(*script_->at_most);
     return all;
   }
+  double epoch_s() const override { return script_->epoch_s; }
   std::string_view name() const override { return "spy"; }
   std::unique_ptr<central_policy> clone() const override {
     return std::make_unique<spy_codm>(*this);

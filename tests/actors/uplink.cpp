@@ -3,6 +3,8 @@
 #include "world/protocol.hpp"
 
 #include <limits>
+#include <map>
+#include <utility>
 
 using namespace sofof;
 using namespace sofof::test;
@@ -110,9 +112,9 @@ TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
   host->answers = false;
   start();
   run_for(1950ms);
-  CHECK(attempts.size() > 2);
   CHECK(host->knocks == 1);
   run_for(10s);
+  CHECK(host->knocks >= 4);
   CHECK(host->knocks <= 6);
   CHECK(refusals.empty());
   CHECK(news
@@ -120,7 +122,9 @@ TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
             "no connection to provider server at 10.0.0.5:4711: it does not "
             "answer; trying again"});
   host->answers = true;
-  run_for(protocol::introduction_timeout + 1050ms);
+  const auto end = now() + protocol::introduction_timeout + 1050ms;
+  while (notes("provider_connected") == 0 && now() < end)
+    run_for(protocol::life_sign_period);
   CHECK(notes("provider_connected") == 1);
 }
 
@@ -147,6 +151,58 @@ TEST_CASE_FIXTURE(uplink_world, "a provider that takes everybody in and hangs "
     run_for(50ms);
   }
   CHECK(attempts.size() < 25);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "while an attempt takes its time there is no "
+                                "other, and the next begins when it fails") {
+  takes_time = true;
+  reachable = false;
+  start();
+  run_for(1s);
+  for (std::size_t k = 1; k <= 10; ++k) {
+    CHECK(attempts.size() == k);
+    finish();
+    run_for(protocol::life_sign_period);
+    CHECK(attempts.size() == k + 1);
+    run_for(1s); // longer than any pause
+  }
+  reachable = true;
+  finish();
+  CHECK(notes("provider_connected") == 1);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "an attempt that hangs is not waited for "
+                                "without end, and counts if it gets through") {
+  takes_time = true;
+  start();
+  run_for(10s);
+  CHECK(attempts.size() >= 4);
+  finish();
+  CHECK(notes("provider_connected") == 1);
+  CHECK(host->hellos.size() == 1);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "when the connection is lost while an uplink "
+                                "introduces itself, it begins anew at once") {
+  host->answers = false;
+  start();
+  REQUIRE(host->knocks == 1);
+  kill(std::exchange(gate, own(system().spawn(played_gate, host))));
+  host->answers = true;
+  run_for(150ms); // the second pause, and until it is noticed
+  CHECK(notes("provider_connected") == 1);
+  CHECK(host->hellos.size() == 1);
+  SUBCASE("and an answer from before does not matter") {
+    host->unanswered.front().deliver(host->protocol + 1, host->types,
+                                     host->nonce, caf::strong_actor_ptr{});
+  }
+  SUBCASE("nor does it that there is none") {
+    host->unanswered.clear();
+  }
+  live(3s);
+  CHECK(notes("provider_connected") == 1);
+  CHECK(refusals.empty());
+  CHECK(news.size() == 2);
 }
 
 TEST_CASE_FIXTURE(uplink_world, "of several attempts the first that gets "
@@ -281,7 +337,6 @@ TEST_CASE_FIXTURE(uplink_world, "what vehicles say while there is no "
   reachable = false;
   kill(session.handle);
   forget();
-  say_cam();
   tell(far, service_request{boot, station, 1, {"one"}, {}, 5},
        requester.handle);
   tell(far, service_end{one});
@@ -291,8 +346,54 @@ TEST_CASE_FIXTURE(uplink_world, "what vehicles say while there is no "
   run_for(1050ms);
   CHECK(session->count<life_sign>() > 0);
   CHECK(session->entries().size() == session->count<life_sign>());
-  say_cam(); // the credit of the lost connection is given back
-  CHECK(session->seconds<its_pdu>().size() == 1);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
+                                "once it has asked for our clock") {
+  connect();
+  say_cam(1); // its credit goes with the connection
+  lose();
+  say_cam(2);
+  say_cam(3);
+  tell(other_far, cam_of(neighbour, 7), other.handle);
+  run_for(150ms);
+  REQUIRE(notes("provider_connected") == 1);
+  CHECK(session->seconds<its_pdu>().empty());
+  say_cam(4); // would be lost, too: nobody knows how old it is
+  CHECK(session->seconds<its_pdu>().empty());
+  session->clear();
+  say(life_sign{1, now()});
+  REQUIRE(session->entries().size() == 3);
+  CHECK(session->count<life_echo>() == 1);
+  CHECK(session->entries().front().what.match_elements<life_echo>());
+  std::map<station_id, double> speeds;
+  for (const auto& pdu : session->seconds<its_pdu>())
+    speeds[pdu.station().value()] = motion_in(pdu, now()).speed_mps;
+  CHECK(speeds == std::map<station_id, double>{{station, 4}, {neighbour, 7}});
+  say(life_sign{2, now()});
+  CHECK(session->seconds<its_pdu>().size() == 2); // once
+  acknowledge({station, stream_id::what::cam, 0});
+  say_cam(5);
+  CHECK(session->seconds<its_pdu>().size() == 3);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "of a vehicle whose CAM is older than two "
+                                "seconds a new connection hears nothing") {
+  connect();
+  reachable = false;
+  lose();
+  say_cam(2);
+  run_for(2s);
+  tell(other_far, cam_of(neighbour, 7), other.handle);
+  reachable = true;
+  const auto end = now() + 1100ms;
+  while (notes("provider_connected") == 0 && now() < end)
+    run_for(protocol::life_sign_period);
+  forget();
+  say(life_sign{1, now()});
+  const auto told = session->seconds<its_pdu>();
+  REQUIRE(told.size() == 1);
+  CHECK(told.front().station() == neighbour);
 }
 
 // -- what the provider may say -----------------------------------------------

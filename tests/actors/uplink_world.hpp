@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -87,6 +88,8 @@ struct uplink_world : virtual_world {
   std::shared_ptr<host_script> host = std::make_shared<host_script>();
   gate_actor gate = own(system().spawn(played_gate, host));
   bool reachable = true;
+  bool takes_time = false; ///< Attempts end when the test says so.
+  std::vector<std::function<void()>> unfinished;
   std::vector<time_point> attempts, hung_up;
   std::vector<std::string> refusals, news;
   duration ahead{}; ///< What the provider's clock shows more than ours.
@@ -107,13 +110,18 @@ struct uplink_world : virtual_world {
     s.recorder = recorder.handle;
     s.noise = random_stream{1, "uplink"};
     s.connect = [this]() -> std::variant<gate_actor, std::string> {
-      attempts.push_back(now());
       if (reachable)
         return gate;
       return "nobody is there";
     };
+    s.aside = [this](std::function<void()> attempt) {
+      attempts.push_back(now());
+      if (takes_time)
+        unfinished.push_back(std::move(attempt));
+      else
+        attempt();
+    };
     s.hang_up = [this] { hung_up.push_back(now()); };
-    s.takes_time = false;
     s.prove = [](peer_hello& hello, const std::string& nonce) {
       hello.certificate = "proof of " + nonce;
     };
@@ -135,6 +143,7 @@ struct uplink_world : virtual_world {
   void connect() {
     start();
     REQUIRE(host->peer);
+    say(life_sign{1, now() + ahead});
     say_cam();
     tell(other_far, cam_of(neighbour), other.handle);
     acknowledge({station, stream_id::what::cam, 0});
@@ -147,6 +156,19 @@ struct uplink_world : virtual_world {
     session->clear();
     requester->clear();
     other->clear();
+  }
+
+  /// Attempts end, as things are.
+  void finish() {
+    for (const auto& attempt : std::exchange(unfinished, {}))
+      attempt();
+    settle();
+  }
+  /// The connection ends; the next one leads to another session.
+  void lose() {
+    kill(session.handle);
+    session = listen<session_actor>();
+    host->session = session.handle;
   }
 
   // -- what vehicles and the provider do --------------------------------------

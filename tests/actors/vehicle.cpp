@@ -330,3 +330,38 @@ TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
   CHECK(events == std::vector<std::string>{"arrived"});
   CHECK(!is_gone(car)); // it waits for the end of the run
 }
+
+TEST_CASE_FIXTURE(late_world, "before its time a vehicle is nowhere; then it "
+                              "asks for its place") {
+  run_for(9s);
+  CHECK(road->entries().empty());
+  CHECK(near->entries().empty());
+  run_for(5s);
+  REQUIRE(road->count<begin_atom>() == 1);
+  CHECK(road->times<begin_atom>().front() == time_point{10s});
+  CHECK(road->seconds<motion_report>().front().s_m == 100);
+  CHECK(road->count<motion_report>() == 0);
+  CHECK(total().driven == 0ms);
+}
+
+TEST_CASE_FIXTURE(late_world, "a vehicle that was let in drives like any") {
+  run_for(12s);
+  tell(car, begin_atom_v);
+  CHECK(last_report().state.speed_mps == 0);
+  run_for(1s);
+  drive(5s);
+  CHECK(last_report().state.speed_mps > 3);
+  CHECK(total().driven >= 5s);
+  CHECK(total().driven <= 6s);
+  const auto events = recorder->all<event_record>();
+  REQUIRE(!events.empty());
+  CHECK(events.front().what == "appeared");
+  CHECK(events.front().at == time_point{12s});
+}
+
+TEST_CASE_FIXTURE(late_world, "who never appears leaves without a word") {
+  run_for(12s);
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(recorder->entries().empty());
+}

@@ -26,11 +26,13 @@ inline constexpr std::size_t arity<running_service> = 4;
 template <>
 inline constexpr std::size_t arity<cam> = 9;
 template <>
-inline constexpr std::size_t arity<service_offer> = 4;
+inline constexpr std::size_t arity<service_offer> = 7;
 template <>
-inline constexpr std::size_t arity<service_request> = 6;
+inline constexpr std::size_t arity<candidate> = 3;
 template <>
-inline constexpr std::size_t arity<verdict> = 3;
+inline constexpr std::size_t arity<service_request> = 7;
+template <>
+inline constexpr std::size_t arity<verdict> = 4;
 template <>
 inline constexpr std::size_t arity<service_response> = 4;
 template <>
@@ -44,7 +46,7 @@ inline constexpr std::size_t arity<qos_limits> = 2;
 template <>
 inline constexpr std::size_t arity<arrival> = 3;
 template <>
-inline constexpr std::size_t arity<qos_violation> = 3;
+inline constexpr std::size_t arity<qos_violation> = 4;
 template <>
 inline constexpr std::size_t arity<vehicle_state> = 5;
 template <>
@@ -76,7 +78,7 @@ inline constexpr std::size_t arity<collision_record> = 3;
 template <>
 inline constexpr std::size_t arity<motion_extremes> = 3;
 template <>
-inline constexpr std::size_t arity<plan_figures> = 7;
+inline constexpr std::size_t arity<plan_figures> = 8;
 template <>
 inline constexpr std::size_t arity<ride_figures> = 4;
 template <>
@@ -215,7 +217,7 @@ public:
 
 private:
   void fill_enum(std::byte& x) { x = static_cast<std::byte>(below(256)); }
-  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(8)); }
+  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(11)); }
   void fill_enum(side& x) { x = static_cast<side>(below(2)); }
   void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(2)); }
   void fill_enum(lifecycle_step& x) {

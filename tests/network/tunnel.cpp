@@ -233,6 +233,57 @@ TEST_CASE("a resolver that never answers holds up neither lines nor the end") {
   answer.set_value();
 }
 
+TEST_CASE("who does not answer is called again before the system would") {
+  // Of a port that nobody accepts from, with no room for more, the system
+  // drops what would be a new connection.
+  const auto full = [] {
+    auto listener = listen_at({"127.0.0.1", 0});
+    listen(listener.get(), 0);
+    return listener;
+  }();
+  const auto in_the_way = plug_into(port_of(full));
+  auto options = dialer_to(port_of(full));
+  options.turn = 50ms;
+  const auto began = std::chrono::steady_clock::now();
+  const tls_dialer dialer{nullptr, options};
+  const auto line = plug_into(dialer.port());
+  std::this_thread::sleep_for(200ms);
+  REQUIRE(accept_from(full).socket);
+  pollfd event{full.get(), POLLIN, 0};
+  REQUIRE(poll(&event, 1, static_cast<int>(patience.count())) == 1);
+  CHECK(std::chrono::steady_clock::now() - began < 900ms); // it waits for 1 s
+  const plug far{accept_from(full).socket};
+  CHECK(far.send("hello"));
+  CHECK(line.receive(5) == to_bytes("hello"));
+}
+
+TEST_CASE("an address that is silent does not keep us from the next") {
+  const auto silent = listen_at({"127.0.0.1", 0});
+  listen(silent.get(), 0);
+  const auto in_the_way = plug_into(port_of(silent));
+  server inner{echo};
+  auto options = dialer_to(1);
+  options.turn = 50ms;
+  options.resolver = [&](const auto&) {
+    return std::vector{loopback_port(port_of(silent)),
+                       loopback_port(inner.port())};
+  };
+  const tls_dialer dialer{nullptr, options};
+  CHECK(echoes(plug_into(dialer.port()), "found"));
+}
+
+TEST_CASE("who never answers is called for so long, and no longer") {
+  const auto silent = listen_at({"127.0.0.1", 0});
+  listen(silent.get(), 0);
+  const auto in_the_way = plug_into(port_of(silent));
+  auto options = dialer_to(port_of(silent));
+  options.turn = 20ms;
+  options.connect_timeout = 100ms;
+  const tls_dialer dialer{nullptr, options};
+  CHECK(plug_into(dialer.port()).is_closed());
+  CHECK(dialer.last_error() == "it does not answer");
+}
+
 TEST_CASE("a name is looked up once for all that wait for it") {
   server inner{echo};
   std::promise<void> answer;

@@ -184,6 +184,23 @@ TEST_CASE("a line that goes dead for longer is given up, and taken up again "
   check_one_source(drive.out());
 }
 
+TEST_CASE("a provider is found at the end of a slow line, too") {
+  const workplace at;
+  const auto settings = everywhere(2);
+  provider_process provider{at, "provider", settings};
+  line_faults slow;
+  slow.delay = std::chrono::milliseconds{150};
+  bad_line line{provider.port(), slow, 1};
+  drive_process drive{at, "drive", line.port(), settings};
+  CHECK(
+      wait_until([&] { return count(drive.out(), "provider_connected") > 0; }));
+  pass(1.5);
+  CHECK(stop(drive.run()).code == 130);
+  CHECK(stop(provider.run()).code == 0);
+  CHECK(count(drive.out(), "provider_lost") == 0);
+  check_safe(summary_of(drive.out()));
+}
+
 TEST_CASE("a connection that is cut is made again") {
   const workplace at;
   const auto settings = everywhere(6);

@@ -97,6 +97,7 @@ drive(moving_client::stateful_pointer<client_state> self,
         self->state.managers.push_back(manager);
       },
       [](const perception&) {},
+      [](begin_atom) {},
       [self, links](tick_atom) {
         auto& s = self->state;
         const auto t = now(self);

@@ -142,6 +142,86 @@ class Page(unittest.TestCase):
                 f"from sources {digest.hexdigest()}" in page.read())
 
 
+class Scatter(unittest.TestCase):
+    """Dots with names: some upon each other, one far away."""
+
+    DOTS = [("never", 0, 0), ("codm:never", 0, 0), ("location", 12, 38),
+            ("nearest", 12.2, 38.1), ("always", 55, 41), ("edf", 3, 20),
+            ("somebody with a long name", 54, 40.5)]
+
+    @classmethod
+    def setUpClass(cls):
+        dots = [{"name": name, "x": x, "y": y, "hollow": name == "always"}
+                for name, x, y in cls.DOTS]
+        document = {"title": "Dots", "subtitle": "", "sections": [
+            {"title": "Dots", "blocks": [
+                {"kind": "scatter", "title": "Dots", "x_label": "to the right",
+                 "y_label": "up", "dots": dots, "joined": [0, 5, 2, 3, 6],
+                 "caption": "A caption."}]}]}
+        with open(os.path.join(SOURCE, "apps", "report", "dist",
+                               "report.html")) as page:
+            text = page.read()
+        cls.file = os.path.join(WORK, "dots.html")
+        with open(cls.file, "w") as page:
+            page.write(text.replace("%title%", "Dots").replace(
+                "%document%", json.dumps(document)))
+
+    def seen(self, width):
+        with Browser() as page:
+            page.show(width, 900, mobile=width < 500)
+            page.open(self.file)
+            page.run("sofof.ready")
+            page.wait(0.3)
+            self.assertEqual(page.errors, [])
+            return json.loads(page.run("""(() => {
+                const box = (one) => {
+                    const {left, right, top, bottom} =
+                        one.getBoundingClientRect();
+                    return {text: one.textContent, left, right, top, bottom};
+                };
+                const all = (what) => [...document.querySelectorAll(
+                    ".scatter " + what)].map(box);
+                return JSON.stringify({dots: all("circle"),
+                                       names: all("text.name"),
+                                       frame: all("svg")[0],
+                                       wide: document.documentElement
+                                           .scrollWidth});
+            })()"""))
+
+    def test_dots_are_where_their_figures_say(self):
+        dots = self.seen(1280)["dots"]
+        self.assertEqual(len(dots), len(self.DOTS))
+        x = {one["text"].split(":")[0]: one["left"] for one in dots}
+        y = {one["text"].split(":")[0]: one["top"] for one in dots}
+        self.assertAlmostEqual(
+            (x["location"] - x["never"]) / (x["always"] - x["never"]),
+            12 / 55, places=3)
+        self.assertAlmostEqual(
+            (y["never"] - y["edf"]) / (y["never"] - y["always"]),
+            20 / 41, places=3)
+
+    def test_everybody_has_a_name_and_none_covers_another(self):
+        for width in (1280, 375):
+            seen = self.seen(width)
+            names = seen["names"]
+            for name, _, _ in self.DOTS:
+                self.assertTrue(any(name in one["text"] for one in names),
+                                f"{name} at {width}")
+            for i, one in enumerate(names):
+                self.assertGreaterEqual(one["left"], seen["frame"]["left"])
+                self.assertLessEqual(one["right"], seen["frame"]["right"])
+                for other in names[:i]:
+                    self.assertFalse(
+                        one["left"] < other["right"] - 1
+                        and other["left"] < one["right"] - 1
+                        and one["top"] < other["bottom"] - 2
+                        and other["top"] < one["bottom"] - 2,
+                        f"{one['text']} on {other['text']} at {width}")
+
+    def test_a_phone_need_not_scroll_sideways(self):
+        self.assertLessEqual(self.seen(375)["wide"], 375)
+
+
 class Comparison(unittest.TestCase):
 
     @classmethod

@@ -1,4 +1,4 @@
-// Admission by deadlines, in a whole run: config/bench/busy_worker.toml.
+// Admission by deadlines, in a whole run: config/busy_worker.toml.
 #include "scenario/load.hpp"
 #include "tests/scenario/whole_run.hpp"
 
@@ -23,8 +23,8 @@ struct busy_worker {
   static test::memory_sink play(const std::string& by) {
     const std::vector<std::string> options{"policies.codm.test=" + by,
                                            "duration=10s"};
-    return test::play(load_scenario(
-        SOFOF_SOURCE_DIR "/config/bench/busy_worker.toml", options));
+    return test::play(
+        load_scenario(SOFOF_SOURCE_DIR "/config/busy_worker.toml", options));
   }
 
   /// How many services ran at the provider at a time, at most.

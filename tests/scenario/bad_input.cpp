@@ -72,6 +72,23 @@ TEST_CASE("an unknown option is refused with the one that was meant") {
   });
 }
 
+TEST_CASE("what says nothing of a network or a failure is refused") {
+  check_all({
+      {"[network]", "[network]\nspikes = { probability = @0.1 }", {"longest"}},
+      {"[network]", "[network]\ndrift = { sd = @0.1 }", {"period"}},
+      {"[network]",
+       "[network]\n[[network.outage]]\nfrom = \"2s\"\nto = @\"1s\"",
+       {"later than from"}},
+      {"[network]",
+       "network = { profile = @\"trace\", trace = \"delays.csv\" }\n[network]",
+       {"only [network] can"}},
+      {"[network]", "returns_at = @\"9s\"\n[network]", {"fails_at"}},
+      {"[network]",
+       "fails_at = \"9s\"\nreturns_at = @\"9s\"\n[network]",
+       {"later than fails_at"}},
+  });
+}
+
 TEST_CASE("a value of the wrong type is refused") {
   check_all({
       {"seed = 7", "seed = @1.5", {"whole number", "1.5"}},
@@ -260,7 +277,7 @@ TEST_CASE("an unknown name is refused with those that are known") {
        {"\"allways\"", "CODM policy", "did you mean \"always\"?", "location",
         "never"}},
       {"name = \"location\"",
-       "name = @\"oracle\"",
+       "name = @\"orakel\"",
        {"LODM policy", "location"}},
       {"\"paper-sim\"",
        "@\"paper-7g\"",

@@ -103,6 +103,44 @@ TEST_CASE("the streets come with the scenario") {
   CHECK_FALSE(s.world->find("straight")->closed());
 }
 
+TEST_CASE("a provider may have a radio and a network of its own") {
+  const auto s = example::load(example::with(
+      "[network]", "radio = \"b\"\n[provider.network]\nprofile = \"ideal\"\n"
+                   "more_delay = \"3ms\"\n[[provider.network.outage]]\n"
+                   "from = \"1s\"\nto = \"2s\"\n\n[network]"));
+  CHECK(s.providers[0].radio.empty());
+  CHECK(s.channel_to(0) == s.network.channel);
+  CHECK(s.providers[1].radio == "b");
+  const auto& own = *s.channel_to(1);
+  CHECK(own.name == "ideal");
+  CHECK(own.more_delay == std::chrono::milliseconds{3});
+  REQUIRE(own.outages.size() == 1);
+  CHECK(own.outages[0].to == std::chrono::seconds{2});
+  CHECK(s.network.channel->outages.empty());
+  CHECK(s.profiles() == "paper-sim, ideal");
+  CHECK(example::load().profiles() == "paper-sim");
+  const auto again = example::load(to_toml(s));
+  CHECK(to_toml(again) == to_toml(s));
+  CHECK(again.channel_to(1)->outages.size() == 1);
+}
+
+TEST_CASE("fleets have computers, services have tasks") {
+  const auto s = example::load(
+      example::text, {"fleet.1.computer.clock_ghz=1.5",
+                      "service.trajectory_planning.task.input_kbit=40",
+                      "fleet.1.appear_every=10s", "provider.mec.fails_at=5min",
+                      "provider.mec.returns_at=6min"});
+  CHECK(s.fleets[0].computer.clock_ghz == 3);
+  CHECK(s.fleets[1].computer.clock_ghz == 1.5);
+  CHECK(s.services[0]->common.task.input_kbit == 40);
+  CHECK(s.services[0]->common.task.gigacycles == 0.03);
+  CHECK(s.fleets[1].appear_every == std::chrono::seconds{10});
+  CHECK(s.providers[0].fails_at == std::chrono::minutes{5});
+  CHECK(s.providers[0].returns_at == std::chrono::minutes{6});
+  CHECK_FALSE(s.providers[1].fails_at.has_value());
+  CHECK(to_toml(example::load(to_toml(s))) == to_toml(s));
+}
+
 TEST_CASE("without a provider there is nothing to offload to, but a scenario") {
   auto text = example::text;
   const auto from = text.find("[[provider]]");

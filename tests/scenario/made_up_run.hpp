@@ -31,6 +31,7 @@ inline run_info run() {
   info.provider_names = {{provider, "mec"}};
   info.kinds = {planning, "environment"};
   info.start = start;
+  info.energy = {{101, {0.5, 0.125}}, {102, {0.25, 0.125}}};
   return info;
 }
 
@@ -95,7 +96,7 @@ void play(Sink& to) {
   to.take(switched(running(101, 1), true, 10s));
   std::optional<duration> gap; // none before the first
   for (int i = 0; i < 400; ++i, gap = 50ms)
-    to.take(result(running(101, 1), static_cast<std::uint64_t>(i),
+    to.take(result(running(101, 1), 200 + static_cast<std::uint64_t>(i),
                    10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
   to.take(switched(running(101, 1), false, 30s));
   to.take(episode(running(101, 1), 10s, 30s, end_reason::left_area));
@@ -103,7 +104,7 @@ void play(Sink& to) {
                          at(30s), end_reason::left_area, false});
 
   to.take(switched(running(101, 2), true, 60s));
-  to.take(result(running(101, 2), 0, 60s, 12'345'678ns, std::nullopt));
+  to.take(result(running(101, 2), 1200, 60s, 12'345'678ns, std::nullopt));
   to.take(switched(running(101, 2), false, 65s));
   to.take(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
 
@@ -112,10 +113,10 @@ void play(Sink& to) {
   to.take(safety_record{101, 100s, 0s, 0s, 150ms});
   to.take(safety_record{102, 100s, 0s, 0s, 180ms});
   to.take(drive_record{101,
-                       {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}},
+                       {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
                        {900, {1.75, 1.5, -4}, 2, 80}});
   to.take(drive_record{102,
-                       {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}},
+                       {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
                        {800.5, {1, 2, -2.5}, 0, 20.5}});
   to.take(plan_switch_record{
       at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});

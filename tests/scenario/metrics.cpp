@@ -107,6 +107,70 @@ TEST_CASE("a hand-over to the next provider leaves its episode open") {
   CHECK(m.headline().t_off_s.sum() == doctest::Approx(15));
 }
 
+TEST_CASE("who goes straight to the next provider is handed over, who was "
+          "local between is not") {
+  auto next = running(101);
+  next.provider = 2;
+  metrics m{run()};
+  m.take(switched(running(101), true, 10s));
+  m.take(switched(next, true, 20s));
+  CHECK(m.headline().hand_overs == 1);
+  m.take(switched(next, false, 30s));
+  m.take(switched(running(101), true, 40s));
+  CHECK(m.headline().hand_overs == 1);
+  CHECK(m.headline().ping_pongs == 0);
+}
+
+TEST_CASE("who is remote again within five seconds of leaving has gone in "
+          "vain") {
+  metrics m{run()};
+  m.take(switched(running(101), true, 10s));
+  m.take(switched(running(101), false, 20s));
+  SUBCASE("back in time") {
+    m.take(switched(running(101, 2), true, 25s));
+    CHECK(m.headline().ping_pongs == 1);
+  }
+  SUBCASE("at another provider") {
+    auto next = running(101, 2);
+    next.provider = 2;
+    m.take(switched(next, true, 21s));
+    CHECK(m.headline().ping_pongs == 1);
+  }
+  SUBCASE("too late to count") {
+    m.take(switched(running(101, 2), true, 25s + 1ns));
+    CHECK(m.headline().ping_pongs == 0);
+  }
+  SUBCASE("somebody else") {
+    m.take(switched(running(102), true, 21s));
+    CHECK(m.headline().ping_pongs == 0);
+  }
+}
+
+TEST_CASE("a hand-over is in vain if the next one goes back") {
+  auto next = running(101);
+  next.provider = 2;
+  metrics m{run()};
+  m.take(switched(running(101), true, 10s));
+  m.take(switched(next, true, 20s));
+  CHECK(m.headline().ping_pongs == 0);
+  m.take(switched(running(101, 2), true, 23s));
+  CHECK(m.headline().ping_pongs == 1);
+  CHECK(m.headline().hand_overs == 2);
+}
+
+TEST_CASE("fairness is one when all are offloaded alike, 1/n for one alone") {
+  metrics m{run()};
+  CHECK_FALSE(m.headline().fairness(2));
+  m.take(episode(running(101), 10s, 30s, end_reason::left_area));
+  CHECK(m.headline().fairness(2) == doctest::Approx(0.5));
+  m.take(episode(running(102), 10s, 20s, end_reason::left_area));
+  CHECK(m.headline().fairness(2) == doctest::Approx(0.9)); // 30² / (2 · 500)
+  m.take(switched(running(102, 2), true, 40s));
+  m.finish(at(50s));
+  CHECK(m.headline().fairness(2) == doctest::Approx(1));
+  CHECK_FALSE(m.headline().fairness(0));
+}
+
 TEST_CASE("results without an inter-arrival time are not counted as zero") {
   metrics m{run()};
   m.take(result(running(101, 1), 0, 1s, 9ms, std::nullopt));
@@ -171,6 +235,43 @@ TEST_CASE("a vehicle's figures are those of all its records") {
   CHECK(x.plans.count == 60);
   CHECK(x.ride.distance_m == 30);
   CHECK(x.ride.hard_brakes == 3);
+}
+
+TEST_CASE("cycles are paid for where they were computed") {
+  metrics m{run()};
+  m.take(drive_record{101, {.count = 3, .on_board = 3}, {}});
+  m.take(drive_record{102, {.count = 8, .on_board = 4}, {}});
+  m.take(result(running(102), 100, 5s, 10ms, {}));
+  m.take(result(running(102), 101, 5s, 10ms, {}));
+  const auto x = m.cycles(102);
+  CHECK(x.on_board == 4);
+  CHECK(x.offloaded == 2);
+  CHECK(x.on_board_j == 4 * 0.25);
+  CHECK(x.offloaded_j == 2 * 0.125);
+  CHECK(x.all_on_board_j == 6 * 0.25);
+  CHECK(x.saved_share() == doctest::Approx(1 - 1.25 / 1.5));
+  CHECK(x.offloaded_share() == doctest::Approx(2. / 6));
+  CHECK(m.cycles().energy_j() == 3 * 0.5 + 1.25);
+  CHECK(m.cycles(101).saved_share() == 0.);
+}
+
+TEST_CASE("a cycle that two providers compute is sent twice, and is one") {
+  metrics m{run()};
+  auto other = running(101, 2);
+  other.provider = 7;
+  for (std::uint64_t cycle = 1; cycle <= 10; ++cycle) {
+    m.take(result(running(101, 1), cycle, 5s, 10ms, {}));
+    m.take(result(other, cycle, 5s, 12ms, {}));
+  }
+  CHECK(m.cycles(101).offloaded == 10);
+  CHECK(m.cycles(101).offloaded_j == 20 * 0.125);
+}
+
+TEST_CASE("only cycles of the headline service are counted") {
+  metrics m{run()};
+  m.take(result(running(101, 1, "environment"), 1, 5s, 10ms, {}));
+  CHECK(m.cycles().offloaded == 0);
+  CHECK_FALSE(m.cycles().saved_share().has_value());
 }
 
 TEST_CASE("a touch counts once for the run and once for either vehicle") {
@@ -278,6 +379,16 @@ TEST_CASE("beyond the histogram a quantile is the maximum") {
   d.add(distribution::span + 1s);
   CHECK(d.quantile_ms(0.5) == doctest::Approx(2));
   CHECK(d.quantile_ms(0.99) == doctest::Approx(11'000));
+}
+
+TEST_CASE("a finer histogram tells shorter durations apart") {
+  distribution d{100ns, 1ms};
+  for (const auto ns : {130, 140, 250, 900})
+    d.add(std::chrono::nanoseconds{ns});
+  CHECK(d.quantile_ms(0.5) == doctest::Approx(200e-6));
+  CHECK(d.quantile_ms(0.75) == doctest::Approx(300e-6));
+  d.add(2ms);
+  CHECK(d.quantile_ms(1) == doctest::Approx(2));
 }
 
 TEST_CASE("clocks that differ may make a latency negative") {

@@ -40,6 +40,23 @@ TEST_CASE("every vehicle has its station and its route in turn") {
   CHECK(placed[7].fleet == 1);
 }
 
+TEST_CASE("vehicles appear one after another") {
+  const auto placed =
+      place_vehicles(with_fleet({.count = 3,
+                                 .appears_at = std::chrono::seconds{5},
+                                 .appear_every = std::chrono::seconds{20}}));
+  CHECK(placed[0].appears == std::chrono::seconds{5});
+  CHECK(placed[2].appears == std::chrono::seconds{45});
+}
+
+TEST_CASE("who appears later may start where others do") {
+  const fleet_options there{.count = 2, .placement = "convoy", .spacing_m = 0};
+  CHECK(find_too_near(place_vehicles(with_fleet(there))));
+  auto later = there;
+  later.appear_every = std::chrono::seconds{1};
+  CHECK_FALSE(find_too_near(place_vehicles(with_fleet(later))));
+}
+
 TEST_CASE("equal vehicles share a closed route evenly") {
   const auto length_m = example::load().world->find("round_trip")->length_m();
   const auto starts = starts_of(

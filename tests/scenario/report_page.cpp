@@ -121,6 +121,22 @@ TEST_CASE("no numbers, gaps, and numbers of any size can be packed") {
   }
 }
 
+TEST_CASE("dots with names stand in their page as they are") {
+  const document what{
+      "",
+      "",
+      {{"Plane",
+        {scatter{
+            "t", "x", "y", {{"a", 1, 2.5}, {"b", 0, 0, true}}, {1, 0}, "c"}}}}};
+  const auto block = document_in(html(what))["sections"][0]["blocks"][0];
+  CHECK(block["kind"] == "scatter");
+  CHECK(block["x_label"] == "x");
+  CHECK(block["dots"][0]["name"] == "a");
+  CHECK(block["dots"][0]["y"] == 2.5);
+  CHECK(block["dots"][1]["hollow"] == true);
+  CHECK(block["joined"] == json{1, 0});
+}
+
 TEST_CASE("a document stands in its page as it is") {
   const document what{
       "A title",

@@ -129,7 +129,12 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["t_off_s"]["mean"] == doctest::Approx(35. / 3).epsilon(1e-6));
   CHECK(s["offloaded_share"] == doctest::Approx(0.175));
   CHECK(s["latency_ms"]["p50"] == 10);
+  CHECK(s["latency_ms"]["p95"] == 12);
   CHECK(s["latency_ms"]["max"] == 12.345678);
+  CHECK(s["hand_overs"] == 0);
+  CHECK(s["ping_pongs"] == 0);
+  CHECK(s["fairness"] == doctest::Approx(35. * 35 / 2 / 725).epsilon(1e-6));
+  CHECK(s["services"]["environment"]["fairness"].is_null());
   CHECK(s["interarrival_ms"]["mean"] == 50);
   CHECK(s["safety"]["without_fresh_plan_s"] == 0);
   CHECK(s["safety"]["max_plan_age_s"] == 0.18);
@@ -146,6 +151,15 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["driving"]["max_lateral_accel_mps2"] == 1.75);
   CHECK(s["driving"]["max_jerk_mps3"] == 2);
   CHECK(s["driving"]["min_accel_mps2"] == -4);
+  CHECK(s["cycles"]["on_board"] == 2600);
+  CHECK(s["cycles"]["offloaded"] == 401);
+  CHECK(s["energy"]["j"] == 1100.125);
+  CHECK(s["energy"]["local_j"] == 1050);
+  CHECK(s["energy"]["offloading_j"] == 50.125);
+  CHECK(s["energy"]["all_on_board_j"] == 1250.5);
+  CHECK(s["energy"]["saved_share"]
+        == doctest::Approx(1 - 1100.125 / 1250.5).epsilon(1e-5));
+  CHECK(s["energy"]["per_km_j"] == doctest::Approx(1100.125 / 1.7005));
   CHECK(s["driving"]["hard_brakes"] == 2);
   CHECK(s["driving"]["comfort_cost_m2ps3"] == 100.5);
   CHECK(s["switch"]["count"] == 2);
@@ -242,14 +256,17 @@ TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
            "collisions,max_plan_age_ms,plans,emergency_plans,kept_plans,"
            "stop_plans,imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
            "max_lateral_accel_mps2,hard_brakes,"
-           "comfort_cost_m2ps3");
+           "comfort_cost_m2ps3,on_board_cycles,offloaded_cycles,energy_j,"
+           "all_on_board_j");
   CHECK(all[1].starts_with("9,"));
   CHECK(all[2]
         == "101,100.000000000,900.000,0.000000000,0.000000000,1,150.000000,"
-           "2000,3,4,2,6,1,-4.000000,1.500000,1.750000,2,80.000000");
+           "2000,3,4,2,6,1,-4.000000,1.500000,1.750000,2,80.000000,"
+           "1600,401,850.125000,1000.500000");
   CHECK(all[3]
         == "102,100.000000000,800.500,0.000000000,0.000000000,0,180.000000,"
-           "1000,0,1,0,1,0,-2.500000,2.000000,1.000000,0,20.500000");
+           "1000,0,1,0,1,0,-2.500000,2.000000,1.000000,0,20.500000,"
+           "1000,0,250.000000,250.000000");
 }
 
 TEST_CASE("a switch of plans is an event with its jumps") {
@@ -369,6 +386,9 @@ TEST_CASE("a run without any record has a summary full of nulls") {
   const auto s = summary_in(dir.path());
   CHECK(s["virtual_s"] == 0);
   CHECK(s["offloaded_share"].is_null());
+  CHECK(s["cycles"]["offloaded_share"].is_null());
+  CHECK(s["energy"]["j"].is_null());
+  CHECK(s["energy"]["saved_share"].is_null());
   CHECK(s["latency_ms"]["p99"].is_null());
   CHECK(s["safety"]["max_plan_age_s"].is_null());
   CHECK(s["plans"]["count"] == 0);

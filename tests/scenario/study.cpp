@@ -139,10 +139,12 @@ TEST_CASE("a report as text has tables, and figures with few points as such") {
   d.sections.push_back(
       {"Section",
        {report::paragraph{"Words."},
-        report::table{"T", {"a", "b|c"}, {{"1", "2"}}, "Note."}, f}});
+        report::table{"T", {"a", "b|c"}, {{"1", "2"}}, "Note."}, f,
+        report::scatter{"Plane", "x", "y", {{"dot", 1, 2.5}}, {}, "Said."}}});
   CHECK(report::markdown(d)
         == "# Title\nSub\n\n## Section\n\nWords.\n\n**T**\n\n| a | b\\|c |\n"
            "| --- | --- |\n| 1 | 2 |\n\nNote.\n\n**Few (y)**\n\n"
            "| x | one | two |\n| --- | --- | --- |\n| 1 | 0.5 |  |\n"
-           "| 2 |  | 3 |\n");
+           "| 2 |  | 3 |\n\n**Plane**\n\n|  | x | y |\n"
+           "| --- | --- | --- |\n| dot | 1 | 2.5 |\n\nSaid.\n");
 }

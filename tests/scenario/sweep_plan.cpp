@@ -171,6 +171,17 @@ profile = "ideal"
   CHECK_FALSE(refused(with("[[axis]]\nkey = 'fleet'\nvalues = [3]\n")).empty());
 }
 
+TEST_CASE("the values of an axis may be tables") {
+  const auto plan = parsed(text + R"(
+[[axis]]
+key = "policies.codm"
+values = ["never", { name = "edf", test = "demand" }]
+)");
+  CHECK(plan.axes.back().values.back().given
+        == std::vector<std::string>{
+            R"(policies.codm={ name = "edf", test = "demand" })"});
+}
+
 TEST_CASE("an axis has either values of one option or values by name") {
   CHECK(error_of(changed("name = \"way\"", "name = \"way\"\nkey = \"seed\""))
             .find("there is no option \"key\"")

@@ -161,6 +161,14 @@ TEST_CASE("the table says how the ride felt") {
   CHECK_FALSE(contains(table_of(metrics{run()}), "comfort"));
 }
 
+TEST_CASE("the table says what planning took and what offloading saved") {
+  const auto text = table_of(played());
+  CHECK(contains(line_of(text, "all together"), " 1100.1 J"));
+  CHECK(contains(line_of(text, "per km"), " 646.9 J"));
+  CHECK(contains(line_of(text, "saved by offloading"), " 12.0 %"));
+  CHECK_FALSE(contains(table_of(metrics{run()}), "energy"));
+}
+
 TEST_CASE("nobody is called safe whose driving was not recorded") {
   const metrics m{run()};
   CHECK(contains(table_of(m), "not recorded"));

@@ -154,6 +154,53 @@ TEST_CASE("a smaller area makes shorter offloadings") {
   CHECK(longest < 40s); // of about 220 m; 300 m round it take about 70 s
 }
 
+TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
+          "come again") {
+  const auto records =
+      drive({"duration=200s", "fleet.0.count=4", "provider.0.fails_at=60s",
+             "provider.0.returns_at=90s", "provider.0.area_radius_m=2000",
+             "policies.lodm=always", "policies.codm=always",
+             "service.0.planner.name=lane_follow"});
+  check_safety(records);
+  std::set<boot_id> boots;
+  auto lost = 0;
+  for (const auto& e : records.episodes) {
+    if (e.of != side::requester)
+      continue;
+    boots.insert(e.running.provider);
+    if (e.reason != end_reason::peer_lost)
+      continue;
+    ++lost;
+    CHECK(e.fallback);
+    CHECK(e.ended == time_point{60s});
+  }
+  CHECK(lost == 8); // either service of each vehicle
+  CHECK(boots == std::set<boot_id>{boot_of(1, 0), boot_of(1, 1)});
+  for (const auto& c : records.cycles) {
+    const auto t = c.received.time_since_epoch();
+    CHECK((t <= 60s || t >= 90s));
+    CHECK((c.running.provider == boot_of(1, 0)) == (t <= 60s));
+  }
+}
+
+TEST_CASE("vehicles appear over time, and never on each other") {
+  const auto s = load_scenario(
+      ulm_lehr,
+      std::vector<std::string>{
+          "duration=120s", "fleet.0.count=12", "fleet.0.placement=convoy",
+          "fleet.0.spacing_m=0", "fleet.0.start_m=100",
+          "fleet.0.appear_every=5s", "service.0.planner.name=lane_follow"});
+  const auto records = play(s);
+  check_safety(records);
+  std::map<station_id, time_point> appeared;
+  for (const auto& e : records.events)
+    if (e.what == "appeared")
+      appeared[e.station] = e.at;
+  CHECK(appeared.size() == 11); // but for the first, who is there
+  for (const auto& [station, at] : appeared)
+    CHECK(at >= time_point{(station - 101) * 5s});
+}
+
 TEST_CASE("an obstacle of a scenario stands on its road") {
   auto s = load_scenario(ulm_lehr, std::vector<std::string>{"duration=1s"});
   REQUIRE(play(s).collisions.empty());

@@ -9,18 +9,33 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace sofof::test {
 
-class option_list final : public settings {
+/// What to set, by key; nested ones "a.b".
+struct option_values {
+  std::map<std::string, double, std::less<>> numbers{};
+  std::map<std::string, duration, std::less<>> times{};
+  std::map<std::string, std::string, std::less<>> texts{};
+  std::map<std::string, bool, std::less<>> flags{};
+  /// Of lists of tables; the k-th table of "a" is "a.k".
+  std::map<std::string, std::size_t, std::less<>> lengths{};
+};
+
+class option_list final : public settings, public option_values {
 public:
-  std::map<std::string, double, std::less<>> numbers;    ///< To set, by key.
-  std::map<std::string, duration, std::less<>> times;    ///< Likewise.
-  std::map<std::string, std::string, std::less<>> texts; ///< Likewise.
+  option_list() = default;
+  explicit option_list(option_values values)
+      : option_values{std::move(values)} {}
+
   std::set<std::string, std::less<>> names;   ///< Found; nested ones "a.b".
   std::set<std::string, std::less<>> refused; ///< Keys of refused values.
 
-  void field(std::string_view key, bool&) override { found(key); }
+  void field(std::string_view key, bool& value) override {
+    found(key);
+    set(flags, key, value);
+  }
   void field(std::string_view key, double& value, range r) override {
     found(key);
     set(numbers, key, value);
@@ -55,9 +70,15 @@ public:
     list(*this);
     prefix_ = outer;
   }
-  void tables(std::string_view key, std::size_t,
-              const std::function<void(std::size_t, settings&)>&) override {
+  void
+  tables(std::string_view key, std::size_t,
+         const std::function<void(std::size_t, settings&)>& list) override {
     found(key);
+    std::size_t length = 0;
+    set(lengths, key, length);
+    for (std::size_t k = 0; k < length; ++k)
+      table(std::string{key} + '.' + std::to_string(k),
+            [&](settings& s) { list(k, s); });
   }
   void refuse(std::string_view key, const std::string& why) override {
     CHECK(!why.empty());

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 using namespace sofof;
@@ -222,11 +223,31 @@ TEST_CASE("waypoints go on to the end of an open route and stop there") {
 
 TEST_CASE("near a lane means within the tolerance of its centre line") {
   const auto map = village();
-  CHECK(map.near_lane({20, 0}, 0.1));
-  CHECK(map.near_lane({20, -2}, 2.1));
-  CHECK_FALSE(map.near_lane({20, -2}, 1.9));
-  CHECK(map.near_lane({50, -40}, 0.1));
-  CHECK_FALSE(map.near_lane({30, -30}, 10));
-  CHECK(map.near_lane({30, -30}, 20.5));
-  CHECK_FALSE(road_map{}.near_lane({0, 0}, 100));
+  const auto is_near = [](const road_map& m, point p, double tolerance_m) {
+    return m.near_lanes({&p, 1}, tolerance_m);
+  };
+  CHECK(is_near(map, {20, 0}, 0.1));
+  CHECK(is_near(map, {20, -2}, 2.1));
+  CHECK_FALSE(is_near(map, {20, -2}, 1.9));
+  CHECK(is_near(map, {50, -40}, 0.1));
+  CHECK_FALSE(is_near(map, {30, -30}, 10));
+  CHECK(is_near(map, {30, -30}, 20.5));
+  CHECK_FALSE(is_near(road_map{}, {0, 0}, 100));
+}
+
+TEST_CASE("a way is near lanes when each of its points is") {
+  const auto map = village();
+  const auto way =
+      map.make_route("way", names{"south", "turn", "east_c"}, false)
+          ->waypoints(0, 300, 5);
+  CHECK(map.near_lanes(way, 0.1));
+  CHECK(map.near_lanes({}, 0.1));
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    auto off = way;
+    off[i] = off[i] + point{300, 300};
+    CHECK_FALSE(map.near_lanes(off, 10));
+    off[i].x_m = std::nan("");
+    CHECK_FALSE(map.near_lanes(off, 10));
+  }
+  CHECK(map.near_lanes(std::vector<point>{way.rbegin(), way.rend()}, 0.1));
 }

@@ -242,7 +242,7 @@ TEST_CASE("houses stand off the road") {
         CHECK_FALSE(walls.contains(here.at));
       });
     for (const auto& corner : house.corners)
-      CHECK_FALSE(lehr().map.near_lane(corner, 4));
+      CHECK_FALSE(lehr().map.near_lanes({&corner, 1}, 4));
   }
 }
 

@@ -1,6 +1,7 @@
 // Header, contents, sections.
 import { figure_block } from "./blocks/figure.js";
 import { listing_block } from "./blocks/listing.js";
+import { scatter_block } from "./blocks/scatter.js";
 import { table_block } from "./blocks/table.js";
 import { player } from "./drive/player.js";
 import { element, marked_up } from "./element.js";
@@ -11,6 +12,7 @@ const paragraph_block = (block) => element("p", {}, ...marked_up(block.text));
 const single_blocks = {
   paragraph: paragraph_block,
   listing: listing_block,
+  scatter: scatter_block,
 };
 
 /// Narrow tables stand beside each other.

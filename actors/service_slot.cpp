@@ -1,0 +1,98 @@
+// One kind of service in a vehicle: who runs it elsewhere, and who may.
+#include "actors/service_slot.hpp"
+
+#include "world/protocol.hpp"
+
+#include <algorithm>
+
+namespace sofof {
+
+bool known_provider::offers(std::string_view kind) const {
+  return std::ranges::find(offer.kinds, kind) != offer.kinds.end();
+}
+
+offloading* service_slot::find(boot_id provider) {
+  const auto i = std::ranges::find(elsewhere, provider, &offloading::provider);
+  return i == elsewhere.end() ? nullptr : &*i;
+}
+
+void service_slot::drop(boot_id provider) {
+  std::erase_if(elsewhere, [provider](const offloading& x) {
+    return x.provider == provider;
+  });
+}
+
+bool service_slot::wants(boot_id provider) const {
+  return std::ranges::find(wanted, provider) != wanted.end();
+}
+
+bool service_slot::is_moving() const {
+  return std::ranges::any_of(
+      elsewhere, [](const offloading& x) { return x.at != phase::remote; });
+}
+
+bool service_slot::is_remote() const {
+  return std::ranges::find(elsewhere, phase::remote, &offloading::at)
+         != elsewhere.end();
+}
+
+boot_id service_slot::current() const {
+  const auto i = std::ranges::find(elsewhere, phase::remote, &offloading::at);
+  return i == elsewhere.end() ? 0 : i->provider;
+}
+
+service_needs service_slot::needs() const {
+  const auto& common = kind->common;
+  return {common.period, common.limits.max_latency,
+          common.limits.max_interarrival};
+}
+
+duration service_slot::computing(const service_offer& offer) const {
+  return from_seconds(to_seconds(offer.computing) * kind->common.demand);
+}
+
+link_estimator& service_slot::link_of(boot_id provider) {
+  return links
+      .try_emplace(provider,
+                   link_estimator_options{.period = kind->common.period})
+      .first->second;
+}
+
+bool service_slot::may_ask(const known_provider& provider,
+                           time_point now) const {
+  const auto cool = cool_until.find(provider.offer.provider);
+  const auto cools = cool != cool_until.end() && now < cool->second;
+  const auto is_old = now - provider.offered_at > protocol::offer_validity;
+  return provider.offers(kind->name()) && !is_old && !cools
+         && !provider.open_request;
+}
+
+provider_view service_slot::view_of(const known_provider& provider,
+                                    time_point now) {
+  const auto& offer = provider.offer;
+  const auto& limits = kind->common.limits;
+  const auto& link = link_of(offer.provider);
+  return {.id = offer.provider,
+          .at = offer.position,
+          .utilisation = std::max(0.0, offer.utilisation),
+          .workers = offer.workers,
+          .computing_s = to_seconds(computing(offer)),
+          .link = {link.late_probability(limits.max_latency, now),
+                   link.gap_probability(limits.max_interarrival, now),
+                   link.latency_quantile(0.5), link.latency_quantile(0.99)},
+          .cost = offloaded};
+}
+
+bool is_fallback(end_reason reason) {
+  switch (reason) {
+    case end_reason::left_area:
+    case end_reason::handed_over:
+    case end_reason::released:
+    case end_reason::shutdown:
+      return false;
+    default:
+      return true;
+  }
+}
+
+} // namespace sofof

@@ -1,0 +1,76 @@
+// One kind of service in a vehicle: who runs it elsewhere, and who may.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "messages/type_ids.hpp"
+#include "policies/context.hpp"
+#include "policies/link/link_estimator.hpp"
+#include "world/cycle_cost.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// A provider that a station has heard of.
+struct known_provider {
+  provider_actor handle;
+  std::optional<std::uint32_t> open_request;
+  std::optional<time_point>
+      last_complaint;  ///< About results of unknown running services.
+  service_offer offer; ///< The latest, without what was asked for since.
+  time_point offered_at;
+
+  bool offers(std::string_view kind) const;
+};
+
+enum class phase { requested, starting, remote };
+
+/// A provider that runs a service, or is asked to.
+struct offloading {
+  boot_id provider = 0;
+  phase at = phase::requested;
+  running_service running; ///< From acceptance on.
+  time_point accepted;
+  time_point first_data;
+  bool joined = false; ///< One that ran already.
+};
+
+/// What the requester remembers of one kind of service.
+struct service_slot {
+  service_kind_ptr kind;
+  requester_manager_actor manager;
+  cycle_cost on_board;
+  cycle_cost offloaded;              ///< Time: of the way there alone.
+  std::vector<offloading> elsewhere; ///< The oldest first; empty: it is local.
+  std::vector<boot_id> wanted;       ///< Who shall run it.
+  time_point since;                  ///< It has been where it is.
+  std::map<boot_id, time_point> cool_until;
+  std::map<boot_id, link_estimator> links; ///< By what came from there.
+
+  /// @returns null for a provider that neither runs it nor is asked to.
+  offloading* find(boot_id provider);
+  void drop(boot_id provider);
+
+  bool wants(boot_id provider) const;
+  bool is_moving() const; ///< Whether an answer or first data is awaited.
+  bool is_remote() const;
+  /// @returns the provider that has run it for longest; 0: it is local.
+  boot_id current() const;
+
+  service_needs needs() const;
+  /// @returns how long a provider computes a result of it.
+  duration computing(const service_offer& offer) const;
+  link_estimator& link_of(boot_id provider);
+  /// Whether its offer holds, and nothing speaks against asking.
+  bool may_ask(const known_provider& provider, time_point now) const;
+  provider_view view_of(const known_provider& provider, time_point now);
+};
+
+/// @returns whether a service that ends so comes home unplanned.
+bool is_fallback(end_reason reason);
+
+} // namespace sofof

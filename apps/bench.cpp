@@ -1,0 +1,98 @@
+// sofof bench: every policy in every scenario, ranked.
+#include "scenario/bench/bench.hpp"
+
+#include "apps/command.hpp"
+#include "apps/signals.hpp"
+#include "apps/sweep_arguments.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+constexpr auto usual_entrants = "config/policies.toml";
+
+struct bench_arguments {
+  std::vector<std::string> files;
+  std::string policies = "all";
+  std::string entrants;
+  std::vector<std::string> set; ///< KEY=VALUE, in the order given.
+  std::size_t seeds = 3;
+  sweep_arguments runs;
+
+  /// @returns the plain ones, and those of the file.
+  std::vector<bench::entrant> known() const {
+    auto all = bench::plain_entrants();
+    const std::filesystem::path file =
+        entrants.empty() ? usual_entrants : entrants;
+    if (!entrants.empty() || std::filesystem::exists(file))
+      std::ranges::move(bench::load_entrants(file), std::back_inserter(all));
+    return all;
+  }
+
+  int obey() const {
+    bench::bench_options what;
+    what.scenarios.assign(files.begin(), files.end());
+    what.entrants = bench::chosen_from(known(), policies);
+    what.set = set;
+    what.seeds = seeds;
+    what.runs = runs.given("bench");
+    what.colour = isatty(STDOUT_FILENO) != 0;
+    const auto outcome = bench::bench(what, interrupted, std::cout);
+    if (outcome.interrupted) {
+      std::cout << "interrupted; the same command goes on from here\n";
+      return static_cast<int>(run_outcome::interrupted);
+    }
+    std::cout << "report in " << (what.runs.out / "report.html").string()
+              << '\n';
+    return static_cast<int>(outcome.all_good ? run_outcome::good
+                                             : run_outcome::unsafe);
+  }
+};
+
+} // namespace
+
+void add_bench(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "bench", "Rank policies: every one in every scenario, the same noise");
+  auto args = std::make_shared<bench_arguments>();
+  command->add_option("FILES", args->files, "Scenario files (TOML)")
+      ->required()
+      ->type_name(" ");
+  command
+      ->add_option("--policies", args->policies,
+                   "Who takes part, see docs/bench.md (default all)")
+      ->type_name("NAME,...");
+  command
+      ->add_option("--entrants", args->entrants,
+                   "File with entrants beside the plain policies (default "
+                   "config/policies.toml, if it is there)")
+      ->type_name("FILE");
+  command
+      ->add_option("--seeds", args->seeds,
+                   "How many runs of each, with seeds from 1 on (default 3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  args->runs.add_to(*command);
+  command
+      ->add_option("--set", args->set,
+                   "Change an option of the scenarios in all runs")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->footer("Example:\n  sofof bench config/bench/*.toml --policies "
+                  "location,nearest --seeds 5");
+  command->callback([args, &exit_code] {
+    catch_signals();
+    exit_code = args->obey();
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,82 @@
+// CODM "assignment": the best for all who ask and all who are served.
+#include "policies/assignment/branch_and_bound.hpp"
+#include "policies/assignment/central.hpp"
+#include "policies/assignment/greedy_regret.hpp"
+#include "policies/assignment/min_cost_flow.hpp"
+#include "policies/entry.hpp"
+#include "world/spelling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace sofof {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> solvers{"auto", "branch_and_bound",
+                                                  "greedy_regret"};
+
+/// Source: see policies/assignment; Tran & Pompili 2019 for the setting.
+class best_assignment final : public central_policy {
+public:
+  std::vector<central_decision>
+  decide(const central_context& context) override {
+    const auto asked = assignment::problem_of(context, options_);
+    return decisions_of(context, asked, solve(asked.what));
+  }
+  void fields(settings& s) override;
+  double epoch_s() const override { return options_.epoch_s; }
+  std::string_view name() const override { return "assignment"; }
+  std::unique_ptr<central_policy> clone() const override {
+    return std::make_unique<best_assignment>(*this);
+  }
+
+private:
+  assignment::solution solve(const assignment::problem& p) const;
+
+  assignment::assignment_options options_;
+  std::string solver_ = "auto";
+  std::int64_t nodes_ = 200'000; // of a search, at most
+};
+
+assignment::solution
+best_assignment::solve(const assignment::problem& p) const {
+  if (solver_ == "greedy_regret")
+    return greedy_regret(p);
+  if (solver_ == "auto")
+    if (auto flow = min_cost_flow(p))
+      return *flow;
+  return branch_and_bound(p, nodes_).best;
+}
+
+void best_assignment::fields(settings& s) {
+  options_.fields(s);
+  s.field("solver", solver_);
+  if (std::ranges::find(solvers, solver_) == solvers.end())
+    s.refuse("solver", unknown_word("solver", solver_, solvers));
+  s.field("nodes", nodes_, {0, 1e9});
+}
+
+} // namespace
+
+codm_entry codm_assignment() {
+  return {{"assignment",
+           "Serves those who together win most by it, and tells others whom "
+           "to ask.",
+           "max sum g_ij x_ij - price (changes of x), with sum_i x_ij <= 1 and "
+           "sum_j u_j x_ij <= U_i; here U = 2 w / (S + 2 w) for a mean wait w "
+           "(M/D/1, service time S)",
+           "the gains that vehicles tell with requests, what runs, computing "
+           "times, how busy other providers are",
+           "Tran & Pompili, TVT 68(1), 2019; Martello & Toth 1990; Fisher 1981",
+           {{"epoch_s", "s", "that requests wait for each other"},
+            {"price", "1", "of a change, in units of gains"},
+            {"wait", "time", "for a worker that a result may have in the mean"},
+            {"solver", "\"auto\", \"branch_and_bound\" or \"greedy_regret\"",
+             "that seeks the best"},
+            {"nodes", "1", "partial assignments that a search looks at"}}},
+          behind_codm_filter<best_assignment>};
+}
+
+} // namespace sofof

@@ -1,0 +1,96 @@
+// LODM "alto": learns which provider is quickest.
+#include "policies/learning/alto.hpp"
+
+#include "policies/entry.hpp"
+#include "policies/learning/trying.hpp"
+
+#include <algorithm>
+
+namespace sofof {
+
+namespace {
+
+/// The providers that come into question. There is no arm for the vehicle: it
+/// is quicker than any of them, and what ALTO learns is delay.
+class quickest final : public arms {
+public:
+  quickest(const alto_options& options, double task_bits)
+      : bandit_{options}, task_bits_{task_bits},
+        worst_s_{options.worst_delay_s_per_bit * task_bits} {}
+
+  std::optional<boot_id> choose(const local_context& context) override {
+    std::vector<boot_id> present;
+    for (const auto& provider : context.providers)
+      present.push_back(provider.id);
+    return bandit_.choose(task_bits_, present);
+  }
+  std::optional<double> value(const cycle_outcome& outcome,
+                              boot_id place) const override {
+    if (outcome.provider != place)
+      return std::nullopt;
+    return std::min(outcome.latency_s, worst_s_); // what is lost as well
+  }
+  void learn(boot_id place, std::optional<double> mean) override {
+    bandit_.learn(place, task_bits_, mean.value_or(worst_s_));
+  }
+  std::string snapshot() const override { return bandit_.snapshot(); }
+  std::optional<std::string> restore(std::string_view text) override {
+    return bandit_.restore(text);
+  }
+  std::unique_ptr<arms> clone() const override {
+    return std::make_unique<quickest>(*this);
+  }
+
+private:
+  alto bandit_;
+  double task_bits_;
+  double worst_s_;
+};
+
+class alto_lodm final : public trying_lodm {
+public:
+  void fields(settings& s) override {
+    trying_lodm::fields(s);
+    s.field("beta", beta_, {0, 1e3});
+    s.field("task_bits", task_bits_, {1, 1e12});
+    s.field("worst_delay", worst_delay_, std::chrono::microseconds{1});
+  }
+  std::string_view name() const override { return "alto"; }
+  std::unique_ptr<local_policy> clone() const override {
+    return std::make_unique<alto_lodm>(*this);
+  }
+
+private:
+  std::unique_ptr<arms> make_arms() const override {
+    alto_options options;
+    options.beta = beta_;
+    options.worst_delay_s_per_bit = to_seconds(worst_delay_) / task_bits_;
+    return std::make_unique<quickest>(options, task_bits_);
+  }
+
+  double beta_ = alto_options{}.beta;
+  double task_bits_ = 160e3;
+  duration worst_delay_ = std::chrono::milliseconds{50};
+};
+
+} // namespace
+
+lodm_entry lodm_alto() {
+  return {
+      {"alto", "Learns which provider is quickest, where they come and go.",
+       "min u - sqrt(beta (1 - x) ln(t - a) / k); u mean delay in k trials, "
+       "in parts of the worst, a the trial when the provider appeared, x "
+       "size of the task",
+       "the latency of what came from each provider; who refuses counts as "
+       "the worst",
+       "Sun et al., IEEE TVT 68(4), 2019",
+       trials_and({{"beta", "1", "weight of trying out"},
+                   {"task_bits", "bit",
+                    "input of a cycle; 80e3 try out most, from 320e3 on "
+                    "nothing is tried out"},
+                   {"worst_delay", "time",
+                    "of such a task; what is lost counts as this"}})},
+      behind_lodm_filter<alto_lodm>};
+}
+
+} // namespace sofof

@@ -1,0 +1,124 @@
+// LODM "ucb1": tries what is promising or little known.
+#include "policies/learning/ucb1.hpp"
+
+#include "policies/entry.hpp"
+#include "policies/learning/state_text.hpp"
+#include "policies/learning/trying.hpp"
+#include "policies/weights.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+constexpr std::size_t most_arms = 32;
+
+/// The vehicle itself is an arm, and every provider that it has met, up to 31.
+/// A cycle is worth 1 − K, at least 0.
+class places final : public arms {
+public:
+  explicit places(const cost_weights& weights) : weights_{weights} {}
+
+  std::optional<boot_id> choose(const local_context& context) override {
+    needs_ = context.needs;
+    reference_j_ = context.on_board.energy_j;
+    action_set allowed{1}; // on board
+    for (const auto& provider : context.providers)
+      if (const auto place = arm_of(provider.id); place < most_arms)
+        allowed.set(place);
+    const auto chosen = bandit_.choose(allowed);
+    return chosen ? std::optional{known_[*chosen]} : std::nullopt;
+  }
+  std::optional<double> value(const cycle_outcome& outcome,
+                              boot_id) const override {
+    const auto cost =
+        weighed({outcome.latency_s, outcome.energy_j}, outcome.missed ? 1 : 0,
+                needs_, reference_j_, weights_);
+    return cost < 1 ? 1 - cost : 0; // also when it is no number
+  }
+  void learn(boot_id place, std::optional<double> mean) override {
+    if (place == 0 && !mean)
+      return;
+    if (const auto arm = arm_of(place); arm < most_arms)
+      bandit_.learn(arm, mean.value_or(0));
+  }
+
+  std::string snapshot() const override {
+    state_writer out{"places", 1};
+    out.word("providers").count(known_.size() - 1);
+    for (std::size_t k = 1; k < known_.size(); ++k)
+      out.count(known_[k]);
+    return out.text() + bandit_.snapshot();
+  }
+  std::optional<std::string> restore(std::string_view text) override;
+  std::unique_ptr<arms> clone() const override {
+    return std::make_unique<places>(*this);
+  }
+
+private:
+  std::size_t arm_of(boot_id place) {
+    const auto found = std::ranges::find(known_, place);
+    const auto arm = static_cast<std::size_t>(found - known_.begin());
+    if (arm == known_.size() && arm < most_arms)
+      known_.push_back(place);
+    return arm;
+  }
+
+  cost_weights weights_;
+  service_needs needs_;
+  double reference_j_ = 0;
+  std::vector<boot_id> known_{0}; // by arm
+  ucb1 bandit_{most_arms};
+};
+
+std::optional<std::string> places::restore(std::string_view text) {
+  state_reader in{text, "places", 1};
+  in.expect("providers");
+  places read{weights_};
+  for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left)
+    if (read.arm_of(in.count(~boot_id{0})) + 1 != read.known_.size())
+      in.refuse("expected each provider once.");
+  const auto rest = in.after_end();
+  if (in.failed())
+    return in.fault();
+  if (auto fault = read.bandit_.restore(rest))
+    return fault;
+  *this = std::move(read);
+  return std::nullopt;
+}
+
+class ucb1_lodm final : public trying_lodm {
+public:
+  void fields(settings& s) override {
+    trying_lodm::fields(s);
+    list_weights(s, weights_);
+  }
+  std::string_view name() const override { return "ucb1"; }
+  std::unique_ptr<local_policy> clone() const override {
+    return std::make_unique<ucb1_lodm>(*this);
+  }
+
+private:
+  std::unique_ptr<arms> make_arms() const override {
+    return std::make_unique<places>(weights_);
+  }
+
+  cost_weights weights_;
+};
+
+} // namespace
+
+lodm_entry lodm_ucb1() {
+  return {{"ucb1",
+           "Tries the vehicle and all providers, the promising ones most.",
+           "max m + sqrt(2 ln t / k); m mean of 1 - K (at least 0) in k of t "
+           "trials, K as of greedy_gain; 0 for who refuses",
+           "latency, energy and punctuality of what it has tried",
+           "Auer, Cesa-Bianchi & Fischer, Machine Learning 47, 2002",
+           trials_and(weights_and({}))},
+          behind_lodm_filter<ucb1_lodm>};
+}
+
+} // namespace sofof

@@ -1,0 +1,46 @@
+// What users are told of a policy, a filter or a governor.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// One option of it.
+struct parameter_note {
+  std::string_view name;
+  std::string_view unit; ///< "1" for a number without; of words, what they are.
+  std::string_view meaning;
+};
+
+struct policy_notes {
+  std::string_view name;
+  std::string_view summary; ///< What it does, in a line.
+  std::string_view rule;    ///< What it decides by.
+  std::string_view sees;    ///< What it needs to know.
+  std::string_view source;
+  /// Its options, without those of the filter before it and the governors after
+  /// it.
+  std::vector<parameter_note> parameters{};
+};
+
+/// Part of a table that knows things by name.
+/// @returns the notes of each.
+template <class Table>
+std::vector<policy_notes> notes_of(const Table& table) {
+  std::vector<policy_notes> all;
+  for (const auto& entry : table)
+    all.push_back(entry.notes);
+  return all;
+}
+
+/// @returns all names.
+template <class Table>
+std::vector<std::string_view> names_of(const Table& table) {
+  std::vector<std::string_view> all;
+  for (const auto& entry : table)
+    all.push_back(entry.notes.name);
+  return all;
+}
+
+} // namespace sofof

@@ -1,0 +1,41 @@
+// Every policy in every scenario, on the same noise, in order.
+#pragma once
+
+#include "scenario/bench/entrants.hpp"
+#include "scenario/sweep/sweep.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace sofof::bench {
+
+struct bench_options {
+  std::vector<std::filesystem::path> scenarios; ///< At least one.
+  std::vector<entrant> entrants;                ///< At least one.
+  std::vector<std::string> set;                 ///< "KEY=VALUE", in all runs.
+  std::size_t seeds = 1;                        ///< From 1 on, >= 1.
+  sweep_options
+      runs; ///< How and where; `out` gets everything, `title` is ours.
+  bool colour = false; ///< The console is a terminal.
+};
+
+/// What became of it.
+struct bench_outcome {
+  bool interrupted = false;
+  bool all_good = false; ///< All runs have a result, and were safe.
+};
+
+/// Makes all runs that have not been made before, and writes leaderboard.csv,
+/// timing.csv, report.html and a table of runs for each scenario. Killed at any
+/// moment, the same call goes on.
+/// @param console  Gets the progress, what failed, and the leaderboard.
+/// @throws input_error when a file is missing or wrong, or results cannot be
+///         kept; std::runtime_error when all sites are lost.
+bench_outcome bench(const bench_options& options,
+                    const std::atomic<bool>& interrupted,
+                    std::ostream& console);
+
+} // namespace sofof::bench

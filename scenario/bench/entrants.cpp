@@ -1,0 +1,137 @@
+// From policies and lines of a file to entrants.
+#include "scenario/bench/entrants.hpp"
+
+#include "policies/registry.hpp"
+#include "scenario/input_error.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/toml_file.hpp"
+#include "scenario/toml_nodes.hpp"
+#include "scenario/toml_settings.hpp"
+#include "scenario/toml_text.hpp"
+#include "world/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sofof::bench {
+
+namespace {
+
+constexpr std::string_view everybody = "all";
+constexpr std::string_view beside = "location";
+
+std::vector<std::string_view> names_of(const std::vector<entrant>& all) {
+  std::vector<std::string_view> names;
+  for (const auto& one : all)
+    names.push_back(one.name);
+  return names;
+}
+
+bool is_among(std::string_view name, const std::vector<entrant>& all) {
+  return std::ranges::find(all, name, &entrant::name) != all.end();
+}
+
+std::string text_of(const toml::table& policies, std::string_view side) {
+  const auto* node = policies.get(side);
+  if (!node)
+    return std::string{beside};
+  return node->value<std::string>().value_or(value_text(*node));
+}
+
+/// Refuses names that would be taken for something else.
+void check_name(std::string_view name, const std::string& place) {
+  const auto odd = name.find_first_of(",\"\n\r\t") != name.npos
+                   || name.starts_with(' ') || name.ends_with(' ');
+  if (name.empty() || odd)
+    throw input_error{fmt::format("{}: {} is no name for an entrant; it must "
+                                  "be a word without commas and quotes.",
+                                  place, quoted(name))};
+  if (name == everybody)
+    throw input_error{fmt::format("{}: \"{}\" means all of them; choose "
+                                  "another name.",
+                                  place, everybody)};
+}
+
+/// Reads them as a scenario would, to find mistakes where they stand.
+void check_policies(const toml::node& line, std::string_view file) {
+  policy_options policies;
+  toml_settings reader{line, file};
+  policies.fields(reader);
+  reader.finish();
+}
+
+} // namespace
+
+sweep_axis::value entrant::as_value() const {
+  return {name, {"policies.lodm=" + lodm, "policies.codm=" + codm}};
+}
+
+std::vector<entrant> plain_entrants() {
+  std::vector<entrant> all;
+  for (const auto name : lodm_names())
+    all.push_back({std::string{name}, std::string{name}, std::string{beside}});
+  for (const auto name : codm_names()) {
+    if (name == beside) // with itself: there already
+      continue;
+    const auto taken = is_among(name, all);
+    all.push_back({fmt::format("{}{}", taken ? "codm:" : "", name),
+                   std::string{beside}, std::string{name}});
+  }
+  return all;
+}
+
+std::vector<entrant> parse_entrants(std::string_view text,
+                                    const std::string& file) {
+  const auto root = parse_toml(text, file);
+  const auto plain = plain_entrants();
+  std::vector<entrant> all;
+  for (const auto& [key, line] : root) {
+    const auto place = place_of(line.source(), file);
+    check_name(key.str(), place);
+    if (is_among(key.str(), plain))
+      throw input_error{fmt::format("{}: there is an entrant \"{}\" already, "
+                                    "the policy with its defaults; choose "
+                                    "another name.",
+                                    place, key.str())};
+    if (!line.is_table())
+      throw input_error{fmt::format(
+          "{}: an entrant is a table, {{ lodm = POLICY, codm = POLICY }}.",
+          place)};
+    check_policies(line, file);
+    const auto& policies = *line.as_table();
+    all.push_back({std::string{key.str()}, text_of(policies, "lodm"),
+                   text_of(policies, "codm")});
+  }
+  return all;
+}
+
+std::vector<entrant> load_entrants(const std::filesystem::path& file) {
+  const auto text = read_text(file);
+  if (!text)
+    throw input_error{
+        fmt::format("{}: this file cannot be read.", file.string())};
+  return parse_entrants(*text, file.string());
+}
+
+std::vector<entrant> chosen_from(const std::vector<entrant>& all,
+                                 std::string_view wanted) {
+  if (wanted == everybody)
+    return all;
+  std::vector<entrant> chosen;
+  for (std::size_t at = 0; at <= wanted.size();) {
+    const auto comma = std::min(wanted.find(',', at), wanted.size());
+    const auto name = wanted.substr(at, comma - at);
+    const auto found = std::ranges::find(all, name, &entrant::name);
+    if (found == all.end())
+      throw input_error{unknown_word("entrant", name, names_of(all))};
+    if (is_among(name, chosen))
+      throw input_error{
+          fmt::format("the entrant \"{}\" stands there twice.", name)};
+    chosen.push_back(*found);
+    at = comma + 1;
+  }
+  return chosen;
+}
+
+} // namespace sofof::bench

@@ -1,0 +1,20 @@
+// What the channel holds in store, for a policy that is to know it.
+#pragma once
+
+#include "policies/context.hpp"
+#include "scenario/scenario.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace sofof {
+
+/// Foresees the draws of vehicles' channels in virtual time: computing times,
+/// delays, loss, stalls and outages of results with the phases that providers
+/// draw. Not foreseen: waits for workers and for the radio cell, and phases
+/// that a CODM assigns. Of a provider that comes back it knows nothing.
+/// @returns what makes the foresight of each vehicle.
+std::function<std::shared_ptr<const foresight>(station_id)>
+foresee(const scenario& s);
+
+} // namespace sofof

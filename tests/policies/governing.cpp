@@ -1,0 +1,231 @@
+// Tests of policies with governors behind them, as scenarios have them.
+#include "tests/support/roadside.hpp"
+
+#include <string>
+#include <utility>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+using test::make_lodm_with;
+using test::option_list;
+using test::option_values;
+using test::roadside;
+
+namespace {
+
+/// The policy "always" with one governor.
+std::unique_ptr<local_policy> always_with(const std::string& governor,
+                                          option_values options = {}) {
+  options.lengths = {{"govern", 1}};
+  options.texts["govern.0.name"] = governor;
+  return make_lodm_with("always", options);
+}
+
+} // namespace
+
+TEST_CASE("an unknown governor is refused") {
+  option_list options;
+  options.lengths = {{"govern", 1}};
+  options.texts = {{"govern.0.name", "predictive_gait"}};
+  make_lodm("always")->fields(options);
+  CHECK(options.refused.contains("govern.0.name"));
+}
+
+TEST_CASE("whoever wants to be asked most often is asked as often") {
+  CHECK(make_lodm("always")->epoch_s() == 0);
+  CHECK(always_with("hysteresis")->epoch_s() == 0.1);
+  CHECK(always_with("hysteresis", {.numbers = {{"govern.0.epoch_s", 0.02}}})
+            ->epoch_s()
+        == 0.02);
+  CHECK(always_with("redundancy")->epoch_s() == 0);
+}
+
+TEST_CASE_FIXTURE(roadside, "behind a gate nobody is asked who may be late") {
+  const auto lodm = always_with("predictive_gate");
+  add(1).link.late = 0.01;
+  CHECK(ask(*lodm).source == 0);
+  CHECK(ask(*lodm).why == "late results are likely");
+  providers[0].link.late = 0.005;
+  CHECK(ask(*lodm).source == 1);
+  providers[0].link.late = 0.02; // it is open
+  CHECK(ask(*lodm).source == 1);
+}
+
+TEST_CASE_FIXTURE(roadside, "it comes home when late results are likely, not "
+                            "because nothing is known yet") {
+  const auto lodm = always_with("predictive_gate");
+  add(1);
+  CHECK(ask(*lodm).source == 1);
+  runs_at(1);
+  providers[0].link = {};
+  CHECK(!ask(*lodm).release);
+  providers[0].link = {0.021, 0, 20ms, 30ms};
+  CHECK(ask(*lodm).release);
+  CHECK(ask(*lodm).source == 0);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "a gate lets a service go on from a bad provider to "
+                  "a good one, and from a bad one to a bad one home") {
+  const auto lodm = make_lodm_with(
+      "nearest", {.texts = {{"govern.0.name", "predictive_gate"}},
+                  .lengths = {{"govern", 1}}});
+  add(1, {50, 0});
+  add(2, {10, 0});
+  runs_at(1);
+  CHECK(ask(*lodm).source == 2);
+  providers[0].link.late = 0.5;
+  CHECK(ask(*lodm).source == 2);
+  providers[1].link.late = 0.5;
+  CHECK(ask(*lodm).release);
+  providers[0].link.late = 0;
+  CHECK(!ask(*lodm).release);
+  CHECK(ask(*lodm).source == 0);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "each service has gates of its own, and so has each "
+                  "clone") {
+  const auto lodm = always_with("predictive_gate");
+  add(1);
+  CHECK(ask(*lodm).source == 1);
+  const auto other = lodm->clone();
+  providers[0].link.late = 0.01;
+  CHECK(ask(*lodm).source == 1);
+  CHECK(ask(*other).source == 1);
+  providers[0].link.late = 0.03;
+  CHECK(ask(*other).source == 0);
+  providers[0].link.late = 0.01;
+  CHECK(ask(*other).source == 0);
+  CHECK(ask(*lodm).source == 1);
+  seen.kind = "other";
+  CHECK(ask(*lodm).source == 0);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "hysteresis waits until somebody was wanted for half "
+                  "a second") {
+  const auto lodm = always_with("hysteresis");
+  add(1);
+  for (int k = 0; k < 5; ++k) {
+    CHECK(ask(*lodm).source == 0);
+    pass(100ms);
+  }
+  CHECK(ask(*lodm).source == 1);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "hysteresis keeps nobody from coming home, and then "
+                  "waits for two seconds") {
+  option_values options;
+  options.texts = {{"govern.0.name", "hysteresis"}};
+  options.lengths = {{"govern", 1}};
+  const auto lodm = make_lodm_with("greedy_gain", options);
+  add(1);
+  runs_at(1);
+  CHECK(ask(*lodm).source == 1);
+  providers[0].link.late = 1;
+  pass(10ms);
+  CHECK(ask(*lodm).release);
+  runs_at(0);
+  const auto home = seen.now;
+  providers[0].link.late = 0;
+  while (ask(*lodm).source == 0 && seen.now < home + 10s)
+    pass(100ms);
+  CHECK(seen.now == home + 2s);
+}
+
+TEST_CASE_FIXTURE(roadside, "after a fallback that nobody decided hysteresis "
+                            "waits as well") {
+  const auto lodm = always_with("hysteresis");
+  add(1);
+  seen.now += 100s;
+  runs_at(1);
+  CHECK(ask(*lodm).source == 1);
+  pass(5s);
+  runs_at(0); // a violation
+  const auto home = seen.now;
+  while (ask(*lodm).source == 0 && seen.now < home + 10s)
+    pass(100ms);
+  CHECK(seen.now == home + 2s);
+}
+
+TEST_CASE_FIXTURE(roadside, "an advantage of the margin is no reason to go") {
+  option_values options;
+  options.texts = {{"govern.0.name", "hysteresis"}};
+  options.numbers = {{"govern.0.margin", 0.4}};
+  options.lengths = {{"govern", 1}};
+  const auto lodm = make_lodm_with("greedy_gain", options);
+  add(1); // wins 0.13
+  for (int k = 0; k < 50; ++k) {
+    CHECK(ask(*lodm).source == 0);
+    pass(100ms);
+  }
+}
+
+TEST_CASE_FIXTURE(roadside, "with redundancy the one that is late least often "
+                            "plans too") {
+  const auto lodm = always_with("redundancy");
+  add(1).link.late = 0.01;
+  CHECK(ask(*lodm).second == 0);
+  add(2).link.late = 0.2;
+  add(3).link.late = 0.1;
+  CHECK(ask(*lodm).source == 1);
+  CHECK(ask(*lodm).second == 3);
+  runs_at(1);
+  CHECK(ask(*lodm).second == 3);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "who is rarely late needs no second, and the second "
+                  "ends") {
+  const auto lodm =
+      always_with("redundancy", {.numbers = {{"govern.0.least_late", 0.02}}});
+  add(1).link.late = 0.02;
+  add(2).link.late = 0.5;
+  runs_at(1);
+  CHECK(ask(*lodm).second == 2);
+  providers[0].link.late = 0.019;
+  CHECK(ask(*lodm).second == 0);
+  CHECK(ask(*lodm).source == 1); // there, and nowhere else
+}
+
+TEST_CASE_FIXTURE(roadside, "who stays on board needs no second") {
+  option_values options;
+  options.texts = {{"govern.0.name", "redundancy"}};
+  options.lengths = {{"govern", 1}};
+  add(1);
+  add(2);
+  CHECK(ask(*make_lodm_with("never", options)).second == 0);
+  const auto lodm = make_lodm_with("greedy_gain", options);
+  for (auto& provider : providers)
+    provider.link.late = 1;
+  runs_at(1);
+  CHECK(ask(*lodm).release);
+  CHECK(ask(*lodm).second == 0);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "governors follow each other: whom hysteresis holds "
+                  "back nobody doubles") {
+  using names = std::pair<std::string, std::string>;
+  add(1);
+  add(2);
+  for (const auto& [first, second] :
+       {names{"redundancy", "hysteresis"}, names{"hysteresis", "redundancy"}}) {
+    const auto lodm = make_lodm_with(
+        "always",
+        {.texts = {{"govern.0.name", first}, {"govern.1.name", second}},
+         .lengths = {{"govern", 2}}});
+    seen.now = {};
+    for (int k = 0; k < 5; ++k) {
+      const auto decision = ask(*lodm);
+      CHECK(decision.source == 0);
+      CHECK(decision.second == 0);
+      pass(100ms);
+    }
+    const auto decision = ask(*lodm);
+    CHECK(decision.source == 1);
+    CHECK(decision.second == 2);
+  }
+}

@@ -1,0 +1,93 @@
+// Tests of who knows the future.
+#include "tests/support/roadside.hpp"
+
+#include <map>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+using test::roadside;
+
+namespace {
+
+/// The first late result of each provider, of one kind of service.
+struct foretold final : foresight {
+  std::map<boot_id, time_point> late;
+
+  std::optional<time_point> first_late(boot_id provider, std::string_view kind,
+                                       time_point from,
+                                       time_point until) const override {
+    CHECK(kind == "any");
+    const auto i = late.find(provider);
+    if (i == late.end() || i->second < from || i->second >= until)
+      return std::nullopt;
+    return i->second;
+  }
+};
+
+struct with_foresight : roadside {
+  foretold future;
+  std::unique_ptr<local_policy> lodm = make_lodm("oracle");
+
+  with_foresight() { seen.future = &future; }
+  void late_in(boot_id id, duration time) { future.late[id] = seen.now + time; }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(roadside, "who has no foresight stays on board and says so") {
+  add(1);
+  const auto decision = ask(*make_lodm("oracle"));
+  CHECK(decision.source == 0);
+  CHECK(decision.why == "no foresight here");
+}
+
+TEST_CASE_FIXTURE(with_foresight,
+                  "it goes where nothing is late for a second") {
+  add(1);
+  late_in(1, 999ms);
+  CHECK(ask(*lodm).source == 0);
+  late_in(1, 1s);
+  CHECK(ask(*lodm).source == 1);
+  CHECK(ask(*lodm).source == 1);
+}
+
+TEST_CASE_FIXTURE(with_foresight, "of several the one that stays good longest, "
+                                  "of these the one of most gain") {
+  add(1);
+  add(2);
+  late_in(1, 3s);
+  late_in(2, 4s);
+  CHECK(ask(*lodm).source == 2);
+  late_in(1, 20s); // farther than it looks
+  late_in(2, 30s);
+  providers[0].cost.energy_j = 0.009;
+  providers[0].link.late = 0.5; // it knows better
+  CHECK(ask(*lodm).source == 1);
+}
+
+TEST_CASE_FIXTURE(with_foresight,
+                  "it leaves just before the first late result, "
+                  "and not sooner") {
+  add(1);
+  late_in(1, 400ms);
+  runs_at(1);
+  int looks = 0;
+  while (!ask(*lodm).release) {
+    ++looks;
+    REQUIRE(looks < 20);
+    pass(from_seconds(lodm->epoch_s()));
+  }
+  CHECK(seen.now + from_seconds(lodm->epoch_s()) >= future.late[1]);
+  CHECK(seen.now < future.late[1]);
+}
+
+TEST_CASE_FIXTURE(with_foresight, "it goes on to another one as soon as that "
+                                  "stays good and this one does not") {
+  add(1);
+  add(2);
+  late_in(2, 5s);
+  runs_at(1);
+  CHECK(ask(*lodm).source == 1);
+  late_in(1, 900ms);
+  CHECK(ask(*lodm).source == 2);
+}

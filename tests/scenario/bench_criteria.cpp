@@ -1,0 +1,178 @@
+// What a run is judged by.
+#include "scenario/bench/criteria.hpp"
+#include "scenario/input_error.hpp"
+#include "scenario/load.hpp"
+#include "tests/scenario/bench_town.hpp"
+#include "tests/support/near.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace sofof;
+using namespace sofof::bench;
+using test::near;
+
+namespace {
+
+/// Ten vehicles for six minutes: one vehicle hour.
+study::measured_run one_hour() {
+  study::measured_run run{{{"mine"}, 3, {}}, "folder", {}, {}, 0};
+  run.figures = {{"vehicles", 10},
+                 {"virtual_s", 360},
+                 {"offers", 100},
+                 {"requests", 40},
+                 {"rejected", 10},
+                 {"fallbacks", 7},
+                 {"ping_pongs", 4},
+                 {"hand_overs", 2},
+                 {"offloaded_share", 0.5},
+                 {"fairness", 0.8},
+                 {"ended_by.qos_latency", 3},
+                 {"ended_by.qos_gap", 2},
+                 {"latency_ms.mean", 20},
+                 {"latency_ms.p50", 18},
+                 {"latency_ms.p95", 30},
+                 {"latency_ms.p99", 40},
+                 {"safety.without_fresh_plan_s", 0},
+                 {"safety.off_road_s", 0},
+                 {"safety.collisions", 0},
+                 {"services.trajectory_planning.requests", 40},
+                 {"services.trajectory_planning.ended_by.qos_gap", 2},
+                 {"services.trajectory_planning.ended_by.left_area", 28},
+                 {"services.trajectory_planning.served.ended_by.left_area", 28},
+                 {"services.trajectory_planning.served.count", 30},
+                 {"services.trajectory_planning.served.time_s.mean", 60}};
+  return run;
+}
+
+yardstick usual() {
+  return {0.05, 0.1, 0.01, {{"trajectory_planning", 0.08}}, 2};
+}
+
+double value(const judged_run& run, std::string_view name) {
+  const auto found = run.values.find(name);
+  REQUIRE(found != run.values.end());
+  return found->second;
+}
+
+judged_run scored(const char* entrant, const char* scenario, std::int64_t seed,
+                  double score) {
+  return {entrant, scenario, seed, true, {{score_name, score}}};
+}
+
+} // namespace
+
+TEST_CASE("rates are per vehicle and hour, shares in percent") {
+  const auto run = judge(one_hour(), usual());
+  CHECK(run.entrant == "mine");
+  CHECK(run.seed == 3);
+  CHECK(run.safe);
+  CHECK(value(run, "offloaded_percent") == near(50, 1e-9));
+  CHECK(value(run, "violations_per_h") == near(5, 1e-9));
+  CHECK(value(run, "fallbacks_per_h") == near(7, 1e-9));
+  CHECK(value(run, "ping_pongs_per_h") == near(4, 1e-9));
+  CHECK(value(run, "hand_overs_per_h") == near(2, 1e-9));
+  CHECK(value(run, "rejected_percent") == near(25, 1e-9));
+  CHECK(value(run, "latency_p95_ms") == 30);
+  CHECK(value(run, "fairness") == 0.8);
+}
+
+TEST_CASE("a provider is used as much as what it served takes of its time") {
+  // 30 · 60 s of 8 % of the workers, of two providers for 360 s.
+  CHECK(value(judge(one_hour(), usual()), "utilisation_percent")
+        == near(100 * 30 * 60 * 0.08 / (2 * 360), 1e-9));
+}
+
+TEST_CASE("signalling is offers, requests, answers and ends") {
+  CHECK(value(judge(one_hour(), usual()), "messages_per_s")
+        == near((100 + 2 * 40 + 30) / 360., 1e-9));
+}
+
+TEST_CASE("the score is the mean cost of a cycle: time, energy, violations") {
+  const auto time = (0.5 * 0.020 + 0.5 * 0.010) / 0.05;
+  const auto violated = 5 / 36000.; // of one vehicle hour at 10 Hz
+  auto run = one_hour();
+  CHECK(value(judge(run, usual()), score_name)
+        == near(0.3 * time + 0.3 + violated, 1e-12));
+  run.figures["energy.saved_share"] = 0.4;
+  run.figures["energy.per_km_j"] = 120;
+  const auto judged = judge(run, usual());
+  CHECK(value(judged, score_name)
+        == near(0.3 * time + 0.3 * 0.6 + violated, 1e-12));
+  CHECK(value(judged, "energy_saved_percent") == near(40, 1e-9));
+  CHECK(value(judged, "energy_j_per_km") == 120);
+}
+
+TEST_CASE("who never offloads has the cost of planning on board") {
+  auto run = one_hour();
+  for (const auto* name : {"latency_ms.mean", "latency_ms.p50",
+                           "latency_ms.p95", "latency_ms.p99", "fairness",
+                           "services.trajectory_planning.served."
+                           "time_s.mean"})
+    run.figures.erase(name);
+  for (const auto* name : {"offloaded_share", "requests", "rejected",
+                           "ended_by.qos_latency", "ended_by.qos_gap"})
+    run.figures[name] = 0;
+  const auto judged = judge(run, usual());
+  CHECK(value(judged, score_name) == near(0.3 * 0.01 / 0.05 + 0.3, 1e-12));
+  CHECK(value(judged, "utilisation_percent") == 0);
+  for (const auto* name :
+       {"latency_mean_ms", "fairness", "rejected_percent", "energy_j_per_km"})
+    CHECK_FALSE(judged.values.contains(name));
+}
+
+TEST_CASE(
+    "one second without a fresh plan, off the road or a touch is unsafe") {
+  for (const auto* name : {"safety.without_fresh_plan_s", "safety.off_road_s",
+                           "safety.collisions"}) {
+    auto run = one_hour();
+    run.figures[name] = 1;
+    CHECK_FALSE(judge(run, usual()).safe);
+  }
+}
+
+TEST_CASE("a summary without what every run writes is refused") {
+  auto run = one_hour();
+  run.figures.erase("ping_pongs");
+  CHECK_THROWS_WITH_AS(judge(run, usual()),
+                       "folder: its summary has no figure ping_pongs.",
+                       input_error);
+}
+
+TEST_CASE("regret is against the oracle in the same scenario, same seed") {
+  std::vector<judged_run> runs{
+      scored("mine", "a", 1, 0.3),  scored("oracle", "a", 1, 0.2),
+      scored("mine", "a", 2, 0.3),  scored("oracle", "b", 1, 0.1),
+      scored("mine", "b", 1, 0.11), scored("oracle", "a", 2, 0.3)};
+  add_regret(runs);
+  CHECK(value(runs[0], regret_name) == near(50, 1e-9));
+  CHECK(value(runs[1], regret_name) == 0);
+  CHECK(value(runs[2], regret_name) == 0);
+  CHECK(value(runs[4], regret_name) == near(10, 1e-9));
+  std::vector<judged_run> alone{scored("mine", "a", 1, 0.3)};
+  add_regret(alone);
+  CHECK_FALSE(alone[0].values.contains(regret_name));
+}
+
+TEST_CASE("every figure of a run is of a criterion, and each has one name") {
+  auto run = one_hour();
+  run.figures["energy.saved_share"] = run.figures["energy.per_km_j"] = 0.5;
+  const auto all = criteria();
+  for (const auto& [name, x] : judge(run, usual()).values) {
+    CAPTURE(name);
+    CHECK(std::ranges::count(all, name, &criterion::name) == 1);
+  }
+  // Regret needs an oracle.
+  CHECK(judge(run, usual()).values.size() == all.size() - 1);
+}
+
+TEST_CASE("a scenario tells limits, periods and what a service takes") {
+  const auto s = parse_scenario(test::bench_town, "town.toml");
+  const auto by = yardstick_of(s);
+  CHECK(by.limit_s == near(0.05, 1e-12));
+  CHECK(by.period_s == near(0.1, 1e-12));
+  CHECK(by.local_s > 0);
+  CHECK(by.providers == 1);
+  CHECK(by.utilisation_by.at("trajectory_planning") == near(0.08, 1e-9));
+}
