@@ -38,10 +38,10 @@ std::string in_ms(duration d) {
   return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
 }
 
-struct manager_state {
+struct offloaded_state {
   static inline const char* name = "requester_manager";
 
-  requester_manager_actor::stateful_pointer<manager_state> self;
+  requester_manager_actor::stateful_pointer<offloaded_state> self;
   requester_manager_setup setup;
   instance_actor local;
   watchdog_actor watchdog;
@@ -254,9 +254,9 @@ struct manager_state {
   }
 };
 
-requester_manager_actor::behavior_type
-manager(requester_manager_actor::stateful_pointer<manager_state> self,
-        requester_manager_setup setup) {
+requester_manager_actor::behavior_type requester_manager(
+    requester_manager_actor::stateful_pointer<offloaded_state> self,
+    requester_manager_setup setup) {
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->state.start();
@@ -275,7 +275,7 @@ manager(requester_manager_actor::stateful_pointer<manager_state> self,
 
 requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup) {
-  return sys.spawn(manager, std::move(setup));
+  return sys.spawn(requester_manager, std::move(setup));
 }
 
 } // namespace sofof

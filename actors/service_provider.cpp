@@ -28,7 +28,7 @@ using provider_impl = roadside_provider_actor::extend<
     takes<tick_atom>>;
 
 // One running service.
-struct session {
+struct service_session {
   running_service running;
   provider_manager_actor manager;
   time_point since;
@@ -45,7 +45,7 @@ struct station_record {
   time_point heard; // when the latest CAM came
   time_point next_offer;
   std::uint32_t last_request = 0;
-  std::vector<session> sessions;
+  std::vector<service_session> sessions;
 };
 
 // A request that waits for its answer.
@@ -425,11 +425,12 @@ struct provider_state {
     return static_cast<std::size_t>(i - setup.kinds.begin());
   }
 
-  static const session* find(const station_record& station,
-                             std::string_view kind) {
-    auto i = std::ranges::find(station.sessions, kind, [](const session& s) {
-      return s.running.kind.view();
-    });
+  static const service_session* find(const station_record& station,
+                                     std::string_view kind) {
+    auto i =
+        std::ranges::find(station.sessions, kind, [](const service_session& s) {
+          return s.running.kind.view();
+        });
     return i == station.sessions.end() ? nullptr : &*i;
   }
 
@@ -464,7 +465,8 @@ struct provider_state {
   // Closes a running service, once; unknown ones have been closed before.
   void end(station_record& station, running_service running, end_reason reason,
            bool tell) {
-    auto i = std::ranges::find(station.sessions, running, &session::running);
+    auto i =
+        std::ranges::find(station.sessions, running, &service_session::running);
     if (i == station.sessions.end())
       return;
     service_end e{running, reason, side::provider};

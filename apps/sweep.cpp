@@ -22,7 +22,7 @@ struct sweep_command {
   sweep_arguments runs;
 };
 
-int report(const sweep_outcome& outcome) {
+int tell_outcome(const sweep_outcome& outcome) {
   if (outcome.interrupted) {
     std::cout << "interrupted; the same command goes on from here\n";
     return static_cast<int>(run_outcome::interrupted);
@@ -56,7 +56,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
     const auto plan = load_sweep(args->file, args->set);
     catch_signals();
     const auto how = args->runs.given(plan.name);
-    exit_code = report(sweep(plan, how, interrupted, std::cout));
+    exit_code = tell_outcome(sweep(plan, how, interrupted, std::cout));
   });
 }
 

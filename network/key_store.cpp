@@ -35,7 +35,7 @@ namespace {
 constexpr mode_t for_all = 0644;
 constexpr mode_t for_owner = 0600;
 /// What a folder is called, and a subject, may not be longer; letters.
-constexpr std::size_t longest_name = 64;
+constexpr std::size_t longest_subject = 64;
 /// Clocks of hosts that have just started may be late.
 constexpr long backdated_s = 3600;
 
@@ -142,7 +142,7 @@ std::string folder_name(const peer_identity& who) {
     return "provider-" + who.provider;
   auto name = "station-" + print_stations(who.stations);
   std::ranges::replace(name, ',', '_');
-  if (name.size() > longest_name)
+  if (name.size() > longest_subject)
     name = fmt::format("station-{}-and-{}-more", who.stations.front(),
                        who.stations.size() - 1);
   return name;
@@ -152,7 +152,8 @@ x509_ptr make_certificate(EVP_PKEY& key, const peer_identity& who, int days,
                           X509& ca, EVP_PKEY& ca_key) {
   auto certificate = blank_certificate(key, days);
   auto& x = *certificate;
-  set_name(X509_get_subject_name(&x), folder_name(who).substr(0, longest_name));
+  set_name(X509_get_subject_name(&x),
+           folder_name(who).substr(0, longest_subject));
   require_openssl(X509_set_issuer_name(&x, X509_get_subject_name(&ca)) == 1,
                   "naming an issuer");
   extend(x, ca, NID_basic_constraints, "critical,CA:FALSE");

@@ -28,7 +28,7 @@ namespace {
 constexpr int most_new_ones = 16;
 
 /// A pause when the system has no more files.
-constexpr std::chrono::milliseconds breather{100};
+constexpr std::chrono::milliseconds pause_without_files{100};
 
 const credentials& provider_only(const credentials& own) {
   if (!own.identity().is_provider())
@@ -128,7 +128,7 @@ private:
       auto [socket, peer, error] = accept_from(listener_);
       if (!socket) {
         if (error != EAGAIN && error != ECONNABORTED && error != EINTR)
-          accepts_again_ = now_ + breather;
+          accepts_again_ = now_ + pause_without_files;
         return;
       }
       const auto name = print_address(peer, true);

@@ -38,13 +38,13 @@ constexpr std::size_t max_seen = 256;
 /// Nothing on a road is faster or longer, or farther away.
 constexpr auto max_speed_mps = 100.0;
 constexpr auto max_length_m = 30.0;
-constexpr auto farthest_m = 1e7;
+constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
 
 bool is_sound(const perceived_object& o) {
   // Comparisons with NaN are false.
-  return std::abs(o.centre.x_m) <= farthest_m
-         && std::abs(o.centre.y_m) <= farthest_m
+  return std::abs(o.centre.x_m) <= most_distant_m
+         && std::abs(o.centre.y_m) <= most_distant_m
          && std::abs(o.heading_rad) <= max_heading_rad
          && std::isfinite(o.accel_mps2)
          && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0

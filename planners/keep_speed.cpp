@@ -6,9 +6,9 @@
 namespace sofof {
 namespace {
 
-constexpr double step_s = 0.1;
+constexpr double sample_s = 0.1;
 constexpr auto steps = 30;
-constexpr double centring_length_m = 15.0; // nothing to centre
+constexpr double nothing_to_centre_m = 15.0;
 
 } // namespace
 
@@ -17,12 +17,12 @@ trajectory keep_speed(const route& way, time_point now, double s_m,
   planning_input from;
   from.s_m = s_m;
   from.speed_mps = speed_mps;
-  const centring line{way, from, centring_length_m};
+  const centring line{way, from, nothing_to_centre_m};
   auto x = line.motion();
   trajectory plan{now, {}};
   for (auto i = 0; i <= steps; ++i) {
-    plan.points.push_back(line.place(x, i * step_s));
-    x = advance(x, 0, step_s);
+    plan.points.push_back(line.place(x, i * sample_s));
+    x = advance(x, 0, sample_s);
   }
   return plan;
 }

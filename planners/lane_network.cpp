@@ -22,7 +22,7 @@ constexpr auto wedge = 0.25;
 constexpr auto same_way = std::numbers::sqrt2 / 2;
 
 /// Slower is standing.
-constexpr auto standing_mps = 0.3;
+constexpr auto still_mps = 0.3;
 
 } // namespace
 
@@ -118,7 +118,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
   for (const auto& e : meetings_[lane]) {
     const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
     const auto left_m = start_m + e.to_m + who.half_length_m;
-    const auto stands = who.speed_mps < standing_mps;
+    const auto stands = who.speed_mps < still_mps;
     if (e.how == conflict::kind::diverge || left_m <= 0 || way_m > who.within_m
         || (stands && way_m > 0))
       continue;

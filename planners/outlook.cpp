@@ -24,7 +24,7 @@ constexpr auto curvature_change_1pm = 0.05;
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
 /// To be expected at once; more take more memory, once.
-constexpr std::size_t many = 128;
+constexpr std::size_t usual_cars = 128;
 
 double radius_m(const track& x) {
   return 0.5 * std::sqrt(x.length_m * x.length_m + x.width_m * x.width_m);
@@ -54,8 +54,8 @@ outlook::outlook(std::shared_ptr<const lane_network> lanes,
   for (std::size_t i = 0; i < way->sequence().size(); ++i)
     half_lane_m_ =
         std::max(half_lane_m_, way->half_width_m(way->start_of_m(i)));
-  others_.reserve(many);
-  near_.reserve(many);
+  others_.reserve(usual_cars);
+  near_.reserve(usual_cars);
 }
 
 void outlook::describe(time_point now, const own_place& me,

@@ -9,8 +9,8 @@
 namespace sofof {
 namespace {
 
-constexpr double standing_mps = 0.05;
-constexpr double worth_starting_m = 0.5;
+constexpr double at_rest_mps = 0.05;
+constexpr double worth_moving_up_m = 0.5;
 
 /// Towards a wish, as fast as jerk allows.
 double towards(double wanted, double accel, double change) {
@@ -37,7 +37,7 @@ void move_up(const lane_motion& from, double room_m, const driving_style& style,
   const braking_style braking{style.comfort_decel_mps2, 0.8 * jerk,
                               style.time_gap_s};
   auto x = from;
-  const auto stays = from.speed_mps < standing_mps && room_m < worth_starting_m;
+  const auto stays = from.speed_mps < at_rest_mps && room_m < worth_moving_up_m;
   for (out.assign(1, x); static_cast<int>(out.size()) <= steps;) {
     const auto soon = advance(x, x.accel_mps2, style.step_s);
     auto wanted =

@@ -30,10 +30,10 @@ constexpr typename Planner::grid grid_of(const spatial_params& p) {
 }
 
 /// Slower bodies stand: sensors are not that good.
-constexpr double standing_mps = 0.3;
+constexpr double moving_mps = 0.3;
 
 bool is_moving(const lane_obstacle& body) {
-  return std::abs(body.speed_mps) > standing_mps;
+  return std::abs(body.speed_mps) > moving_mps;
 }
 
 } // namespace

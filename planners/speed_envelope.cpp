@@ -10,12 +10,12 @@
 namespace sofof {
 namespace {
 
-constexpr double max_step_m = 1.0;
+constexpr double longest_step_m = 1.0;
 constexpr double min_curvature_1pm = 1e-6;
 constexpr double min_speed_mps = 0.1;
 // The envelope brakes with less jerk than the car may, so that a car on it
 // has some left for corrections.
-constexpr double share_of_jerk = 0.7;
+constexpr double table_share_of_jerk = 0.7;
 
 /// A table over the way; before and after it goes on around (closed) or at
 /// its rim (open).
@@ -91,12 +91,12 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 speed_envelope::speed_envelope(const route& way, const driving_style& params)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   const auto steps =
-      std::max(2L, std::lround(std::ceil(length_m_ / max_step_m)));
+      std::max(2L, std::lround(std::ceil(length_m_ / longest_step_m)));
   const auto step_m = length_m_ / static_cast<double>(steps);
   steps_per_m_ = static_cast<double>(steps) / length_m_;
   laps_per_m_ = 1 / length_m_;
   const auto decel = params.comfort_decel_mps2;
-  const auto jerk = share_of_jerk * params.max_jerk_mps3;
+  const auto jerk = table_share_of_jerk * params.max_jerk_mps3;
 
   auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params);
   ramp_from_slow(u, 1, step_m, params.max_accel_mps2, jerk);

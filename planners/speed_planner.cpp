@@ -12,7 +12,7 @@ namespace {
 constexpr double never = speed_task::never;
 
 // Where to stop before a line, and what must be kept in any case.
-constexpr double line_gap_m = 0.3;
+constexpr double wanted_line_gap_m = 0.3;
 constexpr double least_line_gap_m = 0.15;
 constexpr double least_gap_m = 1.0;
 /// Comfort keeps off a window by so much more than an emergency does.
@@ -22,7 +22,7 @@ constexpr double least_way_m = 0.1;
 constexpr double slack_m = 0.1;
 
 /// Behind a car that crawls, rather stop than follow: it is taken to brake.
-constexpr double crawling_mps = 2.0;
+constexpr double crawl_ahead_mps = 2.0;
 constexpr double crawling_decel_mps2 = 1.0;
 /// How long a car ahead is taken to go on as it does.
 constexpr double foresight_s = 8.0;
@@ -33,14 +33,14 @@ constexpr double least_speed_for_gap_mps = 2.0;
 /// Up to here, cars move up rather than set off.
 constexpr double moving_up_m = 5.0;
 constexpr double worth_starting_m = 0.5;
-constexpr double standing_mps = 0.05;
+constexpr double halted_mps = 0.05;
 
 constexpr double low_speed_mps = 2.0;
 constexpr double share_at_low_speed = 0.65;
 /// A plan that began farther back is of another drive.
 constexpr double longest_shift_m = 10;
 /// Envelopes use this much of jerk and braking; the rest is for plans.
-constexpr double share_of_jerk = 0.8;
+constexpr double envelope_share_of_jerk = 0.8;
 constexpr double share_of_braking = 0.95;
 constexpr double small = 1e-3;
 /// Braking that cannot wait is planned with some reserve.
@@ -104,11 +104,11 @@ speed_planner::speed_planner(route_profile_ptr way, const driving_style& style,
 }
 
 speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
-  stop end{task.stop_m - line_gap_m, task.stop_m - least_line_gap_m};
+  stop end{task.stop_m - wanted_line_gap_m, task.stop_m - least_line_gap_m};
   if (task.ahead) {
     const auto& lead = task.ahead->lead;
     auto left = task.ahead->way_left_m();
-    if (lead.speed_mps < crawling_mps)
+    if (lead.speed_mps < crawl_ahead_mps)
       left = std::min(left, square(lead.speed_mps) / (2 * crawling_decel_mps2));
     const auto rear = task.ahead->touch_m + left;
     // Nobody knows more of it than for a while: the plan ends behind it then.
@@ -138,10 +138,10 @@ double speed_planner::needed_decel(const speed_task& task) const {
 
 bool speed_planner::comes_too_late(const speed_task& task,
                                    const stop& end) const {
-  return task.speed_mps > standing_mps
+  return task.speed_mps > halted_mps
          && stopping_m(task.speed_mps, task.accel_mps2,
                        style_.firm_decel_mps2(),
-                       share_of_jerk * style_.max_jerk_mps3)
+                       envelope_share_of_jerk * style_.max_jerk_mps3)
                 > end.last_m;
 }
 
@@ -157,7 +157,7 @@ speed_planner::result speed_planner::plan(const planned_path& path,
                                     grid_.ds_m)
              && end.wanted_m < moving_up_m) {
     const auto stands =
-        task.speed_mps < standing_mps && end.wanted_m < worth_starting_m;
+        task.speed_mps < halted_mps && end.wanted_m < worth_starting_m;
     r.how = stands ? speed_mode::stands : speed_mode::moves_up;
     r.report.status = ocp::solve_status::converged;
     move_up({0, task.speed_mps, task.accel_mps2}, end.wanted_m, style_, steps_,
@@ -192,7 +192,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   auto from_s = 0.0;
   motion_.assign(1, from);
   if (setting_off::is_needed(from, grid_.ds_m)) {
-    const setting_off ramp{from, share_of_jerk * style_.max_jerk_mps3};
+    const setting_off ramp{from, envelope_share_of_jerk * style_.max_jerk_mps3};
     ramp.drive(style_.step_s, steps_, motion_);
     from = ramp.end;
     from_s = ramp.takes_s;
@@ -200,7 +200,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   const auto comfortable_m =
       from.s_m
       + stopping_m(from.speed_mps, from.accel_mps2, style_.comfort_decel_mps2,
-                   share_of_jerk * style_.max_jerk_mps3);
+                   envelope_share_of_jerk * style_.max_jerk_mps3);
   const auto stop_m = std::clamp(comfortable_m, end.wanted_m,
                                  std::max(end.wanted_m, end.last_m))
                       - from.s_m;
@@ -349,8 +349,8 @@ bool speed_planner::too_fast_for_bends() const {
 bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                                      double ds_m, double decel_mps2) {
   const auto slow = from.speed_mps < low_speed_mps;
-  const auto jerk =
-      (slow ? share_at_low_speed : share_of_jerk) * style_.max_jerk_mps3;
+  const auto jerk = (slow ? share_at_low_speed : envelope_share_of_jerk)
+                    * style_.max_jerk_mps3;
   auto w = square(from.speed_mps) / 2, a = from.accel_mps2, t = from_s;
   auto fits = true;
   for (std::size_t k = 0; k < w_max_.size(); ++k) {

@@ -9,13 +9,13 @@
 namespace sofof {
 namespace {
 
-constexpr double same_place_m = 1.0;
+constexpr double same_drive_m = 1.0;
 constexpr double same_speed_mps = 1.0;
 constexpr double max_lead_age_s = 0.5;
 
 /// What is beyond is no car's motion.
-constexpr double farthest_m = 1e7;
-constexpr double farthest_off_m = 5;
+constexpr double longest_way_m = 1e7;
+constexpr double widest_off_m = 5;
 constexpr double most_turned_rad = 1;
 constexpr double most_curvature_1pm = 1;
 constexpr double fastest_mps = 100;
@@ -40,8 +40,8 @@ planning_input made_possible(planning_input x) {
   const auto cut = [](double& number, double least, double most) {
     number = std::isnan(number) ? 0 : std::clamp(number, least, most);
   };
-  cut(x.s_m, -farthest_m, farthest_m);
-  cut(x.d_m, -farthest_off_m, farthest_off_m);
+  cut(x.s_m, -longest_way_m, longest_way_m);
+  cut(x.d_m, -widest_off_m, widest_off_m);
   cut(x.heading_error_rad, -most_turned_rad, most_turned_rad);
   cut(x.curvature_1pm, -most_curvature_1pm, most_curvature_1pm);
   cut(x.speed_mps, 0, fastest_mps);
@@ -55,7 +55,7 @@ planning_input joined(const route& way, time_point now,
       && now <= previous->end()) {
     const auto seen = moved_forward(own(input), previous->start);
     const auto then = previous->at(std::max(input.at, previous->start));
-    if (std::abs(then.s_m - seen.s_m) <= same_place_m
+    if (std::abs(then.s_m - seen.s_m) <= same_drive_m
         && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
       return seen_from(way, previous->at(now));
   }

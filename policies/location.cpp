@@ -8,7 +8,7 @@ namespace sofof {
 
 namespace {
 
-constexpr double standing_mps = 0.1;
+constexpr double slowest_mps = 0.1;
 
 } // namespace
 
@@ -18,7 +18,7 @@ std::optional<double> time_in_area_s(std::span<const point> route,
       route, [&](point p) { return area.contains(p); });
   if (outside == route.begin())
     return std::nullopt;
-  if (speed_mps < standing_mps)
+  if (speed_mps < slowest_mps)
     return std::numeric_limits<double>::infinity();
   const auto inside = static_cast<std::size_t>(outside - route.begin());
   return length_m(route.first(inside)) / speed_mps;

@@ -16,7 +16,7 @@ constexpr std::string_view header =
 constexpr std::string_view function = "service_instance";
 constexpr std::string_view requester = "service_requester";
 
-constexpr int share_places = 6;
+constexpr int places_of_percent = 6;
 
 duration cost_of_a_look() {
   constexpr auto looks = 10'000;
@@ -48,7 +48,7 @@ void add_row(std::string& out, std::string_view actor, std::string_view service,
   field(source);
   field(seconds(what.cpu));
   field(seconds(what.time));
-  field(rounded(what.percent(), share_places));
+  field(rounded(what.percent(), places_of_percent));
   field(wakes);
   out += '\n';
 }

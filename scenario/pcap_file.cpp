@@ -24,7 +24,7 @@ constexpr std::int64_t per_second = 1'000'000'000;
 constexpr std::string_view other_file = "another file with --pcap";
 
 /// As this machine has it; readers find out by the first number.
-void append(std::string& out, std::integral auto x) {
+void append_octets(std::string& out, std::integral auto x) {
   out.append(reinterpret_cast<const char*>(&x), sizeof x);
 }
 
@@ -112,13 +112,13 @@ void pcap_file::check(const std::filesystem::path& path) {
 pcap_file::pcap_file(std::filesystem::path path, etsi::its_clock clock)
     : file_{std::move(path), other_file}, clock_{clock} {
   auto& out = file_.text();
-  append(out, with_nanoseconds);
-  append(out, std::uint16_t{2}); // version 2.4
-  append(out, std::uint16_t{4});
-  append(out, std::int32_t{0});  // times are UTC
-  append(out, std::uint32_t{0}); // accuracy
-  append(out, longest_packet);
-  append(out, ethernet);
+  append_octets(out, with_nanoseconds);
+  append_octets(out, std::uint16_t{2}); // version 2.4
+  append_octets(out, std::uint16_t{4});
+  append_octets(out, std::int32_t{0});  // times are UTC
+  append_octets(out, std::uint32_t{0}); // accuracy
+  append_octets(out, longest_packet);
+  append_octets(out, ethernet);
 }
 
 void pcap_file::write(const air_record& x) {
@@ -128,10 +128,10 @@ void pcap_file::write(const air_record& x) {
   append_frame(frame, to.from, to.port, x.message.view());
   const auto ns = clock_.unix_time(x.at).count();
   auto& out = file_.text();
-  append(out, static_cast<std::uint32_t>(ns / per_second));
-  append(out, static_cast<std::uint32_t>(ns % per_second));
-  append(out, static_cast<std::uint32_t>(frame.size()));
-  append(out, static_cast<std::uint32_t>(frame.size()));
+  append_octets(out, static_cast<std::uint32_t>(ns / per_second));
+  append_octets(out, static_cast<std::uint32_t>(ns % per_second));
+  append_octets(out, static_cast<std::uint32_t>(frame.size()));
+  append_octets(out, static_cast<std::uint32_t>(frame.size()));
   out += frame;
   file_.end_line();
 }

@@ -19,24 +19,24 @@ namespace sofof {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 // JSON has no infinity: null is no bound.
-json bounds(std::span<const double> values) {
-  json list = json::array();
+ordered_json bounds(std::span<const double> values) {
+  ordered_json list = ordered_json::array();
   for (const auto x : values)
-    list.push_back(std::isfinite(x) ? json(x) : json());
+    list.push_back(std::isfinite(x) ? ordered_json(x) : ordered_json());
   return list;
 }
 
-json numbers(std::span<const double> values) {
+ordered_json numbers(std::span<const double> values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-json as_json(const path_problem& p) {
-  json lo = json::array(), hi = json::array();
+ordered_json as_json(const path_problem& p) {
+  ordered_json lo = ordered_json::array(), hi = ordered_json::array();
   for (std::size_t k = 0; k < p.wanted_m.size(); ++k) {
-    json low = json::array(), high = json::array();
+    ordered_json low = ordered_json::array(), high = ordered_json::array();
     for (const auto& disc : p.discs) {
       low.push_back(disc.lo_m[k]);
       high.push_back(disc.hi_m[k]);
@@ -51,7 +51,7 @@ json as_json(const path_problem& p) {
           {"hi", hi}};
 }
 
-json as_json(const velocity_problem& p) {
+ordered_json as_json(const velocity_problem& p) {
   const auto& l = p.limits;
   return {{"x0", {p.start.t_s, p.start.w_m2ps2, p.start.accel_mps2}},
           {"limits",
@@ -59,7 +59,7 @@ json as_json(const velocity_problem& p) {
             {"a_max", l.accel_max_mps2},
             {"j_max", l.jerk_max_mps3},
             {"a_tot", l.total_max_mps2}}},
-          {"k_stop", p.stop_knot ? json(*p.stop_knot) : json()},
+          {"k_stop", p.stop_knot ? ordered_json(*p.stop_knot) : ordered_json()},
           {"w_max", numbers(p.w_max_m2ps2)},
           {"w_ref", numbers(p.wanted_m2ps2)},
           {"kappa", numbers(p.curvature_1pm)},
@@ -67,17 +67,17 @@ json as_json(const velocity_problem& p) {
           {"t_hi", bounds(p.latest_s)}};
 }
 
-json path_drive() {
+ordered_json path_drive() {
   constexpr auto drive = 120;
   slalom road;
   const auto solver = std::make_unique<path_ocp>();
   path_state x;
-  json file{{"problem", "path"}};
-  json list = json::array();
+  ordered_json file{{"problem", "path"}};
+  ordered_json list = ordered_json::array();
   for (int k = 0; k < drive; ++k) {
     const auto& p = road.at(k, x);
     if (k == 0) {
-      json ahead = json::array();
+      ordered_json ahead = ordered_json::array();
       for (const auto& disc : p.discs)
         ahead.push_back(disc.ahead_m);
       const auto& w = p.weights;
@@ -106,11 +106,11 @@ json path_drive() {
   return file;
 }
 
-json velocity_drives() {
+ordered_json velocity_drives() {
   using event = practice_road::event;
   constexpr auto steps = 30, stride = 2;
-  json file{{"problem", "velocity"}};
-  json list = json::array();
+  ordered_json file{{"problem", "velocity"}};
+  ordered_json list = ordered_json::array();
   const auto solver = std::make_unique<velocity_ocp>();
   for (const auto what : {event::free_flow, event::slow_leader,
                           event::stop_line, event::crossing}) {

@@ -37,7 +37,7 @@ constexpr int length_places = 3;
 constexpr int angle_places = 6;
 constexpr int comfort_places = 6;
 constexpr int timing_places = 6;
-constexpr int energy_places = 6;
+constexpr int places_of_energy = 6;
 
 std::optional<pcap_file> capture_of(const run_info& run) {
   if (run.pcap.empty())
@@ -233,8 +233,8 @@ void results::write_vehicles() const {
              x.ride.hard_brakes,
              rounded(x.ride.comfort_cost_m2ps3, comfort_places),
              cycles.on_board, cycles.offloaded,
-             rounded(cycles.energy_j(), energy_places),
-             rounded(cycles.all_on_board_j, energy_places));
+             rounded(cycles.energy_j(), places_of_energy),
+             rounded(cycles.all_on_board_j, places_of_energy));
   }
   file.close();
 }

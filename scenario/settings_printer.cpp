@@ -44,13 +44,13 @@ public:
     put(key, fmt::format("{}", value));
   }
   void field(std::string_view key, std::string& value) override {
-    put(key, quoted(value));
+    put(key, quoted_toml(value));
   }
   void field(std::string_view key, duration& value, duration) override {
-    put(key, quoted(print_duration(value)));
+    put(key, quoted_toml(print_duration(value)));
   }
   void field(std::string_view key, std::vector<std::string>& value) override {
-    put(key, list_of(value, quoted));
+    put(key, list_of(value, quoted_toml));
   }
   void field(std::string_view key, point& value) override {
     put(key, text_of(value));

@@ -114,7 +114,7 @@ private:
     } catch (const toml::parse_error&) {
       // Then it is text without quotes.
     }
-    return parse_toml(fmt::format("value = {}", quoted(value_)), place_);
+    return parse_toml(fmt::format("value = {}", quoted_toml(value_)), place_);
   }
 
   std::string place_;

@@ -20,7 +20,7 @@ std::string key_text(std::string_view key) {
            || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
   return !key.empty() && std::ranges::all_of(key, bare) ? std::string{key}
-                                                        : quoted(key);
+                                                        : quoted_toml(key);
 }
 
 std::string inline_text(const toml::table& table) {

@@ -22,7 +22,7 @@ constexpr auto farthest_m = 1e7;
 std::string describe(const toml::node& n) {
   switch (n.type()) {
     case toml::node_type::string:
-      return quoted(**n.as_string());
+      return quoted_toml(**n.as_string());
     case toml::node_type::integer:
       return fmt::format("{}", **n.as_integer());
     case toml::node_type::floating_point:

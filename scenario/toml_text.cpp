@@ -8,7 +8,7 @@
 
 namespace sofof {
 
-std::string quoted(std::string_view text) {
+std::string quoted_toml(std::string_view text) {
   std::string result{'"'};
   for (const auto c : text) {
     const auto code = static_cast<unsigned char>(c);

@@ -12,7 +12,7 @@ namespace sofof {
 namespace {
 
 // Tells the draws of one message apart.
-enum lane : std::uint32_t {
+enum draw : std::uint32_t {
   joint_lane,
   service_lane,
   network_lane,

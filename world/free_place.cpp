@@ -8,11 +8,11 @@ namespace sofof {
 namespace {
 
 constexpr auto standing_m = 12.0;
-constexpr auto hesitation_s = 1.0;
+constexpr auto reaction_s = 1.0;
 constexpr auto decel_mps2 = 2.0;
 
 double way_to_stop_m(double speed_mps) {
-  return speed_mps * hesitation_s + speed_mps * speed_mps / (2 * decel_mps2);
+  return speed_mps * reaction_s + speed_mps * speed_mps / (2 * decel_mps2);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "world/geometry.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +10,8 @@
 namespace sofof {
 
 namespace {
+
+constexpr double rounding = 1e-9;
 
 /// Twice the signed area of a triangle: positive when c lies left of a->b.
 double turn(point a, point b, point c) {
@@ -86,6 +89,18 @@ polygon::polygon(std::vector<point> corners) : corners_{std::move(corners)} {
                                   "coincide."};
   if (crosses_itself(corners_))
     throw std::invalid_argument{"The rim of a polygon crosses itself."};
+  for (const auto corner : corners_)
+    middle_ = middle_ + 1 / static_cast<double>(n) * corner;
+  const auto has_middle = casts_oddly(middle_);
+  within_m_ = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto a = corners_[i], b = corners_[(i + 1) % n];
+    within_m_ = std::min(within_m_, distance_to_segment_m(middle_, a, b));
+    beyond_m_ = std::max(beyond_m_, distance_m(middle_, a));
+  }
+  // Rounding must not decide.
+  within_m_ = has_middle ? within_m_ * (1 - rounding) : 0;
+  beyond_m_ *= 1 + rounding;
 }
 
 polygon polygon::regular(point centre, double radius_m, unsigned corners) {
@@ -99,6 +114,14 @@ polygon polygon::regular(point centre, double radius_m, unsigned corners) {
 }
 
 bool polygon::contains(point p) const {
+  const auto away_m = distance_m(p, middle_);
+  if (away_m < within_m_)
+    return true;
+  return !(away_m > beyond_m_) && casts_oddly(p);
+}
+
+// Counts how often a ray crosses the rim.
+bool polygon::casts_oddly(point p) const {
   auto inside = false;
   for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size();
        j = i++) {

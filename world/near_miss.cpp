@@ -25,7 +25,7 @@ double reach_m(const oriented_box& box, const axes& own, point direction) {
          + box.width_m / 2 * std::abs(dot(own.left, direction));
 }
 
-double radius_m(const oriented_box& box) {
+double half_diagonal_m(const oriented_box& box) {
   return 0.5 * std::hypot(box.length_m, box.width_m);
 }
 
@@ -33,7 +33,7 @@ double radius_m(const oriented_box& box) {
 /// they went.
 bool are_near(const road_body& a, const road_body& b) {
   const auto reach_m =
-      radius_m(a.box) + radius_m(b.box)
+      half_diagonal_m(a.box) + half_diagonal_m(b.box)
       + near_miss_s * (std::abs(a.speed_mps) + std::abs(b.speed_mps));
   const auto apart = b.box.centre - a.box.centre;
   return dot(apart, apart) <= reach_m * reach_m;
@@ -73,7 +73,7 @@ near_miss_watch::look(std::span<const road_body> bodies, time_point now) {
   from_west_.clear();
   for (const auto& body : bodies) {
     const auto reach_m =
-        radius_m(body.box) + near_miss_s * std::abs(body.speed_mps);
+        half_diagonal_m(body.box) + near_miss_s * std::abs(body.speed_mps);
     const auto x_m = body.box.centre.x_m;
     from_west_.push_back({x_m - reach_m, x_m + reach_m, &body});
   }

@@ -88,6 +88,7 @@ void road_map::cut(const path& line) {
     pieces_.emplace_back(last, here);
     last = here;
   }
+  ends_.push_back(pieces_.size());
 }
 
 route_ptr road_map::make_route(std::string name,
@@ -113,25 +114,47 @@ route_ptr road_map::make_route(std::string name,
                                  closed);
 }
 
+std::size_t road_map::lane_of(std::size_t piece) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(ends_, piece)
+                                  - ends_.begin());
+}
+
+// The next point is sought as far along the lane of the last one, then on the
+// lanes that follow it, then everywhere.
 bool road_map::near_lanes(std::span<const point> points,
                           double tolerance_m) const {
-  auto last = points.begin();
-  std::size_t there = 0; // the piece that is near the last point
-  for (auto p = points.begin(); p != points.end(); last = p++) {
-    const auto is_near = [&](std::size_t i) {
-      const auto& [a, b] = pieces_[i];
-      return distance_to_segment_m(*p, a, b) <= tolerance_m;
+  std::size_t lane = 0, piece = 0; // near the last point
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto is_near = [&](std::size_t other) {
+      const auto& [a, b] = pieces_[other];
+      const auto off = points[i] - a; // mostly that is enough
+      return dot(off, off) <= tolerance_m * tolerance_m
+             || distance_to_segment_m(points[i], a, b) <= tolerance_m;
     };
-    const auto moved = distance_m(*last, *p) / piece_m;
-    const auto guess = there + static_cast<std::size_t>(std::min(1e6, moved));
-    if (guess < pieces_.size() && is_near(guess)) {
-      there = guess;
-      continue;
+    if (i > 0) {
+      const auto moved = distance_m(points[i - 1], points[i]) / piece_m + 0.5;
+      const auto ahead = piece + static_cast<std::size_t>(std::min(1e6, moved));
+      if (ahead < ends_[lane] && is_near(ahead)) {
+        piece = ahead;
+        continue;
+      }
+      const auto& next = next_[lane];
+      const auto beyond = ahead - std::min(ahead, ends_[lane]);
+      const auto follower = std::ranges::find_if(next, [&](std::size_t other) {
+        const auto begin = other > 0 ? ends_[other - 1] : 0;
+        return begin + beyond < ends_[other] && is_near(begin + beyond);
+      });
+      if (follower != next.end()) {
+        lane = *follower;
+        piece = (lane > 0 ? ends_[lane - 1] : 0) + beyond;
+        continue;
+      }
     }
-    const auto found = cells_.any_near(*p, tolerance_m, is_near);
+    const auto found = cells_.any_near(points[i], tolerance_m, is_near);
     if (!found)
       return false;
-    there = *found;
+    piece = *found;
+    lane = lane_of(piece);
   }
   return true;
 }

@@ -61,6 +61,7 @@ public:
 private:
   void cut(const path& line);
   void resolve(const lane& l);
+  std::size_t lane_of(std::size_t piece) const;
 
   std::string name_;
   geo_origin origin_;
@@ -70,6 +71,7 @@ private:
   std::vector<std::vector<std::size_t>> next_; // of each lane
   std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::pair<point, point>> pieces_; // of the lanes' centre lines
+  std::vector<std::size_t> ends_; // of the pieces of each lane, one past
   cell_grid cells_;                             // of the pieces
 };
 

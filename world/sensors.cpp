@@ -12,9 +12,6 @@ namespace {
 
 constexpr double cell_m = 50;
 
-/// What a draw of noise is for.
-enum lane : std::uint32_t { east, north, along, turn };
-
 /// @returns on which side of the line from `a` to `b` a point is.
 bool is_left(point a, point b, point p) {
   return cross(b - a, p - a) > 0;
@@ -74,7 +71,8 @@ perceived_object measure(const road_body& body, const sensor& s,
                          time_point now) {
   const auto noise = s.noise.part(body.id);
   const auto when = static_cast<std::uint64_t>(now.time_since_epoch().count());
-  const auto err = [&](double sd, lane what) {
+  enum measured : std::uint32_t { east, north, along, turn };
+  const auto err = [&](double sd, measured what) {
     return noise.normal(0, sd, when, what);
   };
   const auto& box = body.box;

@@ -16,7 +16,7 @@ constexpr double speed_gain_1ps = 1.5;
 constexpr double way_gain_1ps2 = 0.6;
 constexpr double max_feedback_1pm = 0.1;
 
-constexpr double standing_mps = 0.01;
+constexpr double stands_below_mps = 0.01;
 constexpr double holding_brake_mps2 = 0.5;
 
 } // namespace
@@ -71,8 +71,8 @@ vehicle_command follow(const vehicle_state& x, const trajectory& plan,
   u.steer_rad =
       std::atan(car.wheelbase_m * (wheel_then.curvature_1pm + feedback_1pm));
 
-  const auto will_stand = drive_then.speed_mps < standing_mps;
-  if (will_stand && here.speed_mps < standing_mps) {
+  const auto will_stand = drive_then.speed_mps < stands_below_mps;
+  if (will_stand && here.speed_mps < stands_below_mps) {
     u.accel_mps2 = -std::max(holding_brake_mps2, speed_gain_1ps * x.speed_mps);
   } else {
     // A car that comes to rest needs not let go of the brake before.

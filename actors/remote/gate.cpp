@@ -26,10 +26,10 @@ namespace {
 constexpr std::size_t most_entrances = 256;
 constexpr std::size_t most_entrances_of_one = 2;
 constexpr std::size_t most_sessions_of_one = 16;
-constexpr std::size_t most_stations = 10'000;
+constexpr std::size_t most_claims = 10'000;
 
 /// Between two notes of who was refused.
-constexpr duration complaint_period = std::chrono::seconds{1};
+constexpr duration refusal_note_period = std::chrono::seconds{1};
 
 using entrance_impl = entrance_actor::extend<takes<tick_atom>>;
 using gate_impl = gate_actor::extend<
@@ -96,9 +96,9 @@ struct entrance_state {
       return "it has no end of its own";
     if (hello.provider != setup->name)
       return fmt::format("it is provider {}", setup->name);
-    if (hello.stations.empty() || hello.stations.size() > most_stations)
+    if (hello.stations.empty() || hello.stations.size() > most_claims)
       return fmt::format("speaks for {} stations; 1 to {} are possible",
-                         hello.stations.size(), most_stations);
+                         hello.stations.size(), most_claims);
     if (!is_time_of_day(hello.epoch_unix_ms))
       return "its clock shows no time of day";
     if (hello.world != setup->world)
@@ -241,7 +241,7 @@ struct gate_state {
     const auto t = now(self);
     if (t < next_complaint)
       return;
-    next_complaint = t + complaint_period;
+    next_complaint = t + refusal_note_period;
     self->send(setup->recorder,
                event_record{t,
                             "peer_refused",

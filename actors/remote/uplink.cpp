@@ -32,7 +32,7 @@ using uplink_impl = uplink_actor::extend<
     // An attempt has got through, or has failed for this reason.
     takes<tick_atom, gate_actor>, takes<tick_atom, std::string>>;
 
-constexpr std::size_t streams_per_station = 8;
+constexpr std::size_t streams_of_station = 8;
 
 struct uplink_state {
   static inline const char* name = "uplink";
@@ -64,7 +64,7 @@ struct uplink_state {
   std::string last_news;
 
   void start() {
-    words.emplace(streams_per_station * setup.stations.size(),
+    words.emplace(streams_of_station * setup.stations.size(),
                   protocol::silence_limit);
     plan_attempt();
     tick();
@@ -337,7 +337,7 @@ struct uplink_state {
     const auto vehicle = vehicles.find(response.station);
     if (vehicle == vehicles.end())
       return;
-    const auto most = streams_per_station * setup.stations.size();
+    const auto most = streams_of_station * setup.stations.size();
     for (const auto& v : response.verdicts)
       if (v.accepted && v.running.station == response.station
           && running.size() < most)

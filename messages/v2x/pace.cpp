@@ -7,7 +7,7 @@
 namespace sofof {
 namespace {
 
-constexpr double weight(double sigma) {
+constexpr double certainty(double sigma) {
   return 1 / (sigma * sigma);
 }
 
@@ -18,7 +18,9 @@ constexpr double sigma_speed_mps = 0.0025;
 /// How much jerk changes from step to step, by how far moments are apart: their
 /// sender sets them close where it changes.
 double weight_of_kink(double gap_s) {
-  return gap_s > 0.15 ? weight(0.3) : gap_s > 0.07 ? weight(1.2) : weight(20);
+  return gap_s > 0.15   ? certainty(0.3)
+         : gap_s > 0.07 ? certainty(1.2)
+                        : certainty(20);
 }
 constexpr double widest_gap_s = 1;
 constexpr double sigma_accel_mps2 = 3; // of anybody, any time
@@ -104,8 +106,8 @@ bool pace::drive(std::size_t from, std::size_t to, const motion* before) {
     observe(to, start_s); // or nothing would tell how it ends
   limit_jerk(from, seen, start_s, last - first);
   if (before != nullptr) {
-    way_.observe_slope(0, before->speed_mps, weight(sigma_before_mps));
-    way_.observe_bend(0, before->accel_mps2, weight(sigma_before_mps2));
+    way_.observe_slope(0, before->speed_mps, certainty(sigma_before_mps));
+    way_.observe_bend(0, before->accel_mps2, certainty(sigma_before_mps2));
   }
   if (!way_.solve())
     return false;
@@ -119,8 +121,8 @@ bool pace::drive(std::size_t from, std::size_t to, const motion* before) {
 
 void pace::observe(std::size_t i, double start_s) {
   const auto& x = moments_[i];
-  way_.observe_value(x.t_s - start_s, x.way_m, weight(sigma_way_m));
-  way_.observe_slope(x.t_s - start_s, x.speed_mps, weight(sigma_speed_mps));
+  way_.observe_value(x.t_s - start_s, x.way_m, certainty(sigma_way_m));
+  way_.observe_slope(x.t_s - start_s, x.speed_mps, certainty(sigma_speed_mps));
 }
 
 void pace::limit_jerk(std::size_t from, std::size_t to, double start_s,
@@ -137,8 +139,8 @@ void pace::limit_jerk(std::size_t from, std::size_t to, double start_s,
          k <= static_cast<std::size_t>(std::clamp(end, 0.0, most)); ++k)
       gap_s[k] = std::min(gap_s[k], gap);
   }
-  way_.observe_bend(0, 0, weight(sigma_accel_mps2));
-  way_.observe_bend(steps, 0, weight(sigma_accel_mps2));
+  way_.observe_bend(0, 0, certainty(sigma_accel_mps2));
+  way_.observe_bend(steps, 0, certainty(sigma_accel_mps2));
   std::array<double, most_steps> weights;
   for (std::size_t k = 1; k < steps; ++k)
     weights[k - 1] = weight_of_kink(gap_s[k]);

@@ -15,7 +15,7 @@ namespace {
 namespace tr = etsi::tr103562;
 using std::chrono::milliseconds;
 
-constexpr std::uint8_t sensor_id = 1;
+constexpr std::uint8_t the_sensor = 1;
 constexpr std::uint8_t sensor_fusion = 8;
 constexpr std::uint8_t car_class = 3;
 constexpr std::uint16_t whole_circle = 3600; // 0.1 °
@@ -68,7 +68,7 @@ void describe(tr::perceived_object& told, const known_object& known,
 tr::sensor_information describe(const sensor_params& can,
                                 const vehicle_params& car) {
   tr::sensor_information told;
-  told.id = sensor_id;
+  told.id = the_sensor;
   told.type = sensor_fusion;
   auto& mounted = std::get<tr::vehicle_sensor>(told.detection_area.value);
   const auto behind_front_m = (car.front_m + car.rear_m) / 2;

@@ -14,9 +14,9 @@ namespace {
 namespace ts = etsi::ts103324;
 using std::chrono::milliseconds;
 
-constexpr std::uint8_t sensor_id = 1;
+constexpr std::uint8_t own_sensor = 1;
 constexpr std::uint8_t fused_here = 12;
-constexpr std::uint16_t whole_circle = 3600; // 0.1 °
+constexpr std::uint16_t full_turn = 3600; // 0.1 °
 
 /// The frame of a message: east and north of the sender's front.
 struct frame {
@@ -80,7 +80,7 @@ void describe(ts::perceived_object& told, const known_object& known,
 
 ts::sensor_information describe(const sensor_params& can) {
   ts::sensor_information told;
-  told.id = sensor_id;
+  told.id = own_sensor;
   told.type = fused_here;
   etsi::radial_shape view;
   view.range = static_cast<std::uint16_t>(
@@ -88,7 +88,7 @@ ts::sensor_information describe(const sensor_params& can) {
   const auto half =
       static_cast<std::uint16_t>(std::lround(5 * can.field_of_view_deg));
   view.horizontal_start =
-      static_cast<std::uint16_t>((whole_circle - half) % whole_circle);
+      static_cast<std::uint16_t>((full_turn - half) % full_turn);
   view.horizontal_end = half;
   told.shape.emplace().value = view;
   told.shadowing = can.occlusion;

@@ -14,8 +14,8 @@
 namespace sofof {
 namespace {
 
-constexpr std::int32_t largest_cm = 131071;
-constexpr std::int32_t largest_ms = 65535;
+constexpr std::int32_t farthest_cm = 131071;
+constexpr std::int32_t latest_ms = 65535;
 constexpr double largest_speed_mps = 163.82;
 
 /// How far waypoints are apart where the jerk jumps by less than that.
@@ -60,7 +60,7 @@ public:
   }
 
   bool fits() const {
-    return first_ms_ >= 0 && first_ms_ + length_ms_ <= largest_ms
+    return first_ms_ >= 0 && first_ms_ + length_ms_ <= latest_ms
            && length_ms_ > 0;
   }
   int first_ms() const { return static_cast<int>(first_ms_); }
@@ -84,7 +84,8 @@ public:
     const auto at = offset(p);
     out = {whole(at.x_m), whole(at.y_m), first_ms() + ms,
            whole(100 * p.speed_mps)};
-    return std::abs(out.x_cm) <= largest_cm && std::abs(out.y_cm) <= largest_cm
+    return std::abs(out.x_cm) <= farthest_cm
+           && std::abs(out.y_cm) <= farthest_cm
            && p.speed_mps < largest_speed_mps;
   }
 

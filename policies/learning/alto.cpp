@@ -12,8 +12,8 @@ namespace sofof {
 
 namespace {
 
-constexpr std::string_view kind = "alto";
-constexpr std::uint64_t version = 1;
+constexpr std::string_view alto_text = "alto";
+constexpr std::uint64_t alto_version = 1;
 
 } // namespace
 
@@ -60,7 +60,7 @@ void alto::learn(boot_id provider, double task_bits, double delay_s) {
 }
 
 std::string alto::snapshot() const {
-  state_writer out{kind, version};
+  state_writer out{alto_text, alto_version};
   out.word("worst").number(options_.worst_delay_s_per_bit).line();
   out.word("tasks").count(tasks_).word("providers").count(known_.size());
   for (const auto& [provider, known] : known_)
@@ -73,7 +73,7 @@ std::string alto::snapshot() const {
 }
 
 std::optional<std::string> alto::restore(std::string_view snapshot) {
-  state_reader in{snapshot, kind, version};
+  state_reader in{snapshot, alto_text, alto_version};
   in.expect("worst");
   if (in.number() != options_.worst_delay_s_per_bit)
     in.refuse("expected the worst delay of this learner.");

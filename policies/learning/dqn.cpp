@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::string_view kind = "dqn";
-constexpr std::uint64_t version = 1;
+constexpr std::string_view dqn_text = "dqn";
+constexpr std::uint64_t dqn_version = 1;
 
 std::uint64_t size(Index number) {
   return static_cast<std::uint64_t>(number);
@@ -108,7 +108,7 @@ void dqn::train() {
 }
 
 std::string dqn::snapshot() const {
-  state_writer out{kind, version};
+  state_writer out{dqn_text, dqn_version};
   out.word("features").count(size(options_.shape.features));
   out.word("actions").count(size(options_.shape.actions));
   out.word("width").count(size(options_.shape.width));
@@ -120,7 +120,7 @@ std::string dqn::snapshot() const {
 }
 
 std::optional<std::string> dqn::restore(std::string_view snapshot) {
-  state_reader in{snapshot, kind, version};
+  state_reader in{snapshot, dqn_text, dqn_version};
   in.expect("features", size(options_.shape.features));
   in.expect("actions", size(options_.shape.actions));
   in.expect("width", size(options_.shape.width));

@@ -10,8 +10,8 @@ namespace sofof {
 
 namespace {
 
-constexpr std::string_view kind = "q_learning";
-constexpr std::uint64_t version = 1;
+constexpr std::string_view q_learning_text = "q_learning";
+constexpr std::uint64_t q_learning_version = 1;
 
 constexpr double rate_exponent = 0.7;
 
@@ -51,7 +51,7 @@ std::span<const double> q_learning::values(std::size_t state) const {
 }
 
 std::string q_learning::snapshot() const {
-  state_writer out{kind, version};
+  state_writer out{q_learning_text, q_learning_version};
   out.word("states").count(options_.states);
   out.word("actions").count(options_.actions);
   out.word("decisions").count(decisions_);
@@ -61,7 +61,7 @@ std::string q_learning::snapshot() const {
 }
 
 std::optional<std::string> q_learning::restore(std::string_view snapshot) {
-  state_reader in{snapshot, kind, version};
+  state_reader in{snapshot, q_learning_text, q_learning_version};
   in.expect("states", options_.states);
   in.expect("actions", options_.actions);
   q_learning read{options_, draws_};

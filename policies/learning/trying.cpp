@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view text_kind = "trials";
 constexpr std::uint64_t text_version = 1;
 
-bool is_there(const local_context& context, boot_id place) {
+bool is_offered(const local_context& context, boot_id place) {
   return place == 0 || place == context.current
          || std::ranges::find(context.providers, place, &provider_view::id)
                 != context.providers.end();
@@ -54,7 +54,7 @@ void trying_lodm::conclude(service& tried, time_point now) const {
 local_decision trying_lodm::decide(const local_context& context) {
   auto& tried = of(context.kind);
   if (tried.now.is_open() && !tried.now.lasted(trial_, context.now)
-      && is_there(context, tried.now.place()))
+      && is_offered(context, tried.now.place()))
     return at_place(context, tried.now.place(), "on trial");
   conclude(tried, context.now);
   const auto place = tried.bandit->choose(context);

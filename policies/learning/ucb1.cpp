@@ -9,8 +9,8 @@ namespace sofof {
 
 namespace {
 
-constexpr std::string_view kind = "ucb1";
-constexpr std::uint64_t version = 1;
+constexpr std::string_view ucb1_text = "ucb1";
+constexpr std::uint64_t ucb1_version = 1;
 
 } // namespace
 
@@ -40,7 +40,7 @@ void ucb1::learn(std::size_t arm, double reward) {
 }
 
 std::string ucb1::snapshot() const {
-  state_writer out{kind, version};
+  state_writer out{ucb1_text, ucb1_version};
   out.word("arms").count(arms_.size());
   for (const auto& arm : arms_)
     out.line().number(arm.total).count(arm.pulls);
@@ -48,7 +48,7 @@ std::string ucb1::snapshot() const {
 }
 
 std::optional<std::string> ucb1::restore(std::string_view snapshot) {
-  state_reader in{snapshot, kind, version};
+  state_reader in{snapshot, ucb1_text, ucb1_version};
   in.expect("arms", arms_.size());
   ucb1 read{arms_.size()};
   for (auto& arm : read.arms_) {

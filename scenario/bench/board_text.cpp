@@ -13,7 +13,7 @@ namespace sofof::bench {
 
 namespace {
 
-constexpr auto absent = "-";
+constexpr auto unknown = "-";
 constexpr std::size_t gap = 2;
 
 struct cell {
@@ -53,7 +53,7 @@ std::optional<column> figures_in(const leaderboard& board,
     any |= known;
     all.cells.push_back(
         {known ? fmt::format("{:.{}f}", found->second.mean, by.decimals)
-               : absent,
+               : unknown,
          known && best && one.above_line()
              && found->second.mean == best->mean});
   }
@@ -65,7 +65,7 @@ column times_in(const leaderboard& board,
   column all{"decide us", {}};
   for (const auto& one : board.standings) {
     const auto us = slowest_p99_us(costs, one.entrant, board.scenario);
-    all.cells.push_back({us ? fmt::format("{:.1f}", *us) : absent, false});
+    all.cells.push_back({us ? fmt::format("{:.1f}", *us) : unknown, false});
   }
   return all;
 }

@@ -46,7 +46,7 @@ void check_name(std::string_view name, const std::string& place) {
   if (name.empty() || odd)
     throw input_error{fmt::format("{}: {} is no name for an entrant; it must "
                                   "be a word without commas and quotes.",
-                                  place, quoted(name))};
+                                  place, quoted_toml(name))};
   if (name == everybody)
     throw input_error{fmt::format("{}: \"{}\" means all of them; choose "
                                   "another name.",

@@ -20,7 +20,7 @@ struct column {
   int decimals;
 };
 
-constexpr std::array columns{
+constexpr std::array vehicle_columns{
     column{"station", "vehicle", 0},
     column{"distance_m", "way, m", 0},
     column{"plans", "plans", 0},
@@ -43,16 +43,17 @@ table vehicle_table(const recorded_run& run) {
     return {};
   table all;
   std::vector<std::string_view> wanted;
-  for (const auto& [name, shown, decimals] : columns) {
+  for (const auto& [name, shown, decimals] : vehicle_columns) {
     all.columns.emplace_back(shown);
     wanted.push_back(name);
   }
   csv_reader line{file, wanted};
   while (line.next()) {
     auto& row = all.rows.emplace_back();
-    for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t i = 0; i < vehicle_columns.size(); ++i) {
       const auto x = line.number_if_any(i);
-      row.push_back(x ? fmt::format("{:.{}f}", *x, columns[i].decimals) : "");
+      row.push_back(x ? fmt::format("{:.{}f}", *x, vehicle_columns[i].decimals)
+                      : "");
     }
   }
   return all;

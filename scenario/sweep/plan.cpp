@@ -186,7 +186,7 @@ private:
       if (axis.name.find_first_of(",\"\n") != axis.name.npos)
         fail(root_, fmt::format("the name of an axis, {}, has a comma, a quote "
                                 "or a line end in it; choose another one.",
-                                sofof::quoted(axis.name)));
+                                quoted_toml(axis.name)));
       if (std::ranges::find(names, axis.name) != names.end())
         fail(root_, fmt::format("two columns of the results would be called "
                                 "\"{}\"; give an axis another name, and vary "

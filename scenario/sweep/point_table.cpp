@@ -14,7 +14,7 @@ namespace sofof {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 constexpr std::string_view wall_clock = "timing"; // a member with its figures
 
@@ -34,7 +34,7 @@ private:
   std::vector<std::string> paths_;
 };
 
-std::string text_of(const json& value) {
+std::string text_of(const ordered_json& value) {
   if (value.is_null())
     return "";
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -49,7 +49,7 @@ std::set<std::string> left_out(const sweep_plan& plan) {
   return members;
 }
 
-void flatten(const json& object, const std::string& prefix,
+void flatten(const ordered_json& object, const std::string& prefix,
              const std::set<std::string>& without, figure_columns& columns,
              std::map<std::size_t, std::string>& row) {
   for (const auto& [key, value] : object.items()) {
@@ -71,7 +71,7 @@ void append_cell(std::string& line, std::string_view text) {
 } // namespace
 
 bool point_result::safe() const {
-  const auto summary = json::parse(this->summary);
+  const auto summary = ordered_json::parse(this->summary);
   const auto& safety = summary.at("safety");
   return safety.at("without_fresh_plan_s") == 0.0
          && safety.at("off_road_s") == 0.0 && safety.at("collisions") == 0;
@@ -84,7 +84,7 @@ std::string point_table(const sweep_plan& plan,
   std::vector<std::map<std::size_t, std::string>> figures(results.size());
   for (std::size_t i = 0; i < results.size(); ++i)
     if (!results[i].failed())
-      flatten(json::parse(results[i].summary), "", without, columns,
+      flatten(ordered_json::parse(results[i].summary), "", without, columns,
               figures[i]);
 
   std::string text = "point";

@@ -13,7 +13,6 @@ using namespace sofof::test;
 
 namespace {
 
-constexpr auto start = planning::start;
 const vehicle_params car;
 
 /// A provider that has heard a vehicle and its word.
@@ -147,13 +146,13 @@ TEST_CASE("a provider takes the vehicle's plan over without a jump") {
 
   const auto jump = [&](bool tells_plan) {
     informed there{"3-4-5", 20, 5}; // of 1 s ago, when it began to speed up
-    *there.now = start + 1s;
+    *there.now = planning::start + 1s;
     auto ask = there.at("3-4-5", own_plan->at(*there.now).s_m,
                         own_plan->at(*there.now).speed_mps);
     ask.own = on_plan(*own_plan, *there.now);
     // The plan in use is the newest: it has just been made.
     auto newest = *own_plan;
-    *home.now = start + 1s;
+    *home.now = planning::start + 1s;
     auto again = home.at("3-4-5", ask.from.s_m, ask.from.speed_mps);
     again.from.accel_mps2 = own_plan->at(*home.now).accel_mps2;
     if (const auto next = home.ask(again, payload::of(newest)))

@@ -12,7 +12,7 @@ namespace {
 
 const running_service running{1, 101, "trajectory_planning", 7};
 
-struct watched_world : virtual_world {
+struct watchdog_world : virtual_world {
   probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
   watchdog_actor dog =
       own(spawn_qos_watchdog(system(), {50ms, 100ms}, requester.handle));
@@ -24,13 +24,13 @@ struct watched_world : virtual_world {
 
 } // namespace
 
-TEST_CASE_FIXTURE(watched_world, "the watchdog sleeps until it is armed") {
+TEST_CASE_FIXTURE(watchdog_world, "the watchdog sleeps until it is armed") {
   run_for(10s);
   CHECK(requester->count<qos_violation>() == 0);
 }
 
 TEST_CASE_FIXTURE(
-    watched_world,
+    watchdog_world,
     "the watchdog barks when the gap is one nanosecond too long") {
   tell(dog, running, now());
   run_for(100ms);
@@ -43,7 +43,7 @@ TEST_CASE_FIXTURE(
   CHECK(violation.at == time_point{100ms + 1ns});
 }
 
-TEST_CASE_FIXTURE(watched_world,
+TEST_CASE_FIXTURE(watchdog_world,
                   "results at exactly the longest gap keep the watchdog calm") {
   tell(dog, running, now());
   for (int k = 0; k < 50; ++k) {
@@ -55,7 +55,7 @@ TEST_CASE_FIXTURE(watched_world,
   CHECK(requester->count<qos_violation>() == 1);
 }
 
-TEST_CASE_FIXTURE(watched_world,
+TEST_CASE_FIXTURE(watchdog_world,
                   "a result that comes too late is a violation") {
   tell(dog, running, now());
   run_for(50ms);
@@ -66,7 +66,7 @@ TEST_CASE_FIXTURE(watched_world,
   CHECK(requester->all<qos_violation>().front().breach == qos_breach::latency);
 }
 
-TEST_CASE_FIXTURE(watched_world,
+TEST_CASE_FIXTURE(watchdog_world,
                   "the watchdog barks once per running service") {
   tell(dog, running, now());
   run_for(10s);
@@ -75,7 +75,7 @@ TEST_CASE_FIXTURE(watched_world,
 }
 
 TEST_CASE_FIXTURE(
-    watched_world,
+    watchdog_world,
     "after service_end the watchdog is silent, and can be armed again") {
   tell(dog, running, now());
   tell(dog, service_end{running});
@@ -86,7 +86,7 @@ TEST_CASE_FIXTURE(
   CHECK(requester->count<qos_violation>() == 1);
 }
 
-TEST_CASE_FIXTURE(watched_world,
+TEST_CASE_FIXTURE(watchdog_world,
                   "arrivals of another running service do not count") {
   tell(dog, running, now());
   auto other = running;

@@ -13,7 +13,7 @@ using namespace sofof::test;
 
 namespace {
 
-struct watched_world : virtual_world {
+struct supervised_world : virtual_world {
   probe<road_actor> road = listen<road_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
   std::vector<std::string> lost;
@@ -23,24 +23,24 @@ struct watched_world : virtual_world {
        {caf::actor_cast<caf::actor>(recorder.handle), "the recorder"}},
       [this](const std::string& what) { lost.push_back(what); }));
 
-  watched_world() { settle(); }
+  supervised_world() { settle(); }
 };
 
 } // namespace
 
-TEST_CASE_FIXTURE(watched_world, "the supervisor says who has died") {
+TEST_CASE_FIXTURE(supervised_world, "the supervisor says who has died") {
   kill(road.handle);
   REQUIRE(lost.size() == 1);
   CHECK(lost.front().find("the road has died") == 0);
 }
 
-TEST_CASE_FIXTURE(watched_world, "actors that are dismissed have not died") {
+TEST_CASE_FIXTURE(supervised_world, "actors that are dismissed have not died") {
   caf::anon_send_exit(road.handle, caf::exit_reason::user_shutdown);
   settle();
   CHECK(lost.empty());
 }
 
-TEST_CASE_FIXTURE(watched_world,
+TEST_CASE_FIXTURE(supervised_world,
                   "the supervisor also watches who comes later") {
   const auto late = listen<uplink_actor>();
   watch_as_well(supervisor, caf::actor_cast<caf::actor>(late.handle),
@@ -53,7 +53,8 @@ TEST_CASE_FIXTURE(watched_world,
   CHECK(lost.size() == 2);
 }
 
-TEST_CASE_FIXTURE(watched_world, "the supervisor outlives those it watches") {
+TEST_CASE_FIXTURE(supervised_world,
+                  "the supervisor outlives those it watches") {
   kill(road.handle);
   kill(recorder.handle);
   CHECK(lost.size() == 2);

@@ -11,8 +11,7 @@
 
 #include <array>
 
-using namespace sofof::etsi;
-
+namespace sofof::etsi {
 namespace {
 
 /// A car in Ulm that turns left at 30 km/h.
@@ -144,13 +143,15 @@ TEST_CASE("other messages are refused by their header") {
 }
 
 TEST_CASE("CAMs of any content come back, within their ranges") {
-  sofof::test::check_random_messages<cam>(500);
-  sofof::test::check_ranges<cam>(5);
+  test::check_random_messages<cam>(500);
+  test::check_ranges<cam>(5);
 }
 TEST_CASE("CAMs that end early or are damaged do no harm") {
-  sofof::test::check_truncation<cam>(20);
-  sofof::test::check_damage<cam>(1000);
+  test::check_truncation<cam>(20);
+  test::check_damage<cam>(1000);
 }
 TEST_CASE("what a later version adds to the CAM is skipped") {
-  sofof::test::check_additions<cam>(64);
+  test::check_additions<cam>(64);
 }
+
+} // namespace sofof::etsi

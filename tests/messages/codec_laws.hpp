@@ -15,7 +15,7 @@ namespace sofof::test {
 
 /// @returns nothing if it is refused.
 template <class T>
-octets encoded(const T& message) {
+octets uper_of(const T& message) {
   static std::array<std::byte, 1 << 16> room;
   const auto size = etsi::encode(message, room);
   return {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(size)};
@@ -32,7 +32,7 @@ void check_vectors(const std::string& name) {
   for (const auto& vector : vectors) {
     CAPTURE(to_hex(vector));
     REQUIRE(etsi::decode(vector, message));
-    CHECK(to_hex(encoded(message)) == to_hex(vector));
+    CHECK(to_hex(uper_of(message)) == to_hex(vector));
   }
 }
 
@@ -43,10 +43,10 @@ void check_random_messages(int count) {
     CAPTURE(seed);
     random_pdu random{static_cast<std::uint64_t>(seed),
                       {.presence = seed % 5 / 4.0, .longest = 4}};
-    const auto sent = encoded(random.message<T>());
+    const auto sent = uper_of(random.message<T>());
     REQUIRE_FALSE(sent.empty());
     REQUIRE(etsi::decode(sent, again));
-    CHECK(to_hex(encoded(again)) == to_hex(sent));
+    CHECK(to_hex(uper_of(again)) == to_hex(sent));
   }
 }
 
@@ -62,7 +62,7 @@ void check_ranges(int count) {
         const auto is_taken = [&](std::int64_t value) {
           const auto before =
               std::exchange(x.value, static_cast<typename N::number>(value));
-          const auto taken = !encoded(message).empty();
+          const auto taken = !uper_of(message).empty();
           x.value = before;
           return taken;
         };
@@ -83,7 +83,7 @@ template <class T>
 void check_truncation(int count) {
   for (int seed = 0; seed < count; ++seed) {
     random_pdu random{static_cast<std::uint64_t>(seed), {.presence = 0.9}};
-    const auto whole = encoded(random.message<T>());
+    const auto whole = uper_of(random.message<T>());
     for (std::size_t size = 0; size < whole.size(); ++size) {
       // Of its own, so that reading on is noticed.
       const octets part(whole.data(), whole.data() + size);
@@ -101,7 +101,7 @@ void check_damage(int count) {
   for (int seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
     random_pdu random{static_cast<std::uint64_t>(seed)};
-    auto damaged = encoded(random.message<T>());
+    auto damaged = uper_of(random.message<T>());
     dice where{static_cast<std::uint64_t>(seed)};
     for (int i = 0; i < 4; ++i) {
       const auto bit = static_cast<std::size_t>(
@@ -109,7 +109,7 @@ void check_damage(int count) {
       damaged[bit / 8] ^= std::byte{1} << bit % 8;
     }
     if (etsi::decode(damaged, message))
-      CHECK_FALSE(encoded(message).empty());
+      CHECK_FALSE(uper_of(message).empty());
   }
 }
 
@@ -121,7 +121,7 @@ void check_additions(std::size_t grows_at) {
   const auto message = random.message<T>();
   etsi::bit_counter size;
   etsi::write(size, message);
-  auto bits = to_bits(encoded(message)).substr(0, size.bits());
+  auto bits = to_bits(uper_of(message)).substr(0, size.bits());
   bits[grows_at] = '1';
   bits += "0000010"; // three may be there,
   bits += "101";     // two of them are:
@@ -131,7 +131,7 @@ void check_additions(std::size_t grows_at) {
           "1111111100000000"; // two octets
   T decoded;
   REQUIRE(etsi::decode(from_bits(bits), decoded));
-  CHECK(to_hex(encoded(decoded)) == to_hex(encoded(message)));
+  CHECK(to_hex(uper_of(decoded)) == to_hex(uper_of(message)));
 }
 
 } // namespace sofof::test

@@ -3,10 +3,8 @@
 
 #include "tests/messages/codec_laws.hpp"
 
-namespace sofof {
+namespace sofof::etsi::tr103562 {
 namespace {
-
-using etsi::tr103562::cpm;
 
 cpm smallest() {
   cpm message;
@@ -21,7 +19,7 @@ TEST_CASE("what an independent codec made of CPMs of TR 103 562 comes back") {
 }
 
 TEST_CASE("the smallest CPM of TR 103 562 is known bit by bit") {
-  CHECK(test::to_hex(test::encoded(smallest()))
+  CHECK(test::to_hex(test::uper_of(smallest()))
         == "010e0000002a03e8000bad2748075a4e9007ffffff8476ee87c000");
 }
 
@@ -43,7 +41,7 @@ TEST_CASE("a CPM of TR 103 562 with a car is known bit by bit") {
   classes.resize(1);
   classes[0].confidence = 90;
   std::get<0>(classes[0].what.value).type.value = 3;
-  CHECK(test::to_hex(test::encoded(message))
+  CHECK(test::to_hex(test::uper_of(message))
         == "010e0000002a03e8100bad2748075a4e9007ffffff8476ee87c0001840ec"
            "8082dc82a063c0d03e4ebffffc708242d142d1018080");
 }
@@ -73,4 +71,4 @@ TEST_CASE("a CPM of TR 103 562 names no points on the globe") {
 }
 
 } // namespace
-} // namespace sofof
+} // namespace sofof::etsi::tr103562

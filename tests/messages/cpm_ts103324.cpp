@@ -3,10 +3,8 @@
 
 #include "tests/messages/codec_laws.hpp"
 
-namespace sofof {
+namespace sofof::etsi::ts103324 {
 namespace {
-
-using etsi::ts103324::cpm;
 
 cpm smallest() {
   cpm message;
@@ -24,7 +22,7 @@ TEST_CASE("what an independent codec made of CPMs of TS 103 324 comes back") {
 }
 
 TEST_CASE("the smallest CPM of TS 103 324 is known bit by bit") {
-  CHECK(test::to_hex(test::encoded(smallest()))
+  CHECK(test::to_hex(test::uper_of(smallest()))
         == "020e0000002a028bed0161ef5a4e900eb49d200fffffff08eddd0f800303"
            "8412");
 }
@@ -51,7 +49,7 @@ TEST_CASE("a CPM of TS 103 324 with a car is known bit by bit") {
   classes.resize(1);
   classes[0].what.value.emplace<0>(etsi::passenger_car);
   classes[0].confidence = 90;
-  CHECK(test::to_hex(test::encoded(message))
+  CHECK(test::to_hex(test::uper_of(message))
         == "020e0000002a028bed0161ef5a4e900eb49d200fffffff08eddd0f900303"
            "841241c00805a110003be7204d20047fe7001681f275ffffe0e104960805"
            "b200");
@@ -79,11 +77,11 @@ TEST_CASE("a container of a CPM that nobody here knows is kept as it is") {
   container.unknown_id = 16;
   container.value.emplace<etsi::opaque>().octets = test::from_hex("c0ffee");
   cpm decoded;
-  REQUIRE(etsi::decode(test::encoded(message), decoded));
+  REQUIRE(etsi::decode(test::uper_of(message), decoded));
   const auto& kept = decoded.body.containers[0];
   CHECK(kept.id() == 16);
   CHECK(std::get<etsi::opaque>(kept.value).octets == test::from_hex("c0ffee"));
 }
 
 } // namespace
-} // namespace sofof
+} // namespace sofof::etsi::ts103324

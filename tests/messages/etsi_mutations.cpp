@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-using namespace sofof::etsi;
+namespace sofof::etsi {
 namespace {
 
 /// SOFOF_MUTATIONS makes it more.
@@ -41,7 +41,7 @@ void break_somewhere(std::vector<std::byte>& octets, std::uint64_t random) {
 } // namespace
 
 TEST_CASE("a broken message is refused with a reason, or is another message") {
-  const sofof::random_stream random{1, "mutations"};
+  const random_stream random{1, "mutations"};
   constexpr std::uint64_t each = 32;
   const auto count = number_of_mutations();
   std::uint64_t refused = 0;
@@ -49,7 +49,7 @@ TEST_CASE("a broken message is refused with a reason, or is another message") {
   for (std::uint64_t i = 0; i < count; ++i) {
     CAPTURE(i);
     if (i % each == 0)
-      whole = encode_message(sofof::test::any_message(i / each)).value.value();
+      whole = encode_message(test::any_message(i / each)).value.value();
     auto broken = whole;
     for (std::uint32_t n = 0; n <= random.bits(i) % 3; ++n)
       break_somewhere(broken, random.bits(i, n + 1));
@@ -73,3 +73,5 @@ TEST_CASE("a broken message is refused with a reason, or is another message") {
   CHECK(refused > count / 4);
   CHECK(refused < count);
 }
+
+} // namespace sofof::etsi

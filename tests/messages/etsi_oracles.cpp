@@ -17,8 +17,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace sofof::etsi;
-
+namespace sofof::etsi {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -226,3 +225,5 @@ TEST_CASE("a CAM of the first protocol version is refused, for a reason") {
   CHECK(!m);
   CHECK(error.starts_with("a CAM of protocol version 1 is not known"));
 }
+
+} // namespace sofof::etsi

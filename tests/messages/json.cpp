@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-using namespace sofof::etsi;
-using sofof::test::any_message;
-
+namespace sofof::etsi {
 namespace {
+
+using test::any_message;
 
 std::string json_of(const message& m) {
   std::string json;
@@ -190,3 +190,5 @@ TEST_CASE("hexadecimal digits are read as people write them") {
   CHECK(!octets_from_hex("0g"));
   CHECK(!octets_from_hex("0a0xff"));
 }
+
+} // namespace sofof::etsi

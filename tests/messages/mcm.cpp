@@ -10,8 +10,7 @@
 
 #include <algorithm>
 
-using namespace sofof::etsi;
-
+namespace sofof::etsi {
 namespace {
 
 /// A suggestion to follow `points` waypoints exactly.
@@ -91,10 +90,12 @@ TEST_CASE("the end of a maneuver has a reason, the unknown one being last") {
 }
 
 TEST_CASE("MCMs of any content come back, within their ranges") {
-  sofof::test::check_random_messages<mcm>(500);
-  sofof::test::check_ranges<mcm>(5);
+  test::check_random_messages<mcm>(500);
+  test::check_ranges<mcm>(5);
 }
 TEST_CASE("MCMs that end early or are damaged do no harm") {
-  sofof::test::check_truncation<mcm>(20);
-  sofof::test::check_damage<mcm>(1000);
+  test::check_truncation<mcm>(20);
+  test::check_damage<mcm>(1000);
 }
+
+} // namespace sofof::etsi

@@ -9,8 +9,7 @@
 #include <array>
 #include <string>
 
-using namespace sofof::etsi;
-
+namespace sofof::etsi {
 namespace {
 
 enum class colour : std::uint8_t { red, green, blue };
@@ -86,11 +85,9 @@ std::string fault_of(const std::string& bits) {
 } // namespace
 
 template <>
-inline constexpr auto sofof::etsi::names_of<colour> = enumerated("red", "green",
-                                                                 "blue");
+inline constexpr auto names_of<colour> = enumerated("red", "green", "blue");
 template <>
-inline constexpr auto
-    sofof::etsi::names_of<mood> = enumerated_extensible("glad", "sad");
+inline constexpr auto names_of<mood> = enumerated_extensible("glad", "sad");
 
 TEST_CASE("a number takes the bits that its range needs, from its low end on") {
   CHECK(bits_of(integer<0, 255>{1}) == "00000001");
@@ -346,3 +343,5 @@ TEST_CASE("a buffer that is too small is not overrun") {
   CHECK(encode(list, room) == 10);
   CHECK(encoded_size(list) == 10);
 }
+
+} // namespace sofof::etsi

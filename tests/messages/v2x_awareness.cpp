@@ -1,6 +1,7 @@
 // What a CAM says of a vehicle, and what is understood of it.
 #include "messages/etsi/units.hpp"
 #include "messages/v2x/awareness.hpp"
+#include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/on_air.hpp"
@@ -15,10 +16,6 @@ using namespace sofof::test;
 using namespace std::chrono_literals;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr time_point start{100s};
-const vehicle_params car;
 
 /// Over the air: as bytes.
 etsi::cam sent(const etsi::cam& message) {

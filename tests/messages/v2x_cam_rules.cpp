@@ -1,5 +1,6 @@
 // When CAMs are sent (EN 302 637-2, section 6.1.3).
 #include "messages/v2x/cam_rules.hpp"
+#include "tests/messages/v2x_sender.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,17 +10,18 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::degree;
 
 namespace {
 
-constexpr time_point start{20s};
+constexpr time_point first_cam{20s};
 
 /// Times, since the start, at which a vehicle that asks every 100 ms sends.
 template <class Motion>
 std::vector<int> sent_ms(cam_trigger trigger, int until_ms, Motion motion) {
   std::vector<int> times;
   for (auto ms = 0; ms <= until_ms; ms += 100)
-    if (trigger.check(start + ms * 1ms, motion(0.001 * ms)).send)
+    if (trigger.check(first_cam + ms * 1ms, motion(0.001 * ms)).send)
       times.push_back(ms);
   return times;
 }
@@ -27,8 +29,6 @@ std::vector<int> sent_ms(cam_trigger trigger, int until_ms, Motion motion) {
 told_motion east(double x_m, double speed_mps, double heading_rad = 0) {
   return {{x_m, 0}, heading_rad, speed_mps};
 }
-
-constexpr double degree = std::numbers::pi / 180;
 
 } // namespace
 
@@ -48,9 +48,9 @@ TEST_CASE("a vehicle at constant speed sends a CAM when it has moved 4 m") {
 
 TEST_CASE("4 m exactly are no news") {
   cam_trigger trigger;
-  trigger.check(start, east(0, 10));
-  CHECK_FALSE(trigger.check(start + 400ms, east(4, 10)).send);
-  CHECK(trigger.check(start + 500ms, east(4.01, 10)).send);
+  trigger.check(first_cam, east(0, 10));
+  CHECK_FALSE(trigger.check(first_cam + 400ms, east(4, 10)).send);
+  CHECK(trigger.check(first_cam + 500ms, east(4.01, 10)).send);
 }
 
 TEST_CASE("a vehicle that brakes sends a CAM at every half metre a second") {
@@ -100,7 +100,7 @@ TEST_CASE("no two CAMs are closer than 100 ms, however often is asked") {
     cam_trigger trigger{rule};
     auto sent = 0;
     for (auto ms = 0; ms < 1000; ++ms)
-      if (trigger.check(start + ms * 1ms, east(ms, 100)).send)
+      if (trigger.check(first_cam + ms * 1ms, east(ms, 100)).send)
         ++sent;
     CHECK(sent == 10);
   }
@@ -111,18 +111,18 @@ TEST_CASE("the low-frequency container comes with the first CAM and then "
   cam_trigger fast;
   std::vector<int> with;
   for (auto ms = 0; ms <= 1500; ms += 100)
-    if (fast.check(start + ms * 1ms, east(0.05 * ms, 50)).low_frequency)
+    if (fast.check(first_cam + ms * 1ms, east(0.05 * ms, 50)).low_frequency)
       with.push_back(ms);
   CHECK(with == std::vector{0, 500, 1000, 1500});
   cam_trigger slow; // every second: in each
-  CHECK(slow.check(start, east(0, 0)).low_frequency);
-  CHECK(slow.check(start + 1s, east(0, 0)).low_frequency);
+  CHECK(slow.check(first_cam, east(0, 0)).low_frequency);
+  CHECK(slow.check(first_cam + 1s, east(0, 0)).low_frequency);
 }
 
 TEST_CASE("without a CAM there is no low-frequency container") {
   cam_trigger trigger;
-  trigger.check(start, east(0, 0));
-  const auto no = trigger.check(start + 600ms, east(0, 0));
+  trigger.check(first_cam, east(0, 0));
+  const auto no = trigger.check(first_cam + 600ms, east(0, 0));
   CHECK_FALSE(no.send);
   CHECK_FALSE(no.low_frequency);
 }
@@ -135,7 +135,7 @@ TEST_CASE("a vehicle that does not know its motion sends a CAM a second") {
 
 TEST_CASE("a clock that goes back sends nothing") {
   cam_trigger trigger;
-  trigger.check(start, east(0, 0));
-  CHECK_FALSE(trigger.check(start - 5s, east(100, 30)).send);
-  CHECK(trigger.check(start + 100ms, east(100, 30)).send);
+  trigger.check(first_cam, east(0, 0));
+  CHECK_FALSE(trigger.check(first_cam - 5s, east(100, 30)).send);
+  CHECK(trigger.check(first_cam + 100ms, east(100, 30)).send);
 }

@@ -2,6 +2,7 @@
 // understands.
 #include "messages/v2x/coordination.hpp"
 #include "planners/lane_follow.hpp"
+#include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/on_air.hpp"
@@ -18,8 +19,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr time_point start{100s};
-const vehicle_params car;
 const running_service running{11, 101, "trajectory_planning", 7};
 
 route_ptr round() {

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cstdlib>
 
-using namespace sofof;
-using namespace sofof::etsi;
 using namespace std::chrono_literals;
+
+namespace sofof::etsi {
 
 TEST_CASE("the ITS clock began with 2004 and counts leap seconds") {
   CHECK(to_timestamp_its(its_epoch_unix_ms) == 0);
@@ -62,3 +62,5 @@ TEST_CASE("a message sent before the wrap and read behind it is not old") {
   CHECK(age_ms(5, wrap - 3) == -8);
   CHECK(unwrap(5, wrap - 3) == wrap + 5);
 }
+
+} // namespace sofof::etsi

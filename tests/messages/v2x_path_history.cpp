@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr time_point start{20s};
+constexpr time_point departure{20s};
 
 /// Drives along a line at 14 m/s, with a fix every 100 ms.
 template <class Line>
@@ -22,12 +22,12 @@ std::vector<point> drive(path_history& history, double length_m, Line line) {
   std::vector<point> way;
   for (auto i = 0; 1.4 * i <= length_m; ++i) {
     way.push_back(line(1.4 * i));
-    history.pass(start + i * 100ms, way.back());
+    history.pass(departure + i * 100ms, way.back());
   }
   return way;
 }
 
-point straight(double s_m) {
+point straight_line(double s_m) {
   return {s_m, 0};
 }
 
@@ -48,15 +48,15 @@ TEST_CASE("who has not moved has one place behind it") {
   path_history history;
   CHECK(history.size() == 0);
   for (auto i = 0; i < 100; ++i)
-    history.pass(start + i * 100ms, {5, 5});
+    history.pass(departure + i * 100ms, {5, 5});
   REQUIRE(history.size() == 1);
   CHECK(history[0].at == point{5, 5});
-  CHECK(history[0].when == start);
+  CHECK(history[0].when == departure);
 }
 
 TEST_CASE("on a straight road ten points reach back about 200 m") {
   path_history history;
-  const auto way = drive(history, 1000, straight);
+  const auto way = drive(history, 1000, straight_line);
   REQUIRE(history.size() == 10);
   CHECK(distance_m(way.back(), history[9].at) > 189);
   for (std::size_t i = 1; i < 10; ++i) {
@@ -67,9 +67,9 @@ TEST_CASE("on a straight road ten points reach back about 200 m") {
 
 TEST_CASE("the newest comes first, with the time it was passed") {
   path_history history;
-  drive(history, 300, straight);
+  drive(history, 300, straight_line);
   for (std::size_t i = 0; i < history.size(); ++i) {
-    const auto passed_s = to_seconds(history[i].when - start);
+    const auto passed_s = to_seconds(history[i].when - departure);
     CHECK(history[i].at.x_m == doctest::Approx(14 * passed_s));
     if (i > 0)
       CHECK(history[i].when < history[i - 1].when);
@@ -94,7 +94,7 @@ TEST_CASE("the way was never far from the lines between the points") {
 TEST_CASE("a bend takes more points than a straight") {
   path_history bend{path_history::capacity}, line{path_history::capacity};
   drive(bend, 150, winding);
-  drive(line, 150, straight);
+  drive(line, 150, straight_line);
   CHECK(bend.size() > line.size() + 3);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("there are no more points than asked for, and the oldest go") {
 
 TEST_CASE("what lies back more than 200 m is left out") {
   path_history history{path_history::capacity};
-  drive(history, 2000, straight);
+  drive(history, 2000, straight_line);
   CHECK(length_m(history) >= 200);
   CHECK(length_m(history) < 222.5);
 }
@@ -120,12 +120,12 @@ TEST_CASE("what lies back more than 200 m is left out") {
 TEST_CASE("a vehicle that crawls or creeps has been somewhere too") {
   path_history history;
   for (auto i = 0; i < 10000; ++i)
-    history.pass(start + i * 100ms, {0.02 * i, 0});
+    history.pass(departure + i * 100ms, {0.02 * i, 0});
   CHECK(history.size() >= 9);
 }
 
 TEST_CASE("a place that is not a number is not passed") {
   path_history history;
-  history.pass(start, {std::numeric_limits<double>::quiet_NaN(), 0});
+  history.pass(departure, {std::numeric_limits<double>::quiet_NaN(), 0});
   CHECK(history.size() == 0);
 }

@@ -2,6 +2,7 @@
 // understood of it.
 #include "messages/etsi/units.hpp"
 #include "messages/v2x/perception.hpp"
+#include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/on_air.hpp"
@@ -16,10 +17,6 @@ using namespace sofof::test;
 using namespace std::chrono_literals;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr time_point start{100s};
-const vehicle_params car;
 
 /// The CPM of TR 103 562.
 struct release_1 {
@@ -39,8 +36,8 @@ struct release_1 {
 };
 
 /// From a scene to what somebody else knows of it.
-std::optional<sighting> told(const perceived_scene& scene,
-                             duration age = 30ms) {
+std::optional<sighting> retold(const perceived_scene& scene,
+                               duration age = 30ms) {
   return release_1::read(release_1::make(scene), scene.own.at + age);
 }
 
@@ -75,7 +72,7 @@ TEST_CASE("a CPM gives what is perceived back to within ETSI's units") {
     std::vector<known_object> seen;
     for (std::uint32_t id = 0; id < 20; ++id)
       seen.push_back({id, any_object(d, own.position)});
-    const auto got = told({own, own.at, seen, seen.size()});
+    const auto got = retold({own, own.at, seen, seen.size()});
     REQUIRE(got);
     CHECK(got->from == own.station);
     CHECK(got->at == own.at);
@@ -117,7 +114,7 @@ TEST_CASE("objects are where they were when they were seen, not when that was "
   const std::vector<known_object> seen{{1, {{90, 20}, 0, 20, 0, 4.5, 1.8}}};
   for (const auto age : {0ms, 40ms, 1500ms}) {
     CAPTURE(age.count());
-    const auto got = told({own, start - age, seen, 1});
+    const auto got = retold({own, start - age, seen, 1});
     REQUIRE(got);
     CHECK(got->at == start - age);
     CHECK(distance_m(got->objects[0].centre, {90, 20}) < 0.0072);
@@ -143,7 +140,7 @@ TEST_CASE("a CPM's time is told modulo 65.536 s, and the nearest is meant") {
     const auto own = any_sender(d);
     const std::vector<known_object> seen{{1, any_object(d, own.position)}};
     for (const auto age : {-32s, 0s, 32s}) {
-      const auto got = told({own, own.at - 40ms, seen, 1}, age);
+      const auto got = retold({own, own.at - 40ms, seen, 1}, age);
       REQUIRE(got);
       CHECK(got->at == own.at - 40ms);
     }
@@ -176,7 +173,7 @@ TEST_CASE("a body without size, heading or speed is none") {
 
 TEST_CASE("who sees nobody says so") {
   const cam own{101, start, {}, 0, 10};
-  const auto got = told({own, start, {}, 0});
+  const auto got = retold({own, start, {}, 0});
   REQUIRE(got);
   CHECK(got->from == 101);
   CHECK(got->at == start);
@@ -200,7 +197,7 @@ TEST_CASE("a CPM holds 128 objects, and all of them arrive") {
   std::vector<known_object> seen;
   for (std::uint32_t id = 0; id < cpm_trigger::most_objects; ++id)
     seen.push_back({id, stander_at({0.5 * id, 3})});
-  const auto got = told({own, start, seen, seen.size()});
+  const auto got = retold({own, start, seen, seen.size()});
   REQUIRE(got);
   REQUIRE(got->objects.size() == 128);
   CHECK(distance_m(got->objects[127].centre, {63.5, 3}) < 0.0072);

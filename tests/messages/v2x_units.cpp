@@ -8,8 +8,7 @@
 #include <numbers>
 #include <optional>
 
-using namespace sofof::etsi;
-
+namespace sofof::etsi {
 namespace {
 
 constexpr auto no_number = std::numeric_limits<double>::quiet_NaN();
@@ -107,3 +106,5 @@ TEST_CASE("angles go round in a circle") {
   for (int wire = 0; wire < 3600; ++wire)
     REQUIRE(angle_to_wire(*angle_to_rad(wire)) == wire);
 }
+
+} // namespace sofof::etsi

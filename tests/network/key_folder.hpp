@@ -3,11 +3,10 @@
 
 #include "network/credentials.hpp"
 #include "network/key_store.hpp"
+#include "tests/support/files.hpp"
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <openssl/evp.h>
 #include <openssl/x509.h>
 #include <string>
@@ -16,15 +15,8 @@
 
 namespace sofof::test {
 
-inline std::string read_text(const std::filesystem::path& path) {
-  std::ifstream in{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-inline void write_text(const std::filesystem::path& path,
-                       std::string_view text) {
-  std::ofstream{path, std::ios::binary} << text;
-}
+inline const peer_identity car{{101, 102}, {}};
+inline const peer_identity mec{{}, "mec"};
 
 class key_folder {
 public:
@@ -58,8 +50,8 @@ public:
   template <class Change>
   void alter(const std::filesystem::path& folder, Change change,
              const char* file = "cert.pem") const {
-    const auto certificate = certificate_from_pem(read_text(folder / file));
-    const auto key = key_from_pem(read_text(path_ / "ca_key.pem"));
+    const auto certificate = certificate_from_pem(read_file(folder / file));
+    const auto key = key_from_pem(read_file(path_ / "ca_key.pem"));
     change(*certificate);
     require_openssl(X509_sign(certificate.get(), key.get(), EVP_sha256()) > 0,
                     "signing");

@@ -1,6 +1,7 @@
 // Who proves to be whom with a certificate and a signature.
 #include "network/network_error.hpp"
 #include "tests/network/key_folder.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -10,14 +11,7 @@ using namespace sofof::test;
 
 namespace {
 
-const peer_identity car{{101, 102}, {}};
-const peer_identity mec{{}, "mec"};
-
 const std::vector<std::byte> nonce(32, std::byte{42});
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 } // namespace
 
@@ -64,7 +58,7 @@ TEST_CASE("a certificate of another CA, or out of its days, proves nothing") {
   const auto folder = keys.issue(car);
   const credentials vehicle{folder};
   keys.alter(folder, expire);
-  const auto late = provider.prove(read_text(folder / "cert.pem"), nonce,
+  const auto late = provider.prove(read_file(folder / "cert.pem"), nonce,
                                    vehicle.sign(nonce));
   CHECK_FALSE(late.who);
   CHECK(contains(late.refusal, "the certificate has expired on 20"));

@@ -6,14 +6,12 @@
 #include "network/tls_door.hpp"
 #include "tests/network/key_folder.hpp"
 #include "tests/network/loopback.hpp"
+#include "tests/support/contains.hpp"
 
 #include <string>
 #include <string_view>
 
 namespace sofof::test {
-
-inline const peer_identity car{{101, 102}, {}};
-inline const peer_identity mec{{}, "mec"};
 
 /// Timeouts that nobody meets who does not hang.
 inline door_options door_to(std::uint16_t inner_port,
@@ -35,10 +33,6 @@ inline dialer_options dialer_to(std::uint16_t port) {
   options.handshake_timeout = patience;
   options.idle = patience;
   return options;
-}
-
-inline bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
 }
 
 /// @returns whether the far end of a line sends back what it gets.

@@ -11,7 +11,7 @@ using doctest::Approx;
 
 namespace {
 
-const braking_style style;
+const braking_style default_braking;
 constexpr auto dt_s = 0.01;
 
 } // namespace
@@ -20,10 +20,10 @@ TEST_CASE("a car stops exactly at the place, gently, in finite time") {
   for (const auto speed : {1.0, 5.0, 13.9, 27.8}) {
     CAPTURE(speed);
     auto v = speed, room_m = 3 + speed * speed / 2;
-    auto a = std::min(0.0, stop_accel(v, room_m, style));
+    auto a = std::min(0.0, stop_accel(v, room_m, default_braking));
     auto seconds = 0.0, jerk = 0.0, strongest = 0.0;
     while (v > 1e-3 && seconds < 60) {
-      const auto next = std::min(0.0, stop_accel(v, room_m, style));
+      const auto next = std::min(0.0, stop_accel(v, room_m, default_braking));
       if (v > 0.2)
         jerk = std::max(jerk, std::abs(next - a) / dt_s);
       a = next;
@@ -34,45 +34,48 @@ TEST_CASE("a car stops exactly at the place, gently, in finite time") {
     }
     CHECK(std::abs(room_m) < 0.01);
     CHECK(seconds < 6 + 0.6 * speed);
-    CHECK(strongest > -1.01 * style.decel_mps2);
-    CHECK(jerk < 1.3 * style.jerk_mps3);
+    CHECK(strongest > -1.01 * default_braking.decel_mps2);
+    CHECK(jerk < 1.3 * default_braking.jerk_mps3);
   }
 }
 
 TEST_CASE("a place far away does not matter") {
-  CHECK(stop_accel(13.9, 500, style) > 1.5);
+  CHECK(stop_accel(13.9, 500, default_braking) > 1.5);
 }
 
 TEST_CASE("at its place, or beyond, a car brakes") {
-  CHECK(stop_accel(1, 0, style) == -style.decel_mps2);
-  CHECK(stop_accel(1, -2, style) == -style.decel_mps2);
+  CHECK(stop_accel(1, 0, default_braking) == -default_braking.decel_mps2);
+  CHECK(stop_accel(1, -2, default_braking) == -default_braking.decel_mps2);
 }
 
 TEST_CASE("at the desired gap and equal speed nothing is to be done") {
-  CHECK(follow_accel(10, 10 * style.time_gap_s, {10, 0}, style) == Approx(0));
+  CHECK(follow_accel(10, 10 * default_braking.time_gap_s, {10, 0},
+                     default_braking)
+        == Approx(0));
 }
 
 TEST_CASE("closing in from afar ends at the desired gap, without a swing") {
   auto v = 20.0, room_m = 200.0, least_m = 1e9;
   for (auto t = 0.0; t < 60; t += dt_s) {
-    const auto a = std::min(1.5, follow_accel(v, room_m, {8, 0}, style));
-    CHECK(a > -1.01 * style.decel_mps2);
+    const auto a =
+        std::min(1.5, follow_accel(v, room_m, {8, 0}, default_braking));
+    CHECK(a > -1.01 * default_braking.decel_mps2);
     room_m += dt_s * (8 - v);
     v += dt_s * a;
     least_m = std::min(least_m, room_m);
   }
   CHECK(v == Approx(8).epsilon(1e-3));
-  CHECK(room_m == Approx(8 * style.time_gap_s).epsilon(1e-3));
-  CHECK(least_m > 8 * style.time_gap_s - 0.3);
+  CHECK(room_m == Approx(8 * default_braking.time_gap_s).epsilon(1e-3));
+  CHECK(least_m > 8 * default_braking.time_gap_s - 0.3);
 }
 
 TEST_CASE("a ripple of the car ahead fades from car to car") {
   for (const auto radps : {0.1, 0.3, 1.0, 3.0}) {
     CAPTURE(radps);
-    auto v = 10.0, room_m = 10 * style.time_gap_s, swing = 0.0;
+    auto v = 10.0, room_m = 10 * default_braking.time_gap_s, swing = 0.0;
     for (auto t = 0.0; t < 200; t += dt_s) {
       const auto ahead = 10 + 0.5 * std::sin(radps * t);
-      const auto a = follow_accel(v, room_m, {ahead, 0}, style);
+      const auto a = follow_accel(v, room_m, {ahead, 0}, default_braking);
       room_m += dt_s * (ahead - v);
       v += dt_s * a;
       if (t > 100)

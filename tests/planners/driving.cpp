@@ -1,19 +1,18 @@
 // Driving in closed loop: planner, controller and car together.
-#include "tests/planners/test_drive.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace sofof;
 using doctest::Approx;
 using test::test_drive;
+using test::town;
 
 namespace {
 
-const std::vector<speed_zone> town{
-    {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
 constexpr auto comfortable_jerk_mps3 = 1.7; // the plan's 1.5, and control
 
-void check_comfort(const test_drive& drive) {
+void check_lane_comfort(const test_drive& drive) {
   CHECK(drive.worst.lateral_m < 0.05);
   CHECK(drive.worst.over_limit < 1.01);
   CHECK(drive.worst.min_accel_mps2 > -2.6);
@@ -29,7 +28,7 @@ TEST_CASE("two laps keep the lane, the limits and the comfort") {
   test_drive drive{way, 5};
   drive.drive(180);
   CHECK(drive.s_m() > 2 * way->length_m());
-  check_comfort(drive);
+  check_lane_comfort(drive);
   CHECK(drive.worst.plan_change_m < 0.05);
 }
 
@@ -38,7 +37,7 @@ TEST_CASE("inputs that are 0.4 s old drive as smoothly") {
   drive.staleness = from_seconds(0.4);
   drive.drive(90);
   CHECK(drive.s_m() > 700);
-  check_comfort(drive);
+  check_lane_comfort(drive);
   CHECK(drive.worst.plan_change_m < 0.05);
 }
 
@@ -46,7 +45,7 @@ TEST_CASE("an S-curve is driven, and an open route ends at rest") {
   const auto way = test::s_curve({{0, 13.9}, {100, 8.3}, {220, 13.9}});
   test_drive drive{way, 0, 10};
   drive.drive(60);
-  check_comfort(drive);
+  check_lane_comfort(drive);
   CHECK(drive.car.speed_mps == 0);
   CHECK(drive.front_m() < way->length_m());
   CHECK(drive.front_m() > way->length_m() - 0.6);
@@ -57,7 +56,7 @@ TEST_CASE("a car stops shortly before a line, stands still, and goes on when "
   test_drive drive{test::straight(600, {{0, 13.9}}), 0, 13.9};
   drive.others.stop_at_m = 150;
   drive.drive(16);
-  check_comfort(drive);
+  check_lane_comfort(drive);
   CHECK(drive.front_m() < 150);
   CHECK(drive.front_m() > 149.4);
   const auto standing = drive.car;

@@ -15,7 +15,7 @@ using doctest::Approx;
 
 namespace {
 
-constexpr time_point start{50s};
+constexpr time_point departure{50s};
 
 /// Eastwards for 6 s, with constant acceleration down to rest.
 trajectory plan_east(time_point from, double s_m, double speed_mps,
@@ -35,7 +35,7 @@ told_state told_east(time_point at, double s_m, double speed_mps,
   return {at, {s_m, d_m}, 0, speed_mps, 0, 0};
 }
 
-const auto& street() {
+const auto& straight_street() {
   static const auto way = test::straight(500, {{0, 20}});
   return way;
 }
@@ -43,19 +43,19 @@ const auto& street() {
 } // namespace
 
 TEST_CASE("who was not heard is nowhere") {
-  ego_estimate me{street(), 0};
-  me.follow(plan_east(start, 0, 10));
-  CHECK_FALSE(me.at(start + 100ms));
+  ego_estimate me{straight_street(), 0};
+  me.follow(plan_east(departure, 0, 10));
+  CHECK_FALSE(me.at(departure + 100ms));
 }
 
 TEST_CASE("without a plan a vehicle goes on at constant acceleration") {
-  ego_estimate me{street(), 90};
-  auto told = told_east(start, 100, 10, 0.3);
+  ego_estimate me{straight_street(), 90};
+  auto told = told_east(departure, 100, 10, 0.3);
   told.accel_mps2 = 2;
   me.hear(told);
-  const auto x = me.at(start + 1s);
+  const auto x = me.at(departure + 1s);
   REQUIRE(x);
-  CHECK(x->at == start + 1s);
+  CHECK(x->at == departure + 1s);
   CHECK(x->s_m == Approx(111));
   CHECK(x->d_m == Approx(0.3));
   CHECK(x->speed_mps == Approx(12));
@@ -63,12 +63,12 @@ TEST_CASE("without a plan a vehicle goes on at constant acceleration") {
 }
 
 TEST_CASE("a vehicle that brakes comes to rest, and does not back up") {
-  ego_estimate me{street(), 100};
-  auto told = told_east(start, 100, 2);
+  ego_estimate me{straight_street(), 100};
+  auto told = told_east(departure, 100, 2);
   told.accel_mps2 = -4;
   me.hear(told);
   for (const auto age : {500ms, 1000ms, 1100ms}) {
-    const auto x = *me.at(start + age);
+    const auto x = *me.at(departure + age);
     CHECK(x.s_m == Approx(100.5));
     CHECK(x.speed_mps == 0);
     CHECK(x.accel_mps2 == 0);
@@ -80,8 +80,8 @@ TEST_CASE("a vehicle in a bend goes on along the bend, as bent as it was") {
   const auto s_m = 280.0; // before the first corner
   const auto here = way->path().at(s_m);
   ego_estimate me{way, s_m};
-  me.hear({start, here.at, here.heading_rad, 10, 0, here.curvature_1pm});
-  const auto x = *me.at(start + 1500ms); // in it
+  me.hear({departure, here.at, here.heading_rad, 10, 0, here.curvature_1pm});
+  const auto x = *me.at(departure + 1500ms); // in it
   CHECK(x.s_m == Approx(295));
   CHECK(std::abs(x.d_m) < 1e-3);
   CHECK(std::abs(x.heading_error_rad) < 1e-3);
@@ -99,23 +99,23 @@ TEST_CASE("on a closed route laps count on") {
   };
   ego_estimate me{way, s_m - 5};
   auto [place, heading] = at(s_m);
-  me.hear({start, place, heading, 10, 0, 0});
-  CHECK(me.at(start)->s_m == Approx(s_m));
+  me.hear({departure, place, heading, 10, 0, 0});
+  CHECK(me.at(departure)->s_m == Approx(s_m));
   std::tie(place, heading) = at(s_m + 10);
-  me.hear({start + 1s, place, heading, 10, 0, 0});
-  CHECK(me.at(start + 1s)->s_m == Approx(s_m + 10));
-  CHECK(std::abs(me.at(start + 1s)->heading_error_rad) < 1e-6);
+  me.hear({departure + 1s, place, heading, 10, 0, 0});
+  CHECK(me.at(departure + 1s)->s_m == Approx(s_m + 10));
+  CHECK(std::abs(me.at(departure + 1s)->heading_error_rad) < 1e-6);
 }
 
 TEST_CASE("a vehicle is off its plan now what it was off when it told") {
-  ego_estimate me{street(), 100};
-  const auto plan = plan_east(start, 100, 10, -2, 0.1);
+  ego_estimate me{straight_street(), 100};
+  const auto plan = plan_east(departure, 100, 10, -2, 0.1);
   me.follow(plan);
-  auto told = told_east(start, 100.4, 10.3, 0.15);
+  auto told = told_east(departure, 100.4, 10.3, 0.15);
   told.heading_rad = 0.01;
   told.accel_mps2 = 3; // a kick that the plan knows nothing of
   me.hear(told);
-  const auto x = *me.at(start + 1s);
+  const auto x = *me.at(departure + 1s);
   CHECK(x.s_m == Approx(109.4));
   CHECK(x.d_m == Approx(0.15));
   CHECK(x.heading_error_rad == Approx(0.01));
@@ -125,35 +125,35 @@ TEST_CASE("a vehicle is off its plan now what it was off when it told") {
 
 TEST_CASE("a plan that was followed is gone on from though the vehicle told "
           "of itself a second ago") {
-  ego_estimate me{street(), 100};
-  const auto plan = plan_east(start, 100, 10, -3);
+  ego_estimate me{straight_street(), 100};
+  const auto plan = plan_east(departure, 100, 10, -3);
   me.follow(plan);
-  me.hear(told_east(start, 100.4, 10));
-  const auto now = start + 1100ms;
-  const auto from = joined(*street(), now, *me.at(now), &plan);
+  me.hear(told_east(departure, 100.4, 10));
+  const auto now = departure + 1100ms;
+  const auto from = joined(*straight_street(), now, *me.at(now), &plan);
   CHECK(from.s_m == Approx(plan.at(now).s_m));
   CHECK(from.speed_mps == Approx(plan.at(now).speed_mps));
 }
 
 TEST_CASE("a plan that is not followed is not gone on from") {
-  ego_estimate me{street(), 100};
-  const auto plan = plan_east(start, 100, 10);
+  ego_estimate me{straight_street(), 100};
+  const auto plan = plan_east(departure, 100, 10);
   me.follow(plan);
-  const auto now = start + 500ms;
-  me.hear(told_east(start, 102, 10)); // 2 m ahead: on, as planned
-  CHECK(joined(*street(), now, *me.at(now), &plan).s_m == Approx(107));
-  me.hear(told_east(start + 100ms, 100, 0)); // has not set off
-  CHECK(joined(*street(), now, *me.at(now), &plan).s_m == Approx(100));
-  CHECK(joined(*street(), now, *me.at(now), &plan).speed_mps == 0);
-  me.hear(told_east(start + 200ms, 120, 10)); // something else altogether
+  const auto now = departure + 500ms;
+  me.hear(told_east(departure, 102, 10)); // 2 m ahead: on, as planned
+  CHECK(joined(*straight_street(), now, *me.at(now), &plan).s_m == Approx(107));
+  me.hear(told_east(departure + 100ms, 100, 0)); // has not set off
+  CHECK(joined(*straight_street(), now, *me.at(now), &plan).s_m == Approx(100));
+  CHECK(joined(*straight_street(), now, *me.at(now), &plan).speed_mps == 0);
+  me.hear(told_east(departure + 200ms, 120, 10)); // something else altogether
   CHECK(me.at(now)->s_m == Approx(123));
 }
 
 TEST_CASE("plans that follow each other are one motion") {
-  ego_estimate me{street(), 100};
-  me.hear(told_east(start, 100.2, 10));
+  ego_estimate me{straight_street(), 100};
+  me.hear(told_east(departure, 100.2, 10));
   lane_motion planned{100, 10, 0}, then;
-  auto now = start;
+  auto now = departure;
   for (auto i = 0; i < 20; ++i, now += 50ms) { // each brakes harder
     const auto plan = plan_east(now, planned.s_m, planned.speed_mps, -0.2 * i);
     me.follow(plan);
@@ -171,22 +171,22 @@ TEST_CASE("plans that follow each other are one motion") {
 }
 
 TEST_CASE("what was told between two plans is held against both") {
-  ego_estimate me{street(), 100};
-  const auto first = plan_east(start, 100, 10, 2);
+  ego_estimate me{straight_street(), 100};
+  const auto first = plan_east(departure, 100, 10, 2);
   me.follow(first);
-  const auto then = first.at(start + 200ms);
-  me.follow(plan_east(start + 200ms, then.s_m, then.speed_mps, 0));
-  const auto mid = first.at(start + 70ms);
-  me.hear(told_east(start + 70ms, mid.s_m, mid.speed_mps));
-  CHECK(std::abs(me.at(start + 200ms)->s_m - then.s_m) < 1e-9);
-  CHECK(std::abs(me.at(start + 200ms)->speed_mps - then.speed_mps) < 1e-9);
+  const auto then = first.at(departure + 200ms);
+  me.follow(plan_east(departure + 200ms, then.s_m, then.speed_mps, 0));
+  const auto mid = first.at(departure + 70ms);
+  me.hear(told_east(departure + 70ms, mid.s_m, mid.speed_mps));
+  CHECK(std::abs(me.at(departure + 200ms)->s_m - then.s_m) < 1e-9);
+  CHECK(std::abs(me.at(departure + 200ms)->speed_mps - then.speed_mps) < 1e-9);
 }
 
 TEST_CASE("a plan that begins at the vehicle leaves nothing to be off") {
-  ego_estimate me{street(), 100};
-  me.follow(plan_east(start, 100, 10));
-  me.hear(told_east(start, 103, 10.5, 0.4));
-  auto now = start + 100ms;
+  ego_estimate me{straight_street(), 100};
+  me.follow(plan_east(departure, 100, 10));
+  me.hear(told_east(departure, 103, 10.5, 0.4));
+  auto now = departure + 100ms;
   const auto from = *me.at(now);
   CHECK(from.s_m == Approx(104));
   // 3 m are too far to join: the next plan begins where the vehicle is.
@@ -201,82 +201,82 @@ TEST_CASE("a plan that begins at the vehicle leaves nothing to be off") {
 }
 
 TEST_CASE("what was told before all plans is carried on without them") {
-  ego_estimate me{street(), 100};
-  me.hear(told_east(start, 100, 10));
-  me.follow(plan_east(start + 500ms, 104, 9, -5));
-  CHECK(me.at(start + 1s)->s_m == Approx(110));
+  ego_estimate me{straight_street(), 100};
+  me.hear(told_east(departure, 100, 10));
+  me.follow(plan_east(departure + 500ms, 104, 9, -5));
+  CHECK(me.at(departure + 1s)->s_m == Approx(110));
 }
 
 TEST_CASE("a plan that has ended, or has not begun, says nothing") {
-  ego_estimate me{street(), 130};
-  me.follow(plan_east(start, 100, 10, -1));
-  me.hear(told_east(start + 5900ms, 140, 4));
-  CHECK(me.at(start + 6900ms)->speed_mps == Approx(4));
-  CHECK(me.at(start - 100ms)->speed_mps == Approx(4));
+  ego_estimate me{straight_street(), 130};
+  me.follow(plan_east(departure, 100, 10, -1));
+  me.hear(told_east(departure + 5900ms, 140, 4));
+  CHECK(me.at(departure + 6900ms)->speed_mps == Approx(4));
+  CHECK(me.at(departure - 100ms)->speed_mps == Approx(4));
 }
 
 TEST_CASE("after a gap without plans the earlier ones are forgotten") {
-  ego_estimate me{street(), 140};
-  me.follow(plan_east(start, 100, 10));
-  me.hear(told_east(start + 5s, 150, 10));
-  me.follow(plan_east(start + 6500ms, 165, 10, -5));
-  CHECK(me.at(start + 7s)->speed_mps == Approx(10));
+  ego_estimate me{straight_street(), 140};
+  me.follow(plan_east(departure, 100, 10));
+  me.hear(told_east(departure + 5s, 150, 10));
+  me.follow(plan_east(departure + 6500ms, 165, 10, -5));
+  CHECK(me.at(departure + 7s)->speed_mps == Approx(10));
 }
 
 TEST_CASE("old news and old plans change nothing") {
-  ego_estimate me{street(), 100};
-  me.hear(told_east(start, 100, 10));
-  me.hear(told_east(start - 100ms, 50, 3));
-  CHECK(me.at(start)->s_m == Approx(100));
-  me.follow(plan_east(start, 100, 10, 1));
-  me.follow(plan_east(start - 1s, 300, 3));
-  me.follow(plan_east(start, 300, 3));
-  CHECK(me.at(start + 1s)->s_m == Approx(110.5));
+  ego_estimate me{straight_street(), 100};
+  me.hear(told_east(departure, 100, 10));
+  me.hear(told_east(departure - 100ms, 50, 3));
+  CHECK(me.at(departure)->s_m == Approx(100));
+  me.follow(plan_east(departure, 100, 10, 1));
+  me.follow(plan_east(departure - 1s, 300, 3));
+  me.follow(plan_east(departure, 300, 3));
+  CHECK(me.at(departure + 1s)->s_m == Approx(110.5));
 }
 
 TEST_CASE("more plans than are remembered leave the newest ones known") {
-  ego_estimate me{street(), 130};
+  ego_estimate me{straight_street(), 130};
   for (auto i = 0; i < 100; ++i)
-    me.follow(plan_east(start + i * 50ms, 100 + 0.5 * i, 10));
-  const auto now = start + 99 * 50ms;
+    me.follow(plan_east(departure + i * 50ms, 100 + 0.5 * i, 10));
+  const auto now = departure + 99 * 50ms;
   me.hear(told_east(now - 1500ms, 100 + 49.5 - 15 + 0.25, 10.1));
   CHECK(me.at(now)->s_m == Approx(149.75));
   CHECK(me.at(now)->speed_mps == Approx(10.1));
 }
 
 TEST_CASE("who is not on its route is nowhere until it is back") {
-  ego_estimate me{street(), 100};
-  me.hear(told_east(start, 100, 10));
-  me.hear(told_east(start + 500ms, 105, 10, 5.1));
-  CHECK_FALSE(me.at(start + 1s));
-  me.hear(told_east(start + 1s, 110, 10, 4.9));
-  REQUIRE(me.at(start + 1s));
-  CHECK(me.at(start + 1s)->d_m == Approx(4.9));
-  me.hear(told_east(start + 2s, 300, 10)); // it cannot have got there
-  CHECK_FALSE(me.at(start + 2s));
+  ego_estimate me{straight_street(), 100};
+  me.hear(told_east(departure, 100, 10));
+  me.hear(told_east(departure + 500ms, 105, 10, 5.1));
+  CHECK_FALSE(me.at(departure + 1s));
+  me.hear(told_east(departure + 1s, 110, 10, 4.9));
+  REQUIRE(me.at(departure + 1s));
+  CHECK(me.at(departure + 1s)->d_m == Approx(4.9));
+  me.hear(told_east(departure + 2s, 300, 10)); // it cannot have got there
+  CHECK_FALSE(me.at(departure + 2s));
 }
 
 TEST_CASE("what is not a number is not heard") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   constexpr auto inf = std::numeric_limits<double>::infinity();
   for (const auto wrong : {nan, inf, -inf}) {
-    ego_estimate me{street(), 100};
+    ego_estimate me{straight_street(), 100};
     for (auto i = 0; i < 6; ++i) {
-      auto told = told_east(start, 100, 10);
+      auto told = told_east(departure, 100, 10);
       double* fields[]{&told.position.x_m, &told.position.y_m,
                        &told.heading_rad,  &told.speed_mps,
                        &told.accel_mps2,   &told.curvature_1pm};
       *fields[i] = wrong;
       me.hear(told);
-      CHECK_FALSE(me.at(start));
+      CHECK_FALSE(me.at(departure));
     }
   }
 }
 
 TEST_CASE("nonsense in numbers makes an input that a car can have") {
-  ego_estimate me{street(), 100};
-  me.hear({start, {100, -4}, 1e300, 1e300, -1e300, 1e300});
-  const auto x = *me.at(start + 1s);
+  ego_estimate me{straight_street(), 100};
+  me.hear({departure, {100, -4}, 1e300, 1e300, -1e300, 1e300});
+  const auto x = *me.at(departure + 1s);
   CHECK(std::isfinite(x.s_m));
   CHECK(std::abs(x.d_m) <= 5);
   CHECK(std::abs(x.heading_error_rad) <= 1);
@@ -297,7 +297,7 @@ TEST_CASE("a car that is planned for from afar drives as well as at home") {
   auto s_m = 100.0;
   std::optional<told_state> told;
   for (auto i = 0; i < 6000; ++i) {
-    const auto now = start + i * 10ms;
+    const auto now = departure + i * 10ms;
     if (i % 100 == 0)
       told = {now,
               car.at,

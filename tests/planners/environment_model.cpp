@@ -18,13 +18,13 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr time_point start{100s};
+constexpr time_point first_sight{100s};
 
 /// As the rules for CPMs have it.
 constexpr sighting_rhythm rhythm{4, 1s};
 
-perceived_object car(point centre, double speed_mps = 0,
-                     double heading_rad = 0) {
+perceived_object perceived_car(point centre, double speed_mps = 0,
+                               double heading_rad = 0) {
   return {centre, heading_rad, speed_mps, 0, 5.1, 1.89};
 }
 
@@ -56,10 +56,11 @@ struct observer {
 struct queue {
   std::vector<perceived_object> at(time_point t) const {
     std::vector<perceived_object> cars;
-    const auto phase = 0.5 * to_seconds(t - start);
+    const auto phase = 0.5 * to_seconds(t - first_sight);
     for (auto i = 0; i < 8; ++i)
-      cars.push_back(car({-8.0 * i + 10 * (phase - std::sin(phase)), 0},
-                         5 * (1 - std::cos(phase))));
+      cars.push_back(
+          perceived_car({-8.0 * i + 10 * (phase - std::sin(phase)), 0},
+                        5 * (1 - std::cos(phase))));
     return cars;
   }
 };
@@ -83,10 +84,10 @@ void see(environment_model& model, time_point at, const perceived_object& o) {
 
 TEST_CASE("a body is known from its first sighting on") {
   environment_model model;
-  see(model, start, car({3, 4}, 10, 1.2));
+  see(model, first_sight, perceived_car({3, 4}, 10, 1.2));
   REQUIRE(model.tracks().size() == 1);
   const auto& x = model.tracks()[0];
-  CHECK(x.at == start);
+  CHECK(x.at == first_sight);
   CHECK(x.centre() == point{3, 4});
   CHECK(x.speed_along_mps(1.2) == test::near(10, 1e-12));
   CHECK(x.heading_rad == 1.2);
@@ -98,27 +99,27 @@ TEST_CASE("a body is known from its first sighting on") {
 TEST_CASE("a standing body has a heading") {
   environment_model model;
   for (auto i = 0; i < 20; ++i)
-    see(model, start + i * 100ms, car({}, 0, 2));
+    see(model, first_sight + i * 100ms, perceived_car({}, 0, 2));
   CHECK(model.tracks()[0].body().heading_rad == test::near(2, 1e-9));
 }
 
 TEST_CASE("a body that turns across west keeps its heading") {
   environment_model model;
   constexpr auto pi = std::numbers::pi;
-  see(model, start, car({}, 0, pi - 0.01));
-  see(model, start + 100ms, car({}, 0, -pi + 0.01));
+  see(model, first_sight, perceived_car({}, 0, pi - 0.01));
+  see(model, first_sight + 100ms, perceived_car({}, 0, -pi + 0.01));
   CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - pi)) < 0.011);
 }
 
 TEST_CASE("a prediction is straight ahead, and less certain the longer") {
   environment_model model;
-  see(model, start, car({}, 10, std::numbers::pi / 2));
+  see(model, first_sight, perceived_car({}, 10, std::numbers::pi / 2));
   const auto& now = model.tracks()[0];
-  const auto then = predict(now, start + 1s);
+  const auto then = predict(now, first_sight + 1s);
   CHECK(distance_m(then.centre(), {0, 10}) < 1e-9);
-  CHECK(then.at == start + 1s);
+  CHECK(then.at == first_sight + 1s);
   CHECK(then.motion.covariance(0, 0) > 10 * now.motion.covariance(0, 0));
-  CHECK(predict(now, start - 1s).centre() == now.centre());
+  CHECK(predict(now, first_sight - 1s).centre() == now.centre());
 }
 
 TEST_CASE("predicting at once or in steps comes to the same") {
@@ -163,7 +164,7 @@ TEST_CASE("tracks are better than sightings, and know how good they are") {
   for (auto i = 0; i < n; ++i) {
     const auto t = i * 50ms;
     const point truth{15 * to_seconds(t), 0};
-    see(model, start + t, eyes.look(car(truth, 15)));
+    see(model, first_sight + t, eyes.look(perceived_car(truth, 15)));
     const auto& x = model.tracks()[0];
     sum2_m2 += miss_m(x, truth) * miss_m(x, truth);
     const Eigen::Matrix2d off =
@@ -180,7 +181,7 @@ TEST_CASE("two observers of a queue see each car once, and no two as one") {
   environment_model model;
   observer a{1}, b{2};
   const queue street;
-  for (auto t = start; t < start + 120s; t += 50ms) {
+  for (auto t = first_sight; t < first_sight + 120s; t += 50ms) {
     model.update(t, a.look(street.at(t)));
     auto late = street.at(t - 20ms);
     std::ranges::reverse(late);
@@ -188,7 +189,7 @@ TEST_CASE("two observers of a queue see each car once, and no two as one") {
     REQUIRE(model.tracks().size() == 8);
   }
   CHECK(ids(model) == std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8});
-  const auto truth = street.at(start + 120s - 50ms);
+  const auto truth = street.at(first_sight + 120s - 50ms);
   for (std::size_t i = 0; i < truth.size(); ++i)
     CHECK(miss_m(model.tracks()[i], truth[i].centre) < 0.3);
 }
@@ -199,7 +200,7 @@ TEST_CASE("occlusions in a queue neither merge nor split cars") {
   const queue street;
   const random_stream dice{7, "occlusions"};
   for (auto i = 0; i < 2400; ++i) {
-    const auto t = start + i * 50ms;
+    const auto t = first_sight + i * 50ms;
     for (auto who = 0U; who < 2; ++who) {
       const auto all = street.at(t);
       std::vector<perceived_object> seen;
@@ -224,7 +225,8 @@ TEST_CASE("a car that brakes as hard as it can stays one track") {
   for (auto t = 0.0; t < 4; t += 0.1) {
     const auto braked_s = std::clamp(t - 1, 0.0, 2.0);
     const point at{16 * std::min(t, 1.0) + braked_s * (16 - 4 * braked_s), 0};
-    see(model, start + from_seconds(t), eyes.look(car(at, 16 - 8 * braked_s)));
+    see(model, first_sight + from_seconds(t),
+        eyes.look(perceived_car(at, 16 - 8 * braked_s)));
     REQUIRE(model.tracks().size() == 1);
     CHECK(miss_m(model.tracks()[0], at) < 0.6);
   }
@@ -241,8 +243,8 @@ TEST_CASE("a car in a tight bend stays one track") {
   for (auto i = 0; i < 300; ++i) {
     x = step(x, {0, x.steer_rad}, ability, 0.05);
     const auto box = body(x, ability);
-    see(model, start + i * 50ms,
-        eyes.look(car(box.centre, x.speed_mps, x.heading_rad)));
+    see(model, first_sight + i * 50ms,
+        eyes.look(perceived_car(box.centre, x.speed_mps, x.heading_rad)));
     REQUIRE(model.tracks().size() == 1);
     CHECK(miss_m(model.tracks()[0], box.centre) < 0.5);
     CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - x.heading_rad))
@@ -254,9 +256,9 @@ TEST_CASE("cars that pass each other in a narrow street keep their tracks") {
   environment_model model;
   observer eyes{1};
   for (auto t = 0.0; t < 4; t += 0.1) {
-    std::vector seen{car({-30 + 15 * t, 0}, 15),
-                     car({30 - 15 * t, 2.3}, 15, std::numbers::pi)};
-    model.update(start + from_seconds(t), eyes.look(seen));
+    std::vector seen{perceived_car({-30 + 15 * t, 0}, 15),
+                     perceived_car({30 - 15 * t, 2.3}, 15, std::numbers::pi)};
+    model.update(first_sight + from_seconds(t), eyes.look(seen));
   }
   REQUIRE(model.tracks().size() == 2);
   CHECK(model.tracks()[0].centre().x_m > 28);
@@ -267,9 +269,9 @@ TEST_CASE("sightings that arrive in the wrong order are of the same car") {
   environment_model orderly, late;
   observer a{1}, b{2}, again_a{1}, again_b{2};
   auto truth = [](time_point t) {
-    return car({12 * to_seconds(t - start), 0}, 12);
+    return perceived_car({12 * to_seconds(t - first_sight), 0}, 12);
   };
-  auto t = start;
+  auto t = first_sight;
   for (auto i = 0; i < 100; ++i, t += 100ms) {
     see(orderly, t - 300ms, b.look(truth(t - 300ms)));
     see(orderly, t, a.look(truth(t)));
@@ -285,66 +287,71 @@ TEST_CASE("sightings that arrive in the wrong order are of the same car") {
 
 TEST_CASE("an old sighting tells little, and nothing about heading") {
   environment_model model;
-  see(model, start, car({}, 10));
+  see(model, first_sight, perceived_car({}, 10));
   const auto before = model.tracks()[0];
-  see(model, start - 300ms, car({-2.7, 0}, 10, 0.03)); // 0.3 m ahead
+  see(model, first_sight - 300ms,
+      perceived_car({-2.7, 0}, 10, 0.03)); // 0.3 m ahead
   const auto& after = model.tracks()[0];
   REQUIRE(model.tracks().size() == 1);
   CHECK(after.heading_rad == before.heading_rad);
   CHECK(after.centre().x_m > 0.01);
   CHECK(after.centre().x_m < 0.15);
-  CHECK(after.seen == start);
+  CHECK(after.seen == first_sight);
 }
 
 TEST_CASE("a new body may be told of late") {
   environment_model model;
-  see(model, start, car({}, 10));
-  see(model, start - 300ms, car({50, 0}, 10));
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight - 300ms, perceived_car({50, 0}, 10));
   REQUIRE(model.tracks().size() == 2);
-  CHECK(model.tracks()[1].at == start);
+  CHECK(model.tracks()[1].at == first_sight);
   CHECK(model.tracks()[1].centre().x_m == test::near(53, 1e-9));
-  CHECK(model.tracks()[1].seen == start - 300ms);
+  CHECK(model.tracks()[1].seen == first_sight - 300ms);
 }
 
 TEST_CASE("ancient sightings are dropped") {
   environment_model model;
-  see(model, start, car({}, 10));
-  see(model, start - 600ms, car({50, 0}, 10));
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight - 600ms, perceived_car({50, 0}, 10));
   CHECK(model.tracks().size() == 1);
-  model.hear(start - 600ms, 5, car({80, 0}));
+  model.hear(first_sight - 600ms, 5, perceived_car({80, 0}));
   CHECK(model.tracks().size() == 1);
 }
 
 TEST_CASE("a body is remembered for a second without sightings") {
   environment_model model;
-  see(model, start, car({}, 10));
-  model.update(start + 1s, {});
+  see(model, first_sight, perceived_car({}, 10));
+  model.update(first_sight + 1s, {});
   REQUIRE(model.tracks().size() == 1);
   CHECK(model.tracks()[0].centre().x_m == test::near(10, 1e-9));
-  model.update(start + 1001ms, {});
+  model.update(first_sight + 1001ms, {});
   CHECK(model.tracks().empty());
 }
 
 TEST_CASE("a body that is told of once a second outlives a lost message") {
   environment_model model{{}, rhythm};
-  see(model, start, car({}));
-  see(model, start + 2100ms, car({})); // one was lost, the next one is late
+  see(model, first_sight, perceived_car({}));
+  see(model, first_sight + 2100ms,
+      perceived_car({})); // one was lost, the next one is late
   REQUIRE(model.tracks().size() == 1);
   CHECK(model.tracks()[0].id == 1);
 }
 
 TEST_CASE("a body that moves is expected back sooner than one that stands") {
   environment_model model{{}, rhythm};
-  model.update(start, std::vector{car({}), car({0, 50}, 5), car({0, 99}, 40)});
-  model.update(start + 1s, {});
+  model.update(first_sight,
+               std::vector{perceived_car({}), perceived_car({0, 50}, 5),
+                           perceived_car({0, 99}, 40)});
+  model.update(first_sight + 1s, {});
   CHECK(model.tracks().size() == 3);
-  model.update(start + 2s, {}); // 40 m/s: after 1 s, as from sensors
+  model.update(first_sight + 2s, {}); // 40 m/s: after 1 s, as from sensors
   CHECK(ids(model) == std::set<std::uint32_t>{1, 2});
-  model.update(start + 2200ms, {}); // 5 m/s: twice 0.8 s and half a second
+  model.update(first_sight + 2200ms,
+               {}); // 5 m/s: twice 0.8 s and half a second
   CHECK(ids(model) == std::set<std::uint32_t>{1});
-  model.update(start + 2500ms, {});
+  model.update(first_sight + 2500ms, {});
   CHECK(model.tracks().size() == 1);
-  model.update(start + 2600ms, {});
+  model.update(first_sight + 2600ms, {});
   CHECK(model.tracks().empty());
 }
 
@@ -363,10 +370,10 @@ TEST_CASE("a queue that is told of by the rules is neither merged nor split") {
   const queue street;
   std::vector<perceived_object> told;
   std::vector<time_point> when;
-  for (auto t = start; t < start + 60s; t += 100ms) {
+  for (auto t = first_sight; t < first_sight + 60s; t += 100ms) {
     const auto all = street.at(t);
-    if (t == start)
-      told = all, when.assign(all.size(), start - 1s);
+    if (t == first_sight)
+      told = all, when.assign(all.size(), first_sight - 1s);
     std::vector<perceived_object> news;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (distance_m(told[i].centre, all[i].centre) > 4
@@ -385,25 +392,25 @@ TEST_CASE("a queue that is told of by the rules is neither merged nor split") {
 
 TEST_CASE("a heading that is told rarely is believed at once") {
   environment_model model{{}, rhythm};
-  see(model, start, car({}, 5, 0));
-  see(model, start + 800ms, car({4, 0.1}, 5, 0.07));
+  see(model, first_sight, perceived_car({}, 5, 0));
+  see(model, first_sight + 800ms, perceived_car({4, 0.1}, 5, 0.07));
   CHECK(model.tracks()[0].heading_rad == test::near(0.07, 1e-9));
-  see(model, start + 900ms, car({4.5, 0.14}, 5, 0.09));
+  see(model, first_sight + 900ms, perceived_car({4.5, 0.14}, 5, 0.09));
   CHECK(model.tracks()[0].heading_rad == test::near(0.08, 1e-9));
 }
 
 TEST_CASE("a body that comes back from an occlusion is the same") {
   environment_model model;
-  see(model, start, car({}, 10));
-  see(model, start + 900ms, car({8.5, 0.3}, 9));
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight + 900ms, perceived_car({8.5, 0.3}, 9));
   REQUIRE(model.tracks().size() == 1);
   CHECK(model.tracks()[0].id == 1);
 }
 
 TEST_CASE("a body is where it is, however fast it was said to be") {
   environment_model model;
-  see(model, start, car({}, 10));
-  see(model, start + 50ms, car({1, 0}, 0, 1));
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight + 50ms, perceived_car({1, 0}, 0, 1));
   REQUIRE(model.tracks().size() == 1);
   CHECK(model.tracks()[0].centre() == point{1, 0});
   CHECK(model.tracks()[0].speed_along_mps(0) == 0);
@@ -411,17 +418,18 @@ TEST_CASE("a body is where it is, however fast it was said to be") {
 
 TEST_CASE("two bodies side by side are two from the first sight on") {
   environment_model model;
-  const std::vector seen{car({}), car({0, 2}), car({5.2, 0})};
-  model.update(start, seen);
+  const std::vector seen{perceived_car({}), perceived_car({0, 2}),
+                         perceived_car({5.2, 0})};
+  model.update(first_sight, seen);
   CHECK(model.tracks().size() == 3);
-  model.update(start + 100ms, seen);
+  model.update(first_sight + 100ms, seen);
   CHECK(model.tracks().size() == 3);
 }
 
 TEST_CASE("whoever stands a length ahead of an occluded car is another") {
   environment_model model;
-  see(model, start, car({}));
-  see(model, start + 900ms, car({8, 0}));
+  see(model, first_sight, perceived_car({}));
+  see(model, first_sight + 900ms, perceived_car({8, 0}));
   CHECK(model.tracks().size() == 2);
 }
 
@@ -431,34 +439,38 @@ TEST_CASE("a vague idea of one body does not claim the sighting of another") {
     return perceived_object{{x_m, 0}, 0, speed_mps, 0, 1.8, 0.6};
   };
   const std::vector both{bicycle(0, 5), bicycle(3, 0)}; // the second vanishes
-  model.update(start, both);
+  model.update(first_sight, both);
   for (auto t = 0.1; t < 0.85; t += 0.1)
-    see(model, start + from_seconds(t), bicycle(5 * t, 5));
-  see(model, start + 900ms, bicycle(4.75, 4.5)); // 0.25 m farther than expected
+    see(model, first_sight + from_seconds(t), bicycle(5 * t, 5));
+  see(model, first_sight + 900ms,
+      bicycle(4.75, 4.5)); // 0.25 m farther than expected
   REQUIRE(model.tracks().size() == 2);
-  CHECK(model.tracks()[0].seen == start + 900ms);
-  CHECK(model.tracks()[1].seen == start);
+  CHECK(model.tracks()[0].seen == first_sight + 900ms);
+  CHECK(model.tracks()[1].seen == first_sight);
 }
 
 TEST_CASE("a vehicle that is heard gives its track its name") {
   environment_model model;
-  const std::vector seen{car({}, 10), car({8, 0}, 10)};
-  model.update(start, seen);
-  model.hear(start + 20ms, 77, car({8.2, 0}, 10));
+  const std::vector seen{perceived_car({}, 10), perceived_car({8, 0}, 10)};
+  model.update(first_sight, seen);
+  model.hear(first_sight + 20ms, 77, perceived_car({8.2, 0}, 10));
   REQUIRE(model.tracks().size() == 2);
   CHECK_FALSE(model.tracks()[0].station);
   CHECK(model.tracks()[1].station == 77U);
-  model.hear(start + 40ms, 78, car({-20, 0}, 10)); // nobody has seen it
+  model.hear(first_sight + 40ms, 78,
+             perceived_car({-20, 0}, 10)); // nobody has seen it
   REQUIRE(model.tracks().size() == 3);
   CHECK(model.tracks()[2].station == 78U);
 }
 
 TEST_CASE("a name is nobody else's") {
   environment_model model;
-  model.hear(start, 1, car({}, 10));
-  model.hear(start, 2, car({0.5, 0}, 10)); // the inscribed circles overlap
+  model.hear(first_sight, 1, perceived_car({}, 10));
+  model.hear(first_sight, 2,
+             perceived_car({0.5, 0}, 10)); // the inscribed circles overlap
   CHECK(model.tracks().size() == 2);
-  model.hear(start + 100ms, 1, car({60, 0}, 10)); // was mistaken for another
+  model.hear(first_sight + 100ms, 1,
+             perceived_car({60, 0}, 10)); // was mistaken for another
   REQUIRE(model.tracks().size() == 3);
   CHECK_FALSE(model.tracks()[0].station);
   CHECK(model.tracks()[1].station == 2U);
@@ -468,7 +480,7 @@ TEST_CASE("a name is nobody else's") {
 TEST_CASE("what no body can be is left out") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   environment_model model;
-  std::vector wrong(10, car({}));
+  std::vector wrong(10, perceived_car({}));
   wrong[0].centre.x_m = nan;
   wrong[1].heading_rad = std::numeric_limits<double>::infinity();
   wrong[2].speed_mps = nan;
@@ -479,17 +491,17 @@ TEST_CASE("what no body can be is left out") {
   wrong[7].centre.y_m = -2e7;
   wrong[8].heading_rad = 2e6;
   wrong[9].heading_rad = nan;
-  model.update(start, wrong);
+  model.update(first_sight, wrong);
   for (const auto& o : wrong)
-    model.hear(start, 1, o);
+    model.hear(first_sight, 1, o);
   CHECK(model.tracks().empty());
 }
 
 TEST_CASE("nobody can tell of more bodies at once than a road shows") {
   environment_model model;
-  std::vector<perceived_object> crowd(256, car({500, 0}));
-  crowd.push_back(car({}));
-  model.update(start, crowd);
+  std::vector<perceived_object> crowd(256, perceived_car({500, 0}));
+  crowd.push_back(perceived_car({}));
+  model.update(first_sight, crowd);
   REQUIRE_FALSE(model.tracks().empty());
   for (const auto& x : model.tracks())
     CHECK(x.centre() == point{500, 0});
@@ -497,9 +509,9 @@ TEST_CASE("nobody can tell of more bodies at once than a road shows") {
 
 TEST_CASE("who was not seen for longest makes room when there are too many") {
   environment_model model;
-  see(model, start, car({-50, 0}));
+  see(model, first_sight, perceived_car({-50, 0}));
   for (auto i = 0; i < 1100; ++i)
-    see(model, start + 10ms, car({10.0 * i, 0}));
+    see(model, first_sight + 10ms, perceived_car({10.0 * i, 0}));
   CHECK(model.tracks().size() == 1024);
   CHECK(model.tracks().front().id != 1);
   CHECK(model.tracks().back().id == 1101);
@@ -509,13 +521,13 @@ TEST_CASE("the order in which an observer lists bodies does not matter") {
   environment_model a, b;
   observer eyes{1};
   const queue street;
-  a.update(start, street.at(start));
-  b.update(start, street.at(start));
+  a.update(first_sight, street.at(first_sight));
+  b.update(first_sight, street.at(first_sight));
   for (auto i = 1; i < 100; ++i) {
-    auto seen = eyes.look(street.at(start + i * 50ms));
-    a.update(start + i * 50ms, seen);
+    auto seen = eyes.look(street.at(first_sight + i * 50ms));
+    a.update(first_sight + i * 50ms, seen);
     std::ranges::reverse(seen);
-    b.update(start + i * 50ms, seen);
+    b.update(first_sight + i * 50ms, seen);
   }
   for (std::size_t i = 0; i < 8; ++i)
     CHECK(a.tracks()[i].motion.mean == b.tracks()[i].motion.mean);

@@ -1,18 +1,13 @@
 // A plan to begin with.
 #include "planners/keep_speed.hpp"
 
-#include "tests/planners/test_drive.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace sofof;
 using doctest::Approx;
-
-namespace {
-
-const time_point now{from_seconds(100)};
-
-} // namespace
+using test::now;
 
 TEST_CASE("who keeps its speed stays in the middle of its lane, as fast as it "
           "was") {

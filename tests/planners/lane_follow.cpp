@@ -1,29 +1,15 @@
 // Single plans: where they start, what they keep, how they go on.
 #include "planners/lane_follow.hpp"
 
-#include "tests/planners/test_drive.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace sofof;
 using doctest::Approx;
-
-namespace {
-
-const time_point now{from_seconds(100)};
-const std::vector<speed_zone> town{
-    {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
-
-planning_input driving(double s_m, double speed_mps) {
-  planning_input x;
-  x.at = now;
-  x.others.at = now;
-  x.s_m = s_m;
-  x.speed_mps = speed_mps;
-  return x;
-}
-
-} // namespace
+using test::driving;
+using test::now;
+using test::town;
 
 TEST_CASE("a plan has its points in equal steps over its horizon") {
   lane_follow planner{test::oval(town), {}};

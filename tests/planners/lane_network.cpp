@@ -14,10 +14,9 @@
 #include <vector>
 
 using namespace sofof;
+using std::numbers::pi;
 
 namespace {
-
-constexpr auto pi = std::numbers::pi;
 
 /// Four arms around a junction at (0, 0); east-bound traffic drives at
 /// y = -1.75 m.

@@ -1,5 +1,6 @@
 // A warm start that moves by any distance, and changes grids.
 #include "planners/practice.hpp"
+#include "tests/planners/solvers.hpp"
 #include "tests/support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -12,19 +13,14 @@ using namespace sofof;
 using enum ocp::solve_status;
 using ocp::start;
 using event = practice_road::event;
+using test::path_solver;
+using test::speed_solver;
 
 namespace {
 
-// Workspaces are too large for a stack.
-std::unique_ptr<path_ocp> path_solver() {
-  return std::make_unique<path_ocp>();
-}
-std::unique_ptr<velocity_ocp> speed_solver() {
-  return std::make_unique<velocity_ocp>();
-}
-
 /// A velocity solver that has a plan for the practice road.
-std::unique_ptr<velocity_ocp> driving(event what, int steps, double ds_m) {
+std::unique_ptr<velocity_ocp> driving_solver(event what, int steps,
+                                             double ds_m) {
   auto solver = speed_solver();
   practice_road road{what, steps, ds_m};
   REQUIRE(solver->solve(road.at(0, 0, {0, 60, 0}), start::cold).status
@@ -33,7 +29,7 @@ std::unique_ptr<velocity_ocp> driving(event what, int steps, double ds_m) {
 }
 
 /// A path solver that has a plan for the slalom.
-std::unique_ptr<path_ocp> steering(int steps, double ds_m) {
+std::unique_ptr<path_ocp> steering_solver(int steps, double ds_m) {
   auto solver = path_solver();
   slalom road{steps, ds_m};
   REQUIRE(solver->solve(road.at(0, {}), start::cold).status == converged);
@@ -51,7 +47,7 @@ path_state state_at(const path_ocp& s, std::size_t k) {
 } // namespace
 
 TEST_CASE("carried over by whole knots, a plan keeps its numbers") {
-  const auto solver = driving(event::slow_leader, 160, 0.5);
+  const auto solver = driving_solver(event::slow_leader, 160, 0.5);
   const std::vector<double> w(solver->w_m2ps2().begin(),
                               solver->w_m2ps2().end());
   const std::vector<double> u(solver->u_1ps2().begin(), solver->u_1ps2().end());
@@ -64,7 +60,7 @@ TEST_CASE("carried over by whole knots, a plan keeps its numbers") {
 
 TEST_CASE(
     "carried over by a share of a knot, a plan says the same of the road") {
-  const auto solver = driving(event::free_flow, 160, 0.5);
+  const auto solver = driving_solver(event::free_flow, 160, 0.5);
   const std::vector<double> w(solver->w_m2ps2().begin(),
                               solver->w_m2ps2().end());
   constexpr auto by = 10.3, ds = 0.7;
@@ -80,7 +76,7 @@ TEST_CASE(
 }
 
 TEST_CASE("beyond its end a plan is thought to go on as it ended") {
-  const auto solver = steering(80, 1);
+  const auto solver = steering_solver(80, 1);
   const auto end = state_at(*solver, 80);
   solver->carry_over(20, 0.5, 250);
   REQUIRE(solver->offset_m().size() == 251);
@@ -94,7 +90,7 @@ TEST_CASE("beyond its end a plan is thought to go on as it ended") {
 
 TEST_CASE("a horizon that is cut to end where the car stops, and back") {
   // The stop line is 70 m ahead; the road then ends there, in steps that fit.
-  const auto solver = driving(event::stop_line, 250, 0.5);
+  const auto solver = driving_solver(event::stop_line, 250, 0.5);
   constexpr auto by = 10.2;
   const auto k = static_cast<std::size_t>(by / 0.5);
   const auto now = state_at(*solver, k);
@@ -126,7 +122,7 @@ TEST_CASE("a horizon that is cut to end where the car stops, and back") {
 TEST_CASE(
     "a warm start on a grid that it was not carried over to is a cold one") {
   slalom coarse{80, 1};
-  const auto solver = steering(80, 0.5);
+  const auto solver = steering_solver(80, 0.5);
   const auto warm = solver->solve(coarse.at(0, {}), start::warm);
   const auto cold = path_solver()->solve(coarse.at(0, {}), start::cold);
   CHECK(warm.iterations == cold.iterations);
@@ -139,12 +135,12 @@ TEST_CASE("carried over to nonsense, a solver starts cold") {
   const auto cold = path_solver()->solve(problem, start::cold);
   for (const auto by : {-1., std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::infinity()}) {
-    const auto solver = steering(80, 1);
+    const auto solver = steering_solver(80, 1);
     solver->carry_over(by, 1, 80);
     CHECK(solver->solve(problem, start::warm).iterations == cold.iterations);
   }
   for (const auto steps : {0, -1, ocp::most_steps + 1}) {
-    const auto solver = steering(80, 1);
+    const auto solver = steering_solver(80, 1);
     solver->carry_over(1, 1, steps);
     CHECK(solver->solve(problem, start::warm).iterations == cold.iterations);
   }

@@ -10,15 +10,13 @@
 #include <complex>
 #include <memory>
 
-using namespace sofof;
-using namespace sofof::ocp;
-
+namespace sofof::ocp {
 namespace {
 
 using complex = std::complex<double>;
 
 constexpr auto tiny = 1e-30;
-constexpr auto steps = 80;
+constexpr auto model_steps = 80;
 
 /// Column `i` of [A B] of a step f(x, u).
 template <class Step>
@@ -82,10 +80,10 @@ TEST_CASE("the path's linear model is the derivative of its step") {
   const auto w = std::make_unique<path_model::workspace>();
   const auto reference = std::make_unique<path_reference>();
   test::dice dice{1};
-  w->n = steps;
-  w->padded = padded(steps + 1);
+  w->n = model_steps;
+  w->padded = padded(model_steps + 1);
   w->rows.discs = 4;
-  for (int k = 0; k <= steps; ++k) {
+  for (int k = 0; k <= model_steps; ++k) {
     w->iterate.x0[k] = dice.between(-3, 3);
     w->iterate.x1[k] = dice.between(-0.9, 0.9);
     w->iterate.x2[k] = dice.between(-0.2, 0.2);
@@ -96,7 +94,7 @@ TEST_CASE("the path's linear model is the derivative of its step") {
   const path_model model{
       .ds = 0.7, .reference = *reference, .ahead = {-0.4, 0, 2, 3.4}};
   model.linearise(*w);
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < model_steps; ++k) {
     const auto step = [&](const std::array<complex, 3>& x, complex u) {
       return path_step(x, u, reference->curvature[k], reference->halfway[k],
                        model.ds);
@@ -114,9 +112,9 @@ TEST_CASE("the velocity's linear model is the derivative of its step") {
   const auto w = std::make_unique<velocity_model::workspace>();
   const auto reference = std::make_unique<velocity_reference>();
   test::dice dice{2};
-  w->n = steps;
-  w->padded = padded(steps + 1);
-  for (int k = 0; k <= steps; ++k) {
+  w->n = model_steps;
+  w->padded = padded(model_steps + 1);
+  for (int k = 0; k <= model_steps; ++k) {
     w->iterate.x0[k] = dice.between(0, 30);
     w->iterate.x1[k] = dice.between(1.5, 100);
     w->iterate.x2[k] = dice.between(-2, 2);
@@ -125,7 +123,7 @@ TEST_CASE("the velocity's linear model is the derivative of its step") {
   }
   const velocity_model model{.ds = 0.5, .reference = *reference};
   model.linearise(*w);
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < model_steps; ++k) {
     const auto step = [&](const std::array<complex, 3>& x, complex u) {
       return velocity_step(x, u, model.ds);
     };
@@ -150,3 +148,5 @@ TEST_CASE("the vector sine and cosine are as good as the library's") {
     CHECK(std::abs(cosine - std::cos(x)) < 1e-13);
   }
 }
+
+} // namespace sofof::ocp

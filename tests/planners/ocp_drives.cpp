@@ -23,9 +23,9 @@ constexpr auto never = std::numeric_limits<double>::infinity();
 
 /// A road with bends, on some of them a leader, a light that is red until some
 /// time, or both; all by chance.
-class street {
+class random_street {
 public:
-  explicit street(test::dice& dice)
+  explicit random_street(test::dice& dice)
       : sharpest_1pm_{dice.between(0, 0.06)}, bend_m_{dice.between(20, 60)} {
     if (dice.between(0, 1) < 0.5)
       leader_ = {dice.between(20, 60), dice.between(3, 13)};
@@ -162,7 +162,7 @@ TEST_CASE("in traffic there is always a plan, mostly within a few steps") {
   for (int drive = 0; drive < drives; ++drive) {
     CAPTURE(drive);
     *solver = {};
-    street road{dice};
+    random_street road{dice};
     velocity_state x{0, dice.between(0.2, 60), 0};
     auto s_m = 0., now_s = 0., moved_m = 0.;
     for (int cycle = 0; cycle < cycles; ++cycle) {

@@ -1,8 +1,10 @@
 // The path problem, solved: what its plans promise, and what it refuses.
 #include "planners/path_ocp.hpp"
 #include "planners/practice.hpp"
+#include "tests/planners/solvers.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kkt.hpp"
+#include "tests/support/not_a_number.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,20 +18,15 @@
 using namespace sofof;
 using enum ocp::solve_status;
 using ocp::start;
+using test::not_a_number;
+using test::path_solver;
 
 namespace {
 
-constexpr auto no_number = std::numeric_limits<double>::quiet_NaN();
-
-// Its workspace is too large for a stack.
-std::unique_ptr<path_ocp> make_solver() {
-  return std::make_unique<path_ocp>();
-}
-
 /// A drive down the slalom: at every knot the plan's next state, with noise.
 template <class Visit>
-void drive(slalom& road, start how, int knots, Visit visit) {
-  const auto solver = make_solver();
+void drive_slalom(slalom& road, start how, int knots, Visit visit) {
+  const auto solver = path_solver();
   test::dice dice{3};
   path_state x;
   for (int k = 0; k < knots; ++k) {
@@ -68,21 +65,22 @@ TEST_CASE("every plan down the slalom is feasible and optimal") {
   for (const auto how : {start::warm, start::cold}) {
     slalom road;
     auto iterations = 0;
-    drive(road, how, 120, [&](auto& solver, auto& problem, auto& report) {
-      REQUIRE(report.status == converged);
-      CHECK(driven_violation(problem, solver.rate_1pm2()) < 1e-4);
-      const auto left = test::kkt_of(solver, problem, report.cost);
-      CHECK(left.decrease < 2e-4);
-      CHECK(left.complementarity < 5);
-      iterations += report.iterations;
-    });
+    drive_slalom(road, how, 120,
+                 [&](auto& solver, auto& problem, auto& report) {
+                   REQUIRE(report.status == converged);
+                   CHECK(driven_violation(problem, solver.rate_1pm2()) < 1e-4);
+                   const auto left = test::kkt_of(solver, problem, report.cost);
+                   CHECK(left.decrease < 2e-4);
+                   CHECK(left.complementarity < 5);
+                   iterations += report.iterations;
+                 });
     CHECK(iterations < 120 * (how == start::warm ? 6 : 25));
   }
 }
 
 TEST_CASE("a plan is the roll-out of its controls, to the last bit") {
   slalom road;
-  drive(road, start::warm, 20, [](auto& solver, auto& problem, auto&) {
+  drive_slalom(road, start::warm, 20, [](auto& solver, auto& problem, auto&) {
     const auto& p = problem;
     std::array<double, 3> x{p.start.d_m, p.start.heading_rad,
                             p.start.curvature_1pm};
@@ -107,17 +105,17 @@ TEST_CASE("horizons of other lengths and steps are solved as well") {
        {grid{160, 0.5}, grid{250, 0.5}, grid{20, 1}, grid{81, 1}}) {
     CAPTURE(steps);
     slalom road{steps, ds};
-    drive(road, start::warm, 30,
-          [&](auto& solver, auto& problem, auto& report) {
-            REQUIRE(report.status == converged);
-            CHECK(driven_violation(problem, solver.rate_1pm2()) < 1e-4);
-          });
+    drive_slalom(road, start::warm, 30,
+                 [&](auto& solver, auto& problem, auto& report) {
+                   REQUIRE(report.status == converged);
+                   CHECK(driven_violation(problem, solver.rate_1pm2()) < 1e-4);
+                 });
   }
 }
 
 TEST_CASE("a horizon of one step is solved") {
   slalom road{1, 1};
-  const auto solver = make_solver();
+  const auto solver = path_solver();
   CHECK(solver->solve(road.at(0, {}), start::cold).status == converged);
 }
 
@@ -125,7 +123,7 @@ TEST_CASE("the same problem gives the same bytes") {
   const auto run = [] {
     std::vector<double> all;
     slalom road;
-    drive(road, start::warm, 60, [&](auto& solver, auto&, auto& report) {
+    drive_slalom(road, start::warm, 60, [&](auto& solver, auto&, auto& report) {
       all.insert(all.end(), solver.rate_1pm2().begin(),
                  solver.rate_1pm2().end());
       all.push_back(report.cost);
@@ -141,9 +139,9 @@ TEST_CASE("the same problem gives the same bytes") {
 TEST_CASE("a solver copied byte by byte goes on where the other was") {
   static_assert(std::is_trivially_copyable_v<path_ocp>);
   slalom road;
-  const auto first = make_solver();
+  const auto first = path_solver();
   CHECK(first->solve(road.at(0, {}), start::cold).status == converged);
-  const auto second = make_solver();
+  const auto second = path_solver();
   std::memcpy(static_cast<void*>(second.get()), first.get(), sizeof(path_ocp));
   const auto& next = road.at(1, {first->offset_m()[1], first->heading_rad()[1],
                                  first->curvature_1pm()[1]});
@@ -157,9 +155,9 @@ TEST_CASE("a solver copied byte by byte goes on where the other was") {
 
 TEST_CASE("a cold start knows nothing of what was solved before") {
   test::dice dice{4};
-  const auto used = make_solver();
+  const auto used = path_solver();
   slalom sane;
-  const auto fresh = make_solver();
+  const auto fresh = path_solver();
   const auto expected = fresh->solve(sane.at(0, {.d_m = 0.1}), start::cold);
   REQUIRE(expected.status == converged);
   for (int i = 0; i < 60; ++i) {
@@ -182,9 +180,9 @@ TEST_CASE("a cold start knows nothing of what was solved before") {
 
 TEST_CASE("a warm start is worth its while, and ends at the same plan") {
   slalom road;
-  const auto cold = make_solver();
+  const auto cold = path_solver();
   auto saved = 0;
-  drive(road, start::warm, 40, [&](auto&, auto& problem, auto& report) {
+  drive_slalom(road, start::warm, 40, [&](auto&, auto& problem, auto& report) {
     const auto again = cold->solve(problem, start::cold);
     CHECK(report.cost == doctest::Approx(again.cost).epsilon(1e-3));
     saved += again.iterations - report.iterations;
@@ -201,7 +199,7 @@ TEST_CASE("where the car does not fit, row and knot are named at once") {
   auto discs = std::vector(problem.discs.begin(), problem.discs.end());
   discs[1].lo_m = lo;
   problem.discs = discs;
-  const auto report = make_solver()->solve(problem, start::cold);
+  const auto report = path_solver()->solve(problem, start::cold);
   CHECK(report.status == soft_infeasible);
   CHECK(report.iterations == 0);
   CHECK(report.worst.row == 1);
@@ -212,7 +210,7 @@ TEST_CASE("where the car does not fit, row and knot are named at once") {
 TEST_CASE("a wall that cannot be avoided is infeasible, not a crash") {
   for (const auto how : {start::cold, start::warm}) {
     slalom road;
-    const auto solver = make_solver();
+    const auto solver = path_solver();
     REQUIRE(solver->solve(road.at(0, {}), start::cold).status == converged);
     // At 15 m, 4 m to the side: with these bounds on the curvature no way.
     auto problem = road.at(0, {});
@@ -242,7 +240,7 @@ TEST_CASE("a car that cannot steer enough gets no plan, soon") {
     CAPTURE(i);
     slalom road{80, 1, dice.between(2.5, 6)};
     auto problem = road.at(i, {dice.between(-0.1, 0.1), 0, 0});
-    const auto solver = make_solver();
+    const auto solver = path_solver();
     const auto how = i % 2 == 0 ? start::cold : start::warm;
     if (how == start::warm)
       solver->solve(problem, start::cold);
@@ -272,7 +270,7 @@ TEST_CASE("a wall across the road is infeasible, and nothing overflows") {
   for (auto& disc : discs)
     disc.lo_m = lo, disc.hi_m = hi;
   problem.discs = discs;
-  const auto report = make_solver()->solve(problem, start::cold);
+  const auto report = path_solver()->solve(problem, start::cold);
   CHECK(report.status == soft_infeasible);
   CHECK(report.worst.amount > 1);
 }
@@ -286,14 +284,14 @@ TEST_CASE("a corridor of no width is driven, where the car starts in it") {
   for (auto& disc : discs)
     disc.lo_m = line, disc.hi_m = line;
   problem.discs = discs;
-  const auto solver = make_solver();
+  const auto solver = path_solver();
   CHECK(solver->solve(problem, start::cold).status == converged);
   CHECK(std::abs(solver->offset_m().back()) < 1e-4);
 }
 
 TEST_CASE("an obstacle that pops up near the car still gives a plan") {
   slalom road;
-  const auto solver = make_solver();
+  const auto solver = path_solver();
   REQUIRE(solver->solve(road.at(0, {}), start::cold).status == converged);
   auto problem = road.at(0, {});
   auto discs = std::vector(problem.discs.begin(), problem.discs.end());
@@ -310,7 +308,7 @@ TEST_CASE("an obstacle that pops up near the car still gives a plan") {
 TEST_CASE("what makes no sense is refused") {
   slalom road;
   const auto& good = road.at(0, {});
-  const std::vector<double> short_line(80, 0), with_nan(161, no_number),
+  const std::vector<double> short_line(80, 0), with_nan(161, not_a_number),
       sharp(161, 3);
   const std::vector<double> beside(81, 0.3);
   auto problem = good;
@@ -331,10 +329,10 @@ TEST_CASE("what makes no sense is refused") {
     problem.ds_m = -1;
   }
   SUBCASE("s is no number") {
-    problem.ds_m = no_number;
+    problem.ds_m = not_a_number;
   }
   SUBCASE("start is no number") {
-    problem.start.d_m = no_number;
+    problem.start.d_m = not_a_number;
   }
   SUBCASE("start turned away") {
     problem.start.heading_rad = 1.1;
@@ -380,7 +378,7 @@ TEST_CASE("what makes no sense is refused") {
   SUBCASE("free control") {
     problem.weights.rate = 0;
   }
-  const auto report = make_solver()->solve(problem, start::warm);
+  const auto report = path_solver()->solve(problem, start::warm);
   CHECK(report.status == bad_input);
   CHECK(report.iterations == 0);
 }
@@ -390,7 +388,7 @@ TEST_CASE("a deadline ends the iteration in time") {
   for (int most = 0; most < 12; ++most) {
     const auto ask = [most](int done) { return done < most; };
     const auto report =
-        make_solver()->solve(road.at(0, {}), start::cold, {}, ocp::budget{ask});
+        path_solver()->solve(road.at(0, {}), start::cold, {}, ocp::budget{ask});
     CAPTURE(most);
     CHECK(report.iterations <= most);
     if (report.iterations < most)
@@ -401,7 +399,7 @@ TEST_CASE("a deadline ends the iteration in time") {
   }
   const auto never = [](int) { return false; };
   CHECK(
-      make_solver()
+      path_solver()
           ->solve(road.at(0, {.d_m = 0.5}), start::cold, {}, ocp::budget{never})
           .status
       == budget);
@@ -410,7 +408,7 @@ TEST_CASE("a deadline ends the iteration in time") {
 TEST_CASE("noise five times as large is still planned for") {
   slalom road;
   test::dice dice{9};
-  const auto solver = make_solver();
+  const auto solver = path_solver();
   auto good = 0;
   for (int k = 0; k < 100; ++k) {
     solver->shift(k > 0 ? 1 : 0);

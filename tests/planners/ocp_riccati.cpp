@@ -10,9 +10,7 @@
 #include <memory>
 #include <vector>
 
-using namespace sofof;
-using namespace sofof::ocp;
-
+namespace sofof::ocp {
 namespace {
 
 constexpr auto steps = 60;
@@ -181,3 +179,5 @@ TEST_CASE("a problem that is not convex in the control is found out") {
   w->h.r[steps / 2] = -1e3;
   CHECK(factorise<false>(*w) < 0);
 }
+
+} // namespace sofof::ocp

@@ -1,8 +1,10 @@
 // The velocity problem, solved: what its plans promise, and what it refuses.
 #include "planners/practice.hpp"
 #include "planners/velocity_ocp.hpp"
+#include "tests/planners/solvers.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kkt.hpp"
+#include "tests/support/not_a_number.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,24 +19,20 @@ using namespace sofof;
 using enum ocp::solve_status;
 using ocp::start;
 using event = practice_road::event;
+using test::not_a_number;
+using test::speed_solver;
 
 namespace {
 
-constexpr auto no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr auto tolerance = 5e-4;
 constexpr auto events = {event::free_flow, event::slow_leader, event::stop_line,
                          event::crossing};
 
-// Its workspace is too large for a stack.
-std::unique_ptr<velocity_ocp> make_solver() {
-  return std::make_unique<velocity_ocp>();
-}
-
 /// A drive, planned anew every metre from the plan's state there, with noise.
 template <class Visit>
-void drive(practice_road& road, start how, int knots, Visit visit) {
+void drive_practice(practice_road& road, start how, int knots, Visit visit) {
   constexpr auto stride = 2;
-  const auto solver = make_solver();
+  const auto solver = speed_solver();
   test::dice dice{5};
   velocity_state x{.t_s = 0, .w_m2ps2 = 60, .accel_mps2 = 0};
   auto now_s = 0.;
@@ -82,43 +80,47 @@ TEST_CASE("every plan on the practice roads is feasible and optimal") {
       CAPTURE(static_cast<int>(what));
       practice_road road{what};
       auto iterations = 0, solves = 0;
-      drive(road, how, 130, [&](auto& solver, auto& problem, auto& report) {
-        REQUIRE(report.status == converged);
-        CHECK(driven_violation(problem, solver.u_1ps2()) < 1.01 * tolerance);
-        const auto left = test::kkt_of(solver, problem, report.cost);
-        CHECK(left.decrease < 2e-4);
-        CHECK(left.complementarity < 5);
-        iterations += report.iterations;
-        ++solves;
-      });
+      drive_practice(
+          road, how, 130, [&](auto& solver, auto& problem, auto& report) {
+            REQUIRE(report.status == converged);
+            CHECK(driven_violation(problem, solver.u_1ps2())
+                  < 1.01 * tolerance);
+            const auto left = test::kkt_of(solver, problem, report.cost);
+            CHECK(left.decrease < 2e-4);
+            CHECK(left.complementarity < 5);
+            iterations += report.iterations;
+            ++solves;
+          });
       CHECK(iterations < solves * (how == start::warm ? 20 : 80));
     }
 }
 
 TEST_CASE("behind a leader the car keeps its time gap") {
   practice_road road{event::slow_leader};
-  drive(road, start::warm, 100, [](auto& solver, auto& problem, auto&) {
-    for (std::size_t k = 1; k < solver.t_s().size(); ++k)
-      CHECK(solver.t_s()[k] >= problem.earliest_s[k] - tolerance);
-  });
+  drive_practice(
+      road, start::warm, 100, [](auto& solver, auto& problem, auto&) {
+        for (std::size_t k = 1; k < solver.t_s().size(); ++k)
+          CHECK(solver.t_s()[k] >= problem.earliest_s[k] - tolerance);
+      });
 }
 
 TEST_CASE("a car stops at its line, and rests") {
   practice_road road{event::stop_line};
-  drive(road, start::warm, 130, [](auto& solver, auto& problem, auto&) {
-    REQUIRE(problem.stop_knot.has_value());
-    const auto stop = static_cast<std::size_t>(*problem.stop_knot);
-    for (auto k = stop; k < solver.w_m2ps2().size(); ++k) {
-      CHECK(solver.w_m2ps2()[k] < tolerance);
-      CHECK(std::abs(solver.accel_mps2()[k]) < tolerance);
-    }
-    CHECK(std::isfinite(solver.t_s().back()));
-  });
+  drive_practice(
+      road, start::warm, 130, [](auto& solver, auto& problem, auto&) {
+        REQUIRE(problem.stop_knot.has_value());
+        const auto stop = static_cast<std::size_t>(*problem.stop_knot);
+        for (auto k = stop; k < solver.w_m2ps2().size(); ++k) {
+          CHECK(solver.w_m2ps2()[k] < tolerance);
+          CHECK(std::abs(solver.accel_mps2()[k]) < tolerance);
+        }
+        CHECK(std::isfinite(solver.t_s().back()));
+      });
 }
 
 TEST_CASE("a car starts from rest") {
   practice_road road{event::free_flow};
-  const auto solver = make_solver();
+  const auto solver = speed_solver();
   const auto& problem = road.at(0, 0, {});
   CHECK(solver->solve(problem, start::cold).status == converged);
   CHECK(solver->w_m2ps2().back() > 20);
@@ -127,7 +129,7 @@ TEST_CASE("a car starts from rest") {
 
 TEST_CASE("a speed plan is the roll-out of its controls") {
   practice_road road{event::slow_leader};
-  drive(road, start::warm, 20, [](auto& solver, auto& problem, auto&) {
+  drive_practice(road, start::warm, 20, [](auto& solver, auto& problem, auto&) {
     const auto& from = problem.start;
     std::array<double, 3> x{from.t_s, from.w_m2ps2, from.accel_mps2};
     auto far = 0.;
@@ -145,7 +147,7 @@ TEST_CASE("horizons of other lengths are solved as well") {
   for (const auto steps : {80, 161, 250}) {
     CAPTURE(steps);
     practice_road road{event::slow_leader, steps};
-    drive(
+    drive_practice(
         road, start::warm, 30, [&](auto& solver, auto& problem, auto& report) {
           REQUIRE(report.status == converged);
           CHECK(driven_violation(problem, solver.u_1ps2()) < 1.01 * tolerance);
@@ -155,7 +157,7 @@ TEST_CASE("horizons of other lengths are solved as well") {
 
 TEST_CASE("a speed horizon of one step is solved") {
   practice_road road{event::free_flow, 1};
-  CHECK(make_solver()->solve(road.at(0, 0, {0, 60, 0}), start::cold).status
+  CHECK(speed_solver()->solve(road.at(0, 0, {0, 60, 0}), start::cold).status
         == converged);
 }
 
@@ -164,10 +166,11 @@ TEST_CASE("the same speed problem gives the same bytes") {
   const auto run = [] {
     std::vector<double> all;
     practice_road road{event::crossing};
-    drive(road, start::warm, 60, [&](auto& solver, auto&, auto& report) {
-      all.insert(all.end(), solver.u_1ps2().begin(), solver.u_1ps2().end());
-      all.push_back(report.cost);
-    });
+    drive_practice(
+        road, start::warm, 60, [&](auto& solver, auto&, auto& report) {
+          all.insert(all.end(), solver.u_1ps2().begin(), solver.u_1ps2().end());
+          all.push_back(report.cost);
+        });
     return all;
   };
   const auto first = run(), second = run();
@@ -178,7 +181,7 @@ TEST_CASE("the same speed problem gives the same bytes") {
 
 TEST_CASE("a cold start knows nothing of the speeds before") {
   test::dice dice{6};
-  const auto used = make_solver(), fresh = make_solver();
+  const auto used = speed_solver(), fresh = speed_solver();
   practice_road sane{event::slow_leader};
   const velocity_state x{0, 60, 0};
   const auto expected = fresh->solve(sane.at(0, 0, x), start::cold);
@@ -228,7 +231,7 @@ TEST_CASE("what no braking and no acceleration can do is found at once") {
   }
   problem.earliest_s = lo;
   problem.latest_s = hi;
-  const auto report = make_solver()->solve(problem, start::cold);
+  const auto report = speed_solver()->solve(problem, start::cold);
   CHECK(report.status == soft_infeasible);
   CHECK(report.iterations == 0);
   CHECK(report.worst.row == row);
@@ -237,7 +240,7 @@ TEST_CASE("what no braking and no acceleration can do is found at once") {
 
 TEST_CASE("a plan before survives a problem that has none") {
   practice_road road{event::free_flow};
-  const auto solver = make_solver();
+  const auto solver = speed_solver();
   const auto& good = road.at(0, 0, {0, 60, 0});
   REQUIRE(solver->solve(good, start::cold).status == converged);
   const auto speed = solver->w_m2ps2()[50];
@@ -245,7 +248,7 @@ TEST_CASE("a plan before survives a problem that has none") {
   bad.stop_knot = 10;
   CHECK(solver->solve(bad, start::warm).status == soft_infeasible);
   CHECK(solver->w_m2ps2()[50] == speed);
-  bad.ds_m = no_number;
+  bad.ds_m = not_a_number;
   CHECK(solver->solve(bad, start::warm).status == bad_input);
   CHECK(solver->w_m2ps2()[50] == speed);
 }
@@ -253,18 +256,18 @@ TEST_CASE("a plan before survives a problem that has none") {
 TEST_CASE("when the world changes, the last plan does not mislead") {
   practice_road free{event::free_flow}, blocked{event::slow_leader};
   const velocity_state x{0, 60, 0};
-  const auto solver = make_solver();
+  const auto solver = speed_solver();
   REQUIRE(solver->solve(free.at(0, 0, x), start::cold).status == converged);
   const auto report = solver->solve(blocked.at(0, 0, x), start::warm);
   CHECK(report.status == converged);
-  const auto fresh = make_solver()->solve(blocked.at(0, 0, x), start::cold);
+  const auto fresh = speed_solver()->solve(blocked.at(0, 0, x), start::cold);
   CHECK(report.cost == doctest::Approx(fresh.cost).epsilon(1e-3));
 }
 
 TEST_CASE("speed problems that make no sense are refused") {
   practice_road road{event::free_flow};
   const auto good = road.at(0, 0, {0, 60, 0});
-  const std::vector<double> with_nan(161, no_number), zeros(161, 0);
+  const std::vector<double> with_nan(161, not_a_number), zeros(161, 0);
   const std::vector<double> short_line(160, 1);
   auto problem = good;
   SUBCASE("no steps") {
@@ -280,10 +283,10 @@ TEST_CASE("speed problems that make no sense are refused") {
     problem.start.w_m2ps2 = -1;
   }
   SUBCASE("start is no number") {
-    problem.start.accel_mps2 = no_number;
+    problem.start.accel_mps2 = not_a_number;
   }
   SUBCASE("limit is no number") {
-    problem.limits.accel_max_mps2 = no_number;
+    problem.limits.accel_max_mps2 = not_a_number;
   }
   SUBCASE("cannot brake") {
     problem.limits.accel_min_mps2 = 1;
@@ -315,7 +318,7 @@ TEST_CASE("speed problems that make no sense are refused") {
   SUBCASE("free control") {
     problem.weights.jerk = 0;
   }
-  const auto report = make_solver()->solve(problem, start::warm);
+  const auto report = speed_solver()->solve(problem, start::warm);
   CHECK(report.status == bad_input);
   CHECK(report.iterations == 0);
 }
@@ -324,8 +327,8 @@ TEST_CASE("a deadline ends the search for a speed in time") {
   practice_road road{event::crossing};
   for (const auto most : {0, 1, 5, 20}) {
     const auto ask = [most](int done) { return done < most; };
-    const auto report = make_solver()->solve(road.at(0, 0, {0, 60, 0}),
-                                             start::cold, {}, ocp::budget{ask});
+    const auto report = speed_solver()->solve(
+        road.at(0, 0, {0, 60, 0}), start::cold, {}, ocp::budget{ask});
     CHECK(report.iterations == most);
     CHECK((report.status == budget || report.status == acceptable));
   }

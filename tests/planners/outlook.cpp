@@ -17,17 +17,17 @@
 #include <vector>
 
 using namespace sofof;
+using std::numbers::pi;
 using namespace std::chrono_literals;
 
 namespace {
 
-constexpr time_point now{50s};
-constexpr auto pi = std::numbers::pi;
+constexpr time_point look_time{50s};
 const vehicle_params car_params;
 
-track make_track(point centre, double heading_rad = 0, double speed_mps = 0) {
+track seen_track(point centre, double heading_rad = 0, double speed_mps = 0) {
   track x;
-  x.at = x.seen = now;
+  x.at = x.seen = look_time;
   x.motion.mean << centre.x_m, speed_mps * std::cos(heading_rad), centre.y_m,
       speed_mps * std::sin(heading_rad);
   x.heading_rad = heading_rad;
@@ -42,7 +42,7 @@ track on_way(const route& way, double s_m, double speed_mps = 0) {
   vehicle_state x;
   x.at = here.at;
   x.heading_rad = here.heading_rad;
-  return make_track(body(x, car_params).centre, x.heading_rad, speed_mps);
+  return seen_track(body(x, car_params).centre, x.heading_rad, speed_mps);
 }
 
 /// A vehicle that looks round.
@@ -52,7 +52,7 @@ struct onlooker {
                          params} {}
 
   const surroundings& look(const std::vector<track>& tracks) {
-    eyes.describe(now, me, tracks, seen);
+    eyes.describe(look_time, me, tracks, seen);
     return seen;
   }
 
@@ -63,7 +63,7 @@ struct onlooker {
 };
 
 /// A lane due east, 3.5 m wide.
-const road_map& street() {
+const road_map& east_street() {
   static const road_map map{
       "street", {}, {toy::straight("lane", {0, 0}, {400, 0})}};
   return map;
@@ -71,7 +71,8 @@ const road_map& street() {
 
 onlooker on_street(outlook_params params = {}) {
   const std::vector<std::string> lanes{"lane"};
-  return {street(), street().make_route("lane", lanes, false), params};
+  return {east_street(), east_street().make_route("lane", lanes, false),
+          params};
 }
 
 /// Own rear axle at 10 m, so the front at 14.0175 m.
@@ -98,7 +99,7 @@ TEST_CASE("an empty road means nothing to a driver") {
   o.seen.crossings.resize(3);
   o.seen.beside.resize(3);
   o.look({});
-  CHECK(o.seen.at == now);
+  CHECK(o.seen.at == look_time);
   CHECK_FALSE(o.seen.lead);
   CHECK(o.seen.crossings.empty());
   CHECK(o.seen.beside.empty());
@@ -107,11 +108,11 @@ TEST_CASE("an empty road means nothing to a driver") {
 
 TEST_CASE("the nearest car ahead leads, seen at its rear") {
   auto o = ten_metres_down_the_street();
-  auto slow = make_track({80, 0}, 0, 5);
+  auto slow = seen_track({80, 0}, 0, 5);
   slow.accel_mps2 = -2;
   slow.station = 12;
   const auto& seen =
-      o.look({make_track({120, 0}), slow, make_track({5, 0}, 0, 10)});
+      o.look({seen_track({120, 0}), slow, seen_track({5, 0}, 0, 10)});
   REQUIRE(seen.lead);
   CHECK(seen.lead->rear_s_m == test::near(80 - 2.55, 1e-6));
   CHECK(seen.lead->speed_mps == test::near(5, 1e-9));
@@ -122,21 +123,21 @@ TEST_CASE("the nearest car ahead leads, seen at its rear") {
 
 TEST_CASE("tracks are brought to the present") {
   auto o = ten_metres_down_the_street();
-  auto x = make_track({80, 0}, 0, 10);
-  x.at = now - 200ms;
+  auto x = seen_track({80, 0}, 0, 10);
+  x.at = look_time - 200ms;
   CHECK(o.look({x}).lead->rear_s_m == test::near(82 - 2.55, 1e-6));
 }
 
 TEST_CASE("a lead that speeds up is not expected to go on") {
   auto o = ten_metres_down_the_street();
-  auto x = make_track({80, 0}, 0, 10);
+  auto x = seen_track({80, 0}, 0, 10);
   x.accel_mps2 = 2;
   CHECK(o.look({x}).lead->accel_mps2 == 0);
 }
 
 TEST_CASE("who comes towards one counts as standing") {
   auto o = ten_metres_down_the_street();
-  auto x = make_track({80, 0.2}, pi, 10);
+  auto x = seen_track({80, 0.2}, pi, 10);
   x.accel_mps2 = -3;
   const auto& seen = o.look({x});
   REQUIRE(seen.lead);
@@ -146,7 +147,7 @@ TEST_CASE("who comes towards one counts as standing") {
 
 TEST_CASE("a body across the lane leads with its near side") {
   auto o = ten_metres_down_the_street();
-  const auto& seen = o.look({make_track({80, 0}, pi / 2, 4)});
+  const auto& seen = o.look({seen_track({80, 0}, pi / 2, 4)});
   REQUIRE(seen.lead);
   CHECK(seen.lead->rear_s_m == test::near(80 - 0.945, 1e-6));
   CHECK(seen.lead->speed_mps < 1e-9);
@@ -154,22 +155,22 @@ TEST_CASE("a body across the lane leads with its near side") {
 
 TEST_CASE("whoever is behind, or farther than one looks, does not lead") {
   auto o = ten_metres_down_the_street();
-  CHECK_FALSE(o.look({make_track({5, 0}, 0, 30)}).lead);
-  CHECK_FALSE(o.look({make_track({219, 0})}).lead);
-  CHECK(o.look({make_track({216, 0})}).lead);
+  CHECK_FALSE(o.look({seen_track({5, 0}, 0, 30)}).lead);
+  CHECK_FALSE(o.look({seen_track({219, 0})}).lead);
+  CHECK(o.look({seen_track({216, 0})}).lead);
 }
 
 TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
   auto o = ten_metres_down_the_street();
-  CHECK_FALSE(o.look({make_track({11.2, 2}, -0.4)}).lead);
-  CHECK(o.look({make_track({13, 2}, -0.4)}).lead);
+  CHECK_FALSE(o.look({seen_track({11.2, 2}, -0.4)}).lead);
+  CHECK(o.look({seen_track({13, 2}, -0.4)}).lead);
 }
 
 TEST_CASE("who leaves room in the lane is beside, who does not leads") {
   auto o = ten_metres_down_the_street();
   // Of 3.5 m the own car needs 2.52 m: 0.98 m are free.
   for (const auto side : {-1.0, 1.0}) {
-    o.look({make_track({60, side * (0.78 + 0.945)}, 0, 2)});
+    o.look({seen_track({60, side * (0.78 + 0.945)}, 0, 2)});
     CHECK_FALSE(o.seen.lead);
     REQUIRE(o.seen.beside.size() == 1);
     const auto& b = o.seen.beside[0];
@@ -179,10 +180,10 @@ TEST_CASE("who leaves room in the lane is beside, who does not leads") {
           == test::near(0.78, 1e-6));
     CHECK(b.low_m * side > 0);
     CHECK(b.speed_mps == test::near(2, 1e-9));
-    o.look({make_track({60, side * (0.73 + 0.945)})});
+    o.look({seen_track({60, side * (0.73 + 0.945)})});
     CHECK(o.seen.lead);
     CHECK(o.seen.beside.empty());
-    o.look({make_track({60, side * (1.76 + 0.945)})});
+    o.look({seen_track({60, side * (1.76 + 0.945)})});
     CHECK_FALSE(o.seen.lead);
     CHECK(o.seen.beside.empty());
   }
@@ -190,8 +191,8 @@ TEST_CASE("who leaves room in the lane is beside, who does not leads") {
 
 TEST_CASE("those beside come in order, as far as the lead") {
   auto o = ten_metres_down_the_street();
-  o.look({make_track({90, 1.9}, pi, 7), make_track({60, -1.9}),
-          make_track({110, 0}), make_track({130, 1.9})});
+  o.look({seen_track({90, 1.9}, pi, 7), seen_track({60, -1.9}),
+          seen_track({110, 0}), seen_track({130, 1.9})});
   REQUIRE(o.seen.beside.size() == 2);
   CHECK(o.seen.beside[0].from_m < o.seen.beside[1].from_m);
   CHECK(o.seen.beside[1].speed_mps == test::near(-7, 1e-9));
@@ -201,7 +202,7 @@ TEST_CASE("those beside come in order, as far as the lead") {
 TEST_CASE("one is not in one's own way") {
   auto o = ten_metres_down_the_street();
   o.me.d_m = 0.3;
-  const auto self = make_track({10 + 1.4675, 0.3}, 0, 10);
+  const auto self = seen_track({10 + 1.4675, 0.3}, 0, 10);
   CHECK_FALSE(o.look({self}).lead);
   auto late = self; // and its place is not well known
   late.motion.mean(0, 0) += 6;
@@ -214,7 +215,7 @@ TEST_CASE("one is not in one's own way") {
 
 TEST_CASE("a cyclist on the centre line leads, one at the kerb is beside") {
   auto o = ten_metres_down_the_street();
-  auto x = make_track({50, 0}, 0, 5);
+  auto x = seen_track({50, 0}, 0, 5);
   x.length_m = 1.8;
   x.width_m = 0.6;
   CHECK(o.look({x}).lead);
@@ -286,7 +287,7 @@ TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
     for (auto n = 0U; n < 1000; ++n) {
       const auto here = line.at(bend_m + dice.uniform(-40, 40, n, 0));
       const auto left_m = dice.uniform(-6, 6, n, 1);
-      auto x = make_track(here.at
+      auto x = seen_track(here.at
                               + left_m
                                     * point{-std::sin(here.heading_rad),
                                             std::cos(here.heading_rad)},
@@ -351,7 +352,7 @@ constexpr point from_south_meets_from_west{1.75, -1.75};
 
 TEST_CASE("who comes across is foreseen, and when") {
   auto o = at_cross_roads({4, 0, 2}, 100);
-  o.look({make_track({-50, -1.75}, 0, 10)});
+  o.look({seen_track({-50, -1.75}, 0, 10)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   // Bodies touch from 2.4 m on, and there is a metre of margin.
@@ -367,17 +368,17 @@ TEST_CASE("who comes across is foreseen, and when") {
 
 TEST_CASE("crossings that others grant are not judged") {
   auto o = at_cross_roads({4, 0, 2}, 100, false, false);
-  o.look({make_track({-50, -1.75}, 0, 10)});
+  o.look({seen_track({-50, -1.75}, 0, 10)});
   CHECK(o.seen.crossings.empty());
 }
 
 TEST_CASE("who has to give way does so, unless it cannot stop any more") {
   auto o = at_cross_roads({3, 0, 1}, 100);
-  o.look({make_track({1.75, -60}, pi / 2, 10)});
+  o.look({seen_track({1.75, -60}, pi / 2, 10)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK_FALSE(c->goes_first);
-  o.look({make_track({1.75, -15}, pi / 2, 10)}); // 7 m: 7 m/s^2
+  o.look({seen_track({1.75, -15}, pi / 2, 10)}); // 7 m: 7 m/s^2
   c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->goes_first);
@@ -385,7 +386,7 @@ TEST_CASE("who has to give way does so, unless it cannot stop any more") {
 
 TEST_CASE("of equals the other goes first") {
   auto o = at_cross_roads({3, 0, 1}, 100, true);
-  o.look({make_track({1.75, -60}, pi / 2, 10)});
+  o.look({seen_track({1.75, -60}, pi / 2, 10)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->goes_first);
@@ -393,7 +394,7 @@ TEST_CASE("of equals the other goes first") {
 
 TEST_CASE("who comes towards one may turn across, but gives way then") {
   auto o = at_cross_roads({3, 0, 1}, 100);
-  o.look({make_track({60, 1.75}, pi, 10)});
+  o.look({seen_track({60, 1.75}, pi, 10)});
   REQUIRE_FALSE(o.seen.crossings.empty());
   for (const auto& c : o.seen.crossings)
     CHECK_FALSE(c.goes_first);
@@ -402,15 +403,15 @@ TEST_CASE("who comes towards one may turn across, but gives way then") {
 
 TEST_CASE("who has crossed, or is too far away, is not crossing") {
   auto o = at_cross_roads({4, 0, 2}, 100);
-  CHECK(o.look({make_track({20, -1.75}, 0, 10)}).crossings.empty());
-  CHECK(o.look({make_track({-140, -1.75}, 0, 10)}).crossings.empty());
+  CHECK(o.look({seen_track({20, -1.75}, 0, 10)}).crossings.empty());
+  CHECK(o.look({seen_track({-140, -1.75}, 0, 10)}).crossings.empty());
   o.me.s_m = 170; // oneself has crossed
-  CHECK(o.look({make_track({-50, -1.75}, 0, 10)}).crossings.empty());
+  CHECK(o.look({seen_track({-50, -1.75}, 0, 10)}).crossings.empty());
 }
 
 TEST_CASE(
     "who drives across is no lead besides, unless crossings are granted") {
-  const auto across = make_track({0, -1.75}, 0, 5);
+  const auto across = seen_track({0, -1.75}, 0, 5);
   auto o = at_cross_roads({4, 0, 2}, 100);
   o.look({across});
   const auto* c = find_crossing(o, from_south_meets_from_west);
@@ -424,7 +425,7 @@ TEST_CASE(
 
 TEST_CASE("who stands on a crossing blocks it, and leads") {
   auto o = at_cross_roads({3, 0, 1}, 100); // one's own right of way or not
-  o.look({make_track({1.75, -1.75}, pi / 2)});
+  o.look({seen_track({1.75, -1.75}, pi / 2)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->enter_s == 0);

@@ -2,6 +2,7 @@
 #include "planners/reference_line.hpp"
 
 #include "tests/planners/random_road.hpp"
+#include "tests/planners/usual_drive.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -11,13 +12,7 @@
 
 using namespace sofof;
 using doctest::Approx;
-
-namespace {
-
-const std::vector<speed_zone> town{
-    {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
-
-} // namespace
+using test::town;
 
 TEST_CASE("a closed line goes on lap after lap, forwards and backwards") {
   const auto way = test::oval(town);

@@ -1,18 +1,17 @@
 // The last resort.
 #include "planners/safe_stop.hpp"
 
-#include "tests/planners/test_drive.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace sofof;
 using doctest::Approx;
+using test::now;
 
 namespace {
 
-const time_point now{from_seconds(100)};
-
-planning_input driving(double s_m, double speed_mps) {
+planning_input rolling(double s_m, double speed_mps) {
   planning_input x;
   x.at = now;
   x.s_m = s_m;
@@ -27,7 +26,7 @@ TEST_CASE("a safe stop ends at rest and stays there") {
   for (const auto speed : {0.0, 0.3, 3.0, 13.9, 27.8})
     for (const auto accel : {-5.0, 0.0, 1.5}) {
       CAPTURE(speed);
-      auto x = driving(50, speed);
+      auto x = rolling(50, speed);
       x.accel_mps2 = accel;
       const auto plan = safe_stop(*way, now, x);
       REQUIRE(plan.start == now);
@@ -42,7 +41,7 @@ TEST_CASE("a safe stop ends at rest and stays there") {
 
 TEST_CASE("it brakes firmly, but builds up and lets go with limited jerk") {
   const auto way = test::straight(500, {{0, 27.8}});
-  const auto plan = safe_stop(*way, now, driving(0, 20), 5);
+  const auto plan = safe_stop(*way, now, rolling(0, 20), 5);
   auto strongest = 0.0;
   for (std::size_t i = 1; i < plan.points.size(); ++i) {
     const auto &a = plan.points[i - 1], &b = plan.points[i];
@@ -56,7 +55,7 @@ TEST_CASE("it brakes firmly, but builds up and lets go with limited jerk") {
 
 TEST_CASE("it stays on the lane, and others do not matter") {
   const auto way = test::oval({{0, 13.9}});
-  auto x = driving(270, 8);
+  auto x = rolling(270, 8);
   x.d_m = 0.4;
   x.others.stop_at_m = 271;
   x.others.lead = lead_vehicle{1, 275, 0, 0};
@@ -68,7 +67,7 @@ TEST_CASE("it stays on the lane, and others do not matter") {
 
 TEST_CASE("an old state is moved forward to the start of the plan") {
   const auto way = test::straight(500, {{0, 13.9}});
-  auto x = driving(100, 10);
+  auto x = rolling(100, 10);
   x.at = now - from_seconds(0.4);
   CHECK(safe_stop(*way, now, x).points.front().s_m == Approx(104));
 }

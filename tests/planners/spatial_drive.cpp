@@ -1,23 +1,19 @@
 // Driving in closed loop with the optimiser: comfort, queues, emergencies.
 #include "tests/planners/random_road.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace sofof;
 using doctest::Approx;
+using test::optimal;
+using test::style;
 using test::test_drive;
+using test::town;
 
 namespace {
 
-const std::vector<speed_zone> town{
-    {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
-const driving_style style;
 constexpr auto share = 1.02; // of limits, for published plans
-
-test_drive optimal(const route_ptr& way, double s_m, double speed_mps,
-                   const spatial_params& params = {}) {
-  return {way, s_m, speed_mps, test::optimiser(way, params)};
-}
 
 /// Behind others.
 void check_calm(const test_drive& drive) {

@@ -1,6 +1,7 @@
 // Driving in closed loop with the optimiser: past those who stand in the lane
 // and those who cross it.
 #include "tests/planners/random_road.hpp"
+#include "tests/planners/usual_drive.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -10,16 +11,11 @@
 
 using namespace sofof;
 using doctest::Approx;
+using test::optimal;
+using test::style;
 using test::test_drive;
 
 namespace {
-
-const driving_style style;
-
-test_drive optimal(const route_ptr& way, double s_m, double speed_mps,
-                   const spatial_params& params = {}) {
-  return {way, s_m, speed_mps, test::optimiser(way, params)};
-}
 
 route_ptr wide_street(double half_width_m) {
   std::vector<lane> lanes(1);
@@ -79,7 +75,7 @@ passage pass(test_drive& drive, const lane_obstacle& body, double seconds,
   return p;
 }
 
-void check_comfort(const test_drive& drive) {
+void check_comfort_among_others(const test_drive& drive) {
   CHECK(drive.emergencies < 10); // a swerve may be too fast for a moment
   CHECK(drive.worst.over_limit < 1.01);
   CHECK(drive.worst.min_accel_mps2 > -2.6);
@@ -143,7 +139,7 @@ TEST_CASE("a body in the lane is passed on the side with room, without "
         auto drive = optimal(test::straight(600, {{0, 13.9}}), 10, 13.9);
         const auto p = pass(drive, body, 35, sight_m);
         CHECK(drive.s_m() > 350);
-        check_comfort(drive);
+        check_comfort_among_others(drive);
         CHECK(drive.worst.plan_jerk_mps3 < 1.02 * style.max_jerk_mps3);
         CHECK(drive.worst.plan_lateral_mps2
               < 1.02 * style.max_lateral_accel_mps2);
@@ -163,7 +159,7 @@ TEST_CASE("a body in the middle of a wide street is passed on one side, and "
     auto drive = optimal(wide_street(4), 10, 12);
     const auto p = pass(drive, body, 35);
     CHECK(drive.s_m() > 350);
-    check_comfort(drive);
+    check_comfort_among_others(drive);
     CHECK(p.changes <= 1);
     if (std::abs(middle) > 0.5)
       CHECK((middle > 0 ? p.right_m < -0.5 : p.left_m > 0.5));
@@ -185,7 +181,7 @@ TEST_CASE("bodies on both sides, one after the other, are passed in turn") {
       REQUIRE(!touches(drive, body, 0, 0.1));
   }
   CHECK(drive.s_m() > 300);
-  check_comfort(drive);
+  check_comfort_among_others(drive);
 }
 
 TEST_CASE("who comes towards the car or drives slowly at the side is passed, "
@@ -217,7 +213,7 @@ TEST_CASE("who crosses first is let go, or passed before when there is time, "
     auto drive = optimal(test::straight(900, {{0, 13.9}}), 10, speed);
     const auto x = cross(drive, {{from, from + 4, enter, enter + lasts}}, 45);
     CHECK(!x.met);
-    check_comfort(drive);
+    check_comfort_among_others(drive);
     CHECK(drive.s_m() > 250);
     CHECK(x.changes <= 3); // waiting counts
     (x.slowest_mps > 0.95 * speed ? before : after) += 1;
@@ -238,7 +234,7 @@ TEST_CASE("who gives way costs no time") {
     slowest = std::min(slowest, drive.car.speed_mps);
   }
   CHECK(slowest > 13.5);
-  check_comfort(drive);
+  check_comfort_among_others(drive);
 }
 
 TEST_CASE("a place that stays taken for long is waited for, at its line, and "
@@ -249,12 +245,12 @@ TEST_CASE("a place that stays taken for long is waited for, at its line, and "
   CHECK(drive.car.speed_mps == 0);
   CHECK(drive.front_m() < 150);
   CHECK(drive.front_m() > 148);
-  check_comfort(drive);
+  check_comfort_among_others(drive);
   CHECK(x.changes <= 2);
   drive.others.crossings.clear();
   drive.drive(15);
   CHECK(drive.s_m() > 180);
-  check_comfort(drive);
+  check_comfort_among_others(drive);
 }
 
 TEST_CASE("somebody who stands on the crossing is waited for until he goes") {
@@ -265,7 +261,7 @@ TEST_CASE("somebody who stands on the crossing is waited for until he goes") {
   CHECK(drive.car.speed_mps == 0);
   CHECK(drive.front_m() < 120);
   CHECK(drive.front_m() > 118);
-  check_comfort(drive);
+  check_comfort_among_others(drive);
 }
 
 TEST_CASE("several who cross at several places are never met") {

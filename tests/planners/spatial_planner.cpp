@@ -4,6 +4,7 @@
 
 #include "planners/lane_motion.hpp"
 #include "tests/planners/random_road.hpp"
+#include "tests/planners/usual_drive.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -14,20 +15,12 @@
 
 using namespace sofof;
 using doctest::Approx;
+using test::driving;
+using test::now;
 
 namespace {
 
-const time_point now{from_seconds(100)};
 constexpr auto cycle = std::chrono::milliseconds{50};
-
-planning_input driving(double s_m, double speed_mps) {
-  planning_input x;
-  x.at = now;
-  x.others.at = now;
-  x.s_m = s_m;
-  x.speed_mps = speed_mps;
-  return x;
-}
 
 constexpr auto refuse = [](int) noexcept { return false; };
 

@@ -1,7 +1,7 @@
 // How fast a route may be driven where.
 #include "planners/speed_envelope.hpp"
 
-#include "tests/planners/test_drive.hpp"
+#include "tests/planners/usual_drive.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,12 +10,11 @@
 
 using namespace sofof;
 using doctest::Approx;
+using test::town;
 
 namespace {
 
 const driving_style params;
-const std::vector<speed_zone> town{
-    {0, 13.9}, {120, 8.3}, {200, 13.9}, {500, 19.4}};
 
 } // namespace
 

@@ -13,7 +13,7 @@ using doctest::Approx;
 
 namespace {
 
-constexpr auto step_s = 0.1;
+constexpr auto motion_step_s = 0.1;
 
 struct driven {
   std::unique_ptr<velocity_ocp> plan = std::make_unique<velocity_ocp>();
@@ -26,7 +26,8 @@ driven drive(practice_road& road, double speed_mps, int steps = 80,
   driven d;
   d.problem = road.at(0, 0, {0, speed_mps * speed_mps / 2, 0});
   REQUIRE(publishable(d.plan->solve(d.problem, ocp::start::cold).status));
-  drive_along(*d.plan, d.problem.ds_m, start_m, 0, step_s, steps, d.motion);
+  drive_along(*d.plan, d.problem.ds_m, start_m, 0, motion_step_s, steps,
+              d.motion);
   return d;
 }
 
@@ -61,20 +62,20 @@ TEST_CASE("way, speed and acceleration of a motion fit each other") {
       d.problem = road.at(0, 0, {0, speed * speed / 2, 0});
       if (!publishable(d.plan->solve(d.problem, ocp::start::cold).status))
         continue;
-      drive_along(*d.plan, d.problem.ds_m, 0, 0, step_s, 80, d.motion);
+      drive_along(*d.plan, d.problem.ds_m, 0, 0, motion_step_s, 80, d.motion);
       for (std::size_t i = 1; i < d.motion.size(); ++i) {
         const auto &a = d.motion[i - 1], &b = d.motion[i];
         CAPTURE(i);
         CAPTURE(speed);
         REQUIRE(b.s_m >= a.s_m);
         REQUIRE(b.speed_mps >= 0);
-        const auto fits_m =
-            step_s * (a.speed_mps + b.speed_mps) / 2
-            + step_s * step_s * (a.accel_mps2 - b.accel_mps2) / 12;
+        const auto fits_m = motion_step_s * (a.speed_mps + b.speed_mps) / 2
+                            + motion_step_s * motion_step_s
+                                  * (a.accel_mps2 - b.accel_mps2) / 12;
         if (b.speed_mps > 0) {
           CHECK(std::abs(b.s_m - a.s_m - fits_m) < 1e-3);
           CHECK(std::abs(b.speed_mps - a.speed_mps
-                         - step_s * (a.accel_mps2 + b.accel_mps2) / 2)
+                         - motion_step_s * (a.accel_mps2 + b.accel_mps2) / 2)
                 < 5e-3);
         }
       }
@@ -108,7 +109,7 @@ TEST_CASE("a motion that goes on behind another begins in the middle of a "
   d.problem = road.at(0, 0, {0, 0.5, 0});
   REQUIRE(publishable(d.plan->solve(d.problem, ocp::start::cold).status));
   d.motion = {{0, 0.9, 0}, {0.1, 0.95, 0}};
-  drive_along(*d.plan, d.problem.ds_m, 0.15, 0.15, step_s, 60, d.motion);
+  drive_along(*d.plan, d.problem.ds_m, 0.15, 0.15, motion_step_s, 60, d.motion);
   REQUIRE(d.motion.size() == 61);
   CHECK(d.motion[1].s_m == 0.1); // as it was
   // 0.05 s behind the plan's first knot.

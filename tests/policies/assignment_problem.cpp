@@ -8,9 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-using namespace sofof::assignment;
+namespace sofof::assignment {
+
 using doctest::Approx;
-using sofof::test::open_problem;
+using test::open_problem;
 
 namespace {
 
@@ -128,3 +129,5 @@ TEST_CASE("a problem that makes no sense is refused with a sentence") {
         == "assignment: the switching price is -1.000000; give a finite number "
            "that is not negative.");
 }
+
+} // namespace sofof::assignment

@@ -10,16 +10,16 @@
 
 #include <cmath>
 
-using namespace sofof::assignment;
-using sofof::random_stream;
-using sofof::test::any_problem;
-using sofof::test::below;
-using sofof::test::best_by_trying;
-using sofof::test::dice;
-using sofof::test::open_problem;
-using sofof::test::place_at_random;
-using sofof::test::scarce;
-using sofof::test::table_between;
+namespace sofof::assignment {
+
+using test::any_problem;
+using test::below;
+using test::best_by_trying;
+using test::dice;
+using test::open_problem;
+using test::place_at_random;
+using test::scarce;
+using test::table_between;
 
 namespace {
 
@@ -225,3 +225,5 @@ TEST_CASE("a high switching price keeps everybody where they are") {
   p.switching_price = 10;
   CHECK(branch_and_bound(p).best.choices == present);
 }
+
+} // namespace sofof::assignment

@@ -116,7 +116,7 @@ TEST_CASE("an unknown filter is refused") {
 namespace {
 
 /// Decisions about vehicles on a street of 200 m, in an area as long.
-struct room {
+struct short_street {
   const polygon area{{{-100, -100}, {200, -100}, {200, 100}, {-100, 100}}};
   const road_map map{
       "street",
@@ -139,7 +139,8 @@ struct room {
 
 } // namespace
 
-TEST_CASE_FIXTURE(room, "who fits is accepted, first come, first served") {
+TEST_CASE_FIXTURE(short_street,
+                  "who fits is accepted, first come, first served") {
   const auto codm = make_codm("capacity");
   using all = std::vector<bool>;
   CHECK(accepted(*codm, 0, {0.5, 0.3, 0.01}) == all{true, true, false});
@@ -147,7 +148,7 @@ TEST_CASE_FIXTURE(room, "who fits is accepted, first come, first served") {
   CHECK(accepted(*codm, 0.7, {0.2}) == all{false});
 }
 
-TEST_CASE_FIXTURE(room,
+TEST_CASE_FIXTURE(short_street,
                   "who leaves too soon is refused, and takes no room from "
                   "those who stay") {
   const auto codm = make_codm("capacity");

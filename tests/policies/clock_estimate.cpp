@@ -2,6 +2,7 @@
 // whose delays and clocks are known.
 #include "policies/clock_estimate.hpp"
 
+#include "tests/policies/at.hpp"
 #include "tests/support/allocations.hpp"
 #include "world/delay_law.hpp"
 
@@ -17,15 +18,12 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::at;
 
 namespace {
 
 constexpr auto period = 50ms; // 20 Hz
 constexpr auto settled = 5s;
-
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
 
 /// Another clock: ahead by a shift that grows with the drift and makes a step.
 struct other_clock {
@@ -42,7 +40,7 @@ struct other_clock {
 };
 
 /// How messages travel, each way by itself.
-struct link {
+struct message_link {
   std::string_view name;
   delay_law there;
   delay_law back;
@@ -52,7 +50,7 @@ struct link {
   double copies = 0.01;
 };
 
-link even(std::string_view name, delay_law law, duration floor = 5ms) {
+message_link even(std::string_view name, delay_law law, duration floor = 5ms) {
   return {name, law, law, floor};
 }
 
@@ -67,8 +65,9 @@ const auto loopback = even("loopback", delay_law::exponential(20us), 10us);
 /// Exchanges from `from` to `to` as they come in: late ones after others,
 /// copies, and gaps where any message was lost.
 std::vector<clock_exchange> exchanges(const other_clock& theirs,
-                                      const link& way, std::uint64_t seed,
-                                      duration from, duration to) {
+                                      const message_link& way,
+                                      std::uint64_t seed, duration from,
+                                      duration to) {
   const random_stream random{seed, "exchanges"};
   std::vector<clock_exchange> all;
   std::uint64_t n = 0;
@@ -222,13 +221,13 @@ TEST_CASE(
     const auto law = [&](std::uint32_t lane) {
       return laws[random.bits(0, lane) % laws.size()];
     };
-    const link way{"uneven",
-                   law(1),
-                   law(2),
-                   from_seconds(random.uniform(0, 0.02, 0, 3)),
-                   from_seconds(random.uniform(0, 0.1, 0, 4)),
-                   random.uniform(0, 0.5, 0, 5),
-                   random.uniform(0, 0.5, 0, 6)};
+    const message_link way{"uneven",
+                           law(1),
+                           law(2),
+                           from_seconds(random.uniform(0, 0.02, 0, 3)),
+                           from_seconds(random.uniform(0, 0.1, 0, 4)),
+                           random.uniform(0, 0.5, 0, 5),
+                           random.uniform(0, 0.5, 0, 6)};
     const other_clock theirs{from_seconds(random.uniform(-1e6, 1e6, 0, 7)),
                              random.uniform(-200, 200, 0, 8)};
     clock_estimate estimate;

@@ -11,7 +11,7 @@ using namespace sofof;
 
 namespace {
 
-const random_stream draws{1, "samples"};
+const random_stream sample_draws{1, "samples"};
 
 /// Each variable that equals its index modulo 3 scores.
 double hits(std::span<const int> sample) {
@@ -25,23 +25,23 @@ double hits(std::span<const int> sample) {
 
 TEST_CASE("sampling finds the one best of four to the thirtieth") {
   const std::vector<int> counts(30, 4);
-  const auto found = cross_entropy(counts, hits, {}, draws);
+  const auto found = cross_entropy(counts, hits, {}, sample_draws);
   CHECK(found.score == 30);
   CHECK(hits(found.categories) == 30);
 }
 
 TEST_CASE("later iterations know what earlier ones learned") {
   const std::vector<int> counts(30, 4);
-  const auto blind =
-      cross_entropy(counts, hits, {.samples = 6000, .iterations = 1}, draws);
+  const auto blind = cross_entropy(
+      counts, hits, {.samples = 6000, .iterations = 1}, sample_draws);
   CHECK(blind.score < 25);
 }
 
 TEST_CASE("the same stream finds the same, another one something else") {
   const std::vector<int> counts(30, 4);
   const cross_entropy_options short_search{.iterations = 3};
-  const auto once = cross_entropy(counts, hits, short_search, draws);
-  const auto again = cross_entropy(counts, hits, short_search, draws);
+  const auto once = cross_entropy(counts, hits, short_search, sample_draws);
+  const auto again = cross_entropy(counts, hits, short_search, sample_draws);
   const auto other =
       cross_entropy(counts, hits, short_search, random_stream{2, "samples"});
   CHECK(once.categories == again.categories);
@@ -57,16 +57,16 @@ TEST_CASE("a sample that the score corrects is kept as corrected") {
         category = 0;
     return static_cast<double>(std::min(ones, 2));
   };
-  const auto found = cross_entropy(counts, at_most_two, {}, draws);
+  const auto found = cross_entropy(counts, at_most_two, {}, sample_draws);
   CHECK(found.score == 2);
   CHECK(std::count(found.categories.begin(), found.categories.end(), 1) == 2);
 }
 
 TEST_CASE("variables with one category, or none to choose, are an optimum") {
   const std::vector<int> counts(3, 1);
-  CHECK(cross_entropy(counts, hits, {}, draws).categories
+  CHECK(cross_entropy(counts, hits, {}, sample_draws).categories
         == std::vector<int>{0, 0, 0});
-  CHECK(cross_entropy({}, hits, {}, draws).categories.empty());
+  CHECK(cross_entropy({}, hits, {}, sample_draws).categories.empty());
 }
 
 TEST_CASE("inadmissible samples may score minus infinity") {
@@ -76,7 +76,7 @@ TEST_CASE("inadmissible samples may score minus infinity") {
     return ones % 2 == 0 ? static_cast<double>(ones)
                          : -std::numeric_limits<double>::infinity();
   };
-  CHECK(cross_entropy(counts, even, {}, draws).score == 6);
+  CHECK(cross_entropy(counts, even, {}, sample_draws).score == 6);
 }
 
 TEST_CASE("a longer search is never worse, whatever it draws last") {
@@ -85,7 +85,7 @@ TEST_CASE("a longer search is never worse, whatever it draws last") {
   for (int iterations = 1; iterations < 20; ++iterations) {
     const auto found = cross_entropy(
         counts, hits, {.samples = 10, .elite = 1, .iterations = iterations},
-        draws);
+        sample_draws);
     CHECK(found.score >= before);
     CHECK(found.score == hits(found.categories));
     before = found.score;

@@ -11,7 +11,7 @@ using namespace sofof;
 namespace {
 
 constexpr std::array values{1.0, 4.0, 2.0, 3.0};
-const random_stream draws{1, "exploration"};
+const random_stream exploration_draws{1, "exploration"};
 
 } // namespace
 
@@ -23,15 +23,15 @@ TEST_CASE("the best action is the first of those that are worth most") {
 
 TEST_CASE("where nothing is allowed, nothing is chosen") {
   CHECK(!best_action(values, {}));
-  CHECK(!explore_or_best(values, {}, 0, draws, 1));
-  CHECK(!explore_or_best(values, {}, 1, draws, 1));
+  CHECK(!explore_or_best(values, {}, 0, exploration_draws, 1));
+  CHECK(!explore_or_best(values, {}, 1, exploration_draws, 1));
 }
 
 TEST_CASE("an action that is not allowed is never chosen") {
   for (std::uint64_t allowed = 1; allowed < 16; ++allowed)
     for (std::uint64_t decision = 0; decision < 200; ++decision) {
-      const auto chosen =
-          explore_or_best(values, action_set{allowed}, 0.5, draws, decision);
+      const auto chosen = explore_or_best(values, action_set{allowed}, 0.5,
+                                          exploration_draws, decision);
       REQUIRE(chosen);
       CHECK(action_set{allowed}[*chosen]);
     }
@@ -39,7 +39,9 @@ TEST_CASE("an action that is not allowed is never chosen") {
 
 TEST_CASE("an allowed action that does not exist is never chosen") {
   for (std::uint64_t decision = 0; decision < 200; ++decision)
-    CHECK(*explore_or_best(values, action_set{}.set(), 1, draws, decision) < 4);
+    CHECK(*explore_or_best(values, action_set{}.set(), 1, exploration_draws,
+                           decision)
+          < 4);
 }
 
 TEST_CASE("values that are no numbers do not lead to what is not allowed") {
@@ -50,7 +52,8 @@ TEST_CASE("values that are no numbers do not lead to what is not allowed") {
 TEST_CASE("exploring, all allowed actions are as likely") {
   std::array<int, 4> chosen{};
   for (std::uint64_t decision = 0; decision < 3000; ++decision)
-    ++chosen[*explore_or_best(values, action_set{0b1101}, 1, draws, decision)];
+    ++chosen[*explore_or_best(values, action_set{0b1101}, 1, exploration_draws,
+                              decision)];
   for (const auto action : {0, 2, 3}) {
     CHECK(chosen[static_cast<std::size_t>(action)] > 900);
     CHECK(chosen[static_cast<std::size_t>(action)] < 1100);

@@ -2,6 +2,7 @@
 #include "policies/link/first_response.hpp"
 
 #include "policies/link/continuity.hpp"
+#include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -13,13 +14,10 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::at;
 using test::dice;
 
 namespace {
-
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
 
 // Straight ahead at 10 m/s, a point every 100 ms, so far to the left.
 std::vector<point> plan(int points, double left_m) {

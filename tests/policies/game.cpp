@@ -15,9 +15,9 @@
 #include <set>
 #include <vector>
 
-using namespace sofof;
-using namespace sofof::game;
-using namespace sofof::test;
+namespace sofof::game {
+
+using namespace test;
 
 namespace {
 
@@ -352,3 +352,5 @@ TEST_CASE("seven players on two channels pay a tenth more than they must") {
   CHECK(most_cost < 1.3);
   CHECK(gaining == doctest::Approx(0.907).epsilon(0.05));
 }
+
+} // namespace sofof::game

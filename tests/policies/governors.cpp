@@ -1,6 +1,7 @@
 // Tests of what keeps a scorer in check: gate and hysteresis.
 #include "policies/govern/hysteresis.hpp"
 #include "policies/link/predictive_gate.hpp"
+#include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -10,13 +11,10 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::at;
 using test::dice;
 
 namespace {
-
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
 
 constexpr boot_id near_one = 7;
 constexpr boot_id far_one = 8;

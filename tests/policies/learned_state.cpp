@@ -19,7 +19,7 @@ using namespace sofof;
 namespace {
 
 const auto any_action = first_actions(3);
-const random_stream draws{1, "learner"};
+const random_stream learner_draws{1, "learner"};
 const random_stream chance{1, "chance"};
 
 // Each learner with a way to make it decide and learn once, by the number of
@@ -48,7 +48,7 @@ struct alto_learner {
 };
 
 struct q_learner {
-  q_learning learner{options(), draws};
+  q_learning learner{options(), learner_draws};
 
   static q_learning_options options() {
     q_learning_options options{4, 3};
@@ -66,7 +66,7 @@ struct q_learner {
 
 // Only decides after the first 50 steps: its memory does not travel.
 struct dqn_learner {
-  dqn learner{options(), draws};
+  dqn learner{options(), learner_draws};
 
   static dqn_options options() {
     dqn_options options{{2, 3, 4}};

@@ -1,6 +1,7 @@
 // Tests of what to expect of a link.
 #include "policies/link/link_estimator.hpp"
 
+#include "tests/policies/at.hpp"
 #include "tests/support/near.hpp"
 #include "world/random.hpp"
 
@@ -11,13 +12,10 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::at;
 using test::near;
 
 namespace {
-
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
 
 // Messages every 100 ms, the last one received at `count` times that.
 link_estimator steady(int count, duration latency) {

@@ -3,6 +3,7 @@
 
 #include "policies/registry.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/not_a_number.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -15,14 +16,13 @@
 
 using namespace sofof;
 using test::dice;
+using test::not_a_number;
 
 namespace {
 
 using namespace std::chrono_literals;
 
 using line = std::vector<point>;
-
-constexpr auto not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// From `from_m` to `to_m` on the east axis, a waypoint every 5 m.
 line eastward(double from_m, double to_m) {

@@ -1,19 +1,13 @@
 // Tests of the limits that results must keep.
 #include "policies/qos_monitor.hpp"
 
+#include "tests/policies/at.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace sofof;
-
-namespace {
-
 using namespace std::chrono_literals;
-
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
-
-} // namespace
+using test::at;
 
 TEST_CASE("a result exactly at the limit is in time, a nanosecond later it is "
           "not") {

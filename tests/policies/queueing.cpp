@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace sofof;
-using namespace sofof::assignment;
+namespace sofof::assignment {
+
 using namespace std::chrono_literals;
 using test::dice;
 using test::near;
@@ -37,3 +37,5 @@ TEST_CASE("a queue at full utilisation grows without end") {
   CHECK_FALSE(mean_wait(8ms, 1));
   CHECK_FALSE(mean_wait(8ms, 1.5));
 }
+
+} // namespace sofof::assignment

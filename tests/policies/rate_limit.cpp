@@ -1,7 +1,9 @@
 // Tests of how much a peer may have in a while.
 #include "policies/rate_limit.hpp"
 
+#include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/not_a_number.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,15 +12,12 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::at;
 using test::dice;
+using test::not_a_number;
 
 namespace {
 
-constexpr time_point at(duration since_start) {
-  return time_point{since_start};
-}
-
-constexpr auto not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
 } // namespace

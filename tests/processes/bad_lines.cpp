@@ -10,9 +10,7 @@ using namespace sofof::test;
 
 namespace {
 
-constexpr double longest_gap_s = 0.1; // of trajectory_planning
-constexpr double longest_ms = 50;     // likewise, of latency
-constexpr double turn_s = 0.05;       // from the end of it to the switch
+constexpr double longest_ms = 50; // latency of trajectory_planning
 
 bool same_service(const row& r, const event& e) {
   return r.at("station") == std::to_string(e["station"].get<int>())
@@ -56,8 +54,8 @@ void check_violations(const std::filesystem::path& folder) {
   }
 }
 
-std::size_t count(const std::filesystem::path& folder,
-                  const std::string& what) {
+std::size_t count_events(const std::filesystem::path& folder,
+                         const std::string& what) {
   return events_of(folder, what).size();
 }
 
@@ -102,7 +100,7 @@ TEST_CASE("where messages of one provider overtake those of another, "
   CAPTURE(end.err);
   CHECK(end.code == 0);
   CHECK(count_overtaken(drive.out()) > 10);
-  CHECK(count(drive.out(), "violation") > 0);
+  CHECK(count_events(drive.out(), "violation") > 0);
   check_safe(summary_of(drive.out()));
   check_violations(drive.out());
   check_one_source(drive.out());
@@ -124,7 +122,7 @@ TEST_CASE("on a line that jitters and loses, violations are counted right, and "
   CHECK(end.code == 0);
   const auto summary = summary_of(drive.out());
   CHECK(summary["episodes"] >= 6);
-  CHECK(count(drive.out(), "violation") > 0);
+  CHECK(count_events(drive.out(), "violation") > 0);
   check_safe(summary);
   check_violations(drive.out());
   check_one_source(drive.out());
@@ -144,7 +142,7 @@ TEST_CASE("a line that is dead for less than a second loses results, but no "
   line.restore();
   pass(3);
   CHECK(stop(drive.run()).code == 130);
-  CHECK(count(drive.out(), "provider_lost") == 0);
+  CHECK(count_events(drive.out(), "provider_lost") == 0);
   const auto times = remote_times(drive.out());
   CHECK(times.size() == 12);
   CHECK(summary_of(drive.out())["ended_by"]["qos_gap"] == 6);
@@ -170,8 +168,8 @@ TEST_CASE("a line that goes dead for longer is given up, and taken up again "
   }));
   CHECK(stop(drive.run()).code == 130);
   CHECK(stop(provider.run()).code == 0);
-  CHECK(count(drive.out(), "provider_lost") == 1);
-  CHECK(count(provider.out(), "peer_lost") == 2);
+  CHECK(count_events(drive.out(), "provider_lost") == 1);
+  CHECK(count_events(provider.out(), "peer_lost") == 2);
   const auto times = remote_times(drive.out());
   CHECK(times.size() == 12);
   const auto restored_s = provider.latest_s(restored);
@@ -192,12 +190,12 @@ TEST_CASE("a provider is found at the end of a slow line, too") {
   slow.delay = std::chrono::milliseconds{150};
   bad_line line{provider.port(), slow, 1};
   drive_process drive{at, "drive", line.port(), settings};
-  CHECK(
-      wait_until([&] { return count(drive.out(), "provider_connected") > 0; }));
+  CHECK(wait_until(
+      [&] { return count_events(drive.out(), "provider_connected") > 0; }));
   pass(1.5);
   CHECK(stop(drive.run()).code == 130);
   CHECK(stop(provider.run()).code == 0);
-  CHECK(count(drive.out(), "provider_lost") == 0);
+  CHECK(count_events(drive.out(), "provider_lost") == 0);
   check_safe(summary_of(drive.out()));
 }
 
@@ -211,7 +209,7 @@ TEST_CASE("a connection that is cut is made again") {
   line.cut();
   pass(3);
   CHECK(stop(drive.run()).code == 130);
-  CHECK(count(drive.out(), "provider_lost") == 1);
+  CHECK(count_events(drive.out(), "provider_lost") == 1);
   CHECK(remote_times(drive.out()).size() == 12);
   check_safe(summary_of(drive.out()));
   check_one_source(drive.out());

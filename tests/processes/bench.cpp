@@ -1,5 +1,7 @@
 // Policies ranked, as their users start, stop and misspell it.
+#include "tests/processes/sweep_runs.hpp"
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 #include <csignal>
 #include <sstream>
@@ -54,18 +56,6 @@ std::vector<std::string> bench_into(const std::string& out,
           out,
           "-j",
           jobs};
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
-std::size_t summaries_in(const fs::path& out) {
-  std::size_t count = 0;
-  std::error_code none;
-  for (const auto& run : fs::directory_iterator{out / "runs", none})
-    count += fs::exists(run.path() / "summary.json") ? 1U : 0U;
-  return count;
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // Providers and vehicles in processes of their own, as they should be.
 #include "tests/processes/hosts.hpp"
 
+#include "tests/support/contains.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,10 +10,6 @@
 using namespace sofof::test;
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 std::set<std::string> stations_in(const std::vector<row>& rows) {
   std::set<std::string> all;

@@ -18,6 +18,9 @@ namespace sofof::test {
 using monotonic = std::chrono::steady_clock;
 using words = std::vector<std::string>;
 
+inline constexpr double longest_gap_s = 0.1; // of trajectory_planning
+inline constexpr double turn_s = 0.05;       // from the end of it to the switch
+
 inline double seconds(monotonic::duration d) {
   return std::chrono::duration<double>{d}.count();
 }

@@ -1,15 +1,8 @@
 // `sofof keys`: a CA, its certificates, and what it does not do.
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 using namespace sofof::test;
-
-namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
-} // namespace
 
 TEST_CASE("a CA and its certificates are a command each") {
   const workplace at;

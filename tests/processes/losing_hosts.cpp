@@ -9,9 +9,6 @@ using namespace sofof::test;
 
 namespace {
 
-constexpr double longest_gap_s = 0.1; // of trajectory_planning
-constexpr double turn_s = 0.05;       // from the end of it to the switch
-
 /// @returns when each vehicle received its last remote result before a time.
 std::map<std::uint32_t, double> last_results(const std::vector<row>& cycles,
                                              double before_s) {

@@ -1,5 +1,6 @@
 // Tests of what the program tells of its policies.
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 #include <sstream>
 #include <utility>
@@ -7,10 +8,6 @@
 using namespace sofof::test;
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 /// @returns side and name of each that is listed.
 std::vector<std::pair<std::string, std::string>>

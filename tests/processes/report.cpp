@@ -1,13 +1,10 @@
 // `sofof report` as a user meets it: where the file goes, and what is refused.
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 using namespace sofof::test;
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 /// Checks that words are refused with one sentence and nothing is touched.
 void check_refused(const workplace& at, const std::vector<std::string>& words,

@@ -1,5 +1,6 @@
 // Providers and vehicles that show each other certificates, and strangers.
 #include "tests/processes/hosts.hpp"
+#include "tests/support/contains.hpp"
 
 using namespace sofof::test;
 
@@ -20,11 +21,7 @@ void make_keys(const workplace& at, const std::string& folder) {
   do_keys(at, {"issue", folder, "--station", "104-106"});
 }
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
-std::size_t count(const std::string& text, std::string_view part) {
+std::size_t occurrences(const std::string& text, std::string_view part) {
   std::size_t n = 0;
   for (auto i = text.find(part); i != text.npos; i = text.find(part, i + 1))
     ++n;
@@ -119,7 +116,7 @@ TEST_CASE("strangers are refused, and honest vehicles do not notice") {
   const auto end = stop(provider.run());
   CHECK(end.code == 0);
   CHECK(contains(end.out, "\nrefused: "));
-  CHECK(count(end.out, "\nrefused: ") <= 5); // once a second at most
+  CHECK(occurrences(end.out, "\nrefused: ") <= 5); // once a second at most
 }
 
 TEST_CASE("vehicles do not trust a provider of another CA, nor a plain one") {
@@ -168,7 +165,7 @@ TEST_CASE("keys that are no good are refused at the start") {
     CAPTURE(end.err);
     CHECK(end.code == 2);
     CHECK(contains(end.err, said));
-    CHECK(count(end.err, "\n") == 1);
+    CHECK(occurrences(end.err, "\n") == 1);
     CHECK_FALSE(std::filesystem::exists(at / "out"));
   }
   const auto end =

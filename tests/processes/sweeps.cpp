@@ -1,4 +1,5 @@
 // Sweeps as their users start, stop and kill them.
+#include "tests/processes/sweep_runs.hpp"
 #include "tests/processes/workplace.hpp"
 #include "tests/support/dice.hpp"
 
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Six short runs.
-constexpr auto sweep_file = R"(name = "gaps"
+constexpr auto sweep_without_tracks = R"(name = "gaps"
 scenario = "config/ulm_lehr.toml"
 seeds = [1, 2]
 
@@ -32,19 +33,11 @@ std::vector<std::string> sweep_into(const std::string& out,
   return {"sweep", "gaps.toml", "--out", out, "-j", jobs};
 }
 
-std::size_t summaries_in(const fs::path& out) {
-  std::size_t count = 0;
-  std::error_code none;
-  for (const auto& run : fs::directory_iterator{out / "runs", none})
-    count += fs::exists(run.path() / "summary.json") ? 1U : 0U;
-  return count;
-}
-
 } // namespace
 
 TEST_CASE("a sweep gives the same table whatever the number of threads") {
   const workplace at;
-  at.write("gaps.toml", sweep_file);
+  at.write("gaps.toml", sweep_without_tracks);
   for (const auto* jobs : {"1", "2", "5"}) {
     const auto end = at.run_sofof(sweep_into(jobs, jobs));
     CAPTURE(end.err);
@@ -59,7 +52,7 @@ TEST_CASE("a sweep gives the same table whatever the number of threads") {
 
 TEST_CASE("a sweep that is killed again and again ends with the same table") {
   const workplace at;
-  at.write("gaps.toml", sweep_file);
+  at.write("gaps.toml", sweep_without_tracks);
   REQUIRE(at.run_sofof(sweep_into("whole")).code == 0);
   dice roll{7};
   for (std::size_t finished = 0; finished < 5; ++finished) {
@@ -81,7 +74,7 @@ TEST_CASE("a sweep that is killed again and again ends with the same table") {
 
 TEST_CASE("an interrupted sweep says so, and goes on later") {
   const workplace at;
-  at.write("gaps.toml", sweep_file);
+  at.write("gaps.toml", sweep_without_tracks);
   program first{sweep_into("out", "1"), at.here()};
   REQUIRE(wait_until([&] { return summaries_in(at / "out") > 0; }));
   first.send(SIGINT);
@@ -94,7 +87,7 @@ TEST_CASE("an interrupted sweep says so, and goes on later") {
 
 TEST_CASE("two sweeps into one folder: the second is refused") {
   const workplace at;
-  at.write("gaps.toml", sweep_file);
+  at.write("gaps.toml", sweep_without_tracks);
   program first{sweep_into("out", "1"), at.here()};
   REQUIRE(wait_until([&] { return fs::exists(at / "out/runs/.lock"); }));
   const auto second = at.run_sofof(sweep_into("out"));
@@ -104,7 +97,7 @@ TEST_CASE("two sweeps into one folder: the second is refused") {
 
 TEST_CASE("a sweep with a point that cannot be loaded exits with 1") {
   const workplace at;
-  auto text = std::string{sweep_file};
+  auto text = std::string{sweep_without_tracks};
   text.replace(text.find("\"60ms\""), 6, "\"soon\"");
   at.write("gaps.toml", text);
   const auto end = at.run_sofof(sweep_into("out"));

@@ -1,15 +1,8 @@
 // What the command says of itself, and of words that it does not know.
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 using namespace sofof::test;
-
-namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
-} // namespace
 
 TEST_CASE("wrong usage is refused") {
   const workplace at;

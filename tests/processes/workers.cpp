@@ -1,6 +1,8 @@
 // Workers of a sweep, as processes of their own on this machine.
 #include "tests/processes/hosts.hpp"
+#include "tests/processes/sweep_runs.hpp"
 #include "tests/processes/workplace.hpp"
+#include "tests/support/contains.hpp"
 
 #include <array>
 #include <map>
@@ -12,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Six short runs.
-constexpr auto sweep_file = R"(name = "gaps"
+constexpr auto sweep_with_tracks = R"(name = "gaps"
 scenario = "config/ulm_lehr.toml"
 seeds = [1, 2]
 
@@ -63,17 +65,9 @@ private:
   program run_;
 };
 
-words sweep_into(const std::string& out, const std::string& workers,
-                 const std::string& jobs = "0") {
+words sweep_by_workers(const std::string& out, const std::string& workers,
+                       const std::string& jobs = "0") {
   return {"sweep", "gaps.toml", "--out", out, "-j", jobs, "--workers", workers};
-}
-
-std::size_t summaries_in(const fs::path& out) {
-  std::size_t count = 0;
-  std::error_code none;
-  for (const auto& run : fs::directory_iterator{out / "runs", none})
-    count += fs::exists(run.path() / "summary.json") ? 1U : 0U;
-  return count;
 }
 
 /// @returns all files of all runs with what they hold; figures of the wall's
@@ -105,13 +99,9 @@ std::vector<fs::path> kept(const workplace& at) {
   return found;
 }
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
 /// A workplace with the sweep in it.
 struct sweep_place : workplace {
-  sweep_place() { write("gaps.toml", sweep_file); }
+  sweep_place() { write("gaps.toml", sweep_with_tracks); }
 
   void sweep_here(const std::string& out) const {
     const auto end =
@@ -127,8 +117,8 @@ TEST_CASE("a sweep by two workers equals that of one host, byte for byte") {
   const sweep_place at;
   at.sweep_here("here");
   worker_process one{at}, two{at};
-  const auto end =
-      at.run_sofof(sweep_into("there", one.address() + "," + two.address()));
+  const auto end = at.run_sofof(
+      sweep_by_workers("there", one.address() + "," + two.address()));
   CAPTURE(end.out);
   CAPTURE(end.err);
   CHECK(end.code == 0);
@@ -152,7 +142,7 @@ TEST_CASE("a sweep by two workers equals that of one host, byte for byte") {
 TEST_CASE("own hands and a worker share the runs of a sweep") {
   const sweep_place at;
   worker_process worker{at};
-  const auto end = at.run_sofof(sweep_into("out", worker.address(), "1"));
+  const auto end = at.run_sofof(sweep_by_workers("out", worker.address(), "1"));
   CHECK(end.code == 0);
   CHECK(contains(end.out, "6 good, 0 unsafe, 0 failed"));
 }
@@ -165,7 +155,8 @@ TEST_CASE("a worker that is killed has its runs given to others, and one that "
   worker_process two{at};
   const auto port = one->port();
   const auto first = one->address();
-  program sweep{sweep_into("there", first + "," + two.address()), at.here()};
+  program sweep{sweep_by_workers("there", first + "," + two.address()),
+                at.here()};
   REQUIRE(wait_until([&] { return summaries_in(at / "there") > 0; }));
   one->run().send(SIGKILL);
   one->run().wait();
@@ -184,7 +175,7 @@ TEST_CASE("a worker that is killed has its runs given to others, and one that "
 TEST_CASE("a worker that falls silent has its runs given to others") {
   const sweep_place at;
   worker_process one{at};
-  program sweep{sweep_into("out", one.address(), "1"), at.here()};
+  program sweep{sweep_by_workers("out", one.address(), "1"), at.here()};
   REQUIRE(wait_until([&] { return summaries_in(at / "out") > 0; }));
   one.run().send(SIGSTOP);
   const auto end = sweep.wait();
@@ -203,7 +194,7 @@ TEST_CASE("a sweep whose workers are all lost ends with one sentence, and the "
   const sweep_place at;
   std::optional<worker_process> worker{std::in_place, at};
   const auto port = worker->port();
-  const auto command = sweep_into("out", worker->address());
+  const auto command = sweep_by_workers("out", worker->address());
   program sweep{command, at.here()};
   REQUIRE(wait_until([&] { return summaries_in(at / "out") > 0; }));
   CHECK(stop(worker->run()).code == 0);
@@ -225,7 +216,7 @@ TEST_CASE("a worker that is stopped leaves nothing behind") {
   for (const auto signal : {SIGINT, SIGTERM}) {
     worker_process worker{at};
     const auto out = "out" + std::to_string(signal); // new, so that runs/ tells
-    program sweep{sweep_into(out, worker.address()), at.here()};
+    program sweep{sweep_by_workers(out, worker.address()), at.here()};
     REQUIRE(wait_until([&] { return fs::exists(at / out / "runs"); }));
     pass(0.3);
     CHECK(kept(at).size() == 1);
@@ -237,11 +228,11 @@ TEST_CASE("a worker that is stopped leaves nothing behind") {
 
 TEST_CASE("a run ends when its sweep goes away") {
   const sweep_place at;
-  auto text = std::string{sweep_file};
+  auto text = std::string{sweep_with_tracks};
   text.replace(text.find("60s"), 3, "87600h");
   at.write("gaps.toml", text);
   worker_process worker{at};
-  program sweep{sweep_into("out", worker.address()), at.here()};
+  program sweep{sweep_by_workers("out", worker.address()), at.here()};
   const auto runs = [&] {
     std::size_t count = 0;
     std::error_code none;
@@ -259,11 +250,11 @@ TEST_CASE("a run ends when its sweep goes away") {
 
 TEST_CASE("what a worker cannot carry out is a point that failed") {
   const sweep_place at;
-  auto text = std::string{sweep_file};
+  auto text = std::string{sweep_with_tracks};
   text.replace(text.find("\"60ms\""), 6, "\"61ms\"");
   at.write("gaps.toml", text);
   worker_process worker{at, {}, 0, {.largest_file = 20'000}};
-  const auto end = at.run_sofof(sweep_into("out", worker.address()));
+  const auto end = at.run_sofof(sweep_by_workers("out", worker.address()));
   CAPTURE(end.out);
   CHECK(end.code == 1);
   CHECK(contains(end.out, "0 good, 0 unsafe, 6 failed"));
@@ -277,7 +268,7 @@ TEST_CASE("another build is refused with one sentence that names both") {
   std::ofstream{at / "other", std::ios::app} << '\n';
   const auto other = (at / "other").string();
   worker_process worker{at, {}, 0, {.program = other}};
-  const auto end = at.run_sofof(sweep_into("out", worker.address()));
+  const auto end = at.run_sofof(sweep_by_workers("out", worker.address()));
   CAPTURE(end.err);
   CHECK(end.code == 2);
   CHECK(end.err.starts_with("sofof: worker " + worker.address()
@@ -290,13 +281,13 @@ TEST_CASE("another build is refused with one sentence that names both") {
 TEST_CASE("another protocol, and who is no worker, are refused") {
   const sweep_place at;
   worker_process worker{at};
-  auto end = at.run_sofof(sweep_into("out", worker.address())
+  auto end = at.run_sofof(sweep_by_workers("out", worker.address())
                           + words{"--test-protocol", "77"});
   CHECK(end.code == 2);
   CHECK(contains(end.err, "protocol 77 "));
   provider_process provider{at, "provider", {}};
   end = at.run_sofof(
-      sweep_into("out", "127.0.0.1:" + std::to_string(provider.port())));
+      sweep_by_workers("out", "127.0.0.1:" + std::to_string(provider.port())));
   CAPTURE(end.err);
   CHECK(end.code == 2);
   CHECK(contains(end.err, "it is no worker"));
@@ -308,7 +299,7 @@ TEST_CASE("nobody to carry out runs, and plain words to other hosts, are "
   auto end = at.run_sofof({"sweep", "gaps.toml", "-j", "0"});
   CHECK(end.code == 2);
   CHECK(contains(end.err, "name hosts that do with --workers"));
-  end = at.run_sofof(sweep_into("out", "192.0.2.1:4712"));
+  end = at.run_sofof(sweep_by_workers("out", "192.0.2.1:4712"));
   CHECK(end.code == 2);
   CHECK(contains(end.err, "must be secured"));
   end = at.run_sofof({"worker", "--listen", "0.0.0.0:0"});
@@ -326,7 +317,7 @@ TEST_CASE("workers and sweeps with certificates work together, others do not") {
   }
   worker_process worker{at, {"--keys", "keys/provider-worker"}};
   const auto secured = [&](const std::string& folder) {
-    return sweep_into("out", worker.address()) + words{"--keys", folder};
+    return sweep_by_workers("out", worker.address()) + words{"--keys", folder};
   };
   auto end = at.run_sofof(secured("foreign/station-1"));
   CAPTURE(end.err);

@@ -7,13 +7,14 @@
 #include <cmath>
 #include <cstdint>
 
-using namespace sofof::assignment;
-using sofof::test::best_by_tables;
-using sofof::test::dice;
-using sofof::test::open_problem;
-using sofof::test::place_at_random;
-using sofof::test::scarce;
-using sofof::test::table_between;
+namespace sofof::assignment {
+
+using test::best_by_tables;
+using test::dice;
+using test::open_problem;
+using test::place_at_random;
+using test::scarce;
+using test::table_between;
 
 namespace {
 
@@ -88,3 +89,5 @@ TEST_CASE("classic instances in which all must be served have the optimum of "
     CHECK(std::abs(found.best.value - best_by_tables(p)) < 1e-5);
   }
 }
+
+} // namespace sofof::assignment

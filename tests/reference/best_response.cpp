@@ -20,9 +20,9 @@
 #include <cstdint>
 #include <memory>
 
-using namespace sofof;
-using namespace sofof::game;
-using namespace sofof::test;
+namespace sofof::game {
+
+using namespace test;
 
 namespace {
 
@@ -175,3 +175,5 @@ TEST_CASE("the interference model as printed lets a fifth of 30 users gain") {
   CHECK(mean.best_response_cost == doctest::Approx(43.5).epsilon(0.05));
   CHECK(mean.all_offload_cost > 4.1e5);
 }
+
+} // namespace sofof::game

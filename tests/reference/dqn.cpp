@@ -62,8 +62,8 @@ namespace {
 // cell 0, 0.9^7 = 0.48 against 0.3.
 constexpr std::size_t cells = 8;
 constexpr std::size_t start = 2;
-constexpr double discount = 0.9;
-const auto any_action = first_actions(2); // left, right
+constexpr double corridor_discount = 0.9;
+const auto left_or_right = first_actions(2);
 
 finite_mdp corridor() {
   finite_mdp world{2, {}};
@@ -108,16 +108,16 @@ double error(const std::vector<double>& exact, Values values) {
 
 TEST_CASE("the deep Q-network learns a corridor as well as the table") {
   const auto world = corridor();
-  const auto exact = value_iteration(world, discount, 1e-12);
+  const auto exact = value_iteration(world, corridor_discount, 1e-12);
   constexpr int steps = 2000;
 
-  dqn_options options{{cells, 2}, discount};
+  dqn_options options{{cells, 2}, corridor_discount};
   options.explore = {1, 0.3, 1000};
   dqn network{options, random_stream{1, "network"}};
   live(
       world, steps,
       [&](std::size_t cell) {
-        return *network.choose(features_of(cell), any_action);
+        return *network.choose(features_of(cell), left_or_right);
       },
       [&](std::size_t cell, std::size_t action, const mdp_outcome& outcome) {
         const auto here = features_of(cell);
@@ -125,20 +125,21 @@ TEST_CASE("the deep Q-network learns a corridor as well as the table") {
         std::span<const double> next;
         if (outcome.next)
           next = there;
-        network.learn({here, action, outcome.reward, next, any_action});
+        network.learn({here, action, outcome.reward, next, left_or_right});
       });
 
-  q_learning table{{cells, 2, discount, std::nullopt, options.explore},
+  q_learning table{{cells, 2, corridor_discount, std::nullopt, options.explore},
                    random_stream{1, "table"}};
   live(
       world, steps,
-      [&](std::size_t cell) { return *table.choose(cell, any_action); },
+      [&](std::size_t cell) { return *table.choose(cell, left_or_right); },
       [&](std::size_t cell, std::size_t action, const mdp_outcome& outcome) {
-        table.learn({cell, action, outcome.reward, outcome.next, any_action});
+        table.learn(
+            {cell, action, outcome.reward, outcome.next, left_or_right});
       });
 
   for (std::size_t cell = 0; cell < cells; ++cell)
-    CHECK(network.best(features_of(cell), any_action) == 1);
+    CHECK(network.best(features_of(cell), left_or_right) == 1);
   const auto network_error = error(exact, [&](std::size_t cell) {
     return network.values(features_of(cell));
   });

@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace sofof;
-using namespace sofof::assignment;
+namespace sofof::assignment {
+
 using namespace std::chrono_literals;
 using test::near;
 
@@ -26,3 +26,5 @@ TEST_CASE("jobs of 8 ms wait as long as a prototype says") {
 TEST_CASE("a core with jobs of 8 ms that may wait 16 ms is busy for 80 %") {
   CHECK(utilisation_cap(1, 8ms, 16ms) == near(0.8, 1e-12));
 }
+
+} // namespace sofof::assignment

@@ -21,8 +21,8 @@ using test::near;
 namespace {
 
 constexpr int cycles = 200'000;
-constexpr duration limit = 50ms;
-constexpr duration period = 1s; // no answer is so late
+constexpr duration latency_limit = 50ms;
+constexpr duration cycle_period = 1s; // no answer is so late
 constexpr duration lost = 999ms;
 constexpr duration never = 1s; // the next cycle begins
 
@@ -34,7 +34,7 @@ duration latency(int cycle, std::uint32_t provider) {
   return from_seconds(0.020 * std::exp(spread));
 }
 
-struct golden_row {
+struct redundancy_row {
   std::string_view mode;
   duration hedge_after;
   double missed;
@@ -44,7 +44,7 @@ struct golden_row {
   double p999_ms;
 };
 
-struct outcome {
+struct redundancy_outcome {
   double missed = 0;
   double extra = 0;
   std::vector<double> latency_ms; // sorted
@@ -55,11 +55,11 @@ struct outcome {
 };
 
 // What happens in the order in which it happens, cycle by cycle.
-outcome drive(duration hedge_after) {
+redundancy_outcome drive_hedged(duration hedge_after) {
   first_response responses{hedge_after};
-  outcome seen;
+  redundancy_outcome seen;
   for (int cycle = 0; cycle < cycles; ++cycle) {
-    const auto sent = time_point{cycle * period};
+    const auto sent = time_point{cycle * cycle_period};
     const auto number = static_cast<std::uint64_t>(cycle);
     auto used = lost;
     const auto answer = [&](duration after) {
@@ -77,7 +77,7 @@ outcome drive(duration hedge_after) {
       answer(std::min(first, late));
       answer(std::max(first, late));
     }
-    seen.missed += used > limit ? 1 : 0;
+    seen.missed += used > latency_limit ? 1 : 0;
     seen.latency_ms.push_back(to_milliseconds(used));
   }
   seen.missed /= cycles;
@@ -95,14 +95,15 @@ double silent(double t_ms) {
 
 TEST_CASE("one provider, two, and a hedge miss as many cycles as in the "
           "table") {
-  const golden_row rows[]{{"single", never, .0432, 0, 20.1, 999, 999},
-                          {"duplicate", 0ms, .0018, 1.0, 15.3, 38.8, 54.4},
-                          {"hedge 20 ms", 20ms, .0094, .505, 20.1, 49.6, 66.6},
-                          {"hedge 25 ms", 25ms, .0144, .334, 20.1, 52.4, 69.9},
-                          {"hedge 30 ms", 30ms, .0218, .217, 20.1, 55.2, 73.3}};
+  const redundancy_row rows[]{
+      {"single", never, .0432, 0, 20.1, 999, 999},
+      {"duplicate", 0ms, .0018, 1.0, 15.3, 38.8, 54.4},
+      {"hedge 20 ms", 20ms, .0094, .505, 20.1, 49.6, 66.6},
+      {"hedge 25 ms", 25ms, .0144, .334, 20.1, 52.4, 69.9},
+      {"hedge 30 ms", 30ms, .0218, .217, 20.1, 55.2, 73.3}};
   for (const auto& row : rows) {
     CAPTURE(row.mode);
-    const auto seen = drive(row.hedge_after);
+    const auto seen = drive_hedged(row.hedge_after);
     MESSAGE(row.mode << ": missed " << seen.missed << ", extra " << seen.extra
                      << ", p50 " << seen.quantile_ms(0.5) << ", p99 "
                      << seen.quantile_ms(0.99) << ", p99.9 "

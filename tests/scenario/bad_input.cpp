@@ -9,7 +9,7 @@ using namespace sofof;
 namespace {
 
 /// Checks what is said about mistakes in the example.
-void check_all(const std::vector<mistake>& mistakes) {
+void check_scenario_mistakes(const std::vector<mistake>& mistakes) {
   for (const auto& m : mistakes) {
     CAPTURE(m.wrong);
     auto text = example::with(m.right, m.wrong);
@@ -51,7 +51,7 @@ TEST_CASE("a missing file is named") {
 }
 
 TEST_CASE("TOML that cannot be parsed is refused with its place") {
-  check_all({
+  check_scenario_mistakes({
       {"seed = 7", "seed = @= 7", {}},
       {"[[fleet]]", "[[fleet]@\n", {}},
       {"seed = 7", "seed = 7\nseed = @8", {"seed"}},
@@ -59,7 +59,7 @@ TEST_CASE("TOML that cannot be parsed is refused with its place") {
 }
 
 TEST_CASE("an unknown option is refused with the one that was meant") {
-  check_all({
+  check_scenario_mistakes({
       {"seed = 7", "@sed = 7", {"\"sed\"", "did you mean \"seed\"?"}},
       {"area_radius_m", "@area_radus_m", {"did you mean \"area_radius_m\"?"}},
       {"min_distance_m", "@distance_m", {"min_distance_m"}},
@@ -73,7 +73,7 @@ TEST_CASE("an unknown option is refused with the one that was meant") {
 }
 
 TEST_CASE("what says nothing of a network or a failure is refused") {
-  check_all({
+  check_scenario_mistakes({
       {"[network]", "[network]\nspikes = { probability = @0.1 }", {"longest"}},
       {"[network]", "[network]\ndrift = { sd = @0.1 }", {"period"}},
       {"[network]",
@@ -90,7 +90,7 @@ TEST_CASE("what says nothing of a network or a failure is refused") {
 }
 
 TEST_CASE("a value of the wrong type is refused") {
-  check_all({
+  check_scenario_mistakes({
       {"seed = 7", "seed = @1.5", {"whole number", "1.5"}},
       {"seed = 7", "seed = @\"7\"", {"whole number", "\"7\""}},
       {"\"600s\"", "@600", {"duration", "with its unit", "600"}},
@@ -109,7 +109,7 @@ TEST_CASE("a value of the wrong type is refused") {
 }
 
 TEST_CASE("a number out of its range is refused") {
-  check_all({
+  check_scenario_mistakes({
       {"\"600s\"", "@\"0s\"", {"more than \"0s\""}},
       {"\"600s\"", "@\"-5s\"", {"more than \"0s\"", "-5s"}},
       {"\"250ms\"", "@\"250us\"", {"at least \"10ms\""}},
@@ -133,7 +133,7 @@ TEST_CASE("a sensor that cannot be is refused") {
     return "[sensors]\n" + option + "\n[network]";
   };
   const auto roadside = sensors("[[provider.sensor]]\nrange_m = @-1");
-  check_all({
+  check_scenario_mistakes({
       {"[network]", sensors("range_m = @-1"), {"range_m", "from 0", "-1"}},
       {"[network]", sensors("range_m = @1001"), {"to 1000"}},
       {"[network]", sensors("field_of_view_deg = @361"), {"to 360"}},
@@ -156,7 +156,7 @@ TEST_CASE("driving that cannot work is refused") {
   const auto soft = planner("comfort_decel_mps2 = 2.4, max_decel_mps2 = @2.99");
   const auto coarse = planner("onboard = { horizon_m = 31.5, step_m = @2 }");
   const auto fine = planner("mec = { horizon_m = 129, step_m = @0.5 }");
-  check_all({
+  check_scenario_mistakes({
       {right, decel, {"max_decel_mps2", "from 2.5", "2.4"}},
       {right, soft, {"max_decel_mps2", "at least 3", "comfort_decel_mps2"}},
       {right, coarse, {"step_m", "at most horizon_m / 16"}},
@@ -170,9 +170,9 @@ TEST_CASE("driving that cannot work is refused") {
 }
 
 TEST_CASE("a start beyond the speed limit is refused") {
-  check_all({{"start_speed_mps = 8.5",
-              "start_speed_mps = @13.91",
-              {"vehicle 201", "straight", "13.91", "13.9 m/s"}}});
+  check_scenario_mistakes({{"start_speed_mps = 8.5",
+                            "start_speed_mps = @13.91",
+                            {"vehicle 201", "straight", "13.91", "13.9 m/s"}}});
   CHECK(example::error_of(
             example::with("start_speed_mps = 8.5", "start_speed_mps = 13.9"))
         == "");
@@ -182,7 +182,7 @@ TEST_CASE("messages that nobody can send are refused") {
   const auto v2x = [](const std::string& option) {
     return "[v2x]\n" + option + "\n[network]";
   };
-  check_all({
+  check_scenario_mistakes({
       {"[network]",
        v2x("cam = @\"trigered\""),
        {"\"trigered\"", "rule for CAMs", "did you mean \"triggered\"?",
@@ -205,7 +205,7 @@ TEST_CASE("vehicles with numbers of providers are refused") {
   const std::string right = "count = 6\nfirst_station = 101";
   const std::vector<std::string_view> says{"stations 900000001 to 901000000",
                                            "providers", "at 901000001"};
-  check_all({
+  check_scenario_mistakes({
       {right, "count = 6\nfirst_station = @899999996", says},
       {right, "count = 6\nfirst_station = @900000001", says},
       {right, "count = 6\nfirst_station = @901000000", says},
@@ -224,7 +224,7 @@ TEST_CASE("an obstacle that cannot be is refused") {
                            "\"convoy\"\nstart_m = 150.0\nstart_speed_mps = "
                            "8.5\nconnected = false";
   const auto second = "first_station = 201" + rest;
-  check_all({
+  check_scenario_mistakes({
       {"[network]", obstacle("length_m = @0"), {"length_m", "from 0.1"}},
       {"[network]", obstacle("width_m = @-1"), {"width_m", "from 0.1"}},
       {"[network]", obstacle("heading_deg = @720"), {"heading_deg", "360"}},
@@ -256,7 +256,7 @@ TEST_CASE("an option that would have no effect is refused") {
 }
 
 TEST_CASE("an area that is no polygon is refused") {
-  check_all({
+  check_scenario_mistakes({
       {"[[0, 0], [50, 0], [50.5, 50], [0, 50]]",
        "@[[0, 0], [50, 0]]",
        {"area_m", "three corners"}},
@@ -271,7 +271,7 @@ TEST_CASE("an area that is no polygon is refused") {
 }
 
 TEST_CASE("an unknown name is refused with those that are known") {
-  check_all({
+  check_scenario_mistakes({
       {"codm = \"always\"",
        "codm = @\"allways\"",
        {"\"allways\"", "CODM policy", "did you mean \"always\"?", "location",
@@ -297,13 +297,14 @@ TEST_CASE("an unknown name is refused with those that are known") {
 }
 
 TEST_CASE("a service without a name is refused with those that are known") {
-  check_all({{"[[service]]\nname = \"cabin_climate\"",
-              "@[[service]]\nmax_latency = \"50ms\"",
-              {"kind of service", "cabin_climate", "trajectory_planning"}}});
+  check_scenario_mistakes(
+      {{"[[service]]\nname = \"cabin_climate\"",
+        "@[[service]]\nmax_latency = \"50ms\"",
+        {"kind of service", "cabin_climate", "trajectory_planning"}}});
 }
 
 TEST_CASE("names that must differ are refused where the second stands") {
-  check_all({
+  check_scenario_mistakes({
       {"name = \"cloud\"", "name = @\"mec\"", {"two providers \"mec\""}},
       {"name = \"cabin_climate\"",
        "name = @\"trajectory_planning\"",
@@ -315,14 +316,14 @@ TEST_CASE("names that must differ are refused where the second stands") {
 }
 
 TEST_CASE("lists that must not be empty are refused") {
-  check_all({
+  check_scenario_mistakes({
       {"[\"straight\"]", "@[]", {"routes", "at least one"}},
       {"[\"cabin_climate\"]", "@[]", {"services", "at least one"}},
   });
 }
 
 TEST_CASE("a file that is named but missing is refused where it is named") {
-  check_all({
+  check_scenario_mistakes({
       {"\"ring.toml\"",
        "@\"nowhere.toml\"",
        {"nowhere.toml", "cannot be read"}},
@@ -344,7 +345,7 @@ TEST_CASE("a file that is named but missing is refused where it is named") {
 
 TEST_CASE("vehicles that have no room are refused") {
   const auto second = "[[fleet]]\ncount = 2\nfirst_station = 201";
-  check_all({
+  check_scenario_mistakes({
       {"[[fleet]]\ncount = 6\nfirst_station = 101",
        "@[[fleet]]\ncount = 190\nfirst_station = 301",
        {"vehicle 3", "round_trip", "less than 3 m apart", "fewer vehicles"}},
@@ -374,7 +375,7 @@ TEST_CASE("a scenario without streets, vehicles or services is refused") {
 }
 
 TEST_CASE("a map and a street grid together are refused") {
-  check_all(
+  check_scenario_mistakes(
       {{"map = \"ring.toml\"", "map = @\"ring.toml\"\n[street_grid]\n", {}}});
 }
 

@@ -20,7 +20,7 @@ std::string error_of_map(std::string_view text) {
   }
 }
 
-void check_all(const std::vector<mistake>& mistakes) {
+void check_map_mistakes(const std::vector<mistake>& mistakes) {
   const auto right = read_text(example::folder / "ring.toml");
   REQUIRE(right);
   REQUIRE(error_of_map(*right) == "");
@@ -35,7 +35,7 @@ void check_all(const std::vector<mistake>& mistakes) {
 } // namespace
 
 TEST_CASE("a wrong option of a map is refused with its place") {
-  check_all({
+  check_map_mistakes({
       {"utm_zone", "@utm_zome", {"did you mean \"utm_zone\"?"}},
       {"utm_zone = 32", "utm_zone = @61", {"from 1 to 60"}},
       {"half_width_m = 1.75", "half_width_m = @0", {"half_width_m"}},
@@ -48,7 +48,7 @@ TEST_CASE("a wrong option of a map is refused with its place") {
 }
 
 TEST_CASE("a lane that is wrong by itself is refused with its place") {
-  check_all({
+  check_map_mistakes({
       {"[[lane]]\nname = \"inner_north\"",
        "[[lane]]\nname = @\"outer_north\"",
        {"two lanes 'outer_north'"}},
@@ -63,7 +63,7 @@ TEST_CASE("a lane that is wrong by itself is refused with its place") {
 }
 
 TEST_CASE("lanes that do not meet are refused with their place") {
-  check_all({
+  check_map_mistakes({
       {"[[lane]]\nname = \"outer_south\"\nhalf_width_m = 1.75\nlimits = [{ "
        "from_m = 0.0, limit_mps = 13.9 }]\nnext = [\"outer_north\"]",
        "@[[lane]]\nname = \"outer_south\"\nhalf_width_m = 1.75\nlimits = [{ "
@@ -73,7 +73,7 @@ TEST_CASE("lanes that do not meet are refused with their place") {
 }
 
 TEST_CASE("a route that cannot be driven is refused with its place") {
-  check_all({
+  check_map_mistakes({
       {"lanes = [\"outer_north\", \"outer_south\"]",
        "lanes = @[\"outer_north\", \"inner_south\"]",
        {"round_trip", "'inner_south' does not follow 'outer_north'"}},

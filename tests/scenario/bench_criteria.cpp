@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
-using namespace sofof;
-using namespace sofof::bench;
+namespace sofof::bench {
+
 using test::near;
 
 namespace {
@@ -176,3 +176,5 @@ TEST_CASE("a scenario tells limits, periods and what a service takes") {
   CHECK(by.providers == 1);
   CHECK(by.utilisation_by.at("trajectory_planning") == near(0.08, 1e-9));
 }
+
+} // namespace sofof::bench

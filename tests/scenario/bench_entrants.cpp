@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <set>
 
-using namespace sofof;
-using namespace sofof::bench;
-
+namespace sofof::bench {
 namespace {
 
 const entrant& find(const std::vector<entrant>& all, std::string_view name) {
@@ -126,3 +124,5 @@ TEST_CASE("a TOML value on one line reads back as what it was") {
     CHECK((parse_toml("x = " + line, "here") == table));
   }
 }
+
+} // namespace sofof::bench

@@ -13,8 +13,8 @@
 #include <fstream>
 #include <sstream>
 
-using namespace sofof;
-using namespace sofof::bench;
+namespace sofof::bench {
+
 using test::near;
 using test::scratch;
 
@@ -224,3 +224,5 @@ TEST_CASE("decision times are pooled over runs, side by side") {
   const std::vector<timed_runs> gone{{"good", "east", {dir / "4"}}};
   CHECK_THROWS_AS(read_decision_costs(gone), input_error);
 }
+
+} // namespace sofof::bench

@@ -16,18 +16,18 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const std::filesystem::path bench = SOFOF_SOURCE_DIR "/config/bench";
+const std::filesystem::path bench_folder = SOFOF_SOURCE_DIR "/config/bench";
 
 std::set<std::string> names() {
   std::set<std::string> all;
-  for (const auto& entry : std::filesystem::directory_iterator{bench})
+  for (const auto& entry : std::filesystem::directory_iterator{bench_folder})
     all.insert(entry.path().stem().string());
   return all;
 }
 
-scenario load(const std::string& name,
-              const std::vector<std::string>& overrides = {}) {
-  return load_scenario(bench / (name + ".toml"), overrides);
+scenario load_bench(const std::string& name,
+                    const std::vector<std::string>& overrides = {}) {
+  return load_scenario(bench_folder / (name + ".toml"), overrides);
 }
 
 } // namespace
@@ -38,7 +38,7 @@ TEST_CASE("the benchmark has its eight scenarios, each under its name") {
                                  "single_intersection", "sp_crash", "spiky_5g",
                                  "tunnel", "two_operators"});
   for (const auto& name : names()) {
-    const auto s = load(name);
+    const auto s = load_bench(name);
     CHECK(s.name == name);
     CHECK(s.length == 10min);
     CHECK(s.record.cycles); // violations are counted from them
@@ -49,7 +49,7 @@ TEST_CASE("the benchmark has its eight scenarios, each under its name") {
 TEST_CASE("nobody is unsafe in any of them, and somebody offloads") {
   for (const auto& name : names()) {
     CAPTURE(name);
-    const auto records = play(load(name, {"duration=70s"}));
+    const auto records = play(load_bench(name, {"duration=70s"}));
     CHECK(records.collisions.empty());
     for (const auto& x : records.safety) {
       CHECK(x.without_fresh_plan == 0ns);
@@ -60,7 +60,7 @@ TEST_CASE("nobody is unsafe in any of them, and somebody offloads") {
 }
 
 TEST_CASE("two operators stall at different times") {
-  const auto s = load("two_operators");
+  const auto s = load_bench("two_operators");
   REQUIRE(s.providers.size() == 2);
   CHECK(s.providers[0].position_m == s.providers[1].position_m);
   CHECK(s.providers[0].radio != s.providers[1].radio);
@@ -69,7 +69,7 @@ TEST_CASE("two operators stall at different times") {
 }
 
 TEST_CASE("in the corridor some provider offers everywhere, two at places") {
-  const auto s = load("corridor_3sp");
+  const auto s = load_bench("corridor_3sp");
   REQUIRE(s.providers.size() == 3);
   auto several = 0;
   for (auto x_m = 0.0; x_m <= 1400; x_m += 10) {

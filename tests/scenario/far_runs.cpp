@@ -7,17 +7,18 @@
 #include "scenario/sweep/result_files.hpp"
 #include "scenario/sweep/run_site.hpp"
 #include "scenario/toml_file.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <fstream>
 #include <future>
 #include <thread>
 
 using namespace sofof;
 namespace fs = std::filesystem;
+using test::write_text;
 
 namespace {
 
@@ -50,10 +51,6 @@ struct workshop {
     ended.get_future().wait();
   }
 };
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream{file, std::ios::binary} << text;
-}
 
 /// As an actor of the sweep's host does.
 void fetch(ordered_run& run, result_files& to) {
@@ -100,11 +97,13 @@ TEST_CASE("a run that was carried out elsewhere leaves the same files") {
 TEST_CASE("large files come in parts, and empty ones come too") {
   workshop shop{[](const run_order& order) {
     fs::create_directory(order.results());
-    write(order.results() / "cycles.csv", std::string(3 * longest_piece, 'c'));
-    write(order.results() / "tracks.csv", std::string(longest_piece + 1, 't'));
-    write(order.results() / "episodes.csv", "");
-    write(order.results() / "summary.json", "{}");
-    write(order.results() / "other.txt", "no file of a run");
+    write_text(order.results() / "cycles.csv",
+               std::string(3 * longest_piece, 'c'));
+    write_text(order.results() / "tracks.csv",
+               std::string(longest_piece + 1, 't'));
+    write_text(order.results() / "episodes.csv", "");
+    write_text(order.results() / "summary.json", "{}");
+    write_text(order.results() / "other.txt", "no file of a run");
     fs::create_symlink("/etc/hostname", order.results() / "events.jsonl");
   }};
   const auto run = shop.order();
@@ -172,8 +171,8 @@ TEST_CASE("results without a summary are none, and it is written last") {
 TEST_CASE("results replace those of an earlier run, and nothing else") {
   const test::scratch at;
   fs::create_directory(at / "run");
-  write(at / "run/summary.json", "old");
-  write(at / "run/notes.txt", "mine");
+  write_text(at / "run/summary.json", "old");
+  write_text(at / "run/notes.txt", "mine");
   result_files files{at / "run"};
   CHECK_FALSE(fs::exists(at / "run/summary.json"));
   CHECK(fs::exists(at / "run/notes.txt"));

@@ -10,9 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-using namespace sofof;
-using namespace sofof::made_up;
-
+namespace sofof::made_up {
 namespace {
 
 /// The smallest number that a share p of all does not exceed.
@@ -413,3 +411,5 @@ TEST_CASE("a bin counts what is above the one before, up to its bound") {
     CHECK(bins[i].count == expected[i].second);
   }
 }
+
+} // namespace sofof::made_up

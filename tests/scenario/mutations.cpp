@@ -17,7 +17,7 @@ std::string original() {
 }
 
 /// Any other exception than `input_error` ends the test.
-struct tally {
+struct load_tally {
   int loaded = 0;
   int refused = 0;
 
@@ -35,7 +35,7 @@ struct tally {
 
 TEST_CASE("a scenario file that ends anywhere loads or is refused") {
   const auto text = original();
-  tally all;
+  load_tally all;
   for (std::size_t n = 0; n <= text.size(); ++n)
     all.count(std::string_view{text}.substr(0, n));
   CHECK(all.loaded > 0);
@@ -45,7 +45,7 @@ TEST_CASE("a scenario file that ends anywhere loads or is refused") {
 TEST_CASE("a scenario file with wrong bytes loads or is refused") {
   const random_stream draws{1, "mutations"};
   const auto text = original();
-  tally all;
+  load_tally all;
   for (std::uint64_t i = 0; i < 3000; ++i) {
     auto spoilt = text;
     const auto changes = 1 + draws.bits(i, 0) % 3;

@@ -26,7 +26,7 @@ constexpr auto speed_mps = 13.89;
 /// later at most for both to be on the conflict's stretch at once, s.
 constexpr auto latest_s = 0.8;
 
-scenario load(std::vector<std::string> overrides = {}) {
+scenario load_crossing(std::vector<std::string> overrides = {}) {
   return load_scenario(SOFOF_SOURCE_DIR "/config/occluded_crossing.toml",
                        overrides);
 }
@@ -78,7 +78,7 @@ public:
 } // namespace
 
 TEST_CASE("both start 120 m before the crossing point, at the speed limit") {
-  const auto s = load();
+  const auto s = load_crossing();
   const auto placed = place_vehicles(s);
   REQUIRE(placed.size() == 2);
   const std::array<point, 2> starts{{{-120, 0}, {0, -120}}};
@@ -94,7 +94,7 @@ TEST_CASE("both start 120 m before the crossing point, at the speed limit") {
 }
 
 TEST_CASE("the ego road gives way to the crossing road") {
-  const auto s = load();
+  const auto s = load_crossing();
   const auto& map = s.world->map;
   REQUIRE(map.conflicts().size() == 1);
   const auto& c = map.conflicts().front();
@@ -109,7 +109,7 @@ TEST_CASE("the ego road gives way to the crossing road") {
 
 TEST_CASE("whatever the timing, the house hides the other until the ego is "
           "31 to 34 m before the crossing point") {
-  const auto s = load();
+  const auto s = load_crossing();
   for (auto lag_s = -latest_s; lag_s <= latest_s; lag_s += latest_s / 100) {
     CAPTURE(lag_s);
     const auto sees = [&](double d_m) {
@@ -128,7 +128,7 @@ TEST_CASE("whatever the timing, the house hides the other until the ego is "
 }
 
 TEST_CASE("from the mast at the crossing both are seen all the time") {
-  const auto s = load();
+  const auto s = load_crossing();
   for (auto d_m = -20.0; d_m < 140; d_m += 0.5) {
     CHECK_FALSE(is_hidden({4, 4}, {-d_m, 0}, s.world->map));
     CHECK_FALSE(is_hidden({4, 4}, {0, -d_m}, s.world->map));
@@ -136,7 +136,7 @@ TEST_CASE("from the mast at the crossing both are seen all the time") {
 }
 
 TEST_CASE("who starts driving does not brake before its first plan") {
-  const auto records = play(load({"duration=1s"}));
+  const auto records = play(load_crossing({"duration=1s"}));
   for (const auto station : {ego, other}) {
     auto lowest_mps2 = 0.0;
     auto steps = 0;
@@ -151,7 +151,7 @@ TEST_CASE("who starts driving does not brake before its first plan") {
 }
 
 TEST_CASE("the ego is offloaded at once, the unconnected other never") {
-  const auto records = play(load({"duration=3s"}));
+  const auto records = play(load_crossing({"duration=3s"}));
   REQUIRE(records.episodes.size() == 2); // one for each side
   for (const auto& e : records.episodes) {
     CHECK(e.running.station == ego);
@@ -164,18 +164,20 @@ TEST_CASE("the ego is offloaded at once, the unconnected other never") {
 }
 
 TEST_CASE("connected, the other is offloaded too") {
-  const auto records = play(load({"duration=3s", "fleet.1.connected=true"}));
+  const auto records =
+      play(load_crossing({"duration=3s", "fleet.1.connected=true"}));
   CHECK(records.episodes.size() == 4);
 }
 
 TEST_CASE("who never asks plans on board") {
-  const auto records = play(load({"duration=3s", "policies.lodm=never"}));
+  const auto records =
+      play(load_crossing({"duration=3s", "policies.lodm=never"}));
   CHECK(records.episodes.empty());
 }
 
 TEST_CASE("functions know whether crossings are granted") {
   for (const auto granted : {true, false}) {
-    auto s = load({"duration=2s"});
+    auto s = load_crossing({"duration=2s"});
     s.traffic.crossings = granted ? "granted" : "perceived";
     const auto kind = std::make_shared<noted_planning>();
     s.services = {kind};
@@ -191,7 +193,7 @@ TEST_CASE("where crossings are granted nobody collides, whatever the timing") {
   for (auto lag_s = -latest_s; lag_s <= latest_s; lag_s += latest_s / 4) {
     CAPTURE(lag_s);
     const auto records =
-        play(load({"traffic.crossings=granted", later_by(lag_s)}));
+        play(load_crossing({"traffic.crossings=granted", later_by(lag_s)}));
     CHECK(records.collisions.empty());
     const auto ends = tracks_of(records, ego);
     REQUIRE(!ends.empty());

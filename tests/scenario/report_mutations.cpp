@@ -8,14 +8,14 @@
 
 #include <array>
 
-using namespace sofof;
-using namespace sofof::made_up;
-using namespace sofof::report;
+namespace sofof::report {
+
+using namespace made_up;
 
 namespace {
 
 /// Any other exception than `input_error` ends the test.
-struct tally {
+struct report_tally {
   int shown = 0;
   int refused = 0;
 
@@ -57,7 +57,7 @@ TEST_CASE("a results folder with wrong bytes is shown or refused") {
   // Few lines, so that each is met.
   const auto cycles = folder.read("cycles.csv");
   folder.write("cycles.csv", cycles.substr(0, cycles.find('\n', 400) + 1));
-  tally all;
+  report_tally all;
   for (const auto file :
        {"config.toml", "summary.json", "episodes.csv", "cycles.csv",
         "tracks.csv", "vehicles.csv", "events.jsonl"}) {
@@ -86,3 +86,5 @@ TEST_CASE("objects in objects without end do no harm") {
   CHECK_THROWS_AS(html(describe(std::array{folder.path()}, "0.1.0")),
                   input_error);
 }
+
+} // namespace sofof::report

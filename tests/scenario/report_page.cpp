@@ -14,9 +14,9 @@
 #include <numbers>
 #include <vector>
 
-using namespace sofof;
-using namespace sofof::made_up;
-using namespace sofof::report;
+namespace sofof::report {
+
+using namespace made_up;
 using nlohmann::json;
 
 namespace {
@@ -223,3 +223,5 @@ TEST_CASE("where no vehicle ran, offloadings are those that were served") {
   CHECK(drive["offloadings"][0]
         == json{101, "trajectory_planning", "mec", 9.0, 30.0});
 }
+
+} // namespace sofof::report

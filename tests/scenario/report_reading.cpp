@@ -11,9 +11,9 @@
 #include <array>
 #include <fstream>
 
-using namespace sofof;
-using namespace sofof::made_up;
-using namespace sofof::report;
+namespace sofof::report {
+
+using namespace made_up;
 
 namespace {
 
@@ -364,3 +364,5 @@ TEST_CASE("folders of the same name are known by their paths") {
   CHECK(runs[0].label == one.path().string());
   CHECK(runs[1].label == other.path().string());
 }
+
+} // namespace sofof::report

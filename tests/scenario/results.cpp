@@ -5,6 +5,8 @@
 #include "scenario/json.hpp"
 #include "scenario/results_folder.hpp"
 #include "tests/scenario/made_up_run.hpp"
+#include "tests/support/contains.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
@@ -15,22 +17,19 @@
 #include <iterator>
 #include <unistd.h>
 
-using namespace sofof;
-using namespace sofof::made_up;
-namespace fs = std::filesystem;
+namespace sofof::made_up {
 
+namespace fs = std::filesystem;
+using test::contains;
 using test::scratch;
+using test::write_text;
 
 namespace {
 
-std::string read(const fs::path& path) {
+std::string content_of(const fs::path& path) {
   std::ifstream in{path, std::ios::binary};
   REQUIRE(in.good());
   return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-void write(const fs::path& path, std::string_view text) {
-  std::ofstream{path, std::ios::binary} << text;
 }
 
 std::vector<std::string> lines(const fs::path& path) {
@@ -42,7 +41,7 @@ std::vector<std::string> lines(const fs::path& path) {
 }
 
 nlohmann::ordered_json summary_in(const fs::path& folder) {
-  return nlohmann::ordered_json::parse(read(folder / "summary.json"));
+  return nlohmann::ordered_json::parse(content_of(folder / "summary.json"));
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
@@ -62,10 +61,6 @@ std::string complaint(Action action) {
     return error.what();
   }
   return {};
-}
-
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
 }
 
 track_record track() {
@@ -91,7 +86,7 @@ TEST_CASE("a run leaves all its files, and no temporary one") {
             "config.toml", "cycles.csv", "distributions.csv", "episodes.csv",
             "events.jsonl", "summary.json", "timing.csv", "tracks.csv",
             "vehicles.csv"});
-  CHECK(read(dir / "config.toml") == "seed = 7\n");
+  CHECK(content_of(dir / "config.toml") == "seed = 7\n");
 }
 
 TEST_CASE("cycles and tracks are written only when wanted") {
@@ -359,7 +354,7 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
   for (const auto* name :
        {"config.toml", "episodes.csv", "cycles.csv", "distributions.csv",
         "tracks.csv", "vehicles.csv", "events.jsonl"})
-    CHECK(read(first / name) == read(second / name));
+    CHECK(content_of(first / name) == content_of(second / name));
   auto one = summary_in(first.path()), other = summary_in(second.path());
   CHECK(one != other);
   one.erase("timing");
@@ -374,7 +369,7 @@ TEST_CASE("figures of the wall's clock have a file of their own") {
   results r{dir.path(), run()};
   r.take_timing("solve_p99_us", 31.5);
   r.finish(at(100s), 2, false);
-  CHECK(read(dir / "timing.csv")
+  CHECK(content_of(dir / "timing.csv")
         == "figure,value\nwall_s,2.000000\nx_real_time,50.000000\n"
            "solve_p99_us,31.500000\n");
 }
@@ -483,7 +478,7 @@ TEST_CASE("a folder that is asked for is made with its parents") {
 
 TEST_CASE("a folder with something in it is refused, and left alone") {
   const scratch dir;
-  write(dir / "thesis.tex", "mine");
+  write_text(dir / "thesis.tex", "mine");
   const auto said =
       complaint([&dir] { make_results_folder(dir.path(), "ulm", 7, false); });
   CHECK(contains(said, "not empty"));
@@ -493,26 +488,26 @@ TEST_CASE("a folder with something in it is refused, and left alone") {
 
 TEST_CASE("force replaces the files of a run and nothing else") {
   const scratch dir;
-  write(dir / "thesis.tex", "mine");
-  write(dir / "summary.json", "old");
-  write(dir / "cycles.csv", "old");
+  write_text(dir / "thesis.tex", "mine");
+  write_text(dir / "summary.json", "old");
+  write_text(dir / "cycles.csv", "old");
   auto info = run();
   info.cycles = false;
   results r{make_results_folder(dir.path(), "ulm", 7, true), info};
-  CHECK(read(dir / "thesis.tex") == "mine");
+  CHECK(content_of(dir / "thesis.tex") == "mine");
   CHECK_FALSE(fs::exists(dir / "summary.json"));
   CHECK_FALSE(fs::exists(dir / "cycles.csv"));
 }
 
 TEST_CASE("a file in the way of the folder is refused") {
   const scratch dir;
-  write(dir / "out", "mine");
+  write_text(dir / "out", "mine");
   for (const bool force : {false, true}) {
     const auto said =
         complaint([&] { make_results_folder(dir / "out", "ulm", 7, force); });
     CHECK(contains(said, "in the way"));
   }
-  CHECK(read(dir / "out") == "mine");
+  CHECK(content_of(dir / "out") == "mine");
 }
 
 TEST_CASE("a folder that cannot be made leaves no parents behind") {
@@ -524,3 +519,5 @@ TEST_CASE("a folder that cannot be made leaves no parents behind") {
   CHECK(contains(said, "--out"));
   CHECK_FALSE(fs::exists(dir / "a"));
 }
+
+} // namespace sofof::made_up

@@ -4,6 +4,7 @@
 #include "scenario/input_error.hpp"
 #include "scenario/practice_file.hpp"
 #include "scenario/problem_file.hpp"
+#include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 
 using namespace sofof;
 using nlohmann::json;
+using test::contains;
 namespace fs = std::filesystem;
 
 namespace {
@@ -37,12 +39,12 @@ private:
   fs::path path_;
 };
 
-json read(const fs::path& file) {
+json read_problems(const fs::path& file) {
   std::ifstream in{file};
   return json::parse(in);
 }
 
-void write(const fs::path& file, const json& content) {
+void write_problems(const fs::path& file, const json& content) {
   std::ofstream{file} << content;
 }
 
@@ -72,10 +74,10 @@ std::string refusal(std::string_view kind,
                     const std::function<void(json&)>& spoil) {
   const scratch_file file{"spoilt.json"};
   write_practice(file.path(), kind);
-  auto content = read(file.path());
+  auto content = read_problems(file.path());
   content["instances"].get_ref<json::array_t&>().resize(2);
   spoil(content);
-  write(file.path(), content);
+  write_problems(file.path(), content);
   try {
     solve(file.path());
   } catch (const input_error& e) {
@@ -89,15 +91,11 @@ std::string status_of_second(std::string_view kind,
                              const std::function<void(json&)>& spoil) {
   const scratch_file file{"odd.json"};
   write_practice(file.path(), kind);
-  auto content = read(file.path());
+  auto content = read_problems(file.path());
   content["instances"].get_ref<json::array_t&>().resize(2);
   spoil(content["instances"][1]);
-  write(file.path(), content);
+  write_problems(file.path(), content);
   return solve(file.path()).lines.at(1)["status"];
-}
-
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != std::string_view::npos;
 }
 
 } // namespace
@@ -140,7 +138,7 @@ TEST_CASE("a reference decides what is ok") {
   const scratch_file file{"practice.json"};
   write_practice(file.path(), "path");
   const auto costs = solve(file.path());
-  auto content = read(file.path());
+  auto content = read_problems(file.path());
   content["instances"].get_ref<json::array_t&>().resize(4);
   for (std::size_t i = 0; i < 4; ++i)
     content["instances"][i]["reference"] = {{"feasible", true},
@@ -148,7 +146,7 @@ TEST_CASE("a reference decides what is ok") {
   content["instances"][1]["reference"]["cost"] =
       0.9 * costs.lines[1]["cost"].get<double>();
   content["instances"][2]["reference"]["feasible"] = false;
-  write(file.path(), content);
+  write_problems(file.path(), content);
   CHECK(contains(solve(file.path()).screen, "2 of 4"));
 }
 
@@ -213,7 +211,7 @@ TEST_CASE("problems with known optima are solved, warm and cold") {
       CAPTURE(cold);
       const auto all = solve(file, cold);
       CHECK(contains(all.screen, "120 of 120"));
-      const auto known = read(file)["instances"];
+      const auto known = read_problems(file)["instances"];
       for (std::size_t i = 0; i < known.size(); ++i) {
         const auto& reference = known[i]["reference"];
         CAPTURE(i);

@@ -3,25 +3,22 @@
 #include "scenario/study/bootstrap.hpp"
 #include "scenario/study/histogram.hpp"
 #include "scenario/study/measured_run.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
 #include <string_view>
 
-using namespace sofof;
-using namespace sofof::study;
+namespace sofof::study {
+
 using test::scratch;
+using test::write_text;
 
 namespace {
 
 const random_stream noise{7, "test"};
-
-void write(const std::filesystem::path& file, std::string_view text) {
-  std::ofstream{file} << text;
-}
 
 constexpr std::string_view summary = R"({
   "interrupted": false, "seed": 3,
@@ -79,8 +76,8 @@ TEST_CASE("the same stream gives the same interval") {
 
 TEST_CASE("episodes that the run's end cut off, or others', do not count") {
   const scratch dir;
-  write(dir / "summary.json", summary);
-  write(dir / "episodes.csv", episodes);
+  write_text(dir / "summary.json", summary);
+  write_text(dir / "episodes.csv", episodes);
   const auto run = read_run({{"1"}, 3, {}}, dir.path());
   CHECK(run.t_off_s == std::vector<double>{10, 3});
   CHECK(run.ended_early == 1);
@@ -113,11 +110,12 @@ TEST_CASE("spreads of several runs are those of all values together") {
 
 TEST_CASE("histograms of runs add up") {
   const scratch dir;
-  write(dir / "distributions.csv", "service,figure,up_to_ms,count\n"
-                                   "trajectory_planning,latency,0.100,3\n"
-                                   "trajectory_planning,latency,60.000,1\n"
-                                   "trajectory_planning,interarrival,50.000,9\n"
-                                   "cabin_climate,latency,0.100,100\n");
+  write_text(dir / "distributions.csv",
+             "service,figure,up_to_ms,count\n"
+             "trajectory_planning,latency,0.100,3\n"
+             "trajectory_planning,latency,60.000,1\n"
+             "trajectory_planning,interarrival,50.000,9\n"
+             "cabin_climate,latency,0.100,100\n");
   auto all = read_histogram(dir.path(), planning, "latency");
   CHECK(all.count() == 4);
   CHECK(all.share_above(50) == 0.25);
@@ -148,3 +146,5 @@ TEST_CASE("a report as text has tables, and figures with few points as such") {
            "| 2 |  | 3 |\n\n**Plane**\n\n|  | x | y |\n"
            "| --- | --- | --- |\n| dot | 1 | 2.5 |\n\nSaid.\n");
 }
+
+} // namespace sofof::study

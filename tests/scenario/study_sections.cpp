@@ -13,8 +13,8 @@
 #include <fstream>
 #include <string_view>
 
-using namespace sofof;
-using namespace sofof::study;
+namespace sofof::study {
+
 using test::near;
 using test::scratch;
 
@@ -167,3 +167,5 @@ TEST_CASE("a sweep's folder without a table, or without a run, is refused") {
                        doctest::Contains("no sweep has come to its end"),
                        input_error);
 }
+
+} // namespace sofof::study

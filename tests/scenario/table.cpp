@@ -6,6 +6,7 @@
 #include "messages/v2x/encoded.hpp"
 #include "scenario/progress.hpp"
 #include "tests/scenario/made_up_run.hpp"
+#include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -13,8 +14,9 @@
 #include <algorithm>
 #include <sstream>
 
-using namespace sofof;
-using namespace sofof::made_up;
+namespace sofof::made_up {
+
+using test::contains;
 
 namespace {
 
@@ -28,10 +30,6 @@ metrics played() {
   play(m);
   m.finish(at(100s));
   return m;
-}
-
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
 }
 
 /// Characters on the screen of each line; all are one column wide.
@@ -221,3 +219,5 @@ TEST_CASE("whoever wants silence gets it") {
   p.clear();
   CHECK(out.str().empty());
 }
+
+} // namespace sofof::made_up

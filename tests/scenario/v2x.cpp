@@ -7,6 +7,7 @@
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/scenario/whole_run.hpp"
 #include "tests/support/capture.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +16,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <unistd.h>
@@ -33,11 +33,6 @@ const memory_sink& half_a_minute() {
       play(load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml",
                          std::vector<std::string>{"duration=30s"}));
   return records;
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream in{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
 }
 
 // Of the header that all messages begin with.
@@ -71,7 +66,7 @@ std::string capture(const std::vector<air_record>& air) {
   for (const auto& x : air)
     file.write(x);
   file.close();
-  return read(dir / "air.pcap");
+  return read_file(dir / "air.pcap");
 }
 
 } // namespace
@@ -91,7 +86,8 @@ TEST_CASE("the summary's figures of messages are those that were sent") {
   }
   r.finish(made_up::at(std::chrono::seconds{30}), 2, false);
   REQUIRE(sent.size() == 4);
-  const auto summary = nlohmann::json::parse(read(dir / "summary.json"))["v2x"];
+  const auto summary =
+      nlohmann::json::parse(read_file(dir / "summary.json"))["v2x"];
   CHECK(summary.size() == 4);
   for (const auto& [name, of_its_kind] : sent) {
     CAPTURE(name);
@@ -109,7 +105,8 @@ TEST_CASE("where nothing was sent there is no mean length") {
   const scratch dir;
   results r{dir.path(), made_up::run()};
   r.finish(made_up::start, 0, false);
-  const auto summary = nlohmann::json::parse(read(dir / "summary.json"))["v2x"];
+  const auto summary =
+      nlohmann::json::parse(read_file(dir / "summary.json"))["v2x"];
   for (const auto* name : {"cam", "cpm", "mcm_up", "mcm_down"}) {
     CHECK(summary[name]["messages"] == 0);
     CHECK(summary[name]["octets"] == 0);
@@ -217,6 +214,6 @@ TEST_CASE("what cannot be captured is refused with the option to change") {
   complaint(dir / "plain/air.pcap");
   pcap_file::check(dir / "plain");
   pcap_file::check(dir / "new");
-  CHECK(read(dir / "plain") == "text");
+  CHECK(read_file(dir / "plain") == "text");
   CHECK_FALSE(fs::exists(dir / "new"));
 }

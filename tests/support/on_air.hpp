@@ -25,13 +25,13 @@ inline datum_ptr in_ulm() {
 
 /// @returns what a vehicle sends that moves like this, at a whole millisecond.
 inline its_pdu pdu_of(const cam& own) {
-  return encoded(make_cam(own, {}, *in_ulm()));
+  return sofof::encoded(make_cam(own, {}, *in_ulm()));
 }
 
 /// @returns what a vehicle sends that sees these objects now.
 inline its_pdu pdu_of(const cam& own, const std::vector<known_object>& seen) {
-  return encoded(make_cpm_tr103562({own, own.at, seen, seen.size(), nullptr},
-                                   {}, *in_ulm()));
+  return sofof::encoded(make_cpm_tr103562(
+      {own, own.at, seen, seen.size(), nullptr}, {}, *in_ulm()));
 }
 
 /// @returns the message if it is one of this kind.

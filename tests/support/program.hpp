@@ -2,6 +2,8 @@
 // what it prints, how it ends. Whatever happens, it does not outlive its test.
 #pragma once
 
+#include "tests/support/files.hpp"
+
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -10,8 +12,6 @@
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <sys/resource.h>
@@ -30,12 +30,6 @@ inline constexpr std::chrono::seconds patience{300};
 
 /// How often a child is looked at.
 inline constexpr std::chrono::milliseconds glance{5};
-
-/// @returns all of a file; empty when there is none.
-inline std::string read_file(const std::filesystem::path& file) {
-  std::ifstream in{file, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
 
 /// Waits until something has happened outside of this process.
 /// @returns whether it has.

@@ -46,7 +46,7 @@ public:
     } else if constexpr (is_integer<T>) {
       x.value = static_cast<typename T::number>(number(T::low, T::high));
     } else if constexpr (std::is_enum_v<T>) {
-      x = static_cast<T>(number(0, names_of<T>.count - 1));
+      x = static_cast<T>(number(0, etsi::names_of<T>.count - 1));
     } else if constexpr (is_bit_string<T>) {
       for (unsigned i = 0; i < T::width; ++i)
         if (happens(0.5))

@@ -1,5 +1,6 @@
 // Good and bad phases, spikes, outages, and radios of their own.
 #include "tests/support/near.hpp"
+#include "tests/world/cycles.hpp"
 #include "world/link_direction.hpp"
 
 #include <doctest/doctest.h>
@@ -8,16 +9,18 @@
 #include <vector>
 
 using namespace sofof;
+using test::cycle;
 using test::near;
 using namespace std::chrono_literals;
 
 namespace {
 
-const random_stream seed{1, "phases"};
+const random_stream phase_seed{1, "phases"};
 
-channel draws(const channel_profile& p, station_id station = 1,
-              std::uint32_t provider = 0, std::string_view radio = {}) {
-  return {std::make_shared<channel_profile>(p), seed, station, provider, radio};
+channel phase_channel(const channel_profile& p, station_id station = 1,
+                      std::uint32_t provider = 0, std::string_view radio = {}) {
+  return {std::make_shared<channel_profile>(p), phase_seed, station, provider,
+          radio};
 }
 
 /// 10 ms for everything, but for what a test adds.
@@ -33,17 +36,13 @@ channel_profile drifting() {
   return p;
 }
 
-time_point cycle(std::uint64_t n) {
-  return time_point{n * 50ms};
-}
-
 /// g(t), as the delay of a message shows it.
 double g(const channel& of, time_point t, std::uint64_t number = 0) {
   return std::log(to_seconds(of.downlink_delay(number, t)) / 0.010) / 0.5;
 }
 
 double mean_of_products(duration lag, std::uint64_t count) {
-  const auto one = draws(drifting());
+  const auto one = phase_channel(drifting());
   double sum = 0;
   for (std::uint64_t n = 0; n < count; ++n)
     sum += g(one, cycle(n)) * g(one, cycle(n) + lag);
@@ -58,7 +57,7 @@ struct shares {
 shares late_results(const channel_profile& p, std::uint64_t count) {
   std::vector<bool> late;
   for (station_id v = 1; v <= 40; ++v) {
-    const auto one = draws(p, v);
+    const auto one = phase_channel(p, v);
     for (std::uint64_t n = 0; n < count; ++n)
       late.push_back(one.service_time(n) + one.downlink_delay(n, cycle(n))
                      > 50ms);
@@ -76,16 +75,16 @@ shares late_results(const channel_profile& p, std::uint64_t count) {
 } // namespace
 
 TEST_CASE("drift is a function of time, whatever is sent") {
-  const auto one = draws(drifting());
+  const auto one = phase_channel(drifting());
   const auto later = g(one, cycle(1000));
   g(one, cycle(3));
   CHECK(g(one, cycle(1000)) == later);
   CHECK(g(one, cycle(1000), 77) == later);
-  CHECK(draws(drifting())
+  CHECK(phase_channel(drifting())
             .network_delay({way::up, message_class::other, 5}, cycle(1000))
         == one.downlink_delay(0, cycle(1000)));
-  CHECK(g(draws(drifting(), 2), cycle(1000)) != later);
-  CHECK(g(draws(drifting(), 1, 1), cycle(1000)) != later);
+  CHECK(g(phase_channel(drifting(), 2), cycle(1000)) != later);
+  CHECK(g(phase_channel(drifting(), 1, 1), cycle(1000)) != later);
 }
 
 TEST_CASE("drift is as wide at any time, and forgets within its period") {
@@ -96,17 +95,17 @@ TEST_CASE("drift is as wide at any time, and forgets within its period") {
 }
 
 TEST_CASE("without drift, delays are those of the profile") {
-  CHECK(draws(constant()).downlink_delay(3, cycle(3)) == 10ms);
+  CHECK(phase_channel(constant()).downlink_delay(3, cycle(3)) == 10ms);
   auto p = drifting();
   p.more_delay = 5ms; // is not stretched
-  const auto stretched = draws(p).downlink_delay(3, cycle(3)) - 5ms;
-  CHECK(stretched == draws(drifting()).downlink_delay(3, cycle(3)));
+  const auto stretched = phase_channel(p).downlink_delay(3, cycle(3)) - 5ms;
+  CHECK(stretched == phase_channel(drifting()).downlink_delay(3, cycle(3)));
 }
 
 TEST_CASE("spikes come at their rate, as long as they may be") {
   auto p = constant();
   p.spikes = {0.01, 20ms, 60ms};
-  const auto one = draws(p);
+  const auto one = phase_channel(p);
   auto longer = 0;
   for (std::uint64_t n = 0; n < 100'000; ++n) {
     const auto extra = one.downlink_delay(n, cycle(n)) - 10ms;
@@ -122,7 +121,7 @@ TEST_CASE("spikes come at their rate, as long as they may be") {
 TEST_CASE("in an outage nothing gets through, before and after all does") {
   auto p = constant();
   p.outages = {{10s, 12s}, {20s, 21s}};
-  link_direction link{draws(p), way::up, nullptr};
+  link_direction link{phase_channel(p), way::up, nullptr};
   link.begin(time_point{5s});
   for (std::uint64_t n = 0; n < 800; ++n) {
     const auto since = n * 50ms;
@@ -138,12 +137,12 @@ TEST_CASE("each radio of a vehicle has stalls of its own") {
   auto p = constant();
   p.stalls = {0.5, 240ms, 295ms};
   p.burst_loss.mean_good = p.burst_loss.mean_bad = 500ms;
-  auto one = draws(p, 1, 0, "a").stalls();
-  auto beside = draws(p, 1, 1, "a").stalls();
-  auto other = draws(p, 1, 1, "b").stalls();
-  auto nameless = draws(p, 1, 1).stalls();
-  auto fades = draws(p, 1, 0, "a").fades();
-  auto other_fades = draws(p, 1, 0, "b").fades();
+  auto one = phase_channel(p, 1, 0, "a").stalls();
+  auto beside = phase_channel(p, 1, 1, "a").stalls();
+  auto other = phase_channel(p, 1, 1, "b").stalls();
+  auto nameless = phase_channel(p, 1, 1).stalls();
+  auto fades = phase_channel(p, 1, 0, "a").fades();
+  auto other_fades = phase_channel(p, 1, 0, "b").fades();
   auto apart = 0, apart_nameless = 0, fades_apart = 0, both = 0;
   for (auto t = time_point{}; t < time_point{1000s}; t += 50ms) {
     const auto stalled = one.at(t).has_value();

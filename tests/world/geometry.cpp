@@ -10,11 +10,10 @@
 #include <stdexcept>
 
 using namespace sofof;
+using std::numbers::pi;
 using test::dice;
 
 namespace {
-
-constexpr auto pi = std::numbers::pi;
 
 const polygon square{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}};
 const polygon bay{{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}};

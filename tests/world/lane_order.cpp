@@ -1,21 +1,13 @@
 // Who is ahead of whom.
 #include "world/lane_order.hpp"
 
-#include "tests/support/toy_drivers.hpp"
 #include "tests/support/toy_streets.hpp"
+#include "tests/world/toy_user.hpp"
 
 #include <doctest/doctest.h>
 
-using namespace sofof;
-using namespace sofof::toy;
-
+namespace sofof::toy {
 namespace {
-
-constexpr auto front_m = 4.0175, rear_m = 1.0825;
-
-road_user user(station_id station, route_ptr on, double s_m) {
-  return make_rider(station, std::move(on), s_m).user;
-}
 
 std::optional<leader> lead_of(station_id who, const road_map& map,
                               const std::vector<road_user>& users) {
@@ -181,3 +173,5 @@ TEST_CASE("a car that comes into a zone does not lead from behind the line") {
   REQUIRE(lead);
   CHECK(lead->rear_m > connector_end_m(*east) - 14 + front_m);
 }
+
+} // namespace sofof::toy

@@ -2,6 +2,7 @@
 #include "world/link_direction.hpp"
 
 #include "tests/support/near.hpp"
+#include "tests/world/cycles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using test::cycle;
 using test::near;
 using namespace std::chrono_literals;
 
@@ -16,11 +18,12 @@ namespace {
 
 using kind = message_class;
 
-const random_stream seed{1, "link"};
+const random_stream link_seed{1, "link"};
 
-channel draws(const channel_profile& profile, station_id station = 1,
-              std::uint32_t provider = 0) {
-  return {std::make_shared<channel_profile>(profile), seed, station, provider};
+channel link_channel(const channel_profile& profile, station_id station = 1,
+                     std::uint32_t provider = 0) {
+  return {std::make_shared<channel_profile>(profile), link_seed, station,
+          provider};
 }
 
 channel_profile named(std::string_view name) {
@@ -34,10 +37,6 @@ channel_profile measured() {
   return p;
 }
 
-time_point cycle(std::uint64_t n) {
-  return time_point{n * 50ms};
-}
-
 // Arrivals of results 0, 1, 2, ... at 20 Hz.
 std::vector<std::optional<time_point>> results(link_direction link,
                                                std::uint64_t count) {
@@ -49,7 +48,7 @@ std::vector<std::optional<time_point>> results(link_direction link,
 
 double share_lost(const channel_profile& p, std::uint64_t count) {
   double lost = 0;
-  for (const auto& t : results({draws(p), way::down, nullptr}, count))
+  for (const auto& t : results({link_channel(p), way::down, nullptr}, count))
     lost += !t;
   return lost / static_cast<double>(count);
 }
@@ -57,7 +56,7 @@ double share_lost(const channel_profile& p, std::uint64_t count) {
 } // namespace
 
 TEST_CASE("an ideal link takes no time") {
-  link_direction link{draws(named("ideal")), way::up, nullptr};
+  link_direction link{link_channel(named("ideal")), way::up, nullptr};
   CHECK(link.arrival(time_point{3ms}, kind::other, 0) == time_point{3ms});
   CHECK(link.arrival(time_point{3ms}, kind::result, 7) == time_point{3ms});
 }
@@ -66,7 +65,7 @@ TEST_CASE("no message overtakes another") {
   auto p = named("paper-5g");
   p.network = delay_law::uniform(0ms, 200ms);
   for (const auto direction : {way::up, way::down}) {
-    link_direction link{draws(p), direction, nullptr};
+    link_direction link{link_channel(p), direction, nullptr};
     auto last = time_point{};
     for (std::uint64_t n = 0; n < 2000; ++n) {
       const auto sent = time_point{n * 10ms};
@@ -80,14 +79,15 @@ TEST_CASE("no message overtakes another") {
 
 TEST_CASE("other messages do not shift the noise of results") {
   const auto p = named("paper-sim");
-  link_direction quiet{draws(p), way::down, nullptr};
-  link_direction busy{draws(p), way::down, nullptr};
+  link_direction quiet{link_channel(p), way::down, nullptr};
+  link_direction busy{link_channel(p), way::down, nullptr};
   std::uint64_t others = 0;
   for (std::uint64_t n = 0; n < 1000; ++n) {
     // Early enough not to hold the result up: the delay is below 31.5 ms.
     for (std::uint64_t i = 0; n > 0 && i < n % 3; ++i)
       busy.arrival(cycle(n) - 32ms, kind::other, others++);
-    const auto undisturbed = cycle(n) + draws(p).downlink_delay(n, cycle(n));
+    const auto undisturbed =
+        cycle(n) + link_channel(p).downlink_delay(n, cycle(n));
     CHECK(quiet.arrival(cycle(n), kind::result, n) == undisturbed);
     CHECK(busy.arrival(cycle(n), kind::result, n) == undisturbed);
   }
@@ -95,8 +95,8 @@ TEST_CASE("other messages do not shift the noise of results") {
 
 TEST_CASE("results that are not sent do not shift those that are") {
   const auto all =
-      results({draws(named("cicv5g-n78")), way::down, nullptr}, 20'000);
-  link_direction half{draws(named("cicv5g-n78")), way::down, nullptr};
+      results({link_channel(named("cicv5g-n78")), way::down, nullptr}, 20'000);
+  link_direction half{link_channel(named("cicv5g-n78")), way::down, nullptr};
   auto same = 0;
   for (std::uint64_t n = 0; n < all.size(); n += 2)
     same += half.arrival(cycle(n), kind::result, n) == all[n];
@@ -106,7 +106,7 @@ TEST_CASE("results that are not sent do not shift those that are") {
 TEST_CASE("vehicles, providers, directions and classes draw for themselves") {
   const auto p = named("cicv5g-n8");
   const auto delay = [&](station_id s, std::uint32_t provider, way w, kind k) {
-    return draws(p, s, provider).network_delay({w, k, 5}, cycle(5));
+    return link_channel(p, s, provider).network_delay({w, k, 5}, cycle(5));
   };
   const auto one = delay(1, 0, way::down, kind::result);
   CHECK(one == delay(1, 0, way::down, kind::result));
@@ -119,7 +119,7 @@ TEST_CASE("vehicles, providers, directions and classes draw for themselves") {
 TEST_CASE("what is sent in a stall arrives together after its end") {
   auto p = named("cicv5g-n78");
   p.stalls.rate_hz = 0.1;
-  const auto link = draws(p);
+  const auto link = link_channel(p);
   auto stalls = link.stalls();
   const auto arrivals = results({link, way::down, nullptr}, 20'000);
   auto held = 0;
@@ -140,9 +140,9 @@ TEST_CASE("what is sent in a stall arrives together after its end") {
 
 TEST_CASE("a stall holds up both directions and all providers of a vehicle") {
   const auto p = named("cicv5g-n78");
-  auto one = draws(p, 1, 0).stalls();
-  auto other_provider = draws(p, 1, 1).stalls();
-  auto other_vehicle = draws(p, 2, 0).stalls();
+  auto one = link_channel(p, 1, 0).stalls();
+  auto other_provider = link_channel(p, 1, 1).stalls();
+  auto other_vehicle = link_channel(p, 2, 0).stalls();
   auto apart = 0;
   for (auto t = time_point{}; t < time_point{1000s}; t += 50ms) {
     const auto stalled = one.at(t).has_value();
@@ -155,16 +155,16 @@ TEST_CASE("a stall holds up both directions and all providers of a vehicle") {
 TEST_CASE("stalls without time in between are refused") {
   auto p = named("ideal");
   p.stalls = {4, 240ms, 295ms};
-  CHECK_THROWS_AS(draws(p).stalls(), std::invalid_argument);
+  CHECK_THROWS_AS(link_channel(p).stalls(), std::invalid_argument);
 }
 
 TEST_CASE("messages of all vehicles queue for the radio cell") {
   auto p = named("ideal");
   p.airtime = delay_law::uniform(2ms, 2ms);
   const auto cell = std::make_shared<fifo_servers>(1);
-  link_direction a{draws(p, 1), way::up, cell};
-  link_direction b{draws(p, 2), way::up, cell};
-  link_direction elsewhere{draws(p, 3), way::up, nullptr};
+  link_direction a{link_channel(p, 1), way::up, cell};
+  link_direction b{link_channel(p, 2), way::up, cell};
+  link_direction elsewhere{link_channel(p, 3), way::up, nullptr};
   CHECK(a.arrival(time_point{0ms}, kind::other, 0) == time_point{2ms});
   CHECK(b.arrival(time_point{1ms}, kind::other, 0) == time_point{4ms});
   CHECK(elsewhere.arrival(time_point{1ms}, kind::other, 0) == time_point{3ms});
@@ -186,7 +186,7 @@ TEST_CASE("burst loss takes its share, in bursts") {
   auto p = named("ideal");
   p.burst_loss = {9s, 1s, 0.01, 0.8};
   constexpr auto count = 400'000;
-  const auto arrivals = results({draws(p), way::down, nullptr}, count);
+  const auto arrivals = results({link_channel(p), way::down, nullptr}, count);
   double lost = 0;
   double lost_twice = 0;
   for (auto n = 1; n < count; ++n) {
@@ -203,8 +203,8 @@ TEST_CASE("loss does not shift the delays of what arrives") {
   const auto p = named("paper-5g");
   auto lossy = p;
   lossy.loss = 0.3;
-  const auto all = results({draws(p), way::down, nullptr}, 50'000);
-  const auto some = results({draws(lossy), way::down, nullptr}, 50'000);
+  const auto all = results({link_channel(p), way::down, nullptr}, 50'000);
+  const auto some = results({link_channel(lossy), way::down, nullptr}, 50'000);
   double arrived = 0;
   double delay_ms = 0;
   for (std::size_t n = 0; n < all.size(); ++n)
@@ -217,13 +217,13 @@ TEST_CASE("loss does not shift the delays of what arrives") {
 }
 
 TEST_CASE("a replayed result takes the measured round trip, a request none") {
-  link_direction down{draws(measured()), way::down, nullptr};
-  link_direction up{draws(measured()), way::up, nullptr};
+  link_direction down{link_channel(measured()), way::down, nullptr};
+  link_direction up{link_channel(measured()), way::up, nullptr};
   CHECK(down.arrival(time_point{0s}, kind::result, 0) == time_point{20ms});
   CHECK(down.arrival(time_point{1s}, kind::result, 1) == time_point{1030ms});
   CHECK(down.arrival(time_point{2s}, kind::result, 2) == time_point{2250ms});
   CHECK(up.arrival(time_point{2s}, kind::other, 0) == time_point{2s});
-  CHECK(draws(measured()).service_time(0) == 0ms);
+  CHECK(link_channel(measured()).service_time(0) == 0ms);
 }
 
 TEST_CASE("vehicles replay a trace from places of their own if they may") {
@@ -231,7 +231,7 @@ TEST_CASE("vehicles replay a trace from places of their own if they may") {
   const auto alike = [&] {
     auto same = 0;
     for (station_id s = 1; s <= 100; ++s)
-      same += draws(p, s).downlink_delay(0, time_point{}) == 20ms;
+      same += link_channel(p, s).downlink_delay(0, time_point{}) == 20ms;
     return same;
   };
   CHECK(alike() == 100);
@@ -240,7 +240,7 @@ TEST_CASE("vehicles replay a trace from places of their own if they may") {
 }
 
 TEST_CASE("a trace without samples cannot be replayed") {
-  CHECK_THROWS_AS(draws(named("trace")), std::invalid_argument);
+  CHECK_THROWS_AS(link_channel(named("trace")), std::invalid_argument);
 }
 
 TEST_CASE("a profile is found by its name alone") {

@@ -10,11 +10,10 @@
 #include <stdexcept>
 
 using namespace sofof;
+using std::numbers::pi;
 using test::dice;
 
 namespace {
-
-constexpr auto pi = std::numbers::pi;
 
 std::vector<point> circle_points(double radius_m, int count) {
   std::vector<point> points;

@@ -17,7 +17,7 @@ using test::near;
 
 namespace {
 
-constexpr std::uint64_t draws = 200'000;
+constexpr std::uint64_t draw_count = 200'000;
 
 struct moments {
   double mean = 0;
@@ -28,30 +28,30 @@ template <class Draw>
 moments moments_of(Draw draw) {
   double sum = 0;
   double squares = 0;
-  for (std::uint64_t n = 0; n < draws; ++n) {
+  for (std::uint64_t n = 0; n < draw_count; ++n) {
     const double x = draw(n);
     sum += x;
     squares += x * x;
   }
-  const auto mean = sum / draws;
-  return {mean, std::sqrt(squares / draws - mean * mean)};
+  const auto mean = sum / draw_count;
+  return {mean, std::sqrt(squares / draw_count - mean * mean)};
 }
 
 template <class Draw>
 double share_below(double limit, Draw draw) {
   double below = 0;
-  for (std::uint64_t n = 0; n < draws; ++n)
+  for (std::uint64_t n = 0; n < draw_count; ++n)
     below += draw(n) < limit;
-  return below / draws;
+  return below / draw_count;
 }
 
 // Of numbers that are uniform in (0, 1); 0 ± 0.0022 (one sd) when independent.
 template <class A, class B>
 double correlation(A a, B b) {
   double sum = 0;
-  for (std::uint64_t n = 0; n < draws; ++n)
+  for (std::uint64_t n = 0; n < draw_count; ++n)
     sum += (a(n) - 0.5) * (b(n) - 0.5);
-  return sum / draws * 12;
+  return sum / draw_count * 12;
 }
 
 constexpr auto noise = 0.01; // over 4 standard deviations
@@ -104,7 +104,7 @@ TEST_CASE("a flipped bit of the counter flips half of the bits drawn") {
 TEST_CASE("uniform draws fill their interval evenly and avoid its ends") {
   const random_stream s{1, "x"};
   std::array<double, 100> cells{};
-  for (std::uint64_t n = 0; n < draws; ++n) {
+  for (std::uint64_t n = 0; n < draw_count; ++n) {
     const auto u = s.uniform(n);
     REQUIRE(u > 0);
     REQUIRE(u < 1);
@@ -112,7 +112,8 @@ TEST_CASE("uniform draws fill their interval evenly and avoid its ends") {
   }
   double chi_squared = 0;
   for (const auto count : cells)
-    chi_squared += std::pow(count - draws / 100.0, 2) / (draws / 100.0);
+    chi_squared +=
+        std::pow(count - draw_count / 100.0, 2) / (draw_count / 100.0);
   CHECK(chi_squared > 55); // 99 degrees of freedom: 0.01 % on either side
   CHECK(chi_squared < 157);
   CHECK(s.uniform(-2, 6, 5) == -2 + 8 * s.uniform(5));

@@ -14,9 +14,7 @@
 #include <map>
 #include <set>
 
-using namespace sofof;
-using namespace sofof::toy;
-
+namespace sofof::toy {
 namespace {
 
 constexpr auto minute = 1200; // steps
@@ -414,3 +412,5 @@ TEST_CASE("the order of the reports changes nothing") {
     CHECK(a.riders[i].seen.back() == b.riders[i].seen.back());
   }
 }
+
+} // namespace sofof::toy

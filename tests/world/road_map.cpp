@@ -18,7 +18,7 @@ lane make_lane(std::string name, std::vector<point> centre,
 
 /// A street from west to east, one back 3.5 m beside it, and one from the
 /// south that meets both at x = 50; from there one can turn right.
-road_map village() {
+road_map village_map() {
   auto east_b = make_lane("east_b", {{40, 0}, {60, 0}}, {"east_c"});
   auto turn =
       make_lane("turn", {{50, -10}, {51, -5}, {54, -1.5}, {60, 0}}, {"east_c"});
@@ -50,7 +50,7 @@ using names = std::vector<std::string>;
 } // namespace
 
 TEST_CASE("a street across another is in conflict with it where they cross") {
-  const auto map = village();
+  const auto map = village_map();
   const auto found = between(map, "west", "cross");
   REQUIRE(found.size() == 1);
   const auto& c = found[0];
@@ -69,7 +69,7 @@ TEST_CASE("a street across another is in conflict with it where they cross") {
 }
 
 TEST_CASE("lanes that end in the same lane merge to their very end") {
-  const auto map = village();
+  const auto map = village_map();
   const auto found = between(map, "east_b", "turn");
   REQUIRE(found.size() == 1);
   CHECK(found[0].how == conflict::kind::merge);
@@ -78,7 +78,7 @@ TEST_CASE("lanes that end in the same lane merge to their very end") {
 }
 
 TEST_CASE("lanes that begin in the same lane diverge from their beginning") {
-  const auto map = village();
+  const auto map = village_map();
   const auto found = between(map, "cross", "turn");
   REQUIRE(found.size() == 1);
   CHECK(found[0].how == conflict::kind::diverge);
@@ -88,7 +88,7 @@ TEST_CASE("lanes that begin in the same lane diverge from their beginning") {
 }
 
 TEST_CASE("lanes side by side, and lanes in a row, are not in conflict") {
-  const auto map = village();
+  const auto map = village_map();
   CHECK(between(map, "east_a", "west").empty());
   CHECK(between(map, "east_b", "west").empty());
   CHECK(between(map, "east_a", "east_b").empty());
@@ -108,7 +108,7 @@ TEST_CASE("lanes that cross twice have two conflicts") {
 }
 
 TEST_CASE("every pair of points that close belongs to a conflict") {
-  const auto map = village();
+  const auto map = village_map();
   const auto lanes = map.lanes();
   for (std::size_t a = 0; a < lanes.size(); ++a)
     for (auto b = a + 1; b < lanes.size(); ++b) {
@@ -155,7 +155,7 @@ TEST_CASE("a refusal names the lane") {
   CHECK_THROWS_WITH_AS(
       (road_map{"m", {}, {make_lane("a", {{0, 0}, {9, 0}}, {"b"})}}),
       "Lane 'a' leads to 'b', which is not on the map.", std::invalid_argument);
-  const auto map = village();
+  const auto map = village_map();
   CHECK_THROWS_WITH_AS(map.make_route("r", names{"east_a", "nowhere"}, false),
                        "Route 'r': lane 'nowhere' is not on the map.",
                        std::invalid_argument);
@@ -168,7 +168,7 @@ TEST_CASE("a refusal names the lane") {
 }
 
 TEST_CASE("a route knows its lanes, limits and widths by arc length") {
-  const auto map = village();
+  const auto map = village_map();
   const auto way =
       map.make_route("straight on", names{"south", "cross"}, false);
   CHECK(way->length_m() == doctest::Approx(75));
@@ -211,7 +211,7 @@ TEST_CASE("on a closed route, laps do not matter") {
 }
 
 TEST_CASE("waypoints go on to the end of an open route and stop there") {
-  const auto map = village();
+  const auto map = village_map();
   const auto way = map.make_route("east", names{"east_a", "east_b"}, false);
   const auto ahead = way->waypoints(41, 300, 4);
   REQUIRE(ahead.size() == 6);
@@ -222,7 +222,7 @@ TEST_CASE("waypoints go on to the end of an open route and stop there") {
 }
 
 TEST_CASE("near a lane means within the tolerance of its centre line") {
-  const auto map = village();
+  const auto map = village_map();
   const auto is_near = [](const road_map& m, point p, double tolerance_m) {
     return m.near_lanes({&p, 1}, tolerance_m);
   };
@@ -236,7 +236,7 @@ TEST_CASE("near a lane means within the tolerance of its centre line") {
 }
 
 TEST_CASE("a way is near lanes when each of its points is") {
-  const auto map = village();
+  const auto map = village_map();
   const auto way =
       map.make_route("way", names{"south", "turn", "east_c"}, false)
           ->waypoints(0, 300, 5);

@@ -1,8 +1,8 @@
 // Which route somebody follows who only tells its waypoints.
 #include "world/route_finder.hpp"
 
-#include "tests/support/map_file.hpp"
 #include "tests/support/toy_streets.hpp"
+#include "tests/world/lehr.hpp"
 #include "world/street_grid.hpp"
 
 #include <doctest/doctest.h>
@@ -12,14 +12,9 @@
 #include <numbers>
 
 using namespace sofof;
+using test::lehr;
 
 namespace {
-
-const auto& lehr() {
-  static const auto file =
-      test::read_map(SOFOF_SOURCE_DIR "/config/maps/ulm_lehr.toml");
-  return file;
-}
 
 /// As they are after the way over the air: on whole centimetres.
 std::vector<point> told(const route& way, double s_m, double ahead_m = 200,

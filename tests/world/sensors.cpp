@@ -10,10 +10,9 @@
 #include <numbers>
 
 using namespace sofof;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A sensor at the origin that looks east and makes no errors.
 sensor exact() {
@@ -23,7 +22,7 @@ sensor exact() {
 }
 
 /// A car of 4 m by 2 m.
-road_body car(station_id id, point at, double heading_rad = 0) {
+road_body small_car(station_id id, point at, double heading_rad = 0) {
   return {id, {at, heading_rad, 4, 2}, 10, -1};
 }
 
@@ -67,56 +66,56 @@ TEST_CASE("without noise a body is seen as it is") {
 TEST_CASE("the range reaches to the middle of a body") {
   auto s = exact();
   s.can.range_m = 50;
-  CHECK(sees(s, {car(1, {50, 0})}));
-  CHECK_FALSE(sees(s, {car(1, {50.01, 0})}));
-  CHECK(sees(s, {car(1, {-30, 40})}));
-  CHECK_FALSE(sees(s, {car(1, {-30.01, -40})}));
+  CHECK(sees(s, {small_car(1, {50, 0})}));
+  CHECK_FALSE(sees(s, {small_car(1, {50.01, 0})}));
+  CHECK(sees(s, {small_car(1, {-30, 40})}));
+  CHECK_FALSE(sees(s, {small_car(1, {-30.01, -40})}));
 }
 
 TEST_CASE("a sensor may stand anywhere on the map") {
   auto s = exact();
   for (const auto at : {point{1e5, -1e5}, point{-49.9, 49.9}, point{0, -50}}) {
     s.at = at;
-    CHECK(sees(s, {car(1, at + point{99, 0})}));
-    CHECK(sees(s, {car(1, at + point{0, -99})}));
-    CHECK_FALSE(sees(s, {car(1, at + point{-71, 71})}));
+    CHECK(sees(s, {small_car(1, at + point{99, 0})}));
+    CHECK(sees(s, {small_car(1, at + point{0, -99})}));
+    CHECK_FALSE(sees(s, {small_car(1, at + point{-71, 71})}));
   }
 }
 
 TEST_CASE("the field of view lies round the heading") {
   auto s = exact();
   s.can.field_of_view_deg = 90;
-  CHECK(sees(s, {car(1, {20, 19})}));
-  CHECK(sees(s, {car(1, {20, -19})}));
-  CHECK_FALSE(sees(s, {car(1, {20, 21})}));
-  CHECK_FALSE(sees(s, {car(1, {-20, 0})}));
+  CHECK(sees(s, {small_car(1, {20, 19})}));
+  CHECK(sees(s, {small_car(1, {20, -19})}));
+  CHECK_FALSE(sees(s, {small_car(1, {20, 21})}));
+  CHECK_FALSE(sees(s, {small_car(1, {-20, 0})}));
   s.heading_rad = pi; // over the seam of the angles
-  CHECK(sees(s, {car(1, {-20, 19})}));
-  CHECK(sees(s, {car(1, {-20, -19})}));
-  CHECK_FALSE(sees(s, {car(1, {20, 0})}));
+  CHECK(sees(s, {small_car(1, {-20, 19})}));
+  CHECK(sees(s, {small_car(1, {-20, -19})}));
+  CHECK_FALSE(sees(s, {small_car(1, {20, 0})}));
 }
 
 TEST_CASE("a building hides what is behind it, and nothing else") {
   const auto s = exact();
   const std::vector buildings{house({20, 0}, 5)};
-  CHECK_FALSE(sees(s, {car(1, {40, 0})}, buildings));
-  CHECK(sees(s, {car(1, {40, 0})}));
-  CHECK(sees(s, {car(1, {10, 0})}, buildings));
-  CHECK(sees(s, {car(1, {40, 20})}, buildings));
-  CHECK(sees(s, {car(1, {-40, 0})}, buildings));
+  CHECK_FALSE(sees(s, {small_car(1, {40, 0})}, buildings));
+  CHECK(sees(s, {small_car(1, {40, 0})}));
+  CHECK(sees(s, {small_car(1, {10, 0})}, buildings));
+  CHECK(sees(s, {small_car(1, {40, 20})}, buildings));
+  CHECK(sees(s, {small_car(1, {-40, 0})}, buildings));
 }
 
 TEST_CASE("one corner round the house is enough to be seen") {
   const auto s = exact();
   // In its shadow |y| < x / 3; the car's rear corner is at x = 29.
   const std::vector buildings{house({20, 0}, 5)};
-  CHECK_FALSE(sees(s, {car(1, {30, 7.6}, pi / 2)}, buildings));
-  CHECK(sees(s, {car(1, {30, 7.7}, pi / 2)}, buildings));
+  CHECK_FALSE(sees(s, {small_car(1, {30, 7.6}, pi / 2)}, buildings));
+  CHECK(sees(s, {small_car(1, {30, 7.7}, pi / 2)}, buildings));
 }
 
 TEST_CASE("a gap that shows only the middle is enough, too") {
   const auto s = exact();
-  const auto across = car(1, {30, 0}, pi / 2);
+  const auto across = small_car(1, {30, 0}, pi / 2);
   CHECK(sees(s, {across}, {house({15, 5.5}, 5), house({15, -5.5}, 5)}));
   CHECK_FALSE(sees(s, {across}, {house({15, 5.5}, 5), house({15, -4.5}, 5)}));
 }
@@ -124,20 +123,21 @@ TEST_CASE("a gap that shows only the middle is enough, too") {
 TEST_CASE("a house whose middle is far away hides too") {
   auto s = exact();
   s.can.range_m = 30;
-  CHECK_FALSE(sees(s, {car(1, {25, 0})}, {house({1015, 0}, 1000)}));
-  CHECK(sees(s, {car(1, {25, 0})}, {house({1040, 0}, 1000)}));
+  CHECK_FALSE(sees(s, {small_car(1, {25, 0})}, {house({1015, 0}, 1000)}));
+  CHECK(sees(s, {small_car(1, {25, 0})}, {house({1040, 0}, 1000)}));
 }
 
 TEST_CASE("a house hides along its diagonal, corner to corner") {
-  CHECK_FALSE(sees(exact(), {car(1, {40, 40}, pi / 4)}, {house({20, 20}, 5)}));
+  CHECK_FALSE(
+      sees(exact(), {small_car(1, {40, 40}, pi / 4)}, {house({20, 20}, 5)}));
 }
 
 TEST_CASE("a car hides the one behind it as long as it covers all of it") {
   const auto s = exact();
-  CHECK(places(s, {car(1, {30, 0}), car(2, {10, 0})})
+  CHECK(places(s, {small_car(1, {30, 0}), small_car(2, {10, 0})})
         == std::vector{point{10, 0}});
-  CHECK(sees(s, {car(1, {30, 3}), car(2, {10, 0})})); // looks out
-  CHECK(sees(s, {car(1, {5, 0}), car(2, {15, 0})}));
+  CHECK(sees(s, {small_car(1, {30, 3}), small_car(2, {10, 0})})); // looks out
+  CHECK(sees(s, {small_car(1, {5, 0}), small_car(2, {15, 0})}));
 }
 
 TEST_CASE("a lorry whose middle is out of range hides too") {
@@ -145,51 +145,55 @@ TEST_CASE("a lorry whose middle is out of range hides too") {
   s.can.range_m = 20;
   const road_body lorry{2, {{15, 12}, pi / 2, 30, 2.5}, 0, 0};
   REQUIRE(distance_m({}, lorry.box.centre) < 20);
-  CHECK_FALSE(sees(s, {car(1, {19, 0}), lorry}));
+  CHECK_FALSE(sees(s, {small_car(1, {19, 0}), lorry}));
   const road_body longer{2, {{15, 22}, pi / 2, 50, 2.5}, 0, 0};
   REQUIRE(distance_m({}, longer.box.centre) > 20);
-  CHECK_FALSE(sees(s, {car(1, {19, 0}), longer}));
+  CHECK_FALSE(sees(s, {small_car(1, {19, 0}), longer}));
 }
 
 TEST_CASE("a sensor can be told to look through everything") {
   auto s = exact();
   s.can.occlusion = false;
-  CHECK(
-      places(s, {car(1, {30, 0}), car(2, {10, 0})}, {house({20, 0}, 5)}).size()
-      == 2);
+  CHECK(places(s, {small_car(1, {30, 0}), small_car(2, {10, 0})},
+               {house({20, 0}, 5)})
+            .size()
+        == 2);
 }
 
 TEST_CASE("what carries the sensor is not seen, and hides nothing") {
   auto s = exact();
   s.carrier = 9;
-  const auto seen = places(s, {car(9, {0, 0}), car(1, {20, 0})});
+  const auto seen = places(s, {small_car(9, {0, 0}), small_car(1, {20, 0})});
   CHECK(seen == std::vector{point{20, 0}});
 }
 
 TEST_CASE("a sensor on a mast sees who passes below, and past it") {
-  CHECK(places(exact(), {car(1, {20, 0}), car(2, {0.5, 0})})
+  CHECK(places(exact(), {small_car(1, {20, 0}), small_car(2, {0.5, 0})})
         == std::vector{point{0.5, 0}, point{20, 0}});
-  CHECK(sees(exact(), {car(1, {20, 0})}, {house({0, 0}, 5)})); // on a roof
+  CHECK(
+      sees(exact(), {small_car(1, {20, 0})}, {house({0, 0}, 5)})); // on a roof
 }
 
 TEST_CASE("the nearest comes first, and of two equally far the lower id") {
   CHECK(
-      places(exact(), {car(4, {0, 30}), car(3, {0, -20}), car(2, {-20, 0}),
-                       car(1, {10, 0})})
+      places(exact(), {small_car(4, {0, 30}), small_car(3, {0, -20}),
+                       small_car(2, {-20, 0}), small_car(1, {10, 0})})
       == std::vector{point{10, 0}, point{-20, 0}, point{0, -20}, point{0, 30}});
 }
 
 TEST_CASE("whom one sees does not depend on the order of the bodies") {
   const auto s = exact();
-  CHECK(places(s, {car(1, {10, 0}), car(2, {30, 1}), car(3, {0, 80})})
-        == places(s, {car(3, {0, 80}), car(2, {30, 1}), car(1, {10, 0})}));
+  CHECK(places(s, {small_car(1, {10, 0}), small_car(2, {30, 1}),
+                   small_car(3, {0, 80})})
+        == places(s, {small_car(3, {0, 80}), small_car(2, {30, 1}),
+                      small_car(1, {10, 0})}));
 }
 
 TEST_CASE("who has gone is seen no more") {
   scene all;
-  all.place(std::vector{car(1, {20, 0}), car(2, {0, 20})});
+  all.place(std::vector{small_car(1, {20, 0}), small_car(2, {0, 20})});
   REQUIRE(all.seen_by(exact(), {}).size() == 2);
-  all.place(std::vector{car(2, {0, 20})});
+  all.place(std::vector{small_car(2, {0, 20})});
   const auto seen = all.seen_by(exact(), {});
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].centre == point{0, 20});
@@ -202,7 +206,7 @@ TEST_CASE("noise has the spread that was asked for, and no bias") {
   s.can.speed_noise_mps = 0.2;
   s.can.heading_noise_rad = 0.05;
   scene all;
-  all.place(std::vector{car(1, {20, 5}, pi)});
+  all.place(std::vector{small_car(1, {20, 5}, pi)});
   constexpr auto count = 20000;
   double sums[4] = {}, squares[4] = {}, mixed = 0;
   for (int k = 0; k < count; ++k) {
@@ -234,7 +238,7 @@ TEST_CASE("noise is the same again, and another for others and later") {
                       std::vector<road_body> others = {}) {
     sensor s;
     s.noise = random_stream{seed, "sensors"}.part(100);
-    others.push_back(car(who, {20, 0}));
+    others.push_back(small_car(who, {20, 0}));
     scene all;
     all.place(others);
     return all.seen_by(s, time_point{std::chrono::milliseconds{ms}})
@@ -242,7 +246,8 @@ TEST_CASE("noise is the same again, and another for others and later") {
         .centre;
   };
   CHECK(see(1, 1, 50) == see(1, 1, 50));
-  CHECK(see(1, 1, 50) == see(1, 1, 50, {car(2, {0, 30}), car(3, {40, 9})}));
+  CHECK(see(1, 1, 50)
+        == see(1, 1, 50, {small_car(2, {0, 30}), small_car(3, {40, 9})}));
   CHECK_FALSE(see(1, 1, 50) == see(2, 1, 50));
   CHECK_FALSE(see(1, 1, 50) == see(1, 2, 50));
   CHECK_FALSE(see(1, 1, 50) == see(1, 1, 100));
@@ -253,9 +258,9 @@ TEST_CASE("a sensor sees what a slow look at all pairs sees") {
   std::vector<road_body> bodies;
   std::vector<building> buildings;
   for (station_id i = 1; i <= 60; ++i)
-    bodies.push_back(
-        car(i, {draw.uniform(-120, 120, i, 0), draw.uniform(-120, 120, i, 1)},
-            draw.uniform(-pi, pi, i, 2)));
+    bodies.push_back(small_car(
+        i, {draw.uniform(-120, 120, i, 0), draw.uniform(-120, 120, i, 1)},
+        draw.uniform(-pi, pi, i, 2)));
   for (std::uint64_t i = 0; i < 12; ++i)
     buildings.push_back(
         house({draw.uniform(-120, 120, i, 3), draw.uniform(-120, 120, i, 4)},

@@ -18,11 +18,11 @@ using test::near;
 
 namespace {
 
-constexpr auto measured = "pub_time(ms) sub_time(ms) delay(ms) utmX(m)\n"
-                          "1721032372703 1721032372729 26 328977.51\n"
-                          "1721032372758 1721032372779 21 328977.23 \n"
-                          "\n"
-                          "1721032372813 1721032372829 16 328976.90\r\n";
+constexpr auto measured_trace = "pub_time(ms) sub_time(ms) delay(ms) utmX(m)\n"
+                                "1721032372703 1721032372729 26 328977.51\n"
+                                "1721032372758 1721032372779 21 328977.23 \n"
+                                "\n"
+                                "1721032372813 1721032372829 16 328976.90\r\n";
 
 void check_refusal(std::string_view text, const char* sentence) {
   CHECK_THROWS_WITH_AS(parse_trace(text), sentence, std::invalid_argument);
@@ -31,7 +31,7 @@ void check_refusal(std::string_view text, const char* sentence) {
 } // namespace
 
 TEST_CASE("a measured file becomes round trips since its first message") {
-  const auto samples = parse_trace(measured);
+  const auto samples = parse_trace(measured_trace);
   REQUIRE(samples.size() == 3);
   CHECK(samples[0].at_s == 0);
   CHECK(samples[0].delay_s == Approx(0.026));

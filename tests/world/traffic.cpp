@@ -1,26 +1,15 @@
 // Who is told to wait, who is listed, and who touches whom.
 #include "world/traffic.hpp"
 
-#include "tests/support/toy_drivers.hpp"
 #include "tests/support/toy_streets.hpp"
+#include "tests/world/toy_user.hpp"
 #include "world/random.hpp"
 
 #include <doctest/doctest.h>
 
 #include <stdexcept>
 
-using namespace sofof;
-using namespace sofof::toy;
-
-namespace {
-
-constexpr auto front_m = 4.0175;
-
-road_user user(station_id station, route_ptr on, double s_m) {
-  return make_rider(station, std::move(on), s_m).user;
-}
-
-} // namespace
+namespace sofof::toy {
 
 TEST_CASE("who has just come must not move before the first update") {
   const auto map = cross_roads();
@@ -144,3 +133,5 @@ TEST_CASE("what stands on the road can be hit, but is no road user") {
   all.update({});
   CHECK(all.collisions().empty());
 }
+
+} // namespace sofof::toy

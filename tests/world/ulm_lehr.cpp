@@ -1,6 +1,6 @@
 // The map of Ulm-Lehr: what it must be like to drive, and how close it is to
 // the survey.
-#include "tests/support/map_file.hpp"
+#include "tests/world/lehr.hpp"
 #include "world/road_map.hpp"
 
 #include <doctest/doctest.h>
@@ -12,14 +12,9 @@
 #include <sstream>
 
 using namespace sofof;
+using test::lehr;
 
 namespace {
-
-const auto& lehr() {
-  static const auto file =
-      test::read_map(SOFOF_SOURCE_DIR "/config/maps/ulm_lehr.toml");
-  return file;
-}
 
 const std::vector<std::string> round_trips{"round_trip", "round_trip_opposite"};
 

@@ -1,0 +1,18 @@
+// Solvers on the heap; their workspaces are too large for a stack.
+#pragma once
+
+#include "planners/path_ocp.hpp"
+#include "planners/velocity_ocp.hpp"
+
+#include <memory>
+
+namespace sofof::test {
+
+inline std::unique_ptr<path_ocp> path_solver() {
+  return std::make_unique<path_ocp>();
+}
+inline std::unique_ptr<velocity_ocp> speed_solver() {
+  return std::make_unique<velocity_ocp>();
+}
+
+} // namespace sofof::test

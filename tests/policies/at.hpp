@@ -1,0 +1,12 @@
+// Times since the start.
+#pragma once
+
+#include "world/time.hpp"
+
+namespace sofof::test {
+
+constexpr time_point at(duration since_start) {
+  return time_point{since_start};
+}
+
+} // namespace sofof::test
