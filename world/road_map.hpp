@@ -72,7 +72,7 @@ private:
   std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::pair<point, point>> pieces_; // of the lanes' centre lines
   std::vector<std::size_t> ends_; // of the pieces of each lane, one past
-  cell_grid cells_;                             // of the pieces
+  cell_grid cells_;               // of the pieces
 };
 
 } // namespace sofof
