@@ -10,7 +10,7 @@ using namespace sofof;
 
 namespace {
 
-constexpr duration period = std::chrono::milliseconds{50};
+constexpr duration between_results = std::chrono::milliseconds{50};
 
 /// Computing time and downlink of one result.
 void result_through(benchmark::State& state, const std::string& profile) {
@@ -23,7 +23,7 @@ void result_through(benchmark::State& state, const std::string& profile) {
   for (auto _ : state) {
     const auto sent = created + draws.service_time(cycle);
     benchmark::DoNotOptimize(link.arrival(sent, message_class::result, cycle));
-    created += period;
+    created += between_results;
     ++cycle;
   }
 }

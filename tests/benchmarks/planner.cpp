@@ -14,7 +14,7 @@ using namespace sofof;
 
 namespace {
 
-constexpr duration period = std::chrono::milliseconds{50};
+constexpr duration planning_period = std::chrono::milliseconds{50};
 
 /// The car ahead takes 300 s for the 2.4 km.
 constexpr auto lead_mps = 8.0;
@@ -38,14 +38,14 @@ void drive_round(benchmark::State& state, trajectory_planner& planner,
     watch.time([&] {
       planner.plan(input.at, input, before.empty() ? nullptr : &before, plan);
     });
-    input.at += period;
+    input.at += planning_period;
     const auto p = plan.at(input.at);
     input.s_m = p.s_m;
     input.speed_mps = p.speed_mps;
     input.accel_mps2 = p.accel_mps2;
     input.others.at = input.at;
     if (with_lead)
-      input.others.lead->rear_s_m += lead_mps * to_seconds(period);
+      input.others.lead->rear_s_m += lead_mps * to_seconds(planning_period);
   }
   watch.report();
 }

@@ -10,7 +10,7 @@ using namespace sofof;
 
 namespace {
 
-constexpr duration period = std::chrono::milliseconds{100};
+constexpr duration look_period = std::chrono::milliseconds{100};
 constexpr double speed_mps = 8;
 
 /// Everybody reports, one update, everybody looks; all creep on, so that
@@ -31,9 +31,9 @@ void update(benchmark::State& state, const scenario& s) {
       user.speed_mps = speed_mps;
       user.body = body(x, car);
       users.report(user);
-      v.start_s_m += speed_mps * to_seconds(period);
+      v.start_s_m += speed_mps * to_seconds(look_period);
     }
-    t += period;
+    t += look_period;
     users.update(t);
     for (const auto& v : vehicles)
       benchmark::DoNotOptimize(users.perceive(v.station));

@@ -10,7 +10,7 @@ using namespace sofof;
 
 namespace {
 
-constexpr duration period = std::chrono::milliseconds{10};
+constexpr duration motion_step = std::chrono::milliseconds{10};
 
 /// Follows one plan from its begin to its end, again and again.
 void control_and_step(benchmark::State& state) {
@@ -26,9 +26,9 @@ void control_and_step(benchmark::State& state) {
   auto x = start;
   auto t = plan.start;
   for (auto _ : state) {
-    x = step(x, follow(x, plan, t, car), car, to_seconds(period));
+    x = step(x, follow(x, plan, t, car), car, to_seconds(motion_step));
     benchmark::DoNotOptimize(x);
-    t += period;
+    t += motion_step;
     if (t > plan.end()) {
       x = start;
       t = plan.start;
