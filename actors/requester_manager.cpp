@@ -147,7 +147,7 @@ struct offloaded_state {
       remote.last_received = t;
     if (in_limits)
       remote.last_in_time = t;
-    if (remote.in_use && alone)
+    if (remote.in_use && alone && !remote.in_doubt)
       self->send(watchdog, arrival{watched, result.created, t});
     else if (is_remote() && usable)
       // The gap between results that are used is what counts; one that is late
@@ -189,7 +189,8 @@ struct offloaded_state {
       }
   }
 
-  // Whose clock is not known well enough is not trusted with a latency.
+  // Whose clock is not known well enough is not trusted with a latency: his
+  // results are as good as none.
   bool can_judge(remote_source& remote, const service_result& result) {
     const auto can = result.doubt <= setup.options.limits.max_latency / 2;
     if (can == remote.in_doubt) {

@@ -19,7 +19,7 @@ struct run_arguments {
     what.add_to(command);
     command
         .add_option("--out", out,
-                    "Results folder (default results/<scenario>-<seed>)")
+                    "Results folder (default one of its own in results/)")
         ->type_name("DIR");
     command
         .add_option("--pcap", options.pcap,

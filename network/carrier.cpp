@@ -108,8 +108,9 @@ void carrier::wait_for_events(int timeout_ms) {
 }
 
 void carrier::make_ready(load_number number) {
-  auto& load = loads_.at(number);
-  if (std::exchange(load.is_ready, true))
+  // A child that was just forked may still hold the sockets of one that ended.
+  const auto found = loads_.find(number);
+  if (found == loads_.end() || std::exchange(found->second.is_ready, true))
     return;
   ready_.push_back(number);
 }

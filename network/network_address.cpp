@@ -40,11 +40,4 @@ std::string print_address(const network_address& address) {
   return host.find(':') == host.npos ? host + port : "[" + host + "]" + port;
 }
 
-bool is_loopback(const network_address& address) {
-  const auto& host = address.host;
-  return host == "localhost" || host == "::1"
-         || (host.starts_with("127.")
-             && host.find_first_not_of("0123456789.") == host.npos);
-}
-
 } // namespace sofof

@@ -22,7 +22,4 @@ std::optional<network_address> parse_address(std::string_view text);
 /// @returns what `parse_address` reads as this address.
 std::string print_address(const network_address& address);
 
-/// @returns whether it is this very machine: "localhost", 127.x.y.z or ::1.
-bool is_loopback(const network_address& address);
-
 } // namespace sofof

@@ -16,9 +16,9 @@ std::optional<credentials> load_keys(const network_address& at,
     return credentials{folder};
   if (at.host != "127.0.0.1" && at.host != "localhost")
     throw input_error(fmt::format(
-        "{} {} is not on this machine alone, as 127.0.0.1 is, and connections "
-        "beyond it must be secured; make certificates with `sofof keys` and "
-        "name their folder with --keys",
+        "{} {} is not 127.0.0.1, and connections beyond this machine must be "
+        "secured; make certificates with `sofof keys` and name their folder "
+        "with --keys",
         option, print_address(at)));
   return std::nullopt;
 }

@@ -33,7 +33,14 @@ public:
   }
   void refuse(const std::string& why) {
     const std::lock_guard lock{mutex_};
-    refusal_ = why;
+    if (is_connected_) // to another provider: whoever drives goes on
+      lines_.push_back(why);
+    else
+      refusal_ = why;
+  }
+  void connected() {
+    const std::lock_guard lock{mutex_};
+    is_connected_ = true;
   }
 
   /// @throws input_error once we have been refused.
@@ -48,6 +55,7 @@ private:
   std::mutex mutex_;
   std::vector<std::string> lines_;
   std::optional<std::string> refusal_;
+  bool is_connected_ = false;
 };
 
 /// What both sides must have in common: the map and the services.
@@ -267,6 +275,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
       };
       setup.prove = [](peer_hello&, const std::string&) {};
     }
+    setup.on_connected = [board] { board->connected(); };
     setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
     setup.on_news = [board](const std::string& news) { board->tell(news); };
     here.remotes.push_back(

@@ -121,6 +121,7 @@ entrance(entrance_impl::stateful_pointer<entrance_state> self,
   self->monitor(gate);
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   send_after(self, self, protocol::introduction_timeout, tick_atom_v);
+  self->set_default_handler(caf::drop); // from who is no peer of ours
   return {
       [self](const peer_hello& hello, const uplink_actor& peer) {
         return self->state.take(hello, peer);
@@ -260,6 +261,7 @@ gate_impl::behavior_type gate(gate_impl::stateful_pointer<gate_state> self,
   self->monitor(self->state.setup->provider);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.gone(down.source); });
+  self->set_default_handler(caf::drop); // from who is no peer of ours
   return {
       [self](std::uint32_t protocol, std::uint64_t types) {
         return greet(protocol, types,

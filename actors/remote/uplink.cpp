@@ -34,6 +34,9 @@ using uplink_impl = uplink_actor::extend<
 
 constexpr std::size_t streams_of_station = 8;
 
+/// A refusal later than this is news.
+constexpr duration beginning = std::chrono::seconds{5};
+
 struct uplink_state {
   static inline const char* name = "uplink";
   static constexpr auto closed = "it has closed the connection meanwhile";
@@ -61,11 +64,13 @@ struct uplink_state {
   std::optional<time_point> trying_since;
   gate_actor gate; // while we introduce ourselves there
   bool was_connected = false;
+  time_point began;
   std::string last_news;
 
   void start() {
     words.emplace(streams_of_station * setup.stations.size(),
                   protocol::silence_limit);
+    began = now(self);
     plan_attempt();
     tick();
   }
@@ -193,12 +198,13 @@ struct uplink_state {
     failed(why);
   }
 
-  // Whoever drives goes on driving, even if nobody will ever plan for it.
+  // Whoever drives goes on driving, even if nobody will ever plan for it; only
+  // who has just begun would rather know.
   void refused(const std::string& why) {
     leave_gate();
     const auto news = fmt::format("provider {} at {} refuses: {}",
                                   setup.provider, setup.address, why);
-    if (was_connected)
+    if (was_connected || now(self) - began > beginning)
       tell(news);
     else
       setup.on_refusal(news);
@@ -215,6 +221,7 @@ struct uplink_state {
   void connected(const peer_welcome& welcome, const session_actor& with) {
     leave_gate();
     was_connected = true;
+    setup.on_connected();
     session = with;
     const auto t = now(self);
     life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms

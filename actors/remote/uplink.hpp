@@ -35,8 +35,10 @@ struct uplink_setup {
   std::uint32_t protocol = remote_protocol;
   /// Adds the proof that we may speak for our stations, where one is needed.
   std::function<void(peer_hello&, const std::string& nonce)> prove;
+  /// Called whenever the provider has let us in.
+  std::function<void()> on_connected = [] {};
   /// Called with a sentence when we will never be let in: before the first
-  /// connection, by a provider that refuses us.
+  /// connection, within 5 s of the start, by a provider that refuses us.
   std::function<void(const std::string&)> on_refusal;
   /// The same for what may pass: once for every change.
   std::function<void(const std::string&)> on_news;

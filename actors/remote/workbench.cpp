@@ -176,6 +176,7 @@ workbench(workbench_impl::stateful_pointer<workbench_state> self,
   self->state.start();
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down.source); });
+  self->set_default_handler(caf::drop); // from who is no peer of ours
   return {
       [self](const worker_hello& hello) { return self->state.take(hello); },
       [self](const file_piece& piece) { return self->state.add(piece); },

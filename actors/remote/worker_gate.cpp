@@ -49,6 +49,7 @@ worker_gate(gate_actor::stateful_pointer<worker_gate_state> self,
   self->state.setup = std::make_shared<const workbench_setup>(std::move(setup));
   self->set_down_handler(
       [self](const caf::down_msg&) { --self->state.benches; });
+  self->set_default_handler(caf::drop); // from who is no peer of ours
   return {
       [self](std::uint32_t protocol, std::uint64_t types) {
         return greet(protocol, types,

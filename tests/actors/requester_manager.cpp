@@ -498,6 +498,19 @@ TEST_CASE_FIXTURE(managed_world, "a result whose age is uncertain by more than "
   CHECK(records[0].doubt == 25ms + 1ns);
 }
 
+TEST_CASE_FIXTURE(managed_world,
+                  "who gets nothing but uncertain results from a "
+                  "source in use is warned of a gap") {
+  go_remote();
+  for (std::uint64_t cycle = 2; cycle < 12; ++cycle) {
+    run_for(20ms);
+    uncertain_result(cycle, 30ms);
+  }
+  CHECK(results(true) == 1);
+  REQUIRE(requester->count<qos_violation>() > 0);
+  CHECK(requester->all<qos_violation>().front().breach == qos_breach::gap);
+}
+
 TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
                                  "when they are known again") {
   go_remote();

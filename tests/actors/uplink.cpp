@@ -61,6 +61,21 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   CHECK(session->entries().empty());
 }
 
+TEST_CASE_FIXTURE(uplink_world, "who has driven for a while takes a refusal as "
+                                "news") {
+  reachable = false;
+  start();
+  run_for(10s);
+  news.clear();
+  reachable = true;
+  host->refusal = "you are too many";
+  run_for(5s);
+  CHECK(refusals.empty());
+  REQUIRE(news.size() == 1);
+  CHECK(news.back()
+        == "provider server at 10.0.0.5:4711 refuses: you are too many");
+}
+
 TEST_CASE_FIXTURE(uplink_world, "who was connected once takes a refusal as "
                                 "news, once") {
   connect();
