@@ -1,5 +1,6 @@
 // CODM "assignment": the best for all who ask and all who are served.
 #include "policies/assignment/branch_and_bound.hpp"
+#include "policies/assignment/cbc.hpp"
 #include "policies/assignment/central.hpp"
 #include "policies/assignment/greedy_regret.hpp"
 #include "policies/assignment/min_cost_flow.hpp"
@@ -14,8 +15,14 @@ namespace sofof {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> solvers{"auto", "branch_and_bound",
-                                                  "greedy_regret"};
+constexpr auto solvers = std::to_array<std::string_view>({
+    "auto",
+    "branch_and_bound",
+    "greedy_regret",
+#ifdef SOFOF_WITH_CBC
+    "cbc",
+#endif
+});
 
 /// Source: see policies/assignment; Tran & Pompili 2019 for the setting.
 class best_assignment final : public central_policy {
@@ -44,6 +51,11 @@ assignment::solution
 best_assignment::solve(const assignment::problem& p) const {
   if (solver_ == "greedy_regret")
     return greedy_regret(p);
+#ifdef SOFOF_WITH_CBC
+  if (solver_ == "cbc")
+    if (auto found = assignment::cbc(p))
+      return *found;
+#endif
   if (solver_ == "auto")
     if (auto flow = min_cost_flow(p))
       return *flow;
@@ -73,7 +85,9 @@ codm_entry codm_assignment() {
            {{"epoch_s", "s", "that requests wait for each other"},
             {"price", "1", "of a change, in units of gains"},
             {"wait", "time", "for a worker that a result may have in the mean"},
-            {"solver", "\"auto\", \"branch_and_bound\" or \"greedy_regret\"",
+            {"solver",
+             "\"auto\", \"branch_and_bound\", \"greedy_regret\" or, where it "
+             "is built in, \"cbc\"",
              "that seeks the best"},
             {"nodes", "1", "partial assignments that a search looks at"}}},
           behind_codm_filter<best_assignment>};

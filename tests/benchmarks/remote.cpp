@@ -4,8 +4,8 @@
 #include "actors/remote/far_provider.hpp"
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
+#include "messages/no_records.hpp"
 #include "scenario/runtime.hpp"
-#include "tests/benchmarks/drain.hpp"
 
 #include <benchmark/benchmark.h>
 #include <caf/io/middleman.hpp>
@@ -15,15 +15,17 @@
 #include <memory>
 #include <numeric>
 #include <semaphore>
+#include <vector>
 
 using namespace sofof;
 
 namespace {
 
 constexpr std::size_t octets_of_a_plan = 440; // as docs/v2x.md has it
-constexpr station_id station = 101;
+constexpr station_id first_station = 101;
+/// They take turns: each may say but so much a second.
+constexpr std::size_t stations = 200;
 constexpr boot_id boot = 1;
-constexpr std::size_t most_words_s = 100'000;
 
 using arrivals = std::binary_semaphore;
 
@@ -33,7 +35,7 @@ payload plan() {
   return payload::of(std::move(message));
 }
 
-running_service running() {
+running_service running(station_id station = first_station) {
   return {boot, station, "trajectory_planning", 1};
 }
 
@@ -91,7 +93,7 @@ provider_actor::behavior_type provider(provider_actor::pointer self) {
       [](const its_pdu&, const requester_actor&) {},
       [self](const service_request& x, const requester_actor& requester) {
         service_response response{boot, x.station, x.number, {}};
-        response.verdicts.push_back({running(), true, {}});
+        response.verdicts.push_back({running(x.station), true, {}});
         self->send(requester, response,
                    std::vector<provider_manager_actor>{
                        self->spawn(manager, requester)});
@@ -115,7 +117,7 @@ requester_actor::behavior_type requester(requester_actor::pointer,
 
 void forwarded_round_trip(benchmark::State& state) {
   const auto there = make_network_runtime(), here = make_network_runtime();
-  const auto sink = std::make_shared<drain>();
+  const auto sink = std::make_shared<no_records>();
   const auto serving = there->system().spawn(provider);
   gate_setup in;
   in.provider = serving;
@@ -131,8 +133,9 @@ void forwarded_round_trip(benchmark::State& state) {
 
   uplink_setup out;
   out.provider = "mec";
-  out.stations.resize(most_words_s / 100); // or it would say too much
-  std::iota(out.stations.begin(), out.stations.end(), station);
+  out.stations.resize(stations);
+  std::iota(out.stations.begin(), out.stations.end(), first_station);
+  const auto speakers = out.stations;
   out.clock = here->clock();
   out.recorder = spawn_recorder(here->system(), sink);
   out.connect = [&here, port] { return here->connect(port); };
@@ -142,23 +145,34 @@ void forwarded_round_trip(benchmark::State& state) {
   out.on_news = [&connected](const std::string&) { connected.release(); };
   const auto here_recorder = out.recorder;
   const auto uplink = spawn_uplink(here->system(), std::move(out));
-  const auto far = spawn_far_provider(here->system(), station, uplink);
-  introduce(uplink, station, far);
+  std::vector<link_actor> far;
+  for (const auto station : speakers) {
+    far.push_back(spawn_far_provider(here->system(), station, uplink));
+    introduce(uplink, station, far.back());
+  }
   const auto near = here->system().spawn(requester, &come);
   connected.acquire();
   here->run_until(here->now() + std::chrono::milliseconds{200}); // clocks
-  caf::anon_send(
-      far, service_request{boot, station, 1, {"trajectory_planning"}, {}, 0},
-      requester_actor{near});
-  come.acquire();
-  for (auto _ : state) {
-    caf::anon_send(far, service_input{running(), here->now(), plan()});
+  for (std::size_t k = 0; k < stations; ++k) {
+    caf::anon_send(
+        far[k],
+        service_request{boot, speakers[k], 1, {"trajectory_planning"}, {}, 0},
+        requester_actor{near});
     come.acquire();
+  }
+  std::size_t k = 0;
+  for (auto _ : state) {
+    caf::anon_send(far[k],
+                   service_input{running(speakers[k]), here->now(), plan()});
+    come.acquire();
+    k = (k + 1) % stations;
   }
   const auto leave = [](const auto& actor) {
     caf::anon_send_exit(actor, caf::exit_reason::user_shutdown);
   };
-  leave(uplink), leave(far), leave(near), leave(here_recorder);
+  for (const auto& one : far)
+    leave(one);
+  leave(uplink), leave(near), leave(here_recorder);
   leave(serving), leave(recorder);
 }
 BENCHMARK(forwarded_round_trip)->UseRealTime()->Unit(benchmark::kMicrosecond);

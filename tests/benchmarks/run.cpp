@@ -1,9 +1,9 @@
 // What whole scenarios cost, with and without the files that they write.
 #include "scenario/run.hpp"
 
+#include "messages/no_records.hpp"
 #include "scenario/build.hpp"
 #include "scenario/runtime.hpp"
-#include "tests/benchmarks/drain.hpp"
 #include "tests/benchmarks/scenarios.hpp"
 
 #include <benchmark/benchmark.h>
@@ -20,8 +20,8 @@ namespace {
 /// One virtual second after the other of a run that has settled in.
 void messages(benchmark::State& state, const scenario& s) {
   const auto time = make_virtual_runtime();
-  const auto actors =
-      build(time->system(), s, std::make_shared<drain>(), time->clock(), true);
+  const auto actors = build(time->system(), s, std::make_shared<no_records>(),
+                            time->clock(), true);
   time->run_until(time->now() + std::chrono::seconds{30});
   auto& handled = *time->system().base_metrics().processed_messages;
   const auto before = handled.value();

@@ -1,6 +1,7 @@
 // Tests of solvers against each other and against trying everything.
 #include "policies/assignment/branch_and_bound.hpp"
 #include "policies/assignment/capacity_prices.hpp"
+#include "policies/assignment/cbc.hpp"
 #include "policies/assignment/greedy_regret.hpp"
 #include "policies/assignment/min_cost_flow.hpp"
 #include "policies/assignment/sampled.hpp"
@@ -65,6 +66,22 @@ TEST_CASE("branch and bound finds what trying everything finds") {
     CHECK(std::abs(found.best.value - best_by_trying(p)) < rounding);
   }
 }
+
+#ifdef SOFOF_WITH_CBC
+TEST_CASE("CBC finds what branch and bound proves") {
+  dice random{11};
+  for (int k = 0; k < 100; ++k) {
+    CAPTURE(k);
+    const auto p = k < 90 ? any_problem(random) : scarce_problem(random, 40, 3);
+    const auto found = cbc(p);
+    const auto proved = branch_and_bound(p);
+    REQUIRE(found);
+    REQUIRE(proved.proved);
+    CHECK(feasible(p, found->choices));
+    CHECK(std::abs(found->value - proved.best.value) < 1e-6);
+  }
+}
+#endif
 
 TEST_CASE("the greedy assignment is feasible, between all local and the "
           "optimum") {

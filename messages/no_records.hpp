@@ -5,7 +5,7 @@
 
 namespace sofof {
 
-struct drain final : record_sink {
+struct no_records final : record_sink {
   void take(const event_record&) override {}
   void take(const decision_record&) override {}
   void take(const cycle_record&) override {}

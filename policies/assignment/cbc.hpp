@@ -1,0 +1,19 @@
+// The best assignment by COIN-OR's branch and cut, where it is built in.
+#pragma once
+
+#include "policies/assignment/problem.hpp"
+
+#include <optional>
+
+namespace sofof::assignment {
+
+/// Solves the problem as a mixed-integer program with CBC, on one thread, until
+/// the optimum is proved. Slower than `branch_and_bound` with one resource,
+/// and without its limit to what can be proved with two. Only in builds with
+/// SOFOF_WITH_CBC.
+/// @returns the optimum; nullopt when CBC ends without one.
+/// @throws std::invalid_argument as check() does.
+/// Source: Forrest & Lougee-Heimer, CBC User Guide, INFORMS Tutorials (2005).
+std::optional<solution> cbc(const problem& p);
+
+} // namespace sofof::assignment
