@@ -7,19 +7,19 @@
 #include <caf/actor_clock.hpp>
 #include <caf/actor_system.hpp>
 #include <caf/local_actor.hpp>
-#include <caf/policy/work_stealing.hpp>
+#include <caf/policy/work_sharing.hpp>
 #include <caf/resumable.hpp>
 #include <caf/scheduler/coordinator.hpp>
 
 namespace sofof {
 
-/// Work stealing, with a look at the thread's own clock before and after each
+/// Work sharing, with a look at the thread's own clock before and after each
 /// turn. There is one per worker, and one worker per thread.
-class accounting_policy final : public caf::policy::work_stealing {
+class accounting_policy final : public caf::policy::work_sharing {
 public:
-  struct coordinator_data : work_stealing::coordinator_data {
+  struct coordinator_data : work_sharing::coordinator_data {
     explicit coordinator_data(caf::scheduler::abstract_coordinator* of)
-        : work_stealing::coordinator_data{of}, ledger{[of] {
+        : work_sharing::coordinator_data{of}, ledger{[of] {
             return time_point{of->clock().now().time_since_epoch()};
           }} {}
 

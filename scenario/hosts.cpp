@@ -24,6 +24,10 @@ namespace sofof {
 
 namespace {
 
+/// Vehicles are on their own at first: a hundred first plans keep a computer
+/// busy for a while, and nobody should be judged by results of that time.
+constexpr duration settling = std::chrono::seconds{1};
+
 /// What actors say to people; the console's thread asks for it.
 class news_board {
 public:
@@ -248,6 +252,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
     setup.stations = stations;
     setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
+    setup.rest = settling;
     setup.protocol = what.protocol;
     setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                       .part(place)

@@ -73,6 +73,12 @@ private:
   etsi::its_clock clock_{epoch_unix_ms()};
 };
 
+/// One queue for all threads: who has waited longest is next, and a thread
+/// without work sleeps (docs/decisions/0028).
+struct wall_clock_config : caf::actor_system_config {
+  wall_clock_config() { set("caf.scheduler.policy", "sharing"); }
+};
+
 struct accounting_config : caf::actor_system_config {
   accounting_config() { load<accounting_scheduler>(); }
 };
@@ -87,7 +93,7 @@ private:
   caf::actor_system system_{config_};
 };
 
-struct network_config : caf::actor_system_config {
+struct network_config : wall_clock_config {
   network_config() {
     load<caf::io::middleman>();
     set("caf.middleman.heartbeat-interval",
@@ -158,7 +164,7 @@ std::unique_ptr<runtime> make_virtual_runtime() {
 }
 
 std::unique_ptr<runtime> make_wall_clock_runtime() {
-  return std::make_unique<wall_clock_runtime<caf::actor_system_config>>();
+  return std::make_unique<wall_clock_runtime<wall_clock_config>>();
 }
 
 std::unique_ptr<runtime> make_accounting_runtime() {

@@ -14,6 +14,7 @@
 #include <caf/typed_event_based_actor.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <utility>
@@ -29,10 +30,17 @@ using uplink_impl = uplink_actor::extend<
     takes<station_id, link_actor>,
     // Something may be due.
     takes<tick_atom>,
+    // It is this station's turn to speak.
+    takes<tick_atom, station_id>,
     // An attempt has got through, or has failed for this reason.
     takes<tick_atom, gate_actor>, takes<tick_atom, std::string>>;
 
 constexpr std::size_t streams_of_station = 8;
+
+/// Stations begin to speak so long after each other: all would ask at once, and
+/// whoever begins to work for a hundred is late for those who came first.
+constexpr duration between_stations = std::chrono::milliseconds{5};
+constexpr duration all_stations = std::chrono::seconds{1}; ///< At most.
 
 /// A refusal later than this is news.
 constexpr duration beginning = std::chrono::seconds{5};
@@ -53,7 +61,8 @@ struct uplink_state {
   // -- while connected
   session_actor session;
   std::optional<pulse> life;
-  bool is_heard = false; // it has asked for our clock
+  bool is_heard = false;         // it has asked for our clock
+  std::set<station_id> to_speak; // those whose turn has not come
   std::set<running_service> running;
   using word = std::variant<its_pdu, service_input>;
   std::optional<latest_values<stream_id, word>> words;
@@ -237,6 +246,7 @@ struct uplink_state {
     self->demonitor(session);
     session = nullptr;
     is_heard = false;
+    to_speak.clear();
     life.reset();
     words->clear();
     setup.hang_up();
@@ -266,7 +276,7 @@ struct uplink_state {
   }
 
   void say(const stream_id& stream, word what) {
-    if (!is_heard)
+    if (!is_heard || to_speak.contains(stream.station))
       return;
     if (auto next = words->offer(stream, std::move(what), now(self)))
       send(stream, *next);
@@ -320,9 +330,22 @@ struct uplink_state {
     self->send(session, pulse::answer(sign, t));
     if (std::exchange(is_heard, true))
       return;
-    for (const auto& [station, last] : cams)
-      if (t - last.said <= protocol::cam_timeout)
-        say(stream_of(station, last.message), last.message);
+    auto turn = std::max(t, began + setup.rest);
+    const auto n = static_cast<std::int64_t>(setup.stations.size());
+    for (const auto station : setup.stations) {
+      to_speak.insert(station);
+      send_at(self, self, turn, tick_atom_v, station);
+      turn += std::min(between_stations, all_stations / n);
+    }
+  }
+
+  void begin_to_speak(station_id station) {
+    if (to_speak.erase(station) == 0)
+      return;
+    const auto last = cams.find(station);
+    if (last != cams.end()
+        && now(self) - last->second.said <= protocol::cam_timeout)
+      say(stream_of(station, last->second.message), last->second.message);
   }
 
   // Who accepts at once and hangs up again has not succeeded.
@@ -451,6 +474,10 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       [self](tick_atom) {
         if (is_from_here(self))
           self->state.tick();
+      },
+      [self](tick_atom, station_id station) {
+        if (is_from_here(self))
+          self->state.begin_to_speak(station);
       },
       [self](tick_atom, const gate_actor& gate) {
         if (is_from_here(self))

@@ -24,6 +24,7 @@ struct uplink_setup {
   etsi::its_clock clock;
   recorder_actor recorder;
   random_stream noise{0, ""}; ///< For the pauses between attempts.
+  duration rest{};            ///< Before the first vehicle speaks.
   /// Connects, which may take a while.
   /// @returns the gate, or why there is none.
   std::function<std::variant<gate_actor, std::string>()> connect;
@@ -49,8 +50,8 @@ struct uplink_setup {
 /// that of the next, which waits for the end of the one before, but not for one
 /// that hangs. Meanwhile it loses what it is given, and ends what ran for its
 /// vehicles (peer_lost), so that they plan for themselves at once. A provider
-/// hears of each vehicle's latest CAM as soon as it can: the next one may be a
-/// second off. CAMs, CPMs and inputs go out one at a time, always the latest.
+/// hears of each vehicle's latest CAM as soon as it can, for the next one may be
+/// a second off, but of one after the other: each will ask at once. CAMs, CPMs and inputs go out one at a time, always the latest.
 /// Translates the provider's times to ours.
 uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
 

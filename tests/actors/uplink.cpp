@@ -378,6 +378,7 @@ TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
   CHECK(session->seconds<its_pdu>().empty());
   session->clear();
   say(life_sign{1, now()});
+  run_for(turns);
   REQUIRE(session->entries().size() == 3);
   CHECK(session->count<life_echo>() == 1);
   CHECK(session->entries().front().what.match_elements<life_echo>());
@@ -406,9 +407,53 @@ TEST_CASE_FIXTURE(uplink_world, "of a vehicle whose CAM is older than two "
     run_for(protocol::life_sign_period);
   forget();
   say(life_sign{1, now()});
+  run_for(turns);
   const auto told = session->seconds<its_pdu>();
   REQUIRE(told.size() == 1);
   CHECK(told.front().station() == neighbour);
+}
+
+TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
+          "half a second at most") {
+  uplink_world world;
+  auto setup = world.setup();
+  std::vector<link_actor> far;
+  for (station_id k = 200; k < 300; ++k)
+    setup.stations.push_back(k);
+  world.start(setup);
+  for (station_id k = 200; k < 300; ++k)
+    far.push_back(
+        world.own(spawn_far_provider(world.system(), k, world.uplink)));
+  const auto all_speak = [&] {
+    for (std::size_t k = 0; k < far.size(); ++k)
+      world.tell(far[k], world.cam_of(static_cast<station_id>(200 + k)),
+                 world.requester.handle);
+  };
+  const auto heard = [&] { return world.session->seconds<its_pdu>().size(); };
+  world.say(life_sign{1, world.now()});
+  std::size_t before = 0;
+  for (int k = 0; k < 10; ++k) {
+    all_speak();
+    world.run_for(50ms);
+    CHECK(heard() <= before + 11); // nobody twice: nothing is acknowledged
+    before = heard();
+  }
+  world.run_for(50ms);
+  CHECK(heard() == 100);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "while an uplink rests it connects, and no "
+                                "vehicle speaks") {
+  auto later = setup();
+  later.rest = 1s;
+  start(later);
+  CHECK(notes("provider_connected") == 1);
+  say(life_sign{1, now()});
+  say_cam();
+  run_for(990ms);
+  CHECK(session->seconds<its_pdu>().empty());
+  run_for(60ms);
+  CHECK(session->seconds<its_pdu>().size() == 1);
 }
 
 // -- what the provider may say -----------------------------------------------

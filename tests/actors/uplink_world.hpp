@@ -78,6 +78,8 @@ played_gate(gate_actor::pointer self, std::shared_ptr<host_script> script) {
 struct uplink_world : virtual_world {
   static constexpr boot_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102;
+  /// By then each of them may speak.
+  static constexpr duration turns = std::chrono::milliseconds{10};
   const running_service one{boot, station, "one", 7};
   const running_service two{boot, neighbour, "one", 8};
 
@@ -144,6 +146,7 @@ struct uplink_world : virtual_world {
     start();
     REQUIRE(host->peer);
     say(life_sign{1, now() + ahead});
+    run_for(protocol::life_sign_period);
     say_cam();
     tell(other_far, cam_of(neighbour), other.handle);
     acknowledge({station, stream_id::what::cam, 0});
