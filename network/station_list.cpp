@@ -13,7 +13,7 @@ std::optional<station_id> parse_station(std::string_view text) {
   station_id station = 0;
   const auto* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, station);
-  if (error != std::errc{} || rest != end)
+  if (error != std::errc{} || rest != end || station == 0)
     return std::nullopt;
   return station;
 }

@@ -19,8 +19,8 @@ inline constexpr std::size_t most_stations = 10'000;
 using station_range = std::pair<station_id, station_id>;
 
 /// Reads one station or one range: "110", "101-106".
-/// @returns nullopt for anything else, and when the last comes before the
-/// first.
+/// @returns nullopt for anything else, for station 0, which is nobody, and when
+/// the last comes before the first.
 std::optional<station_range> parse_station_range(std::string_view text);
 
 /// @returns the station, or first and last of the range with a '-' between.

@@ -47,11 +47,11 @@ public:
     is_connected_ = true;
   }
 
-  /// @throws input_error once we have been refused.
+  /// @throws start_refused once we have been refused.
   std::vector<std::string> take() {
     const std::lock_guard lock{mutex_};
     if (refusal_)
-      throw input_error(*refusal_);
+      throw start_refused(*refusal_);
     return std::exchange(lines_, {});
   }
 
@@ -208,6 +208,13 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
       return own ? examine(*own, hello, nonce) : believe(hello);
     };
+    setup.on_peer = [board](const std::set<station_id>& all,
+                            std::string_view gone) {
+      const auto who = describe(peer_identity{{all.begin(), all.end()}, {}});
+      board->tell(gone.empty()
+                      ? fmt::format("{} connected", who)
+                      : fmt::format("{} disconnected: {}", who, gone));
+    };
     const auto gate = spawn_gate(time->system(), std::move(setup));
     watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
                   "the gate");
@@ -242,6 +249,11 @@ run_outcome drive(const scenario& s, const drive_options& what,
   options.news = [board] { return board->take(); };
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
+    if (std::ranges::find(here.remotes, place, &part::remote_provider::place)
+        != here.remotes.end())
+      throw input_error(fmt::format("--provider: {} is given twice; a provider "
+                                    "has one address",
+                                    s.providers[place].name));
     if (auto keys = load_keys(to.at, what.keys, "--provider"); keys && !own) {
       check_identity(*keys, what.keys, stations);
       own = std::move(keys);

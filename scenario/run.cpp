@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <system_error>
 #include <utility>
 
 namespace sofof {
@@ -142,6 +143,13 @@ void check_capture(const scenario& s, const run_options& options) {
     pcap_file::check(file);
 }
 
+/// Removes the results of a run that has not begun.
+void discard(const std::filesystem::path& folder) {
+  remove_results(folder);
+  std::error_code not_empty;
+  std::filesystem::remove(folder, not_empty);
+}
+
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
   if (!options.realtime)
     return make_virtual_runtime();
@@ -193,9 +201,11 @@ run_outcome run_part(const scenario& s, const run_options& options,
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   time_point ended;
   std::optional<cpu_table> computed;
+  bool is_started = false;
   try {
     if (on_start)
       on_start(actors);
+    is_started = true;
     std::optional<cpu_meter> meter;
     if (auto* ledger = ledger_of(time.system())) {
       time.run_until(std::min(info.start + settling, end));
@@ -205,8 +215,14 @@ run_outcome run_part(const scenario& s, const run_options& options,
                     console);
     if (meter)
       computed = meter->read(time.now());
+  } catch (const start_refused&) {
+    dismiss(actors, time);
+    discard(folder);
+    throw;
   } catch (...) { // the disk is full, say
     dismiss(actors, time);
+    if (!is_started)
+      discard(folder);
     throw;
   }
   dismiss(actors, time);

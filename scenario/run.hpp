@@ -3,6 +3,7 @@
 
 #include "scenario/build.hpp"
 #include "scenario/cpu_table.hpp"
+#include "scenario/input_error.hpp"
 #include "scenario/progress.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
@@ -46,6 +47,12 @@ enum class run_outcome {
   interrupted = 130, ///< As a shell counts Ctrl-C.
 };
 
+/// Others would not have this run, which has hardly begun.
+class start_refused : public input_error {
+public:
+  using input_error::input_error;
+};
+
 /// @returns what config.toml of the results folder says: the effective
 /// configuration, which runs again wherever the folder goes.
 std::string configuration_of(scenario s);
@@ -62,6 +69,8 @@ run_outcome run(const scenario& s, const run_options& options,
 
 /// The same for a part of a scenario, in a runtime of the caller's.
 /// @param on_start  Called once the actors live, before time passes.
+///                  What it throws leaves no results; nor does a start_refused
+///                  that comes with the news.
 run_outcome
 run_part(const scenario& s, const run_options& options, const part& here,
          runtime& time, const std::atomic<bool>& interrupted,

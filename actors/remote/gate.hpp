@@ -1,6 +1,7 @@
 // Where processes of vehicles come in.
 #pragma once
 
+#include "actors/remote/session.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 
@@ -31,6 +32,7 @@ struct gate_setup {
   std::function<std::string()> draw_nonce;
   std::function<peer_finding(const peer_hello&, const std::string& nonce)>
       examine;
+  arrivals_listener on_peer = [](const auto&, std::string_view) {};
 };
 
 /// Lets those in who speak the same language, drive on the same map and have

@@ -50,9 +50,10 @@ struct uplink_setup {
 /// that of the next, which waits for the end of the one before, but not for one
 /// that hangs. Meanwhile it loses what it is given, and ends what ran for its
 /// vehicles (peer_lost), so that they plan for themselves at once. A provider
-/// hears of each vehicle's latest CAM as soon as it can, for the next one may be
-/// a second off, but of one after the other: each will ask at once. CAMs, CPMs and inputs go out one at a time, always the latest.
-/// Translates the provider's times to ours.
+/// hears of each vehicle's latest CAM as soon as it can, for the next one may
+/// be a second off, but of one after the other: each will ask at once. CAMs,
+/// CPMs and inputs go out one at a time, always the latest. Translates the
+/// provider's times to ours.
 uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
 
 /// Tells an uplink who speaks and listens for a station.

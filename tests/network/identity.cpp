@@ -18,8 +18,8 @@ TEST_CASE("a list of stations has numbers and ranges") {
 
 TEST_CASE("what is no list of stations is refused") {
   for (const auto* text : {"", ",", "1,", ",1", "1,,2", "-", "1-", "-1", "3-1",
-                           "1-2-3", "1 ", " 1", "+1", "a", "1.5", "4294967296",
-                           "1-10001", "0-4294967295", "1-6000,10000-16000"}) {
+                           "1-2-3", "1 ", " 1", "+1", "0", "0-3", "a", "1.5", "4294967296",
+                           "1-10001", "1-4294967295", "1-6000,10000-16000"}) {
     CAPTURE(text);
     CHECK_FALSE(parse_stations(text));
   }
@@ -27,7 +27,7 @@ TEST_CASE("what is no list of stations is refused") {
 
 TEST_CASE("a list of stations is printed as short as it can be read") {
   for (const auto* text :
-       {"0", "7", "1-2", "101-106,110", "1,3,5,7-9", "4294967294-4294967295"}) {
+       {"7", "1-2", "101-106,110", "1,3,5,7-9", "4294967294-4294967295"}) {
     CAPTURE(text);
     CHECK(print_stations(parse_stations(text).value()) == text);
   }

@@ -26,6 +26,7 @@ TEST_CASE("a provider of another version refuses, and both are named") {
                                          {"--test-protocol", "7"})),
                 {"provider mec", "refuses", "protocol 4 ", "protocol 7 ",
                  "same version"});
+  CHECK_FALSE(std::filesystem::exists(at / "drive")); // nothing has begun
   CHECK(provider.run().runs());
 }
 
@@ -62,6 +63,7 @@ TEST_CASE("a port that is taken is refused") {
   check_refused(at.run_sofof({"provide", scenario_file, "--out", "second",
                               "--listen", where}),
                 {std::to_string(provider.port()), "--listen"});
+  CHECK_FALSE(std::filesystem::exists(at / "second"));
 }
 
 TEST_CASE("wrong arguments of provide are refused") {
@@ -93,6 +95,8 @@ TEST_CASE("wrong arguments of drive are refused") {
            {{"--provider", "127.0.0.1:4711x"}, {"HOST:PORT"}},
            {{"--provider", "mac=127.0.0.1:4711"}, {"'mac'", "mec"}},
            {{"--provider", "10.99.0.1:4711"}, {"--keys", "sofof keys"}},
+           {{"--provider", "127.0.0.1:1", "--provider", "127.0.0.1:2"},
+            {"mec", "twice"}},
            {{"--provider", "127.0.0.1:1", "--station", "107"},
             {"no station 107"}},
            {{"--provider", "127.0.0.1:1", "--station", "101-107"},
