@@ -130,7 +130,7 @@ struct request_view {
   double utilisation = 0; ///< What it would add to that of the provider.
   /// How it computes on one worker: `wcet` is its mean and three standard
   /// deviations more, `deadline` the latency that it may have.
-  periodic_task task;
+  periodic_task task{};
   /// What the vehicle wins by each provider that it could ask, this one among
   /// them: policies/gain.hpp.
   std::span<const candidate> candidates{};

@@ -211,9 +211,8 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.on_peer = [board](const std::set<station_id>& all,
                             std::string_view gone) {
       const auto who = describe(peer_identity{{all.begin(), all.end()}, {}});
-      board->tell(gone.empty()
-                      ? fmt::format("{} connected", who)
-                      : fmt::format("{} disconnected: {}", who, gone));
+      board->tell(gone.empty() ? fmt::format("{} connected", who)
+                               : fmt::format("{} disconnected: {}", who, gone));
     };
     const auto gate = spawn_gate(time->system(), std::move(setup));
     watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),

@@ -215,11 +215,10 @@ struct gate_state {
       note_refusal(why);
       return caf::make_error(caf::sec::runtime_error, why);
     }
-    const auto session =
-        spawn_session(self->system(),
-                      {setup->provider, peer, stations, setup->clock,
-                       etsi::its_clock{hello.epoch_unix_ms}, setup->recorder,
-                       setup->on_peer});
+    const auto session = spawn_session(
+        self->system(), {setup->provider, peer, stations, setup->clock,
+                         etsi::its_clock{hello.epoch_unix_ms}, setup->recorder,
+                         setup->on_peer});
     self->monitor(session);
     guests.push_back({session, name, stations});
     return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, session};

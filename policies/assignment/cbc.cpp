@@ -85,7 +85,7 @@ private:
     begins.push_back(static_cast<CoinBigIndex>(rows_.size()));
     const std::vector<double> nothing(columns_.size(), 0);
     const std::vector<double> all(columns_.size(), 1);
-    const std::vector<double> least(most_.size(), -COIN_DBL_MAX);
+    const std::vector<double> least(most_.size(), 0); // nothing is below
     Cbc_loadProblem(model, static_cast<int>(columns_.size()),
                     static_cast<int>(most_.size()), begins.data(), rows_.data(),
                     values_.data(), nothing.data(), all.data(), worth_.data(),
