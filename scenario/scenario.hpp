@@ -41,7 +41,7 @@ struct fleet_options {
   /// somebody near its place waits.
   duration appears_at{};
   duration appear_every{};
-  computer_options computer; ///< In each of them.
+  computer_options computer{}; ///< In each of them.
 
   void fields(settings& s);
 };

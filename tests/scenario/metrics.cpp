@@ -237,8 +237,8 @@ TEST_CASE("a vehicle's figures are those of all its records") {
 
 TEST_CASE("cycles are paid for where they were computed") {
   metrics m{run()};
-  m.take(drive_record{101, {.count = 3, .on_board = 3}, {}});
-  m.take(drive_record{102, {.count = 8, .on_board = 4}, {}});
+  m.take(drive_record{101, {.count = 3, .extremes = {}, .on_board = 3}, {}});
+  m.take(drive_record{102, {.count = 8, .extremes = {}, .on_board = 4}, {}});
   m.take(result(running(102), 100, 5s, 10ms, {}));
   m.take(result(running(102), 101, 5s, 10ms, {}));
   const auto x = m.cycles(102);
