@@ -79,7 +79,7 @@ void add_bench(CLI::App& app, int& exit_code) {
       ->add_option("--seeds", args->seeds,
                    "How many runs of each, with seeds from 1 on (default 3)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 999)); // from 1000 on for training
   args->runs.add_to(*command);
   command
       ->add_option("--set", args->set,

@@ -26,7 +26,7 @@ namespace {
 
 /// Vehicles are on their own at first: a hundred first plans keep a computer
 /// busy for a while, and nobody should be judged by results of that time.
-constexpr duration settling = std::chrono::seconds{1};
+constexpr duration first_rest = std::chrono::seconds{1};
 
 /// What actors say to people; the console's thread asks for it.
 class news_board {
@@ -208,11 +208,9 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
       return own ? examine(*own, hello, nonce) : believe(hello);
     };
-    setup.on_peer = [board](const std::set<station_id>& all,
-                            std::string_view gone) {
-      const auto who = describe(peer_identity{{all.begin(), all.end()}, {}});
-      board->tell(gone.empty() ? fmt::format("{} connected", who)
-                               : fmt::format("{} disconnected: {}", who, gone));
+    setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
+      board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
+                  + (is_here ? " connected" : " disconnected"));
     };
     const auto gate = spawn_gate(time->system(), std::move(setup));
     watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
@@ -263,7 +261,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
     setup.stations = stations;
     setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
-    setup.rest = settling;
+    setup.rest = first_rest;
     setup.protocol = what.protocol;
     setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                       .part(place)

@@ -143,11 +143,16 @@ void check_capture(const scenario& s, const run_options& options) {
     pcap_file::check(file);
 }
 
-/// Removes the results of a run that has not begun.
-void discard(const std::filesystem::path& folder) {
-  remove_results(folder);
+/// Removes the results of a run that has not begun, as far as that is possible.
+void discard(const std::filesystem::path& folder, bool was_there) {
+  try {
+    remove_results(folder);
+  } catch (const input_error&) { // why it has not begun is more important
+    return;
+  }
   std::error_code not_empty;
-  std::filesystem::remove(folder, not_empty);
+  if (!was_there)
+    std::filesystem::remove(folder, not_empty);
 }
 
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
@@ -187,6 +192,7 @@ run_outcome run_part(const scenario& s, const run_options& options,
   info.time_of_day = time.clock();
   const auto name =
       options.whose.empty() ? s.name : s.name + "-" + options.whose;
+  const auto was_there = options.out && std::filesystem::exists(*options.out);
   const auto folder =
       make_results_folder(options.out, name, s.seed, options.force);
   info.start = time.now();
@@ -217,12 +223,12 @@ run_outcome run_part(const scenario& s, const run_options& options,
       computed = meter->read(time.now());
   } catch (const start_refused&) {
     dismiss(actors, time);
-    discard(folder);
+    discard(folder, was_there);
     throw;
   } catch (...) { // the disk is full, say
     dismiss(actors, time);
     if (!is_started)
-      discard(folder);
+      discard(folder, was_there);
     throw;
   }
   dismiss(actors, time);

@@ -5,6 +5,7 @@
 #include "actors/remote/origin.hpp"
 #include "actors/remote/session.hpp"
 #include "actors/time.hpp"
+#include "policies/rate_limit.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -29,6 +30,9 @@ constexpr std::size_t most_sessions_of_one = 16;
 constexpr std::size_t most_claims = 10'000;
 
 /// Between two notes of who was refused.
+/// A peer that comes and goes all the time fills no journal.
+constexpr double news_per_second = 1;
+constexpr double news_at_once = 100;
 constexpr duration refusal_note_period = std::chrono::seconds{1};
 
 using entrance_impl = entrance_actor::extend<takes<tick_atom>>;
@@ -154,6 +158,7 @@ struct gate_state {
   std::shared_ptr<const gate_setup> setup;
   std::vector<newcomer> newcomers; // the oldest first
   std::vector<guest> guests;
+  rate_limit chatter{news_per_second, news_at_once};
   std::uint64_t refused = 0;
   time_point next_complaint;
 
@@ -215,12 +220,13 @@ struct gate_state {
       note_refusal(why);
       return caf::make_error(caf::sec::runtime_error, why);
     }
-    const auto session = spawn_session(
-        self->system(), {setup->provider, peer, stations, setup->clock,
-                         etsi::its_clock{hello.epoch_unix_ms}, setup->recorder,
-                         setup->on_peer});
+    const auto session =
+        spawn_session(self->system(),
+                      {setup->provider, peer, stations, setup->clock,
+                       etsi::its_clock{hello.epoch_unix_ms}, setup->recorder});
     self->monitor(session);
     guests.push_back({session, name, stations});
+    tell(stations, true);
     return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, session};
   }
 
@@ -231,11 +237,20 @@ struct gate_state {
       return;
     }
     std::erase_if(newcomers, [&](const newcomer& x) { return x.in == who; });
-    std::erase_if(guests,
-                  [&](const guest& x) { return x.session.address() == who; });
+    std::erase_if(guests, [&](const guest& x) {
+      const auto is = x.session.address() == who;
+      if (is)
+        tell(x.stations, false);
+      return is;
+    });
   }
 
   // -- news -----------------------------------------------------------------
+
+  void tell(const std::set<station_id>& stations, bool is_here) {
+    if (chatter.take(now(self)))
+      setup->on_peer(stations, is_here);
+  }
 
   void note_refusal(const std::string& why) {
     ++refused;

@@ -1,7 +1,6 @@
 // Where processes of vehicles come in.
 #pragma once
 
-#include "actors/remote/session.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 
@@ -9,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace sofof {
@@ -32,7 +32,9 @@ struct gate_setup {
   std::function<std::string()> draw_nonce;
   std::function<peer_finding(const peer_hello&, const std::string& nonce)>
       examine;
-  arrivals_listener on_peer = [](const auto&, std::string_view) {};
+  /// Told who has come in, and who has gone; of many a second, not of all.
+  std::function<void(const std::set<station_id>&, bool is_here)> on_peer =
+      [](const auto&, bool) {};
 };
 
 /// Lets those in who speak the same language, drive on the same map and have

@@ -78,7 +78,6 @@ struct session_state {
     self->monitor(setup.provider);
     note("peer_connected", 0,
          fmt::format("{} stations", setup.stations.size()));
-    setup.on_peer(setup.stations, "");
     tick();
   }
 
@@ -240,7 +239,6 @@ struct session_state {
 
   void leave(std::string_view why) {
     note("peer_lost", 0, why);
-    setup.on_peer(setup.stations, why);
     self->quit(caf::exit_reason::remote_link_unreachable);
   }
 

@@ -6,17 +6,10 @@
 
 #include <caf/actor_system.hpp>
 
-#include <functional>
 #include <set>
 #include <string>
-#include <string_view>
 
 namespace sofof {
-
-/// Told of the stations of a peer when they come, with an empty word, and when
-/// they are gone, with the reason.
-using arrivals_listener =
-    std::function<void(const std::set<station_id>&, std::string_view gone)>;
 
 /// What a session is made of.
 struct session_setup {
@@ -26,7 +19,6 @@ struct session_setup {
   etsi::its_clock clock;         ///< Ours.
   etsi::its_clock peer_clock;    ///< As the peer has told it.
   recorder_actor recorder;
-  arrivals_listener on_peer = [](const auto&, std::string_view) {};
 };
 
 /// Stands for all vehicles of one peer: gives each a requester of its own that

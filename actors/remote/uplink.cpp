@@ -61,8 +61,8 @@ struct uplink_state {
   // -- while connected
   session_actor session;
   std::optional<pulse> life;
-  bool is_heard = false;         // it has asked for our clock
-  std::set<station_id> to_speak; // those whose turn has not come
+  bool is_heard = false;                  // it has asked for our clock
+  std::map<station_id, time_point> turns; // those that have not come
   std::set<running_service> running;
   using word = std::variant<its_pdu, service_input>;
   std::optional<latest_values<stream_id, word>> words;
@@ -246,7 +246,7 @@ struct uplink_state {
     self->demonitor(session);
     session = nullptr;
     is_heard = false;
-    to_speak.clear();
+    turns.clear();
     life.reset();
     words->clear();
     setup.hang_up();
@@ -276,7 +276,7 @@ struct uplink_state {
   }
 
   void say(const stream_id& stream, word what) {
-    if (!is_heard || to_speak.contains(stream.station))
+    if (!is_heard || turns.contains(stream.station))
       return;
     if (auto next = words->offer(stream, std::move(what), now(self)))
       send(stream, *next);
@@ -294,15 +294,16 @@ struct uplink_state {
       send(stream, *next);
   }
 
-  template <class Message>
-  void up(const Message& message) {
-    if (session)
-      self->send(session, message);
+  // Whose turn has not come is not connected yet.
+  void ask(const service_request& request) {
+    if (session && !turns.contains(request.station))
+      self->send(session, request);
   }
 
   void end(const service_end& e) {
     forget(e.running);
-    up(e);
+    if (session)
+      self->send(session, e);
   }
 
   void forget(const running_service& x) {
@@ -333,15 +334,17 @@ struct uplink_state {
     auto turn = std::max(t, began + setup.rest);
     const auto n = static_cast<std::int64_t>(setup.stations.size());
     for (const auto station : setup.stations) {
-      to_speak.insert(station);
+      turns.insert_or_assign(station, turn);
       send_at(self, self, turn, tick_atom_v, station);
       turn += std::min(between_stations, all_stations / n);
     }
   }
 
   void begin_to_speak(station_id station) {
-    if (to_speak.erase(station) == 0)
-      return;
+    const auto turn = turns.find(station);
+    if (turn == turns.end() || now(self) < turn->second)
+      return; // that was a turn of another connection
+    turns.erase(turn);
     const auto last = cams.find(station);
     if (last != cams.end()
         && now(self) - last->second.said <= protocol::cam_timeout)
@@ -460,7 +463,7 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       },
       [self](const service_request& request) {
         if (is_from_here(self))
-          self->state.up(request);
+          self->state.ask(request);
       },
       [self](const service_input& input) {
         if (is_from_here(self))

@@ -1,15 +1,35 @@
 // The best assignment by COIN-OR's branch and cut.
 #include "policies/assignment/cbc.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <coin/Cbc_C_Interface.h>
+#include <csignal>
+#include <limits>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace sofof::assignment {
 
 namespace {
+
+/// CBC is for one thread at a time, and puts a handler of its own for Ctrl-C.
+class turn_with_cbc {
+public:
+  turn_with_cbc() { sigaction(SIGINT, nullptr, &ours_); }
+  ~turn_with_cbc() { sigaction(SIGINT, &ours_, nullptr); }
+
+  turn_with_cbc(const turn_with_cbc&) = delete;
+  turn_with_cbc& operator=(const turn_with_cbc&) = delete;
+
+private:
+  static inline std::mutex one_at_a_time;
+  std::lock_guard<std::mutex> alone_{one_at_a_time};
+  struct sigaction ours_ {};
+};
 
 /// A column: vehicle j served by provider i.
 struct pair_column {
@@ -35,14 +55,18 @@ public:
   }
 
   /// @returns who serves each vehicle in the optimum, if it is found.
-  std::optional<std::vector<choice>> solve() const {
+  std::optional<std::vector<choice>> solve(std::int64_t node_limit) const {
     std::vector<choice> choices(static_cast<std::size_t>(p_.vehicles()), local);
     if (columns_.empty())
       return choices;
+    const turn_with_cbc turn;
     const std::unique_ptr<Cbc_Model, void (*)(Cbc_Model*)> model{
         Cbc_newModel(), Cbc_deleteModel};
     fill(model.get());
     Cbc_setLogLevel(model.get(), 0);
+    const auto nodes = std::to_string(
+        std::min<std::int64_t>(node_limit, std::numeric_limits<int>::max()));
+    Cbc_setParameter(model.get(), "maxNodes", nodes.c_str());
     Cbc_setParameter(model.get(), "ratioGap", "0");
     Cbc_setParameter(model.get(), "allowableGap", "0");
     Cbc_solve(model.get());
@@ -107,10 +131,10 @@ private:
 
 } // namespace
 
-std::optional<solution> cbc(const problem& p) {
+std::optional<solution> cbc(const problem& p, std::int64_t node_limit) {
   check(p);
-  auto choices = program{p}.solve();
-  if (!choices)
+  auto choices = program{p}.solve(node_limit);
+  if (!choices || !feasible(p, *choices))
     return std::nullopt;
   const auto reached = value(p, *choices);
   return solution{std::move(*choices), reached};

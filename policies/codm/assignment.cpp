@@ -53,7 +53,7 @@ best_assignment::solve(const assignment::problem& p) const {
     return greedy_regret(p);
 #ifdef SOFOF_WITH_CBC
   if (solver_ == "cbc")
-    if (auto found = assignment::cbc(p))
+    if (auto found = assignment::cbc(p, nodes_))
       return *found;
 #endif
   if (solver_ == "auto")

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <ostream>
 #include <utility>
@@ -55,6 +56,11 @@ public:
       throw input_error{fmt::format("\"{}\" is no policy that is trained; "
                                     "these are: {}.",
                                     options.policy, fmt::join(known, ", "))};
+    for (const auto& one : options.set)
+      if (one.starts_with("seed="))
+        throw input_error{fmt::format("--set {}: seeds for training begin with "
+                                      "{}; --seeds says how many there are.",
+                                      one, first_training_seed)};
     output_file::check(options.out, choose);
     for (const auto& file : options.scenarios) // before any lesson
       pupil_ = lesson(file, first_training_seed).policies.lodm;
@@ -82,11 +88,17 @@ private:
   scenario lesson(const std::filesystem::path& file, std::int64_t seed) const {
     std::vector<std::string> set{
         "record.tracks=false", "record.cycles=false",
-        fmt::format("policies.lodm={{name=\"{}\",learning=true}}",
-                    options_.policy)};
+        fmt::format("policies.lodm={{name=\"{}\"}}", options_.policy)};
     std::ranges::copy(options_.set, std::back_inserter(set));
     set.push_back(fmt::format("seed={}", seed));
-    return load_scenario(file, set);
+    set.emplace_back("policies.lodm.learning=true");
+    auto s = load_scenario(file, set);
+    if (s.policies.lodm->name() != options_.policy)
+      throw input_error{
+          fmt::format("--set policies.lodm: it is {} that learns, "
+                      "by --policy.",
+                      options_.policy)};
+    return s;
   }
 
   void tell(std::size_t k, const std::filesystem::path& file) {

@@ -64,6 +64,7 @@ struct gate_world : virtual_world {
   bool draws = true;
   std::vector<std::string> proofs; ///< That were looked at.
   std::optional<std::string> doubt;
+  std::vector<std::pair<std::set<station_id>, bool>> comings;
   const std::uint64_t types = fingerprint_of_types();
   const peer_hello hello{"server", {101, 102}, 5, etsi::virtual_epoch_unix_ms,
                          {},       {}};
@@ -84,6 +85,9 @@ struct gate_world : virtual_world {
     s.examine = [this](const peer_hello& from, const std::string& nonce) {
       proofs.push_back(nonce);
       return peer_finding{from.certificate, doubt};
+    };
+    s.on_peer = [this](const std::set<station_id>& who, bool is_here) {
+      comings.emplace_back(who, is_here);
     };
     return s;
   }
@@ -361,4 +365,17 @@ TEST_CASE_FIXTURE(gate_world, "an entrance does not outlive the gate") {
   const auto at = knock();
   kill(gate);
   CHECK(is_gone(at.in));
+}
+
+TEST_CASE_FIXTURE(gate_world, "who comes and goes is told, in this order, and "
+                              "one who does so all the time not each time") {
+  using coming = std::pair<std::set<station_id>, bool>;
+  const auto first = enter_as("one", {101, 102});
+  const auto second = enter_as("one", {102}); // takes its place
+  CHECK(comings == std::vector<coming>{{{101, 102}, true}, {{102}, true}});
+  kill(second.session);
+  CHECK(comings.back() == coming{{102}, false});
+  for (int k = 0; k < 200; ++k)
+    kill(enter_as("one", {103}).session);
+  CHECK(comings.size() < 110);
 }

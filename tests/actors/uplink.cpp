@@ -442,6 +442,49 @@ TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
   CHECK(heard() == 100);
 }
 
+TEST_CASE_FIXTURE(uplink_world, "whose turn has not come asks nobody") {
+  auto later = setup();
+  later.rest = 1s;
+  start(later);
+  say(life_sign{1, now()});
+  const auto ask = [&] {
+    tell(far, service_request{boot, station, 1, {"one"}, {}, 5},
+         requester.handle);
+    return session->count<service_request>();
+  };
+  CHECK(ask() == 0);
+  live(1050ms);
+  CHECK(ask() == 1);
+}
+
+TEST_CASE_FIXTURE(uplink_world, "a turn that a lost connection left is none in "
+                                "the next one") {
+  auto many = setup();
+  for (station_id k = 200; k < 400; ++k)
+    many.stations.push_back(k);
+  std::ranges::sort(many.stations);
+  many.stations.erase(std::ranges::find(many.stations, neighbour));
+  many.stations.push_back(neighbour); // the last one, after a second
+  start(many);
+  const auto neighbour_speaks = [&] {
+    tell(other_far, cam_of(neighbour), other.handle);
+    return !session->seconds<its_pdu>().empty();
+  };
+  say(life_sign{1, now()});
+  live(700ms);
+  lose();
+  run_for(150ms);
+  REQUIRE(notes("provider_connected") == 2);
+  say(life_sign{2, now()});
+  for (int k = 0; k < 18; ++k) { // the old turn would come meanwhile
+    run_for(50ms);
+    answer();
+    CHECK(!neighbour_speaks());
+  }
+  run_for(150ms);
+  CHECK(neighbour_speaks());
+}
+
 TEST_CASE_FIXTURE(uplink_world, "while an uplink rests it connects, and no "
                                 "vehicle speaks") {
   auto later = setup();

@@ -152,7 +152,8 @@ void forwarded_round_trip(benchmark::State& state) {
   }
   const auto near = here->system().spawn(requester, &come);
   connected.acquire();
-  here->run_until(here->now() + std::chrono::milliseconds{200}); // clocks
+  // Until the clocks are known, and everybody's turn to speak has come.
+  here->run_until(here->now() + std::chrono::milliseconds{1500});
   for (std::size_t k = 0; k < stations; ++k) {
     caf::anon_send(
         far[k],

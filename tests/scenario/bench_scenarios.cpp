@@ -59,6 +59,19 @@ TEST_CASE("nobody is unsafe in any of them, and somebody offloads") {
   }
 }
 
+TEST_CASE("what comes with the program has learned to offload") {
+  const auto results = [](const std::string& lodm) {
+    return play(load_bench("single_intersection",
+                           {"duration=180s", "policies.lodm=" + lodm}))
+        .cycles.size();
+  };
+  const auto most = results("location");
+  for (const auto* name : {"q_learning", "dqn"}) {
+    CAPTURE(name);
+    CHECK(results(name) > most * 9 / 10);
+  }
+}
+
 TEST_CASE("two operators stall at different times") {
   const auto s = load_bench("two_operators");
   REQUIRE(s.providers.size() == 2);

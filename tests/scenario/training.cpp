@@ -93,6 +93,18 @@ TEST_CASE_FIXTURE(school, "a scenario that is wrong is refused before any "
   CHECK(console.str().empty());
 }
 
+TEST_CASE_FIXTURE(school, "settings that would teach nobody are refused") {
+  for (const auto* one :
+       {"seed=3", "policies.lodm=location", "policies.lodm={name=\"dqn\"}"}) {
+    options.set.emplace_back(one);
+    CHECK(contains(refusal(), "--set"));
+    options.set.pop_back();
+  }
+  options.set.emplace_back("policies.lodm.learning=false"); // it learns, though
+  train();
+  CHECK(learned() != make_lodm("q_learning")->snapshot());
+}
+
 TEST_CASE_FIXTURE(school, "who is interrupted writes nothing") {
   interrupted = true;
   CHECK(!train());
