@@ -3,11 +3,11 @@
 
 #include "actors/cpu_clock.hpp"
 #include "actors/cpu_ledger.hpp"
+#include "actors/sharing_scheduler.hpp"
 
 #include <caf/actor_clock.hpp>
 #include <caf/actor_system.hpp>
 #include <caf/local_actor.hpp>
-#include <caf/policy/work_sharing.hpp>
 #include <caf/resumable.hpp>
 #include <caf/scheduler/coordinator.hpp>
 
@@ -15,11 +15,11 @@ namespace sofof {
 
 /// Work sharing, with a look at the thread's own clock before and after each
 /// turn. There is one per worker, and one worker per thread.
-class accounting_policy final : public caf::policy::work_sharing {
+class accounting_policy final : public sharing_policy {
 public:
-  struct coordinator_data : work_sharing::coordinator_data {
+  struct coordinator_data : sharing_policy::coordinator_data {
     explicit coordinator_data(caf::scheduler::abstract_coordinator* of)
-        : work_sharing::coordinator_data{of}, ledger{[of] {
+        : sharing_policy::coordinator_data{of}, ledger{[of] {
             return time_point{of->clock().now().time_since_epoch()};
           }} {}
 

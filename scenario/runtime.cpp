@@ -3,6 +3,7 @@
 
 #include "actors/accounting_scheduler.hpp"
 #include "actors/des_scheduler.hpp"
+#include "actors/sharing_scheduler.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/input_error.hpp"
 #include "world/protocol.hpp"
@@ -73,10 +74,8 @@ private:
   etsi::its_clock clock_{epoch_unix_ms()};
 };
 
-/// One queue for all threads: who has waited longest is next, and a thread
-/// without work sleeps (docs/decisions/0028).
 struct wall_clock_config : caf::actor_system_config {
-  wall_clock_config() { set("caf.scheduler.policy", "sharing"); }
+  wall_clock_config() { load<sharing_scheduler>(); }
 };
 
 struct accounting_config : caf::actor_system_config {

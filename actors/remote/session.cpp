@@ -130,10 +130,21 @@ struct session_state {
   // -- what the peer says ---------------------------------------------------
 
   // What is dropped is acknowledged, too: its stream would stop for a while.
+  // What is not goes first.
   void take(station_id station, const its_pdu& message) {
     if (!speaks_for(station))
       return;
+    hand_on(station, message);
     self->send(setup.peer, stream_of(station, message));
+  }
+  void take(const service_input& input) {
+    if (!speaks_for(input.running.station))
+      return;
+    hand_on(input);
+    self->send(setup.peer, stream_of(input.running, stream_id::what::input));
+  }
+
+  void hand_on(station_id station, const its_pdu& message) {
     if (!is_allowed(station))
       return;
     if (message.station() != station) {
@@ -156,10 +167,7 @@ struct session_state {
       self->send(setup.provider, request, voice_of(request.station));
   }
 
-  void take(const service_input& input) {
-    if (!speaks_for(input.running.station))
-      return;
-    self->send(setup.peer, stream_of(input.running, stream_id::what::input));
+  void hand_on(const service_input& input) {
     if (!is_allowed(input.running.station))
       return;
     const auto manager = managers.find(input.running);

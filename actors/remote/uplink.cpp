@@ -381,7 +381,11 @@ struct uplink_state {
   }
 
   void take(const service_result& result) {
+    hand_on(result);
     self->send(session, stream_of(result.running, stream_id::what::result));
+  }
+
+  void hand_on(const service_result& result) {
     const auto t = now(self);
     const auto clock = life->clock(t);
     if (!clock)
