@@ -10,10 +10,11 @@
 
 namespace sofof {
 
-/// First come, first served. A thread that has nothing to do sleeps; it is woken
-/// for what comes from outside, and for what a thread at work leaves beside the
-/// one actor that it will see to itself after its turn. So an actor that tells
-/// another one something, and that one a third, keeps one thread busy.
+/// First come, first served. A thread that has nothing to do sleeps; it is
+/// woken for what comes from outside, and for what a thread at work leaves
+/// beside the one actor that it will see to itself after its turn. So an actor
+/// that tells another one something, and that one a third, keeps one thread
+/// busy.
 class sharing_policy : public caf::policy::work_sharing {
 public:
   template <class Worker>
