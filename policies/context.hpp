@@ -49,18 +49,22 @@ struct provider_view {
 double gain(const provider_view& provider, const cycle_cost& on_board,
             const service_needs& needs, const cost_weights& weights = {});
 
-/// What is to come, for who wants to know what the best would have been.
+/// What results of a provider will be like for a while.
+struct outlook {
+  std::optional<time_point> late; ///< Creation of the first late or lost one.
+  double latency_s = 0;           ///< Mean of those before; 0 without any.
+};
+
+/// What is to come, for who wants to know what the best would have been. What
+/// others do meanwhile is not foreseen.
 class foresight {
 public:
   virtual ~foresight() = default;
 
-  /// @returns when the first result is created, from `from` on and before
-  /// `until`, that will be late or lost on its way; nullopt if none is. What
-  /// others do meanwhile is not foreseen.
-  virtual std::optional<time_point> first_late(boot_id provider,
-                                               std::string_view kind,
-                                               time_point from,
-                                               time_point until) const = 0;
+  /// @returns the outlook on results that are created from `from` on and
+  /// before `until`.
+  virtual outlook look(boot_id provider, std::string_view kind, time_point from,
+                       time_point until) const = 0;
 };
 
 /// What a requester weighs: one of its services, and where it may run.

@@ -1,7 +1,6 @@
 // The paper's decisions: offload where enough of the way lies ahead.
 #include "policies/location.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace sofof {
@@ -13,15 +12,19 @@ constexpr double slowest_mps = 0.1;
 } // namespace
 
 std::optional<double> time_in_area_s(std::span<const point> route,
-                                     const polygon& area, double speed_mps) {
-  const auto outside = std::ranges::find_if_not(
-      route, [&](point p) { return area.contains(p); });
-  if (outside == route.begin())
+                                     const polygon& area, double speed_mps,
+                                     double enough_s) {
+  if (route.empty() || !area.contains(route.front()))
     return std::nullopt;
   if (speed_mps < slowest_mps)
     return std::numeric_limits<double>::infinity();
-  const auto inside = static_cast<std::size_t>(outside - route.begin());
-  return length_m(route.first(inside)) / speed_mps;
+  double passed_m = 0;
+  for (std::size_t i = 1; i < route.size() && area.contains(route[i]); ++i) {
+    passed_m += distance_m(route[i - 1], route[i]);
+    if (passed_m / speed_mps > enough_s)
+      break;
+  }
+  return passed_m / speed_mps;
 }
 
 double distance_in_disc_m(std::span<const point> path, point centre,
@@ -64,11 +67,12 @@ std::string_view stays_in_area::objection(const central_context& context,
                                           const request_view& request) const {
   if (!context.map.near_lanes(request.route, map_tolerance_m_))
     return "route is not on the map";
+  const auto enough_s = to_seconds(min_time_);
   const auto stay_s =
-      time_in_area_s(request.route, context.area, request.speed_mps);
+      time_in_area_s(request.route, context.area, request.speed_mps, enough_s);
   if (!stay_s)
     return "outside the area";
-  if (!(*stay_s >= to_seconds(min_time_))) // nor what is no number
+  if (!(*stay_s >= enough_s)) // nor what is no number
     return "t_in_area < t_min";
   return {};
 }

@@ -5,6 +5,7 @@
 #include "policies/filter.hpp"
 #include "policies/notes.hpp"
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,11 +15,14 @@ namespace sofof {
 /// speed: from the first waypoint to the last one inside.
 /// @param route      Waypoints from the vehicle on, m.
 /// @param speed_mps  Current speed; below 0.1 counts as standing.
+/// @param enough_s   Counting may stop once this is exceeded.
 /// @returns seconds; infinity when standing; nullopt when the first waypoint
 /// is outside or there is none.
 /// Source: Dehler & Buchholz 2025, eq. (1).
-std::optional<double> time_in_area_s(std::span<const point> route,
-                                     const polygon& area, double speed_mps);
+std::optional<double>
+time_in_area_s(std::span<const point> route, const polygon& area,
+               double speed_mps,
+               double enough_s = std::numeric_limits<double>::infinity());
 
 /// Way that a path covers near a point before it leaves the disc round it.
 /// @param path      Waypoints from the vehicle on, m.

@@ -12,6 +12,7 @@
 #include "actors/vehicle.hpp"
 #include "scenario/foresight.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/silent.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>
@@ -89,14 +90,6 @@ roadside_provider_actor spawn_provider(caf::actor_system& sys,
   setup.virtual_time = virtual_time;
   setup.crossings_granted = s.traffic.grants_crossings();
   return spawn_service_provider(sys, std::move(setup));
-}
-
-/// One that boots later lives from the start on, but nothing reaches it.
-std::shared_ptr<const channel_profile>
-silent_before(duration boot, const channel_profile& channel) {
-  auto silent = channel;
-  silent.outages.push_back({duration{}, boot});
-  return std::make_shared<const channel_profile>(std::move(silent));
 }
 
 std::vector<roadside_sensor> sensors_beside(const scenario& s,
@@ -222,9 +215,10 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     else
       name(watched, world.providers.back(),
            fmt::format("provider {}", options.name));
+    // It lives from the start on, but nothing reaches it.
     if (options.returns_at)
       boot(k, here.start + 1,
-           silent_before(*options.returns_at, *s.channel_to(k)));
+           silent(*s.channel_to(k), {}, *options.returns_at));
   }
   for (const auto& to : here.remotes) {
     world.uplinks.push_back(to.spawn_uplink(world.recorder));

@@ -1,11 +1,13 @@
 // What the channel holds in store, for a policy that is to know it.
 #include "scenario/foresight.hpp"
 
+#include "scenario/silent.hpp"
 #include "world/drawn_phase.hpp"
 #include "world/link_direction.hpp"
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,17 +24,24 @@ public:
       : draws_{draws}, way_{draws, way::down, nullptr}, options_{&options},
         phase_{phase} {}
 
-  std::optional<time_point> first_late(time_point from, time_point until) {
+  outlook look(time_point from, time_point until) {
     const auto since = from.time_since_epoch() - phase_;
     auto cycle = static_cast<std::uint64_t>(
         std::max<duration::rep>(0, since / options_->period));
     if (created(cycle) < from)
       ++cycle;
     foresee(until);
-    for (; created(cycle) < until; ++cycle)
-      if (late_.at(cycle))
-        return created(cycle);
-    return std::nullopt;
+    outlook seen;
+    auto count = 0.0, sum_s = 0.0;
+    for (; created(cycle) < until && !seen.late; ++cycle)
+      if (const auto latency_s = latencies_s_.at(cycle)) {
+        sum_s += *latency_s;
+        ++count;
+      } else {
+        seen.late = created(cycle);
+      }
+    seen.latency_s = count > 0 ? sum_s / count : 0;
+    return seen;
   }
 
 private:
@@ -43,14 +52,16 @@ private:
 
   // In order, once each: so a link has them.
   void foresee(time_point until) {
-    for (auto cycle = late_.size(); created(cycle) < until; ++cycle) {
+    for (auto cycle = latencies_s_.size(); created(cycle) < until; ++cycle) {
       const auto number = cycle + 1; // as services count
       const auto work =
           to_seconds(draws_.service_time(number)) * options_->demand;
       const auto begun = created(cycle);
       sent_ = std::max(sent_, begun + from_seconds(work));
       const auto comes = way_.arrival(sent_, message_class::result, number);
-      late_.push_back(!comes || *comes - begun > options_->limits.max_latency);
+      auto& latency_s = latencies_s_.emplace_back();
+      if (comes && *comes - begun <= options_->limits.max_latency)
+        latency_s = to_seconds(*comes - begun);
     }
   }
 
@@ -59,18 +70,19 @@ private:
   const service_options* options_;
   duration phase_;
   time_point sent_;
-  std::vector<bool> late_; // by cycle
+  std::vector<std::optional<double>> latencies_s_; // by cycle; none: late
 };
 
 /// What all vehicles have in common.
 struct air {
   struct provider {
+    std::uint32_t place;
     std::shared_ptr<const channel_profile> channel;
     std::string radio;
   };
   random_stream noise;
   std::vector<service_kind_ptr> kinds;
-  std::vector<provider> providers; // the first one boots as number 1
+  std::map<boot_id, provider> providers;
 };
 
 class channel_foresight final : public foresight {
@@ -78,29 +90,27 @@ public:
   channel_foresight(std::shared_ptr<const air> all, station_id station)
       : all_{std::move(all)}, station_{station} {}
 
-  std::optional<time_point> first_late(boot_id provider, std::string_view kind,
-                                       time_point from,
-                                       time_point until) const override {
-    const auto found = std::ranges::find(
+  outlook look(boot_id provider, std::string_view kind, time_point from,
+               time_point until) const override {
+    const auto there = all_->providers.find(provider);
+    const auto wanted = std::ranges::find(
         all_->kinds, kind, [](const auto& k) { return k->name(); });
-    if (provider == 0 || provider > all_->providers.size()
-        || found == all_->kinds.end())
-      return from;
-    return of(static_cast<std::uint32_t>(provider - 1), **found)
-        .first_late(from, until);
+    if (there == all_->providers.end() || wanted == all_->kinds.end())
+      return {from, 0};
+    return of(provider, there->second, **wanted).look(from, until);
   }
 
 private:
-  results_to_come& of(std::uint32_t provider, const service_kind& kind) const {
-    const std::pair key{provider, std::string{kind.name()}};
+  results_to_come& of(boot_id id, const air::provider& provider,
+                      const service_kind& kind) const {
+    const std::pair key{id, std::string{kind.name()}};
     if (const auto known = results_.find(key); known != results_.end())
       return known->second;
-    const auto& there = all_->providers[provider];
     const auto own = all_->noise.part(kind.name()).part(station_);
     return results_
         .try_emplace(key,
-                     channel{there.channel, all_->noise, station_, provider,
-                             there.radio},
+                     channel{provider.channel, all_->noise, station_,
+                             provider.place, provider.radio},
                      kind.common,
                      drawn_phase(own.part("remote phase"), kind.common.period))
         .first->second;
@@ -108,7 +118,7 @@ private:
 
   std::shared_ptr<const air> all_;
   station_id station_;
-  mutable std::map<std::pair<std::uint32_t, std::string>, results_to_come>
+  mutable std::map<std::pair<boot_id, std::string>, results_to_come>
       results_; // as somebody asks
 };
 
@@ -120,8 +130,18 @@ foresee(const scenario& s) {
       air{random_stream{static_cast<std::uint64_t>(s.seed), "network"},
           s.services,
           {}});
-  for (std::uint32_t k = 0; k < s.providers.size(); ++k)
-    all->providers.push_back({s.channel_to(k), s.providers[k].radio});
+  for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
+    const auto& x = s.providers[k];
+    const auto add = [&](std::uint64_t start,
+                         std::shared_ptr<const channel_profile> channel) {
+      all->providers[boot_of(k + 1, start)] = {k, std::move(channel), x.radio};
+    };
+    const auto channel = s.channel_to(k);
+    add(0,
+        x.fails_at ? silent(*channel, *x.fails_at, duration::max()) : channel);
+    if (x.returns_at)
+      add(1, silent(*channel, {}, *x.returns_at));
+  }
   return [all = std::shared_ptr<const air>{all}](station_id station) {
     return std::make_shared<channel_foresight>(all, station);
   };

@@ -11,8 +11,8 @@ namespace sofof {
 
 /// Foresees the draws of vehicles' channels in virtual time: computing times,
 /// delays, loss, stalls and outages of results with the phases that providers
-/// draw. Not foreseen: waits for workers and for the radio cell, and phases
-/// that a CODM assigns. Of a provider that comes back it knows nothing.
+/// draw, and when a provider fails and returns. Not foreseen: waits for workers
+/// and for the radio cell, and phases that a CODM assigns.
 /// @returns what makes the foresight of each vehicle.
 std::function<std::shared_ptr<const foresight>(station_id)>
 foresee(const scenario& s);

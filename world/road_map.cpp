@@ -13,8 +13,15 @@ namespace {
 /// How far apart the ends of two lanes in a row may be, m.
 constexpr auto joint_tolerance_m = 0.5;
 
-/// Length of the straight pieces that `near_lanes` measures to, m.
-constexpr auto piece_m = 1.0;
+/// The straight pieces that `near_lanes` measures to end on the centre line, at
+/// multiples of this, m, are at most so many of them long, and so near to what
+/// is between, m.
+constexpr auto step_m = 1.0;
+constexpr std::size_t longest_piece = 64;
+constexpr auto piece_error_m = 0.05;
+
+/// So many pieces ahead of the last one the next point is looked for.
+constexpr std::size_t pieces_ahead = 8;
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) {
@@ -80,13 +87,28 @@ void road_map::resolve(const lane& l) {
 }
 
 void road_map::cut(const path& line) {
-  const auto count = std::ceil(line.length_m() / piece_m);
-  auto last = line.at(0).at;
-  for (auto i = 1.0; i <= count; ++i) {
-    const auto here = line.at(line.length_m() * i / count).at;
-    cells_.add(last, here, 0, static_cast<cell_grid::item>(pieces_.size()));
-    pieces_.emplace_back(last, here);
-    last = here;
+  const auto count =
+      static_cast<std::size_t>(std::ceil(line.length_m() / step_m));
+  std::vector<point> all;
+  for (std::size_t i = 0; i <= count; ++i)
+    all.push_back(line.at(line.length_m() * static_cast<double>(i)
+                          / static_cast<double>(count))
+                      .at);
+  const auto is_straight = [&](std::size_t from, std::size_t to) {
+    return std::all_of(&all[from], &all[to], [&](point p) {
+      return distance_to_segment_m(p, all[from], all[to]) <= piece_error_m;
+    });
+  };
+  for (std::size_t from = 0; from < count;) {
+    auto to = from + 1;
+    while (to < count && to - from < longest_piece && is_straight(from, to + 1))
+      ++to;
+    cells_.add(all[from], all[to], 0,
+               static_cast<cell_grid::item>(pieces_.size()));
+    const auto length_m = distance_m(all[from], all[to]);
+    pieces_.push_back(
+        {all[from], 1 / length_m * (all[to] - all[from]), length_m});
+    from = to;
   }
   ends_.push_back(pieces_.size());
 }
@@ -119,38 +141,38 @@ std::size_t road_map::lane_of(std::size_t piece) const {
                                   - ends_.begin());
 }
 
-// The next point is sought as far along the lane of the last one, then on the
-// lanes that follow it, then everywhere.
+// The next point is sought near the piece of the last one and those after it,
+// then on the lanes that follow, then everywhere.
 bool road_map::near_lanes(std::span<const point> points,
                           double tolerance_m) const {
   std::size_t lane = 0, piece = 0; // near the last point
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto& p : points) {
     const auto is_near = [&](std::size_t other) {
-      const auto& [a, b] = pieces_[other];
-      const auto off = points[i] - a; // mostly that is enough
-      return dot(off, off) <= tolerance_m * tolerance_m
-             || distance_to_segment_m(points[i], a, b) <= tolerance_m;
+      const auto& x = pieces_[other];
+      const auto along_m =
+          std::clamp(dot(p - x.from, x.along), 0.0, x.length_m);
+      const auto off = p - x.from - along_m * x.along;
+      return dot(off, off) <= tolerance_m * tolerance_m;
     };
-    if (i > 0) {
-      const auto moved = distance_m(points[i - 1], points[i]) / piece_m + 0.5;
-      const auto ahead = piece + static_cast<std::size_t>(std::min(1e6, moved));
-      if (ahead < ends_[lane] && is_near(ahead)) {
-        piece = ahead;
-        continue;
-      }
-      const auto& next = next_[lane];
-      const auto beyond = ahead - std::min(ahead, ends_[lane]);
-      const auto follower = std::ranges::find_if(next, [&](std::size_t other) {
-        const auto begin = other > 0 ? ends_[other - 1] : 0;
-        return begin + beyond < ends_[other] && is_near(begin + beyond);
+    const auto find_on = [&](std::size_t on, std::size_t from) {
+      const auto end = std::min(ends_[on], from + pieces_ahead);
+      for (auto other = from; other < end; ++other)
+        if (is_near(other)) {
+          lane = on;
+          piece = other;
+          return true;
+        }
+      return false;
+    };
+    const auto find_after = [&](std::size_t on) {
+      return std::ranges::any_of(next_[on], [&](std::size_t follower) {
+        return find_on(follower, follower > 0 ? ends_[follower - 1] : 0);
       });
-      if (follower != next.end()) {
-        lane = *follower;
-        piece = (lane > 0 ? ends_[lane - 1] : 0) + beyond;
-        continue;
-      }
-    }
-    const auto found = cells_.any_near(points[i], tolerance_m, is_near);
+    };
+    const auto is_first = &p == points.data();
+    if (!is_first && (find_on(lane, piece) || find_after(lane)))
+      continue;
+    const auto found = cells_.any_near(p, tolerance_m, is_near);
     if (!found)
       return false;
     piece = *found;

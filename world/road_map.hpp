@@ -54,11 +54,17 @@ public:
                        bool closed) const;
 
   /// @returns whether some lane's centre line passes within `tolerance_m` of
-  /// each of these points. O(1) for each; soonest done where they follow each
-  /// other along a lane.
+  /// each of these points, to within 5 cm. O(1) for each; soonest done where
+  /// they follow each other along a lane.
   bool near_lanes(std::span<const point> points, double tolerance_m) const;
 
 private:
+  /// A straight one of a centre line.
+  struct piece {
+    point from, along; // a unit vector
+    double length_m;
+  };
+
   void cut(const path& line);
   void resolve(const lane& l);
   std::size_t lane_of(std::size_t piece) const;
@@ -70,7 +76,7 @@ private:
   std::vector<conflict> conflicts_;
   std::vector<std::vector<std::size_t>> next_; // of each lane
   std::unordered_map<std::string, std::size_t> index_;
-  std::vector<std::pair<point, point>> pieces_; // of the lanes' centre lines
+  std::vector<piece> pieces_;     // of one lane after the other
   std::vector<std::size_t> ends_; // of the pieces of each lane, one past
   cell_grid cells_;               // of the pieces
 };

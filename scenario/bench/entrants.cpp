@@ -21,6 +21,11 @@ namespace {
 constexpr std::string_view everybody = "all";
 constexpr std::string_view beside = "location";
 
+// What others are compared with: vehicles that know what links will do, at
+// providers that find the best assignment.
+constexpr std::string_view best_possible = "oracle";
+constexpr std::string_view best_shared_out = "assignment";
+
 std::vector<std::string_view> names_of(const std::vector<entrant>& all) {
   std::vector<std::string_view> names;
   for (const auto& one : all)
@@ -69,8 +74,10 @@ sweep_axis::value entrant::as_value() const {
 
 std::vector<entrant> plain_entrants() {
   std::vector<entrant> all;
-  for (const auto name : lodm_names())
-    all.push_back({std::string{name}, std::string{name}, std::string{beside}});
+  for (const auto name : lodm_names()) {
+    const auto codm = name == best_possible ? best_shared_out : beside;
+    all.push_back({std::string{name}, std::string{name}, std::string{codm}});
+  }
   for (const auto name : codm_names()) {
     if (name == beside) // with itself: there already
       continue;

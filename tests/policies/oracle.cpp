@@ -9,18 +9,20 @@ using test::roadside;
 
 namespace {
 
-/// The first late result of each provider, of one kind of service.
+/// What is said of each provider, of one kind of service.
 struct foretold final : foresight {
   std::map<boot_id, time_point> late;
+  std::map<boot_id, double> latency_s; // 20 ms of others
 
-  std::optional<time_point> first_late(boot_id provider, std::string_view kind,
-                                       time_point from,
-                                       time_point until) const override {
+  outlook look(boot_id provider, std::string_view kind, time_point from,
+               time_point until) const override {
     CHECK(kind == "any");
+    const auto time = latency_s.find(provider);
+    outlook seen{{}, time == latency_s.end() ? 0.02 : time->second};
     const auto i = late.find(provider);
-    if (i == late.end() || i->second < from || i->second >= until)
-      return std::nullopt;
-    return i->second;
+    if (i != late.end() && i->second >= from && i->second < until)
+      seen.late = i->second;
+    return seen;
   }
 };
 
@@ -51,18 +53,35 @@ TEST_CASE_FIXTURE(with_foresight,
   CHECK(ask(*lodm).source == 1);
 }
 
-TEST_CASE_FIXTURE(with_foresight, "of several the one that stays good longest, "
-                                  "of these the one of most gain") {
+TEST_CASE_FIXTURE(with_foresight,
+                  "of several that stay good the one of most gain to come") {
   add(1);
   add(2);
   late_in(1, 3s);
   late_in(2, 4s);
-  CHECK(ask(*lodm).source == 2);
-  late_in(1, 20s); // farther than it looks
-  late_in(2, 30s);
-  providers[0].cost.energy_j = 0.009;
+  future.latency_s = {{1, 0.015}};
   providers[0].link.late = 0.5; // it knows better
+  providers[0].link.median = 45ms;
   CHECK(ask(*lodm).source == 1);
+  providers[1].cost.energy_j = 0.001;
+  CHECK(ask(*lodm).source == 2);
+  late_in(2, 900ms);
+  CHECK(ask(*lodm).source == 1);
+}
+
+TEST_CASE_FIXTURE(with_foresight, "it moves for more than the margin only") {
+  add(1);
+  add(2);
+  runs_at(1);
+  future.latency_s = {{2, 0.019}}; // 0.3 / 50 of 0.01
+  CHECK(ask(*lodm).source == 1);
+  future.latency_s = {{2, 0.017}};
+  CHECK(ask(*lodm).source == 2);
+}
+
+TEST_CASE_FIXTURE(with_foresight, "what costs more than on board is no gain") {
+  add(1).cost.energy_j = 0.1;
+  CHECK(ask(*lodm).source == 0);
 }
 
 TEST_CASE_FIXTURE(with_foresight,

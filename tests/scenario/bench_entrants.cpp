@@ -44,6 +44,7 @@ TEST_CASE("every policy takes part beside location, and location once") {
     names.insert(one.name);
   CHECK(names.size() == all.size());
   CHECK(find(all, "nearest").codm == "location");
+  CHECK(find(all, "oracle").codm == "assignment");
   CHECK(find(all, "edf").lodm == "location");
   CHECK(find(all, "always").codm == "location");
   CHECK(find(all, "codm:always").codm == "always");
