@@ -44,7 +44,7 @@ private:
 
   assignment::assignment_options options_;
   std::string solver_ = "auto";
-  std::int64_t nodes_ = 200'000; // of a search, at most
+  std::int64_t nodes_ = 300'000; // of a search, at most
 };
 
 assignment::solution

@@ -2,6 +2,8 @@
 #include "policies/entry.hpp"
 #include "policies/weights.hpp"
 
+#include <algorithm>
+
 namespace sofof {
 
 namespace {
@@ -16,9 +18,11 @@ public:
       return at_place(context, context.current, "no foresight here");
     const auto* here = where_it_runs(context);
     const auto stay = here ? prospect_of(context, *here) : prospect{};
-    const auto soon = context.now + lookahead_;
+    const auto next = context.now + from_seconds(epoch_s_);
+    const auto soon = std::max(next, context.now + lookahead_);
     const provider_view* best = nullptr;
     auto most = here && stay.until >= soon ? stay.gain + margin_ : 0;
+    most = std::max(most, 0.0);
     for (const auto& provider : context.providers)
       if (provider.id != context.current)
         if (const auto there = prospect_of(context, provider);
@@ -30,9 +34,10 @@ public:
       return at_place(context, best->id, "the best to come");
     if (!here)
       return as_it_is("nothing good is to come");
-    const auto next = context.now + from_seconds(epoch_s_);
     if (stay.until <= next)
       return at_place(context, 0, "the next will be late");
+    if (!(stay.gain >= 0)) // nor what is no number
+      return at_place(context, 0, "the gain has gone");
     return at_place(context, context.current, "nothing is late yet");
   }
   void fields(settings& s) override {

@@ -20,7 +20,8 @@ struct entrant {
 };
 
 /// @returns an entrant for each policy that there is, with its default options,
-/// beside "location" on the other side: first LODMs, then CODMs. One is called
+/// beside "location" on the other side, "oracle" beside "assignment": first
+/// LODMs, then CODMs. One is called
 /// after its policy; a CODM whose name an LODM has too, "codm:NAME".
 std::vector<entrant> plain_entrants();
 

@@ -80,7 +80,21 @@ TEST_CASE_FIXTURE(with_foresight, "it moves for more than the margin only") {
 }
 
 TEST_CASE_FIXTURE(with_foresight, "what costs more than on board is no gain") {
-  add(1).cost.energy_j = 0.1;
+  auto& there = add(1);
+  there.cost.energy_j = 0.1;
+  CHECK(ask(*lodm).source == 0);
+  there.cost.energy_j = 0.001;
+  CHECK(ask(*lodm).source == 1);
+  runs_at(1);
+  providers[0].cost.energy_j = 0.1;
+  CHECK(ask(*lodm).release);
+}
+
+TEST_CASE_FIXTURE(with_foresight,
+                  "who looks no time ahead asks nobody who is late at once") {
+  lodm = test::make_lodm_with("oracle", {.times = {{"lookahead", 0s}}});
+  add(1);
+  late_in(1, 0s);
   CHECK(ask(*lodm).source == 0);
 }
 
