@@ -485,7 +485,7 @@ struct provider_state {
                               now(self), reason, false});
     setup.codm->observe(episode_outcome{running.kind.view(), setup.boot,
                                         to_seconds(now(self) - i->since),
-                                        name_of(reason)});
+                                        name_of(reason), running.station});
     station.sessions.erase(i);
     station.next_offer = now(self) + protocol::offer_period;
   }

@@ -234,10 +234,15 @@ struct requester_state {
         slots, [id](auto& slot) { return slot.find(id) != nullptr; });
   }
 
+  // @param only  Beside where it runs, who comes into question; 0: all.
   // @returns who shall be asked for a service.
   std::vector<boot_id> decide(service_slot& slot, boot_id offering,
-                              std::span<const point> path) {
+                              std::span<const point> path, boot_id only = 0) {
     auto all = views(slot, offering);
+    if (only != 0)
+      std::erase_if(all, [&](const provider_view& x) {
+        return x.id != only && !slot.find(x.id);
+      });
     const auto knows = [&all](boot_id id) {
       return std::ranges::find(all, id, &provider_view::id) != all.end();
     };
@@ -389,7 +394,8 @@ struct requester_state {
     send_after(self, self, protocol::start_timeout, tick_atom_v, v.running);
   }
 
-  // @param instead  Whom the provider would have asked; 0: nobody.
+  // @param instead  Whom the provider would have asked; 0: nobody. The vehicle
+  // decides about that one anew.
   void refused(service_slot& slot, boot_id provider, std::string_view why,
                boot_id instead = 0) {
     decided(slot, provider, false, 0, why);
@@ -400,10 +406,10 @@ struct requester_state {
     if (other == providers.end() || slot.find(instead)
         || !slot.may_ask(other->second, now(self)))
       return;
-    slot.wanted = {instead};
-    request(instead, {service_name{slot.kind->name()}},
-            setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
-                                 protocol::route_spacing_m));
+    const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
+                                           protocol::route_spacing_m);
+    for (const auto id : decide(slot, instead, path, instead))
+      request(id, {service_name{slot.kind->name()}}, path);
   }
 
   static void drop(service_slot& slot, boot_id provider) {
@@ -586,7 +592,7 @@ struct requester_state {
     if (was_remote)
       setup.lodm->observe(episode_outcome{slot.kind->name(), provider,
                                           to_seconds(t - at.first_data),
-                                          name_of(reason)});
+                                          name_of(reason), setup.station});
     std::erase_if(slot.cool_until,
                   [t](const auto& other) { return other.second <= t; });
     if (failed)

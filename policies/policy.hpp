@@ -37,6 +37,7 @@ struct episode_outcome {
   boot_id provider = 0;
   double remote_s = 0;         ///< Time on the remote source.
   std::string_view end_reason; ///< One of protocol's reasons.
+  station_id station = 0;      ///< Of the vehicle.
 };
 
 /// Decides from a context and nothing else: the same context (and learned

@@ -492,6 +492,7 @@ TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is asked at "
   REQUIRE(requests() == 1);
   CHECK(other->count<service_request>() == 0);
   run_for(100ms);
+  lodm->preferred = elsewhere;
   refuse_and_name(*this, last_request(), elsewhere);
   REQUIRE(other->count<service_request>() == 1);
   CHECK(other->times<service_request>().front() == now());
@@ -502,6 +503,18 @@ TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is asked at "
   refuse_and_name(*this, second, here);
   CHECK(requests() == 1);
   CHECK(other->count<service_request>() == 1);
+}
+
+TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is not asked if "
+                                   "the vehicle decides otherwise") {
+  lodm->wanted = {};
+  offer_from(other, elsewhere, {one});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  offer({one});
+  REQUIRE(requests() == 1);
+  refuse_and_name(*this, last_request(), elsewhere);
+  CHECK(other->count<service_request>() == 0);
 }
 
 TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "

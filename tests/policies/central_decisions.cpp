@@ -82,13 +82,15 @@ struct scene {
       ask(share, {{self, gain, 0}});
   }
 
+  time_point now;
+
   std::vector<central_decision> decide(central_policy& codm,
                                        std::uint64_t number = 1) const {
     double used = 0;
     for (const auto& s : sessions)
       used += s.utilisation;
-    return codm.decide({time_point{}, requests, sessions, used, workers, area,
-                        map, self, random_stream{1, "codm"}, number});
+    return codm.decide({now, requests, sessions, used, workers, area, map, self,
+                        random_stream{1, "codm"}, number});
   }
   /// @returns 'h' for here, 'o' for another provider, '-' for nobody; requests,
   /// and then sessions.
@@ -580,4 +582,57 @@ TEST_CASE(
   CHECK(behind_a_filter(3) == "h-hh");
   CHECK(behind_a_filter(4) == "h-hh-");
   CHECK(behind_a_filter(5) == "h-hh--");
+}
+
+// -- drift_plus_penalty: of one who asks, and whose results are late ----------
+
+namespace {
+
+episode_outcome late_after(double remote_s) {
+  return {"any", self, remote_s, "qos_latency", 101};
+}
+
+} // namespace
+
+TEST_CASE("without debts drift-plus-penalty decides as assignment does") {
+  dice random{7};
+  for (int k = 0; k < 50; ++k) {
+    scene at;
+    fill(at, random, 8);
+    CHECK(at.verdicts("drift_plus_penalty") == at.verdicts("assignment"));
+  }
+}
+
+TEST_CASE("who is late too often is refused until its debt is paid") {
+  scene at;
+  at.ask(0.08, {{self, 0.5, 0}});
+  const auto codm = make("drift_plus_penalty");
+  int lates = 0;
+  while (at.verdicts(*codm) == "h") {
+    REQUIRE(++lates < 20);
+    codm->observe(late_after(0.5));
+  }
+  CHECK(lates > 1); // one is no reason
+  CHECK(at.decide(*codm).front().why == "late too often");
+  scene other;
+  other.ask(0.08, {{self, 0.5, 0}});
+  other.requests.front().station = 103;
+  CHECK(other.verdicts(*codm) == "h"); // nobody pays for another one
+  auto waited = 0s;
+  while (at.verdicts(*codm) == "-") {
+    REQUIRE(++waited < 300s);
+    at.now += 1s;
+  }
+  CHECK(waited > 1s);
+}
+
+TEST_CASE("who is late seldom enough is never refused") {
+  scene at;
+  at.ask(0.08, {{self, 0.5, 0}});
+  const auto codm = make("drift_plus_penalty");
+  for (int k = 0; k < 1000; ++k) {
+    CHECK(at.verdicts(*codm) == "h");
+    codm->observe(late_after(20)); // 200 cycles, of which 2 may be
+    at.now += 20s;
+  }
 }
