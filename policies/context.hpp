@@ -50,7 +50,7 @@ double gain(const provider_view& provider, const cycle_cost& on_board,
             const service_needs& needs, const cost_weights& weights = {});
 
 /// What results of a provider will be like for a while.
-struct outlook {
+struct foreseen_results {
   std::optional<time_point> late; ///< Creation of the first late or lost one.
   double latency_s = 0;           ///< Mean of those before; 0 without any.
 };
@@ -61,10 +61,10 @@ class foresight {
 public:
   virtual ~foresight() = default;
 
-  /// @returns the outlook on results that are created from `from` on and
+  /// @returns what is foreseen of results that are created from `from` on and
   /// before `until`.
-  virtual outlook look(boot_id provider, std::string_view kind, time_point from,
-                       time_point until) const = 0;
+  virtual foreseen_results look(boot_id provider, std::string_view kind,
+                                time_point from, time_point until) const = 0;
 };
 
 /// What a requester weighs: one of its services, and where it may run.

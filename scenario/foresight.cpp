@@ -24,14 +24,14 @@ public:
       : draws_{draws}, way_{draws, way::down, nullptr}, options_{&options},
         phase_{phase} {}
 
-  outlook look(time_point from, time_point until) {
+  foreseen_results look(time_point from, time_point until) {
     const auto since = from.time_since_epoch() - phase_;
     auto cycle = static_cast<std::uint64_t>(
         std::max<duration::rep>(0, since / options_->period));
     if (created(cycle) < from)
       ++cycle;
     foresee(until);
-    outlook seen;
+    foreseen_results seen;
     auto count = 0.0, sum_s = 0.0;
     for (; created(cycle) < until && !seen.late; ++cycle)
       if (const auto latency_s = latencies_s_.at(cycle)) {
@@ -90,8 +90,8 @@ public:
   channel_foresight(std::shared_ptr<const air> all, station_id station)
       : all_{std::move(all)}, station_{station} {}
 
-  outlook look(boot_id provider, std::string_view kind, time_point from,
-               time_point until) const override {
+  foreseen_results look(boot_id provider, std::string_view kind,
+                        time_point from, time_point until) const override {
     const auto there = all_->providers.find(provider);
     const auto wanted = std::ranges::find(
         all_->kinds, kind, [](const auto& k) { return k->name(); });

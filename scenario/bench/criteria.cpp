@@ -30,7 +30,13 @@ constexpr criterion all_criteria[]{
     {"latency_p50_ms", "latency, median, ms", "", 2, better::less},
     {"latency_p95_ms", "latency, 95 %, ms", "", 2, better::less},
     {"latency_p99_ms", "latency, 99 %, ms", "p99 ms", 2, better::less},
+    {"vehicle_cpu_percent", "planning on board, % of a core", "", 2,
+     better::less},
     {"energy_j_per_km", "energy, J/km", "", 1, better::less},
+    {"energy_on_board_j_per_km", "energy of planning on board, J/km", "", 1,
+     better::less},
+    {"energy_offloading_j_per_km", "energy of offloading, J/km", "", 1,
+     better::less},
     {"energy_saved_percent", "energy saved, %", "saved %", 1, better::more},
     {"utilisation_percent", "utilisation of providers, %", "", 1,
      better::neither},
@@ -59,6 +65,7 @@ public:
   double violations() const {
     return must("ended_by.qos_latency") + must("ended_by.qos_gap");
   }
+  double offloaded_share() const { return may("offloaded_share").value_or(0); }
   double energy_saved() const { return may("energy.saved_share").value_or(0); }
 
   /// @returns the sum of all that stand under services.KIND.NAME….
@@ -100,7 +107,7 @@ double signalling(const run_figures& run) {
 
 /// @returns the mean cost of a planning cycle.
 double score(const run_figures& run, const yardstick& by) {
-  const auto share = run.may("offloaded_share").value_or(0);
+  const auto share = run.offloaded_share();
   const auto latency_s = run.may("latency_ms.mean").value_or(0) * 1e-3;
   const auto time = share * latency_s + (1 - share) * by.local_s;
   const auto cycles = run.vehicle_hours() * hour_s / by.period_s;
@@ -162,7 +169,17 @@ judged_run judge(const study::measured_run& measured, const yardstick& by) {
   add("latency_p50_ms", run.may("latency_ms.p50"));
   add("latency_p95_ms", run.may("latency_ms.p95"));
   add("latency_p99_ms", run.may("latency_ms.p99"));
-  add("energy_j_per_km", run.may("energy.per_km_j"));
+  if (by.period_s > 0)
+    add("vehicle_cpu_percent",
+        (1 - run.offloaded_share()) * by.local_s / by.period_s, percent);
+  const auto per_km = run.may("energy.per_km_j");
+  add("energy_j_per_km", per_km);
+  if (const auto all_j = run.may("energy.j"); per_km && all_j > 0.0) {
+    add("energy_on_board_j_per_km", run.may("energy.local_j"),
+        *per_km / *all_j);
+    add("energy_offloading_j_per_km", run.may("energy.offloading_j"),
+        *per_km / *all_j);
+  }
   add("energy_saved_percent", run.may("energy.saved_share"), percent);
   if (by.providers > 0)
     add("utilisation_percent", utilisation(run, by), percent);

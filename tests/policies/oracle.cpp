@@ -14,11 +14,11 @@ struct foretold final : foresight {
   std::map<boot_id, time_point> late;
   std::map<boot_id, double> latency_s; // 20 ms of others
 
-  outlook look(boot_id provider, std::string_view kind, time_point from,
-               time_point until) const override {
+  foreseen_results look(boot_id provider, std::string_view kind,
+                        time_point from, time_point until) const override {
     CHECK(kind == "any");
     const auto time = latency_s.find(provider);
-    outlook seen{{}, time == latency_s.end() ? 0.02 : time->second};
+    foreseen_results seen{{}, time == latency_s.end() ? 0.02 : time->second};
     const auto i = late.find(provider);
     if (i != late.end() && i->second >= from && i->second < until)
       seen.late = i->second;

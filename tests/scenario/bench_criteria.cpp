@@ -84,6 +84,11 @@ TEST_CASE("a provider is used as much as what it served takes of its time") {
         == near(100 * 30 * 60 * 0.08 / (2 * 360), 1e-9));
 }
 
+TEST_CASE("a vehicle's planner takes its run times of a core, when on board") {
+  CHECK(value(judge(one_hour(), usual()), "vehicle_cpu_percent")
+        == near(100 * 0.5 * 0.01 / 0.1, 1e-9));
+}
+
 TEST_CASE("signalling is offers, requests, answers and ends") {
   CHECK(value(judge(one_hour(), usual()), "messages_per_s")
         == near((100 + 2 * 40 + 30) / 360., 1e-9));
@@ -97,11 +102,16 @@ TEST_CASE("the score is the mean cost of a cycle: time, energy, violations") {
         == near(0.3 * time + 0.3 + violated, 1e-12));
   run.figures["energy.saved_share"] = 0.4;
   run.figures["energy.per_km_j"] = 120;
+  run.figures["energy.j"] = 60;
+  run.figures["energy.local_j"] = 50;
+  run.figures["energy.offloading_j"] = 10;
   const auto judged = judge(run, usual());
   CHECK(value(judged, score_name)
         == near(0.3 * time + 0.3 * 0.6 + violated, 1e-12));
   CHECK(value(judged, "energy_saved_percent") == near(40, 1e-9));
   CHECK(value(judged, "energy_j_per_km") == 120);
+  CHECK(value(judged, "energy_on_board_j_per_km") == near(100, 1e-9));
+  CHECK(value(judged, "energy_offloading_j_per_km") == near(20, 1e-9));
 }
 
 TEST_CASE("who never offloads has the cost of planning on board") {

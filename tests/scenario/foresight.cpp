@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view planning = "trajectory_planning";
 
-outlook look(const std::vector<std::string>& set, boot_id provider,
-             duration from, duration until) {
+foreseen_results look(const std::vector<std::string>& set, boot_id provider,
+                      duration from, duration until) {
   const auto s = parse_scenario(test::bench_town, "town.toml", set);
   return foresee(s)(101)->look(provider, planning, time_point{from},
                                time_point{until});
