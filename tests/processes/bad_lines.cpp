@@ -201,7 +201,7 @@ TEST_CASE("a provider is found at the end of a slow line, too") {
 
 TEST_CASE("a connection that is cut is made again") {
   const workplace at;
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   provider_process provider{at, "provider", settings};
   bad_line line{provider.port(), {}, 1};
   drive_process drive{at, "drive", line.port(), settings};

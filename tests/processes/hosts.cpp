@@ -37,7 +37,7 @@ double usual_latency_ms(const workplace& at, std::uint16_t port,
 
 TEST_CASE("two processes of vehicles share a provider") {
   const workplace at;
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   provider_process provider{at, "provider", settings};
   const words length{"--duration", "3s"};
   drive_process some{at, "some", provider.port(),

@@ -51,6 +51,14 @@ inline words everywhere(int vehicles) {
   return all;
 }
 
+/// The same with limits that a machine which stands still for a moment does not
+/// break: where nobody shall fall back.
+inline words patient(int vehicles) {
+  return everywhere(vehicles)
+         + words{"--set", "service.trajectory_planning.max_latency=200ms",
+                 "--set", "service.trajectory_planning.max_interarrival=200ms"};
+}
+
 /// A provider that runs.
 class provider_process {
 public:

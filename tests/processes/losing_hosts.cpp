@@ -35,7 +35,7 @@ TEST_CASE("twenty vehicles survive the death of their provider, and find it "
           "again") {
   constexpr std::size_t vehicles = 20;
   const workplace at;
-  const auto settings = everywhere(vehicles);
+  const auto settings = patient(vehicles);
   std::optional<provider_process> provider{std::in_place, at, "first",
                                            settings};
   const auto port = provider->port();
@@ -83,7 +83,7 @@ TEST_CASE("twenty vehicles survive the death of their provider, and find it "
 TEST_CASE("a killed process of vehicles is forgotten, and others do not "
           "notice") {
   const workplace at;
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   provider_process provider{at, "provider", settings};
   drive_process doomed{at, "doomed", provider.port(),
                        settings + words{"--station", "101-103"}};
@@ -122,7 +122,7 @@ TEST_CASE("a provider that is stopped tells its vehicles, which drive on") {
   for (const int signal : {SIGINT, SIGTERM}) {
     CAPTURE(signal);
     const workplace at;
-    const auto settings = everywhere(3);
+    const auto settings = patient(3);
     provider_process provider{at, "provider", settings};
     drive_process drive{at, "drive", provider.port(), settings};
     REQUIRE(wait_for_offloaded(drive, 3));
@@ -153,7 +153,7 @@ TEST_CASE("vehicles that are stopped tell their provider") {
   for (const int signal : {SIGINT, SIGTERM}) {
     CAPTURE(signal);
     const workplace at;
-    const auto settings = everywhere(3);
+    const auto settings = patient(3);
     provider_process provider{at, "provider", settings};
     drive_process drive{at, "drive", provider.port(), settings};
     REQUIRE(wait_for_offloaded(drive, 3));

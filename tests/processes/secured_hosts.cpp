@@ -40,7 +40,7 @@ words keys(const std::string& folder) {
 TEST_CASE("vehicles and a provider of one CA work together") {
   const workplace at;
   make_keys(at, "keys");
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   provider_process provider{at, "provider",
                             settings + keys("keys/provider-mec")};
   drive_process drive{at, "drive", provider.port(),
@@ -62,7 +62,7 @@ TEST_CASE("vehicles and a provider of one CA work together") {
 TEST_CASE("vehicles find a secured provider again that was killed") {
   const workplace at;
   make_keys(at, "keys");
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   const auto with_keys = settings + keys("keys/provider-mec");
   std::optional<provider_process> provider{std::in_place, at, "first",
                                            with_keys};
@@ -84,7 +84,7 @@ TEST_CASE("strangers are refused, and honest vehicles do not notice") {
   const workplace at;
   make_keys(at, "keys");
   make_keys(at, "foreign");
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   provider_process provider{at, "provider",
                             settings + keys("keys/provider-mec")};
   drive_process honest{at, "honest", provider.port(),
@@ -123,7 +123,7 @@ TEST_CASE("vehicles do not trust a provider of another CA, nor a plain one") {
   const workplace at;
   make_keys(at, "keys");
   make_keys(at, "foreign");
-  const auto settings = everywhere(6);
+  const auto settings = patient(6);
   for (const auto& more : {keys("foreign/provider-mec"), words{}}) {
     CAPTURE(more);
     provider_process provider{at, more.empty() ? "plain" : "foreign_provider",
