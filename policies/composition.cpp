@@ -40,7 +40,7 @@ const std::vector<filter_entry<central_filter>>& central_filters() {
   static const std::vector<filter_entry<central_filter>> all{
       {{"location", "Lets vehicles through that stay long enough in the area.",
         "t_in_area >= t_min, the way on the route before it leaves the area by "
-        "the present speed; and the whole route is on the map",
+        "the present speed; and until t_min the route is on the map",
         "the route and the speed that requests tell",
         "Dehler & Buchholz, IEEE RA-L 10(5), 2025",
         stays_in_area::parameters()},

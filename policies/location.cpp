@@ -11,20 +11,21 @@ constexpr double slowest_mps = 0.1;
 
 } // namespace
 
-std::optional<double> time_in_area_s(std::span<const point> route,
-                                     const polygon& area, double speed_mps,
-                                     double enough_s) {
+std::optional<area_stay> stay_in_area(std::span<const point> route,
+                                      const polygon& area, double speed_mps,
+                                      double enough_s) {
   if (route.empty() || !area.contains(route.front()))
     return std::nullopt;
   if (speed_mps < slowest_mps)
-    return std::numeric_limits<double>::infinity();
+    return area_stay{route.first(1), std::numeric_limits<double>::infinity()};
   double passed_m = 0;
-  for (std::size_t i = 1; i < route.size() && area.contains(route[i]); ++i) {
-    passed_m += distance_m(route[i - 1], route[i]);
-    if (passed_m / speed_mps > enough_s)
-      break;
+  std::size_t count = 1;
+  while (count < route.size() && !(passed_m / speed_mps > enough_s)
+         && area.contains(route[count])) {
+    passed_m += distance_m(route[count - 1], route[count]);
+    ++count;
   }
-  return passed_m / speed_mps;
+  return area_stay{route.first(count), passed_m / speed_mps};
 }
 
 double distance_in_disc_m(std::span<const point> path, point centre,
@@ -65,15 +66,15 @@ std::unique_ptr<local_filter> near_provider::clone() const {
 
 std::string_view stays_in_area::objection(const central_context& context,
                                           const request_view& request) const {
-  if (!context.map.near_lanes(request.route, map_tolerance_m_))
-    return "route is not on the map";
   const auto enough_s = to_seconds(min_time_);
-  const auto stay_s =
-      time_in_area_s(request.route, context.area, request.speed_mps, enough_s);
-  if (!stay_s)
+  const auto stay =
+      stay_in_area(request.route, context.area, request.speed_mps, enough_s);
+  if (!stay)
     return "outside the area";
-  if (!(*stay_s >= enough_s)) // nor what is no number
+  if (!(stay->time_s >= enough_s)) // nor what is no number
     return "t_in_area < t_min";
+  if (!context.map.near_lanes(stay->way, map_tolerance_m_))
+    return "route is not on the map";
   return {};
 }
 
@@ -83,10 +84,10 @@ void stays_in_area::fields(settings& s) {
 }
 
 std::vector<parameter_note> stays_in_area::parameters() {
-  return {
-      {"min_time", "time",
-       "t_min; the vehicle must stay at least this long in the area"},
-      {"map_tolerance_m", "m", "so near to a lane must be all of its route"}};
+  return {{"min_time", "time",
+           "t_min; the vehicle must stay at least this long in the area"},
+          {"map_tolerance_m", "m",
+           "so near to a lane must be the route until then"}};
 }
 
 std::unique_ptr<central_filter> stays_in_area::clone() const {

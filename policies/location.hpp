@@ -7,22 +7,28 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sofof {
 
-/// Time that a route spends in an area before it first leaves it, at constant
-/// speed: from the first waypoint to the last one inside.
+/// What a vehicle has before it in an area.
+struct area_stay {
+  std::span<const point> way; ///< From the first waypoint to the last inside.
+  double time_s = 0;          ///< At constant speed; infinity when standing.
+};
+
+/// The part of a route before it first leaves an area.
 /// @param route      Waypoints from the vehicle on, m.
-/// @param speed_mps  Current speed; below 0.1 counts as standing.
-/// @param enough_s   Counting may stop once this is exceeded.
-/// @returns seconds; infinity when standing; nullopt when the first waypoint
-/// is outside or there is none.
+/// @param speed_mps  Current speed; below 0.1 counts as standing, and the way
+///                   is the first waypoint.
+/// @param enough_s   It may be cut short once its time exceeds this.
+/// @returns nullopt when the first waypoint is outside or there is none.
 /// Source: Dehler & Buchholz 2025, eq. (1).
-std::optional<double>
-time_in_area_s(std::span<const point> route, const polygon& area,
-               double speed_mps,
-               double enough_s = std::numeric_limits<double>::infinity());
+std::optional<area_stay>
+stay_in_area(std::span<const point> route, const polygon& area,
+             double speed_mps,
+             double enough_s = std::numeric_limits<double>::infinity());
 
 /// Way that a path covers near a point before it leaves the disc round it.
 /// @param path      Waypoints from the vehicle on, m.
@@ -47,8 +53,8 @@ private:
   double min_distance_m_ = 50; // d_min
 };
 
-/// A request may be accepted when its route is on the map and the vehicle will
-/// stay in the offloading area long enough.
+/// A request may be accepted when the vehicle will stay in the offloading area
+/// long enough, on the streets of the map.
 class stays_in_area final : public central_filter {
 public:
   std::string_view objection(const central_context& context,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace sofof {
@@ -22,6 +23,8 @@ constexpr auto piece_error_m = 0.05;
 
 /// So many pieces ahead of the last one the next point is looked for.
 constexpr std::size_t pieces_ahead = 8;
+
+constexpr auto no_piece = std::numeric_limits<std::uint32_t>::max();
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) {
@@ -58,16 +61,19 @@ road_map::road_map(std::string name, geo_origin origin, std::vector<lane> lanes,
     : name_{std::move(name)}, origin_{origin}, lanes_{std::move(lanes)},
       buildings_{std::move(buildings)} {
   std::vector<path> paths;
+  std::vector<std::size_t> first_pieces;
   paths.reserve(lanes_.size());
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     check(lanes_[i]);
     if (!index_.emplace(lanes_[i].name, i).second)
       refuse("There are two lanes '{}'.", lanes_[i].name);
     paths.push_back(smooth(lanes_[i]));
+    first_pieces.push_back(pieces_.size());
     cut(paths.back());
   }
   for (const auto& l : lanes_)
     resolve(l);
+  join(first_pieces);
   conflicts_ = find_conflicts(paths, next_);
 }
 
@@ -107,10 +113,21 @@ void road_map::cut(const path& line) {
                static_cast<cell_grid::item>(pieces_.size()));
     const auto length_m = distance_m(all[from], all[to]);
     pieces_.push_back(
-        {all[from], 1 / length_m * (all[to] - all[from]), length_m});
+        {all[from], 1 / length_m * (all[to] - all[from]), length_m, 0});
     from = to;
   }
-  ends_.push_back(pieces_.size());
+}
+
+void road_map::join(std::span<const std::size_t> first_pieces) {
+  followers_ = {no_piece}; // of what is not the last piece of its lane
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    const auto end =
+        i + 1 < lanes_.size() ? first_pieces[i + 1] : pieces_.size();
+    pieces_[end - 1].followers = static_cast<std::uint32_t>(followers_.size());
+    for (const auto next : next_[i])
+      followers_.push_back(static_cast<std::uint32_t>(first_pieces[next]));
+    followers_.push_back(no_piece);
+  }
 }
 
 route_ptr road_map::make_route(std::string name,
@@ -136,47 +153,48 @@ route_ptr road_map::make_route(std::string name,
                                  closed);
 }
 
-std::size_t road_map::lane_of(std::size_t piece) const {
-  return static_cast<std::size_t>(std::ranges::upper_bound(ends_, piece)
-                                  - ends_.begin());
+// On the lane of `x`, from it on, then on the lanes that follow.
+template <class Predicate>
+const road_map::piece* road_map::find_ahead(const piece* x,
+                                            Predicate is_near) const {
+  const piece* found = nullptr;
+  const auto find_on_lane = [&](const piece* from) {
+    const piece* last = nullptr;
+    for (auto n = pieces_ahead; n > 0 && !found && !last; --n, ++from) {
+      if (is_near(*from))
+        found = from;
+      else if (from->followers)
+        last = from;
+    }
+    return last;
+  };
+  if (const auto* last = find_on_lane(x))
+    for (auto i = last->followers; !found && followers_[i] != no_piece; ++i)
+      find_on_lane(&pieces_[followers_[i]]);
+  return found;
 }
 
 // The next point is sought near the piece of the last one and those after it,
-// then on the lanes that follow, then everywhere.
+// then everywhere.
 bool road_map::near_lanes(std::span<const point> points,
                           double tolerance_m) const {
-  std::size_t lane = 0, piece = 0; // near the last point
+  const piece* found = nullptr;
   for (const auto& p : points) {
-    const auto is_near = [&](std::size_t other) {
-      const auto& x = pieces_[other];
+    const auto is_near = [&](const piece& x) {
       const auto along_m =
           std::clamp(dot(p - x.from, x.along), 0.0, x.length_m);
       const auto off = p - x.from - along_m * x.along;
       return dot(off, off) <= tolerance_m * tolerance_m;
     };
-    const auto find_on = [&](std::size_t on, std::size_t from) {
-      const auto end = std::min(ends_[on], from + pieces_ahead);
-      for (auto other = from; other < end; ++other)
-        if (is_near(other)) {
-          lane = on;
-          piece = other;
-          return true;
-        }
-      return false;
-    };
-    const auto find_after = [&](std::size_t on) {
-      return std::ranges::any_of(next_[on], [&](std::size_t follower) {
-        return find_on(follower, follower > 0 ? ends_[follower - 1] : 0);
-      });
-    };
-    const auto is_first = &p == points.data();
-    if (!is_first && (find_on(lane, piece) || find_after(lane)))
-      continue;
-    const auto found = cells_.any_near(p, tolerance_m, is_near);
-    if (!found)
-      return false;
-    piece = *found;
-    lane = lane_of(piece);
+    if (found)
+      found = find_ahead(found, is_near);
+    if (!found) {
+      const auto anywhere = cells_.any_near(
+          p, tolerance_m, [&](auto i) { return is_near(pieces_[i]); });
+      if (!anywhere)
+        return false;
+      found = &pieces_[*anywhere];
+    }
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include "world/route.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,15 +60,19 @@ public:
   bool near_lanes(std::span<const point> points, double tolerance_m) const;
 
 private:
-  /// A straight one of a centre line.
+  /// A straight one of a centre line; the next one of the lane lies behind it
+  /// in memory.
   struct piece {
     point from, along; // a unit vector
     double length_m;
+    std::uint32_t followers; // in `followers_`, of a lane's last piece; else 0
   };
 
   void cut(const path& line);
   void resolve(const lane& l);
-  std::size_t lane_of(std::size_t piece) const;
+  void join(std::span<const std::size_t> first_pieces);
+  template <class Predicate>
+  const piece* find_ahead(const piece* x, Predicate is_near) const;
 
   std::string name_;
   geo_origin origin_;
@@ -76,9 +81,9 @@ private:
   std::vector<conflict> conflicts_;
   std::vector<std::vector<std::size_t>> next_; // of each lane
   std::unordered_map<std::string, std::size_t> index_;
-  std::vector<piece> pieces_;     // of one lane after the other
-  std::vector<std::size_t> ends_; // of the pieces of each lane, one past
-  cell_grid cells_;               // of the pieces
+  std::vector<piece> pieces_;            // of one lane after the other
+  std::vector<std::uint32_t> followers_; // first pieces; each list ends by none
+  cell_grid cells_;                      // of the pieces
 };
 
 } // namespace sofof

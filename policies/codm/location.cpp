@@ -36,7 +36,7 @@ codm_entry codm_location() {
   return {
       {"location", "Accepts vehicles that will stay long enough in the area.",
        "t_in_area >= t_min, the way on the route before it leaves the area "
-       "by the present speed; and the whole route is on the map",
+       "by the present speed; and until t_min the route is on the map",
        "the route and the speed that requests tell",
        "Dehler & Buchholz, IEEE RA-L 10(5), 2025", stays_in_area::parameters()},
       alone<central_policy, in_area>};
