@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof {
@@ -32,7 +33,12 @@ struct remote_source {
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
   std::optional<time_point> last_in_time;
+  std::optional<time_point> called; // since then in vain
 };
+
+// Besides its interface: the time to call has come, set in this epoch.
+using manager_impl =
+    requester_manager_actor::extend<takes<tick_atom, std::uint64_t>>;
 
 std::string in_ms(duration d) {
   return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
@@ -41,13 +47,17 @@ std::string in_ms(duration d) {
 struct offloaded_state {
   static inline const char* name = "requester_manager";
 
-  requester_manager_actor::stateful_pointer<offloaded_state> self;
+  manager_impl::stateful_pointer<offloaded_state> self;
   requester_manager_setup setup;
   instance_actor local;
   watchdog_actor watchdog;
   std::vector<remote_source> remotes;
-  first_response answers{duration{0}}; // of planning cycles, by any of them
-  running_service watched;             // by whose name the watchdog watches
+  first_response answers;  // of planning cycles, by any of them
+  boot_id hedge = 0;       // the provider that is on call beside others,
+  duration hedge_after{};  // when a cycle is not answered for so long
+  time_point began;        // the latest cycle of who is not on call
+  std::uint64_t timer = 0; // the one that counts
+  running_service watched; // by whose name the watchdog watches
   service_input newest;
   payload in_use;         // the last result that the client got,
   running_service source; // of whom,
@@ -83,7 +93,7 @@ struct offloaded_state {
     newest = std::move(input);
     self->send(local, newest);
     for (auto& remote : remotes)
-      if (input_due(remote))
+      if (input_due(remote) && !(remote.in_use && is_on_call(remote)))
         feed_remote(remote);
   }
 
@@ -97,16 +107,18 @@ struct offloaded_state {
       return;
     remote.last_sent = now(self);
     auto input = setup.on_air({remote.running, newest.at, newest.what, in_use},
-                              !remote.in_use);
+                              !remote.in_use || is_on_call(remote));
     if (input.what.type().empty())
       return; // nothing to say
+    input.on_call = is_on_call(remote);
     note_on_air(self, setup.recorder, input.what);
     self->send(remote.manager, std::move(input));
   }
 
   void await(const running_service& running,
              const provider_manager_actor& manager) {
-    remotes.push_back({running, manager, false, false, false, {}, {}, {}, {}});
+    remotes.push_back(
+        {running, manager, false, false, false, {}, {}, {}, {}, {}});
     feed_remote(remotes.back());
   }
 
@@ -133,7 +145,9 @@ struct offloaded_state {
     const auto in_limits =
         can_judge(remote, result)
         && in_time(result.created, t, setup.options.limits.max_latency);
-    const auto first = in_limits && answers.use(cycle_of(result));
+    if (in_limits && !is_on_call(remote) && result.created > began)
+      await_next(result.created);
+    const auto first = in_limits && answers.use(cycle_of(remote, result));
     const auto alone = !is_remote() || (remote.in_use && sources() == 1);
     const auto usable = in_limits && (alone || (first && continues(result)));
     std::optional<duration> gap; // only while in use
@@ -145,8 +159,10 @@ struct offloaded_state {
     remote.last_cycle = result.cycle;
     if (remote.in_use || in_limits)
       remote.last_received = t;
-    if (in_limits)
+    if (in_limits) {
       remote.last_in_time = t;
+      remote.called.reset();
+    }
     if (remote.in_use && alone && !remote.in_doubt)
       self->send(watchdog, arrival{watched, result.created, t});
     else if (is_remote() && usable)
@@ -162,11 +178,58 @@ struct offloaded_state {
   }
 
   // All providers count them alike: a period of theirs is one of the service.
-  std::uint64_t cycle_of(const service_result& result) const {
-    return static_cast<std::uint64_t>(
-        std::max(duration{0}, result.created.time_since_epoch())
-        / setup.options.period);
+  // Who is on call answers the cycle that he is called for.
+  std::uint64_t cycle_of(const remote_source& remote,
+                         const service_result& result) const {
+    return number_of(is_on_call(remote) ? began : result.created);
   }
+  std::uint64_t number_of(time_point start) const {
+    return static_cast<std::uint64_t>(
+        std::max(duration{0}, start.time_since_epoch()) / setup.options.period);
+  }
+
+  // -- the hedge ------------------------------------------------------------
+
+  // Alone nobody is.
+  bool is_on_call(const remote_source& remote) const {
+    return remote.running.provider == hedge && sources() > remote.in_use;
+  }
+
+  void be_on_call(boot_id provider, duration after) {
+    const auto former = std::exchange(hedge, provider);
+    hedge_after = after;
+    for (auto& remote : remotes)
+      if (remote.in_use && remote.running.provider == former) {
+        remote.last_in_time = now(self); // patience begins
+        feed_remote(remote);
+      }
+    await_next(began);
+  }
+
+  // The cycle after one that began at `start` shall be answered.
+  void await_next(time_point start) {
+    began = start;
+    ++timer;
+    if (hedge != 0)
+      send_at(self, self, began + setup.options.period + hedge_after,
+              tick_atom_v, timer);
+  }
+
+  // One more cycle has begun, or should have.
+  void call(std::uint64_t set_as) {
+    if (set_as != timer || !is_remote())
+      return;
+    await_next(began + setup.options.period);
+    if (!answers.hedge_due(number_of(began), began, now(self), hedge_after))
+      return;
+    for (auto& remote : remotes)
+      if (remote.in_use && is_on_call(remote)) {
+        remote.called = remote.called.value_or(now(self));
+        feed_remote(remote);
+      }
+  }
+
+  // -- several at once ------------------------------------------------------
 
   // Two providers may disagree; the vehicle stays with the one that it follows
   // as long as that one goes on.
@@ -180,13 +243,16 @@ struct offloaded_state {
   // One of several that has not been in time for long is of no use.
   void give_up_silent() {
     const auto t = now(self);
-    for (auto& remote : remotes)
+    for (auto& remote : remotes) {
+      const auto since =
+          is_on_call(remote) ? remote.called : remote.last_in_time;
       if (remote.in_use && !remote.given_up
-          && t - remote.last_in_time.value_or(t) > protocol::start_timeout) {
+          && t - since.value_or(t) > protocol::start_timeout) {
         remote.given_up = true;
         self->send(setup.requester,
                    qos_violation{remote.running, qos_breach::gap, t, true});
       }
+    }
   }
 
   // Whose clock is not known well enough is not trusted with a latency: his
@@ -247,17 +313,19 @@ struct offloaded_state {
     if (!is_remote()) {
       self->send(watchdog, e);
       be_local();
-    } else if (watched == e.running) {
-      const auto other =
-          std::ranges::find(remotes, true, &remote_source::in_use);
-      watch(other->running, used_at);
+      return;
     }
+    auto& first = *std::ranges::find(remotes, true, &remote_source::in_use);
+    if (watched == e.running)
+      watch(first.running, used_at);
+    if (first.running.provider == hedge)
+      feed_remote(first); // alone it is not on call
   }
 };
 
-requester_manager_actor::behavior_type requester_manager(
-    requester_manager_actor::stateful_pointer<offloaded_state> self,
-    requester_manager_setup setup) {
+manager_impl::behavior_type
+requester_manager(manager_impl::stateful_pointer<offloaded_state> self,
+                  requester_manager_setup setup) {
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->state.start();
@@ -268,7 +336,11 @@ requester_manager_actor::behavior_type requester_manager(
              const provider_manager_actor& manager) {
         self->state.await(running, manager);
       },
+      [self](boot_id provider, duration after) {
+        self->state.be_on_call(provider, after);
+      },
       [self](const service_end& e) { self->state.end(e); },
+      [self](tick_atom, std::uint64_t set_as) { self->state.call(set_as); },
   };
 }
 

@@ -6,6 +6,8 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
+#include <algorithm>
+
 namespace sofof {
 
 namespace {
@@ -20,45 +22,79 @@ struct instance_state {
   instance_setup setup;
   lifecycle_state life = lifecycle_state::unconfigured;
   service_input newest;
-  std::uint64_t epoch = 0;
+  std::uint64_t epoch = 0; // of the one timer that counts
+  bool has_timer = false;
+  std::uint64_t after_last = 0, least = 0; // numbers of cycles
 
   void take(lifecycle_step step) {
     const auto next = after(life, step);
     if (!next)
       return;
     life = *next;
-    ++epoch;
-    if (life == lifecycle_state::active && setup.keeps_phase)
-      await_next();
-    else if (life == lifecycle_state::active)
-      run_cycle();
+    stop_timer();
+    if (life == lifecycle_state::active)
+      begin();
     else if (life == lifecycle_state::finalized)
       self->quit();
   }
 
-  void tick(std::uint64_t set_in) {
-    if (set_in == epoch)
+  void feed(service_input& input) {
+    newest = std::move(input);
+    if (newest.on_call)
+      stop_timer();
+    if (life == lifecycle_state::active && !has_timer)
+      begin();
+  }
+
+  void begin() {
+    if (newest.on_call)
       run_cycle();
+    else if (setup.keeps_phase)
+      await_next();
+    else
+      tick(epoch);
+  }
+
+  void tick(std::uint64_t set_in) {
+    if (set_in != epoch)
+      return;
+    await_next();
+    run_cycle();
+  }
+
+  void stop_timer() {
+    ++epoch;
+    has_timer = false;
   }
 
   void await_next() {
+    has_timer = true;
     send_at(self, self, next_on_grid(now(self), setup.phase, setup.period),
             tick_atom_v, epoch);
   }
 
   void run_cycle() {
-    await_next();
     const auto t = now(self);
     if (newest.what.type().empty())
       return;
     auto result = setup.function->run(t, newest);
     if (result.what.type().empty())
       return;
-    const auto cycle = static_cast<std::uint64_t>(
-        (t.time_since_epoch() - setup.phase + setup.period) / setup.period);
+    const auto cycle = number_of(t);
     send_at(self, setup.results, setup.finish(t, cycle),
             service_result{setup.running, cycle, t, std::move(result.what),
                            std::move(result.about)});
+  }
+
+  // Who is called twice in a period runs two cycles, and is ahead of the grid.
+  std::uint64_t number_of(time_point t) {
+    const auto on_grid = static_cast<std::uint64_t>(
+        (t.time_since_epoch() - setup.phase + setup.period) / setup.period);
+    const auto cycle = std::max(on_grid, newest.on_call ? after_last : least);
+    after_last = cycle + 1;
+    if (newest.on_call || cycle > on_grid)
+      least = after_last;
+    return cycle;
   }
 };
 
@@ -69,7 +105,7 @@ instance(instance_impl::stateful_pointer<instance_state> self,
   self->state.setup = std::move(setup);
   return {
       [self](lifecycle_step step) { self->state.take(step); },
-      [self](service_input& input) { self->state.newest = std::move(input); },
+      [self](service_input& input) { self->state.feed(input); },
       [self](tick_atom, std::uint64_t epoch) { self->state.tick(epoch); },
   };
 }

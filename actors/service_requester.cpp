@@ -55,6 +55,7 @@ struct requester_state {
            offloaded_cost(setup.computer, kind->common.task, takes_no_time),
            {},
            {},
+           0,
            now(self),
            {},
            {}});
@@ -176,7 +177,7 @@ struct requester_state {
     if (!offer.created || *offer.created > t)
       return;
     for (auto& slot : slots)
-      if (!slot.find(offer.provider))
+      if (!slot.find(offer.provider) || slot.is_on_call(offer.provider))
         slot.link_of(offer.provider)
             .answered(*offer.created - slot.computing(offer), t);
   }
@@ -280,10 +281,18 @@ struct requester_state {
       return {};
     }
     slot.wanted = wanted;
+    set_hedge(slot, wanted.size() > 1 ? decision.hedge_after : duration{0});
     std::erase_if(wanted, [&](boot_id id) { return slot.find(id); });
     if (wanted.empty())
       leave_others(slot);
     return wanted;
+  }
+
+  // Whom the policy wants beside the first, it may want on call only.
+  void set_hedge(service_slot& slot, duration after) {
+    const auto hedge = after > duration{0} ? slot.wanted.back() : 0;
+    if (std::exchange(slot.hedge, hedge) != hedge)
+      self->send(slot.manager, hedge, after);
   }
 
   // @returns first where a service runs, then who may be asked for it: who
@@ -436,7 +445,11 @@ struct requester_state {
     auto& slot = *at.slot;
     const auto t = now(self);
     const auto latency = t - result.created;
-    slot.link_of(result.running.provider).arrived(result.created, t);
+    auto& link = slot.link_of(result.running.provider);
+    if (slot.is_on_call(result.running.provider))
+      link.answered(result.created, t);
+    else
+      link.arrived(result.created, t);
     setup.lodm->observe(cycle_outcome{
         t, result.running.kind.view(), result.running.provider,
         to_seconds(latency), latency > slot.kind->common.limits.max_latency,

@@ -26,6 +26,13 @@ bool service_slot::wants(boot_id provider) const {
   return std::ranges::find(wanted, provider) != wanted.end();
 }
 
+bool service_slot::is_on_call(boot_id provider) const {
+  return provider == hedge
+         && std::ranges::any_of(elsewhere, [&](const offloading& x) {
+              return x.at == phase::remote && x.provider != provider;
+            });
+}
+
 bool service_slot::is_moving() const {
   return std::ranges::any_of(
       elsewhere, [](const offloading& x) { return x.at != phase::remote; });

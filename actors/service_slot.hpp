@@ -47,6 +47,7 @@ struct service_slot {
   cycle_cost offloaded;              ///< Time: of the way there alone.
   std::vector<offloading> elsewhere; ///< The oldest first; empty: it is local.
   std::vector<boot_id> wanted;       ///< Who shall run it.
+  boot_id hedge = 0;                 ///< Who of them is on call; 0: nobody.
   time_point since;                  ///< It has been where it is.
   std::map<boot_id, time_point> cool_until;
   std::map<boot_id, link_estimator> links; ///< By what came from there.
@@ -56,6 +57,8 @@ struct service_slot {
   void drop(boot_id provider);
 
   bool wants(boot_id provider) const;
+  /// Whether that one is called only when others do not answer.
+  bool is_on_call(boot_id provider) const;
   bool is_moving() const; ///< Whether an answer or first data is awaited.
   bool is_remote() const;
   /// @returns the provider that has run it for longest; 0: it is local.

@@ -53,6 +53,9 @@ using requester_manager_actor = result_actor::extend<
     // A provider runs the service too: feed it there, and use the results from
     // the first one on.
     takes<running_service, provider_manager_actor>,
+    // Of several, this provider is on call: it is fed when nobody has answered
+    // a cycle for so long. 0: no provider is.
+    takes<boot_id, duration>,
     // The running service has ended: the local service plans at once.
     takes<service_end>>;
 

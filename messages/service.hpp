@@ -82,7 +82,8 @@ struct service_response {
   std::vector<verdict> verdicts;
 };
 
-/// What a running service works on next; newer input replaces older.
+/// What a running service works on next; newer input replaces older. Whoever is
+/// on call gives one result at once, and the next one when it is called again.
 struct service_input {
   running_service running;
   time_point at;
@@ -90,6 +91,7 @@ struct service_input {
   /// The result in use, for a source that takes over from another one, which
   /// shall go on from there; else empty.
   payload in_use{};
+  bool on_call = false; ///< Else a result comes in every period.
 };
 
 /// What one cycle of a running service gave.
@@ -196,7 +198,8 @@ template <class Inspector>
 bool inspect(Inspector& f, service_input& x) {
   return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
                             f.field("what", x.what),
-                            f.field("in_use", x.in_use));
+                            f.field("in_use", x.in_use),
+                            f.field("on_call", x.on_call));
 }
 
 template <class Inspector>

@@ -111,6 +111,9 @@ struct local_decision {
   boot_id second = 0;
   bool release = false; ///< It shall come home, and nobody is asked.
   double advantage = 1; ///< Over where it runs: a normalised gain, if known.
+  /// The second one plans only cycles that the first has not answered for so
+  /// long after they began (a hedge); 0: all.
+  duration hedge_after{};
 };
 
 /// @returns a decision to leave all as it is.

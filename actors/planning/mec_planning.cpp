@@ -119,6 +119,9 @@ private:
         || protocol::is_of_future(plan.start, now))
       return;
     ego_.emplace(cycle_->way(), from_m);
+    const auto& first = plan.points.front(); // there it is, whatever CAMs said
+    ego_->hear({plan.start, first.at, first.heading_rad, first.speed_mps,
+                first.accel_mps2, first.curvature_1pm});
     follow(plan);
   }
 

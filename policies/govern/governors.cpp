@@ -50,7 +50,10 @@ const std::vector<governor_entry>& governors() {
         "latencies of what came from each provider",
         "Dean & Barroso, CACM 56(2), 2013",
         {{"least_late", "1",
-          "probability to be late below which one provider is enough"}}},
+          "probability to be late below which one provider is enough"},
+         {"hedge_after", "time",
+          "the second plans only cycles that the first has not answered for so "
+          "long; 0: all"}}},
        made<redundant>}};
   return all;
 }

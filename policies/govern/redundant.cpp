@@ -17,15 +17,18 @@ local_decision redundant::govern(const local_context& context,
     else if (!best || other.link.late < best->link.late)
       best = &other;
   }
-  if (best && !is_enough)
+  if (best && !is_enough) {
     decision.second = best->id;
-  else
+    decision.hedge_after = hedge_after_;
+  } else {
     decision.source = first; // alone: a second one ends
+  }
   return decision;
 }
 
 void redundant::fields(settings& s) {
   s.field("least_late", least_late_, {0, 1});
+  s.field("hedge_after", hedge_after_, duration{0});
 }
 
 } // namespace sofof

@@ -20,7 +20,8 @@ public:
   }
 
 private:
-  double least_late_ = 0; // below this one provider is enough
+  double least_late_ = 0;  // below this one provider is enough
+  duration hedge_after_{}; // 0: the other one plans every cycle
 };
 
 } // namespace sofof

@@ -10,16 +10,12 @@
 namespace sofof {
 
 /// Takes of each cycle the first response only, and none of a cycle before one
-/// that has been answered: the vehicle is past it. With `hedge_after` the
-/// second provider is asked only when the first has not answered by then.
+/// that has been answered: the vehicle is past it. With a hedge the second
+/// provider is asked only when the first has not answered for a while.
 /// Whether two providers' plans may follow each other, `continues` tells.
 /// O(1) in time and memory. Source: Dean & Barroso 2013 (hedged requests).
 class first_response {
 public:
-  /// @param hedge_after  h > 0: a good choice is the latency that 70 to 80 %
-  ///                     of responses stay below.
-  explicit first_response(duration hedge_after) : hedge_after_{hedge_after} {}
-
   /// @param cycle  Number of the planning cycle that was answered; they rise.
   ///               One that was asked for: a made-up one would shut out all
   ///               below it.
@@ -30,16 +26,18 @@ public:
     return newest_ && cycle <= *newest_;
   }
 
-  /// @param sent  When the first provider was asked about the cycle.
+  /// @param began        When the first provider began the cycle.
+  /// @param hedge_after  A good choice is the latency that 70 to 80 % of
+  ///                     responses stay below.
   /// @returns whether it is time to ask the second.
-  bool hedge_due(std::uint64_t cycle, time_point sent, time_point now) const {
-    return !answered(cycle) && now - sent >= hedge_after_;
+  bool hedge_due(std::uint64_t cycle, time_point began, time_point now,
+                 duration hedge_after) const {
+    return !answered(cycle) && now - began >= hedge_after;
   }
 
   std::uint64_t dropped() const { return dropped_; }
 
 private:
-  duration hedge_after_;
   std::optional<std::uint64_t> newest_; // answered
   std::uint64_t dropped_ = 0;
 };

@@ -50,6 +50,10 @@ struct instance_world : virtual_world {
   void feed(std::uint64_t number) {
     tell(instance, service_input{running, now(), payload::of(echo{number})});
   }
+  void call(std::uint64_t number) {
+    tell(instance,
+         service_input{running, now(), payload::of(echo{number}), {}, true});
+  }
   std::vector<time_point> starts() const {
     std::vector<time_point> all;
     for (const auto& r : results->all<service_result>())
@@ -195,6 +199,51 @@ TEST_CASE_FIXTURE(instance_world, "newer input replaces older") {
   REQUIRE(all.size() == 2);
   CHECK(all[0].what.as<echo>()->number == 2);
   CHECK(all[1].what.as<echo>()->number == 3);
+}
+
+TEST_CASE_FIXTURE(instance_world, "an instance on call runs one cycle for each "
+                                  "input, at once") {
+  run_for(100ms);
+  call(1);
+  start();
+  run_for(203ms);
+  call(2);
+  run_for(1s);
+  CHECK(starts() == std::vector{time_point{100ms}, time_point{303ms}});
+  CHECK(results->all<service_result>().back().what.as<echo>()->number == 2);
+}
+
+TEST_CASE_FIXTURE(instance_world, "an instance that is called twice in a "
+                                  "period runs two cycles") {
+  feed(1);
+  start();
+  run_for(20ms);
+  call(2);
+  call(3);
+  run_for(10ms);
+  feed(4);
+  run_for(1s);
+  const auto all = results->all<service_result>();
+  REQUIRE(all.size() > 20);
+  for (std::size_t k = 1; k < all.size(); ++k)
+    CHECK(all[k].cycle > all[k - 1].cycle);
+}
+
+TEST_CASE_FIXTURE(instance_world, "an instance that is no longer on call goes "
+                                  "on at once, on its grid") {
+  run_for(100ms);
+  call(1);
+  start();
+  run_for(33ms);
+  feed(2);
+  feed(3);
+  run_for(100ms);
+  CHECK(starts()
+        == std::vector{time_point{100ms}, time_point{133ms}, time_point{170ms},
+                       time_point{220ms}});
+  call(4);
+  run_for(1s);
+  CHECK(starts().size() == 5);
 }
 
 TEST_CASE_FIXTURE(instance_world, "a cycle without a result sends none") {

@@ -28,6 +28,7 @@ struct lodm_script {
   std::set<std::string, std::less<>> wanted{"one", "two"};
   boot_id preferred = 0; ///< Whom it shall ask; 0: who stands first.
   boot_id second = 0;
+  duration hedge_after{};
   bool release = false;
   double epoch_s = 0;
   std::vector<cycle_outcome> cycles; ///< What it was told; no names.
@@ -52,7 +53,11 @@ public:
     if (!script_->wanted.contains(c.kind))
       return {0, "as told"};
     return {script_->preferred ? script_->preferred : c.providers.front().id,
-            "as told", script_->second, script_->release};
+            "as told",
+            script_->second,
+            script_->release,
+            1,
+            script_->hedge_after};
   }
   void observe(const cycle_outcome& x) override {
     script_->cycles.push_back(x);

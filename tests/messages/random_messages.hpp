@@ -36,7 +36,7 @@ inline constexpr std::size_t arity<verdict> = 4;
 template <>
 inline constexpr std::size_t arity<service_response> = 4;
 template <>
-inline constexpr std::size_t arity<service_input> = 4;
+inline constexpr std::size_t arity<service_input> = 5;
 template <>
 inline constexpr std::size_t arity<service_result> = 6;
 template <>

@@ -139,22 +139,37 @@ TEST_CASE("a word carries the plan in use for who takes over") {
   }
 }
 
-TEST_CASE("a plan that began before the word is told as it began") {
-  const auto plan = plan_from(10, 5, start - 400ms);
+TEST_CASE("of a plan that began before the word the rest is told") {
   const auto way = round()->waypoints(12, 200, 10);
-  const auto got =
-      read_word(sent(make_word({at(12, 5), way, &plan, {}}, car, *in_ulm())),
-                *in_ulm(), start + 20ms);
-  REQUIRE(got);
-  // Times count from the message: what has begun before cannot be said.
-  if (got->plan) {
+  for (const auto age : {1ms, 50ms, 400ms, 433ms}) {
+    CAPTURE(age.count());
+    const auto plan = plan_from(10, 5, start - age);
+    const auto got =
+        read_word(sent(make_word({at(12, 5), way, &plan, {}}, car, *in_ulm())),
+                  *in_ulm(), start + 20ms);
+    REQUIRE(got);
+    REQUIRE(got->plan);
     trajectory again;
     REQUIRE(to_trajectory(*got->plan,
                           {in_ulm()->frame, got->reference, got->at}, *round(),
                           12, nullptr, again)
             == maneuver_fault::none);
-    CHECK(distance_m(again.at(start + 1s).at, plan.at(start + 1s).at) < 0.03);
+    CHECK(again.start >= start);
+    CHECK(again.start < start + 1ms);
+    for (auto t = start; t < again.end(); t += 100ms)
+      CHECK(distance_m(again.at(t).at, plan.at(t).at) < 0.05);
+    CHECK(again.end() > plan.end() - 500ms);
   }
+}
+
+TEST_CASE("a plan that is over is not told") {
+  const auto plan = plan_from(10, 5, start - 1min);
+  const auto way = round()->waypoints(12, 200, 10);
+  const auto got =
+      read_word(sent(make_word({at(12, 5), way, &plan, {}}, car, *in_ulm())),
+                *in_ulm(), start + 20ms);
+  REQUIRE(got);
+  CHECK(!got->plan);
 }
 
 TEST_CASE("an answer names the suggestion that it answers") {

@@ -31,7 +31,7 @@ std::vector<point> plan(int points, double left_m) {
 
 TEST_CASE("of each cycle the first response is used, later ones are dropped "
           "and counted") {
-  first_response responses{20ms};
+  first_response responses;
   CHECK(responses.use(0));
   CHECK(!responses.use(0));
   CHECK(responses.use(1));
@@ -43,7 +43,7 @@ TEST_CASE("of each cycle the first response is used, later ones are dropped "
 
 TEST_CASE("no cycle is used twice, in whatever order responses come") {
   dice random{5};
-  first_response responses{20ms};
+  first_response responses;
   std::set<std::uint64_t> used;
   std::uint64_t heard = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -56,12 +56,12 @@ TEST_CASE("no cycle is used twice, in whatever order responses come") {
 }
 
 TEST_CASE("a hedge is due after h, unless an answer is there") {
-  first_response responses{20ms};
-  CHECK(!responses.hedge_due(1, at(1s), at(1019ms)));
-  CHECK(responses.hedge_due(1, at(1s), at(1020ms)));
+  first_response responses;
+  CHECK(!responses.hedge_due(1, at(1s), at(1019ms), 20ms));
+  CHECK(responses.hedge_due(1, at(1s), at(1020ms), 20ms));
   responses.use(1);
-  CHECK(!responses.hedge_due(1, at(1s), at(1020ms)));
-  CHECK(responses.hedge_due(2, at(1100ms), at(1120ms)));
+  CHECK(!responses.hedge_due(1, at(1s), at(1020ms), 20ms));
+  CHECK(responses.hedge_due(2, at(1100ms), at(1120ms), 20ms));
 }
 
 TEST_CASE("all providers miss a cycle with the product of their chances") {

@@ -190,6 +190,17 @@ TEST_CASE_FIXTURE(roadside,
   CHECK(ask(*lodm).source == 1); // there, and nowhere else
 }
 
+TEST_CASE_FIXTURE(roadside, "the second plans all cycles, or may be kept for "
+                            "those that are not answered") {
+  add(1);
+  add(2);
+  CHECK(ask(*always_with("redundancy")).hedge_after == duration{0});
+  const auto lodm =
+      always_with("redundancy", {.times = {{"govern.0.hedge_after", 20ms}}});
+  CHECK(ask(*lodm).second == 2);
+  CHECK(ask(*lodm).hedge_after == 20ms);
+}
+
 TEST_CASE_FIXTURE(roadside, "who stays on board needs no second") {
   option_values options;
   options.texts = {{"govern.0.name", "redundancy"}};

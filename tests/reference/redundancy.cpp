@@ -56,7 +56,7 @@ struct redundancy_outcome {
 
 // What happens in the order in which it happens, cycle by cycle.
 redundancy_outcome drive_hedged(duration hedge_after) {
-  first_response responses{hedge_after};
+  first_response responses;
   redundancy_outcome seen;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const auto sent = time_point{cycle * cycle_period};
@@ -70,7 +70,7 @@ redundancy_outcome drive_hedged(duration hedge_after) {
     if (first <= hedge_after)
       answer(first);
     if (hedge_after < never
-        && responses.hedge_due(number, sent, sent + hedge_after)) {
+        && responses.hedge_due(number, sent, sent + hedge_after, hedge_after)) {
       ++seen.extra;
       const auto second = latency(cycle, 1);
       const auto late = second < lost ? hedge_after + second : lost;

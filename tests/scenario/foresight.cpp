@@ -3,9 +3,11 @@
 
 #include "scenario/load.hpp"
 #include "tests/scenario/bench_town.hpp"
+#include "tests/scenario/whole_run.hpp"
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -44,4 +46,31 @@ TEST_CASE("it is foreseen when a provider fails and when it is back") {
   CHECK(before.late->time_since_epoch() <= 20100ms);
   CHECK(look(set, boot_of(1, 1), 29s, 60s).late);
   CHECK_FALSE(look(set, boot_of(1, 1), 30s, 60s).late);
+}
+
+// One vehicle, so that nobody waits for a worker or for the radio cell.
+TEST_CASE("what is foreseen of a channel is what comes in a run") {
+  const std::filesystem::path folder = SOFOF_SOURCE_DIR "/config/bench";
+  for (const auto* name : {"spiky_5g", "tunnel", "two_operators"}) {
+    CAPTURE(name);
+    const auto s =
+        load_scenario(folder / (std::string{name} + ".toml"),
+                      {"duration=120s", "fleet.0.count=1",
+                       "policies.lodm=\"always\"", "policies.codm=\"always\""});
+    const auto future = foresee(s)(s.vehicles.front().station);
+    std::size_t in_time = 0, late = 0;
+    for (const auto& cycle : play(s).cycles) {
+      const auto seen = future->look(cycle.running.provider, planning,
+                                     cycle.created, cycle.created + 1ns);
+      const auto latency = cycle.received - cycle.created;
+      CAPTURE(to_seconds(cycle.created.time_since_epoch()));
+      CHECK(seen.late.has_value() == (latency > 50ms));
+      if (!seen.late)
+        CHECK(seen.latency_s
+              == doctest::Approx(to_seconds(latency)).epsilon(1e-6));
+      ++(seen.late ? late : in_time);
+    }
+    CHECK(in_time > 500);
+    CHECK(late > 0);
+  }
 }

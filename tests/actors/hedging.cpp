@@ -1,0 +1,183 @@
+// Tests of a second provider that is called only when the first does not
+// answer.
+#include "actors/service_manager.hpp"
+#include "tests/actors/requester_world.hpp"
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+/// Service "one" runs at the first provider, every 50 ms, and the second one is
+/// called when that has not answered 20 ms after a cycle began. All ways take
+/// 10 ms.
+struct hedged_world : requester_world {
+  probe<provider_manager_actor> second = listen<provider_manager_actor>();
+  std::uint64_t cycle = 1;
+
+  hedged_world() {
+    start_remote({one});
+    lodm->preferred = here;
+    lodm->second = elsewhere;
+    lodm->hedge_after = 20ms;
+    offer_from(other, elsewhere, {one});
+    const auto asked = other->all<service_request>().back();
+    tell(requester,
+         service_response{
+             elsewhere, station, asked.number, {{at_other(), true, "as told"}}},
+         std::vector{second.handle});
+  }
+
+  running_service at_other() const { return {elsewhere, station, one, 70}; }
+  void join() { result(at_other(), 1); }
+  /// The first answers the next cycle, 40 ms after its last answer.
+  void answer_next() {
+    run_for(50ms);
+    result(at_here(one, 7), ++cycle);
+  }
+  void feed() {
+    for (const auto& m : vehicle->all<requester_manager_actor>())
+      tell(m, service_input{{}, now(), payload::of(echo{1})});
+  }
+  /// Results of the service that the client got.
+  std::vector<service_result> used() const {
+    auto all = vehicle->all<service_result>();
+    std::erase_if(all, [this](const auto& r) { return r.running.kind != one; });
+    return all;
+  }
+  std::size_t calls() const {
+    std::size_t n = 0;
+    for (const auto& input : second->all<service_input>())
+      n += input.on_call;
+    return n;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(hedged_world, "whoever is to be on call is called for its "
+                                "first result") {
+  REQUIRE(second->count<service_input>() == 1);
+  CHECK(calls() == 1);
+  join();
+  CHECK(is_remote(one));
+  CHECK(ends().empty());
+}
+
+TEST_CASE_FIXTURE(hedged_world, "nobody is called, or fed, as long as the "
+                                "first answers each cycle") {
+  join();
+  second->clear();
+  for (int k = 0; k < 40; ++k) {
+    answer_next();
+    feed();
+  }
+  CHECK(second->entries().empty());
+  CHECK(other->count<service_end>() == 0);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "a cycle that is not answered in time is "
+                                "called for, once") {
+  join();
+  answer_next(); // it began 10 ms ago
+  second->clear();
+  run_for(60ms - 1ns);
+  CHECK(calls() == 0);
+  run_for(1ns);
+  CHECK(calls() == 1);
+  CHECK(second->count<service_input>() == 1);
+  run_for(20ms);
+  CHECK(calls() == 1);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "the answer to a call is used, that of the "
+                                "first which comes after it is not") {
+  join();
+  answer_next();
+  run_for(65ms);
+  vehicle->clear();
+  result(at_other(), 2, 5ms);
+  REQUIRE(used().size() == 1);
+  CHECK(used().front().running == at_other());
+  result(at_here(one, 7), ++cycle, 25ms);
+  CHECK(used().size() == 1);
+  answer_next(); // the next cycle is the first's again
+  REQUIRE(used().size() == 2);
+  CHECK(used().back().running == at_here(one, 7));
+}
+
+TEST_CASE_FIXTURE(hedged_world, "while the first is silent each cycle is "
+                                "called for, and then the second is fed") {
+  join();
+  answer_next();
+  second->clear();
+  std::uint64_t k = 1;
+  for (int n = 0; n < 5; ++n) {
+    run_for(n == 0 ? 60ms : 40ms);
+    CHECK(calls() == k);
+    run_for(10ms);
+    result(at_other(), ++k, 5ms);
+  }
+  CHECK(is_remote(one));
+  tell(requester,
+       service_end{at_here(one, 7), end_reason::revoked, side::provider});
+  CHECK(is_remote(one));
+  CHECK(calls() == 5);
+  REQUIRE(second->count<service_input>() == 6);
+  CHECK(!second->all<service_input>().back().on_call);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "when nobody answers, called or not, the "
+                                "service comes home") {
+  join();
+  answer_next();
+  run_for(101ms);
+  CHECK(!is_remote(one));
+  CHECK(ends().size() == 1);
+  CHECK(other->count<service_end>() == 1);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "who is called for a second in vain is given "
+                                "up, and who is not called is not") {
+  join();
+  for (int k = 0; k < 40; ++k)
+    answer_next();
+  CHECK(other->count<service_end>() == 0);
+  for (int k = 0; k < 30; ++k) { // each cycle 30 ms late
+    run_for(50ms);
+    result(at_here(one, 7), ++cycle, 30ms);
+  }
+  CHECK(is_remote(one));
+  REQUIRE(other->count<service_end>() == 1);
+  CHECK(other->all<service_end>().front().reason == end_reason::qos_gap);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "the link to whoever is on call is not judged "
+                                "by the gaps between its results") {
+  join();
+  for (std::uint64_t k = 2; k < 40; ++k) {
+    for (int n = 0; n < 10; ++n)
+      answer_next();
+    result(at_other(), k);
+  }
+  lodm->asked.clear();
+  offer_from(other, elsewhere, {one, two});
+  REQUIRE(!lodm->asked.empty());
+  const auto& known = lodm->asked.front().providers;
+  const auto there = std::ranges::find(known, elsewhere, &provider_view::id);
+  REQUIRE(there != known.end());
+  CHECK(there->link.late < 0.5);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "a policy may call all cycles again") {
+  join();
+  answer_next();
+  second->clear();
+  lodm->hedge_after = {};
+  offer_from(other, elsewhere, {two});
+  offer_from(provider, here, {one, two});
+  lodm->wanted = {"one"};
+  offer_from(other, elsewhere, {one});
+  REQUIRE(second->count<service_input>() == 1);
+  CHECK(!second->all<service_input>().front().on_call);
+}
