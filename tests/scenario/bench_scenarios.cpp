@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -79,6 +80,27 @@ TEST_CASE("two operators stall at different times") {
   CHECK(s.providers[0].radio != s.providers[1].radio);
   CHECK(s.channel_to(0)->stalls.rate_hz > 0);
   CHECK(s.channel_to(1)->stalls.rate_hz > 0);
+}
+
+TEST_CASE("a hedge saves most of what two providers cost, and keeps most of "
+          "what they are worth") {
+  const auto drive = [](const std::string& govern) {
+    return play(
+        load_bench("two_operators",
+                   {"duration=180s", "policies.lodm={name=\"location\",govern=["
+                                         + govern + "]}"}));
+  };
+  const auto alone = drive("");
+  const auto both = drive(R"({name="redundancy"})");
+  const auto hedged = drive(R"({name="redundancy",hedge_after="20ms"})");
+  const auto fallbacks = [](const memory_sink& records) {
+    return std::ranges::count(records.episodes, true,
+                              &episode_record::fallback);
+  };
+  CHECK(both.cycles.size() > alone.cycles.size() * 19 / 10);
+  CHECK(hedged.cycles.size() < alone.cycles.size() * 13 / 10);
+  CHECK(fallbacks(alone) >= 6);
+  CHECK(fallbacks(hedged) <= fallbacks(alone) / 3);
 }
 
 TEST_CASE("in the corridor some provider offers everywhere, two at places") {

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -48,29 +49,31 @@ TEST_CASE("it is foreseen when a provider fails and when it is back") {
   CHECK_FALSE(look(set, boot_of(1, 1), 30s, 60s).late);
 }
 
-// One vehicle, so that nobody waits for a worker or for the radio cell.
+// One vehicle, so that nobody waits for a worker or for the radio cell. Delays
+// go on from those before, and a run has not all of them: a little is left.
 TEST_CASE("what is foreseen of a channel is what comes in a run") {
   const std::filesystem::path folder = SOFOF_SOURCE_DIR "/config/bench";
-  for (const auto* name : {"spiky_5g", "tunnel", "two_operators"}) {
+  const std::vector<std::string> set{"duration=300s", "fleet.0.count=1",
+                                     "policies.lodm=\"always\"",
+                                     "policies.codm=\"always\""};
+  std::size_t in_time = 0, late = 0;
+  for (const std::string name : {"spiky_5g", "tunnel", "two_operators"}) {
     CAPTURE(name);
-    const auto s =
-        load_scenario(folder / (std::string{name} + ".toml"),
-                      {"duration=120s", "fleet.0.count=1",
-                       "policies.lodm=\"always\"", "policies.codm=\"always\""});
-    const auto future = foresee(s)(s.vehicles.front().station);
-    std::size_t in_time = 0, late = 0;
+    const auto s = load_scenario(folder / (name + ".toml"), set);
+    const auto future = foresee(s)(101);
     for (const auto& cycle : play(s).cycles) {
       const auto seen = future->look(cycle.running.provider, planning,
                                      cycle.created, cycle.created + 1ns);
+      if (!seen.late && seen.latency_s == 0)
+        continue; // the first, which is run at once, is not on the grid
       const auto latency = cycle.received - cycle.created;
       CAPTURE(to_seconds(cycle.created.time_since_epoch()));
       CHECK(seen.late.has_value() == (latency > 50ms));
       if (!seen.late)
-        CHECK(seen.latency_s
-              == doctest::Approx(to_seconds(latency)).epsilon(1e-6));
+        CHECK(std::abs(seen.latency_s - to_seconds(latency)) < 1e-3);
       ++(seen.late ? late : in_time);
     }
-    CHECK(in_time > 500);
-    CHECK(late > 0);
   }
+  CHECK(in_time > 5000);
+  CHECK(late > 5);
 }
