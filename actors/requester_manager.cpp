@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,7 +34,8 @@ struct remote_source {
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
   std::optional<time_point> last_in_time;
-  std::optional<time_point> called; // since then in vain
+  bool told_on_call = false; // by the last input
+  int calls_in_vain = 0;
 };
 
 // Besides its interface: the time to call has come, set in this epoch.
@@ -52,12 +54,14 @@ struct offloaded_state {
   instance_actor local;
   watchdog_actor watchdog;
   std::vector<remote_source> remotes;
-  first_response answers;  // of planning cycles, by any of them
-  boot_id hedge = 0;       // the provider that is on call beside others,
-  duration hedge_after{};  // when a cycle is not answered for so long
-  time_point began;        // the latest cycle of who is not on call
-  std::uint64_t timer = 0; // the one that counts
-  running_service watched; // by whose name the watchdog watches
+  first_response answers;     // of planning cycles, by any of them
+  boot_id hedge = 0;          // the provider that is on call beside others,
+  duration hedge_after{};     // when a cycle is not answered for so long
+  time_point began;           // the latest cycle of who is not on call
+  std::uint64_t timer = 0;    // the one that counts
+  std::uint64_t answered = 0; // the latest cycle that was,
+  time_point answered_began;  // and when it began
+  running_service watched;    // by whose name the watchdog watches
   service_input newest;
   payload in_use;         // the last result that the client got,
   running_service source; // of whom,
@@ -102,23 +106,29 @@ struct offloaded_state {
            || now(self) - *remote.last_sent >= setup.options.input_period;
   }
 
-  void feed_remote(remote_source& remote) {
+  // @returns whether there was anything to say.
+  bool feed_remote(remote_source& remote) {
     if (newest.what.type().empty())
-      return;
+      return false;
     remote.last_sent = now(self);
+    const auto on_call = is_on_call(remote);
     auto input = setup.on_air({remote.running, newest.at, newest.what, in_use},
-                              !remote.in_use || is_on_call(remote));
+                              !remote.in_use || on_call || remote.told_on_call);
     if (input.what.type().empty())
-      return; // nothing to say
-    input.on_call = is_on_call(remote);
+      return false;
+    if (remote.told_on_call && !on_call)
+      remote.last_in_time = now(self); // patience begins
+    input.on_call = remote.told_on_call = on_call;
     note_on_air(self, setup.recorder, input.what);
     self->send(remote.manager, std::move(input));
+    return true;
   }
 
   void await(const running_service& running,
              const provider_manager_actor& manager) {
-    remotes.push_back(
-        {running, manager, false, false, false, {}, {}, {}, {}, {}});
+    auto& remote = remotes.emplace_back();
+    remote.running = running;
+    remote.manager = manager;
     feed_remote(remotes.back());
   }
 
@@ -147,9 +157,11 @@ struct offloaded_state {
         && in_time(result.created, t, setup.options.limits.max_latency);
     if (in_limits && !is_on_call(remote) && result.created > began)
       await_next(result.created);
-    const auto first = in_limits && answers.use(cycle_of(remote, result));
     const auto alone = !is_remote() || (remote.in_use && sources() == 1);
-    const auto usable = in_limits && (alone || (first && continues(result)));
+    const auto fits = in_limits && (alone || continues(result));
+    const auto first =
+        fits && answer(is_on_call(remote) ? began : result.created);
+    const auto usable = fits && (alone || first);
     std::optional<duration> gap; // only while in use
     if (remote.last_received)
       gap = t - *remote.last_received;
@@ -161,7 +173,7 @@ struct offloaded_state {
       remote.last_received = t;
     if (in_limits) {
       remote.last_in_time = t;
-      remote.called.reset();
+      remote.calls_in_vain = 0;
     }
     if (remote.in_use && alone && !remote.in_doubt)
       self->send(watchdog, arrival{watched, result.created, t});
@@ -175,17 +187,27 @@ struct offloaded_state {
       use(result);
     if (sources() > 1)
       give_up_silent();
+    if (is_on_call(remote) && input_due(remote))
+      feed_remote(remote); // it has not heard that it is on call
   }
 
-  // All providers count them alike: a period of theirs is one of the service.
-  // Who is on call answers the cycle that he is called for.
-  std::uint64_t cycle_of(const remote_source& remote,
-                         const service_result& result) const {
-    return number_of(is_on_call(remote) ? began : result.created);
+  // Providers are half a period out of step at most: what began later than
+  // that after the cycle that was answered last is the next one. Who is on call
+  // answers the cycle that he was called for.
+  // @returns whether it is the first answer to its cycle.
+  bool answer(time_point start) {
+    const auto cycle = number_of(start);
+    if (!answers.use(cycle))
+      return false;
+    answered = cycle;
+    answered_began = start;
+    return true;
   }
+
   std::uint64_t number_of(time_point start) const {
-    return static_cast<std::uint64_t>(
-        std::max(duration{0}, start.time_since_epoch()) / setup.options.period);
+    const auto periods = std::lround(to_seconds(start - answered_began)
+                                     / to_seconds(setup.options.period));
+    return answered + static_cast<std::uint64_t>(std::max(0L, periods));
   }
 
   // -- the hedge ------------------------------------------------------------
@@ -196,14 +218,17 @@ struct offloaded_state {
   }
 
   void be_on_call(boot_id provider, duration after) {
-    const auto former = std::exchange(hedge, provider);
+    hedge = provider;
     hedge_after = after;
-    for (auto& remote : remotes)
-      if (remote.in_use && remote.running.provider == former) {
-        remote.last_in_time = now(self); // patience begins
-        feed_remote(remote);
-      }
+    tell_duties();
     await_next(began);
+  }
+
+  // Whoever comes to be on call, or no longer is, is told by an input.
+  void tell_duties() {
+    for (auto& remote : remotes)
+      if (remote.in_use && remote.told_on_call != is_on_call(remote))
+        feed_remote(remote);
   }
 
   // The cycle after one that began at `start` shall be answered.
@@ -215,18 +240,18 @@ struct offloaded_state {
               tick_atom_v, timer);
   }
 
-  // One more cycle has begun, or should have.
+  // One more cycle has begun, or should have; more of them if this process has
+  // stood still.
   void call(std::uint64_t set_as) {
     if (set_as != timer || !is_remote())
       return;
-    await_next(began + setup.options.period);
+    const auto since = now(self) - hedge_after - began;
+    await_next(began + since / setup.options.period * setup.options.period);
     if (!answers.hedge_due(number_of(began), began, now(self), hedge_after))
       return;
     for (auto& remote : remotes)
-      if (remote.in_use && is_on_call(remote)) {
-        remote.called = remote.called.value_or(now(self));
-        feed_remote(remote);
-      }
+      if (remote.in_use && is_on_call(remote) && feed_remote(remote))
+        ++remote.calls_in_vain;
   }
 
   // -- several at once ------------------------------------------------------
@@ -244,10 +269,11 @@ struct offloaded_state {
   void give_up_silent() {
     const auto t = now(self);
     for (auto& remote : remotes) {
-      const auto since =
-          is_on_call(remote) ? remote.called : remote.last_in_time;
+      const auto silent = is_on_call(remote)
+                              ? remote.calls_in_vain * setup.options.period
+                              : t - remote.last_in_time.value_or(t);
       if (remote.in_use && !remote.given_up
-          && t - since.value_or(t) > protocol::start_timeout) {
+          && silent > protocol::start_timeout) {
         remote.given_up = true;
         self->send(setup.requester,
                    qos_violation{remote.running, qos_breach::gap, t, true});
@@ -287,6 +313,7 @@ struct offloaded_state {
       self->send(setup.client, source_change{setup.kind, true});
     }
     self->send(setup.requester, remote.running);
+    tell_duties();
   }
 
   void watch(const running_service& running, time_point last) {
@@ -315,11 +342,13 @@ struct offloaded_state {
       be_local();
       return;
     }
-    auto& first = *std::ranges::find(remotes, true, &remote_source::in_use);
-    if (watched == e.running)
-      watch(first.running, used_at);
-    if (first.running.provider == hedge)
-      feed_remote(first); // alone it is not on call
+    tell_duties();
+    if (watched == e.running) {
+      const auto next = std::ranges::find_if(remotes, [this](const auto& x) {
+        return x.in_use && !is_on_call(x);
+      });
+      watch(next->running, used_at);
+    }
   }
 };
 

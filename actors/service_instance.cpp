@@ -24,7 +24,8 @@ struct instance_state {
   service_input newest;
   std::uint64_t epoch = 0; // of the one timer that counts
   bool has_timer = false;
-  std::uint64_t after_last = 0, least = 0; // numbers of cycles
+  // Numbers after the latest cycle, and after the latest off the grid.
+  std::uint64_t after_any = 0, after_call = 0;
 
   void take(lifecycle_step step) {
     const auto next = after(life, step);
@@ -75,7 +76,7 @@ struct instance_state {
 
   void run_cycle() {
     const auto t = now(self);
-    if (newest.what.type().empty())
+    if (newest.what.type().empty() || is_ahead(t))
       return;
     auto result = setup.function->run(t, newest);
     if (result.what.type().empty())
@@ -86,14 +87,22 @@ struct instance_state {
                            std::move(result.about)});
   }
 
-  // Who is called twice in a period runs two cycles, and is ahead of the grid.
-  std::uint64_t number_of(time_point t) {
-    const auto on_grid = static_cast<std::uint64_t>(
+  std::uint64_t on_grid(time_point t) const {
+    return static_cast<std::uint64_t>(
         (t.time_since_epoch() - setup.phase + setup.period) / setup.period);
-    const auto cycle = std::max(on_grid, newest.on_call ? after_last : least);
-    after_last = cycle + 1;
-    if (newest.on_call || cycle > on_grid)
-      least = after_last;
+  }
+
+  // Who is called off the grid may run one cycle more than that has by then.
+  std::uint64_t number_at(time_point t) const {
+    return std::max(on_grid(t), newest.on_call ? after_any : after_call);
+  }
+  bool is_ahead(time_point t) const { return number_at(t) > on_grid(t) + 1; }
+
+  std::uint64_t number_of(time_point t) {
+    const auto cycle = number_at(t);
+    after_any = cycle + 1;
+    if (newest.on_call || cycle > on_grid(t))
+      after_call = after_any;
     return cycle;
   }
 };

@@ -27,9 +27,10 @@ struct instance_setup {
 
 /// Begins unconfigured. Active, it runs a cycle at once and then on its grid
 /// (or on its grid only), always from the newest input; without any input it
-/// waits. On call it runs one cycle for each input, at once, and leaves the
-/// grid alone. Cycles are numbered by the grid, so that their noise does not
-/// depend on when the service was started. Quits when finalized.
+/// waits. On call it runs one cycle for each input, at once, but at most one
+/// more than the grid has by then. Cycles are numbered by the grid, so that
+/// their noise does not depend on when the service was started; after two in
+/// one period they are one ahead. Quits when finalized.
 instance_actor spawn_instance(caf::actor_system& sys, instance_setup setup);
 
 } // namespace sofof

@@ -56,6 +56,7 @@ struct requester_state {
            {},
            {},
            0,
+           {},
            now(self),
            {},
            {}});
@@ -291,8 +292,11 @@ struct requester_state {
   // Whom the policy wants beside the first, it may want on call only.
   void set_hedge(service_slot& slot, duration after) {
     const auto hedge = after > duration{0} ? slot.wanted.back() : 0;
-    if (std::exchange(slot.hedge, hedge) != hedge)
-      self->send(slot.manager, hedge, after);
+    if (hedge == slot.hedge && after == slot.hedge_after)
+      return;
+    slot.hedge = hedge;
+    slot.hedge_after = after;
+    self->send(slot.manager, hedge, after);
   }
 
   // @returns first where a service runs, then who may be asked for it: who

@@ -44,7 +44,9 @@ bool service_slot::is_remote() const {
 }
 
 boot_id service_slot::current() const {
-  const auto i = std::ranges::find(elsewhere, phase::remote, &offloading::at);
+  const auto i = std::ranges::find_if(elsewhere, [this](const offloading& x) {
+    return x.at == phase::remote && !is_on_call(x.provider);
+  });
   return i == elsewhere.end() ? 0 : i->provider;
 }
 
@@ -79,13 +81,16 @@ provider_view service_slot::view_of(const known_provider& provider,
   const auto& offer = provider.offer;
   const auto& limits = kind->common.limits;
   const auto& link = link_of(offer.provider);
+  // Who is not called is silent for no fault.
+  const auto as_of =
+      is_on_call(offer.provider) ? link.last().value_or(now) : now;
   return {.id = offer.provider,
           .at = offer.position,
           .utilisation = std::max(0.0, offer.utilisation),
           .workers = offer.workers,
           .computing_s = to_seconds(computing(offer)),
-          .link = {link.late_probability(limits.max_latency, now),
-                   link.gap_probability(limits.max_interarrival, now),
+          .link = {link.late_probability(limits.max_latency, as_of),
+                   link.gap_probability(limits.max_interarrival, as_of),
                    link.latency_quantile(0.5), link.latency_quantile(0.99)},
           .cost = offloaded};
 }

@@ -48,6 +48,7 @@ struct service_slot {
   std::vector<offloading> elsewhere; ///< The oldest first; empty: it is local.
   std::vector<boot_id> wanted;       ///< Who shall run it.
   boot_id hedge = 0;                 ///< Who of them is on call; 0: nobody.
+  duration hedge_after{};            ///< When that one is called.
   time_point since;                  ///< It has been where it is.
   std::map<boot_id, time_point> cool_until;
   std::map<boot_id, link_estimator> links; ///< By what came from there.
@@ -61,7 +62,8 @@ struct service_slot {
   bool is_on_call(boot_id provider) const;
   bool is_moving() const; ///< Whether an answer or first data is awaited.
   bool is_remote() const;
-  /// @returns the provider that has run it for longest; 0: it is local.
+  /// @returns the provider that has run it for longest, of those that are not
+  /// on call; 0: it is local.
   boot_id current() const;
 
   service_needs needs() const;

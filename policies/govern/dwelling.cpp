@@ -19,8 +19,10 @@ local_decision dwelling::govern(const local_context& context,
   if (next == source)
     return wanted;
   auto decision = as_it_is("not for long enough");
-  if (context.current != 0) // else it would be the first
+  if (context.current != 0) { // else it would be the first
     decision.second = wanted.second;
+    decision.hedge_after = wanted.hedge_after;
+  }
   return decision;
 }
 

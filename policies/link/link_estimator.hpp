@@ -43,6 +43,9 @@ public:
   /// @param created  Before it was sent by as long as a result is computed.
   void answered(time_point created, time_point received);
 
+  /// @returns when the last message came; nullopt before the first.
+  std::optional<time_point> last() const { return last_; }
+
   /// @returns whether too little is known for a forecast at this time.
   bool stale(time_point now) const;
 

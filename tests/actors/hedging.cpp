@@ -21,6 +21,10 @@ struct hedged_world : requester_world {
     lodm->second = elsewhere;
     lodm->hedge_after = 20ms;
     offer_from(other, elsewhere, {one});
+    accept_at_other();
+  }
+
+  void accept_at_other() {
     const auto asked = other->all<service_request>().back();
     tell(requester,
          service_response{
@@ -152,32 +156,105 @@ TEST_CASE_FIXTURE(hedged_world, "who is called for a second in vain is given "
   CHECK(other->all<service_end>().front().reason == end_reason::qos_gap);
 }
 
-TEST_CASE_FIXTURE(hedged_world, "the link to whoever is on call is not judged "
-                                "by the gaps between its results") {
+TEST_CASE_FIXTURE(hedged_world, "one call in vain is no reason to give anybody "
+                                "up") {
   join();
-  for (std::uint64_t k = 2; k < 40; ++k) {
-    for (int n = 0; n < 10; ++n)
-      answer_next();
+  answer_next();
+  run_for(50ms + 15ms);
+  result(at_here(one, 7), ++cycle, 25ms); // the second one's answer is lost
+  run_for(35ms);
+  result(at_here(one, 7), ++cycle);
+  for (int k = 0; k < 100; ++k)
+    answer_next();
+  CHECK(calls() == 2);
+  CHECK(other->count<service_end>() == 0);
+}
+
+TEST_CASE_FIXTURE(hedged_world,
+                  "a plan that does not continue does not use its "
+                  "cycle up") {
+  join();
+  answer_next();
+  run_for(65ms);
+  vehicle->clear();
+  tell(requester, service_result{at_other(), 2, now() - 5ms,
+                                 payload::of(echo{echo::jump})});
+  CHECK(used().empty());
+  result(at_here(one, 7), ++cycle, 25ms);
+  CHECK(used().size() == 1);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "the link to whoever is on call is not judged "
+                                "by its silence") {
+  join();
+  for (std::uint64_t k = 2; k < 40; ++k) // as if it planned every cycle
     result(at_other(), k);
-  }
+  for (int k = 0; k < 40; ++k)
+    answer_next();
   lodm->asked.clear();
-  offer_from(other, elsewhere, {one, two});
-  REQUIRE(!lodm->asked.empty());
-  const auto& known = lodm->asked.front().providers;
+  offer_from(provider, here, {one});
+  REQUIRE(lodm->asked.size() == 1);
+  const auto known = lodm->asked.front().providers;
   const auto there = std::ranges::find(known, elsewhere, &provider_view::id);
   REQUIRE(there != known.end());
   CHECK(there->link.late < 0.5);
 }
 
-TEST_CASE_FIXTURE(hedged_world, "a policy may call all cycles again") {
+TEST_CASE_FIXTURE(hedged_world, "whoever takes over alone is told the plan in "
+                                "use, and to plan every period") {
+  join();
+  for (int k = 0; k < 40; ++k)
+    answer_next();
+  second->clear();
+  tell(requester,
+       service_end{at_here(one, 7), end_reason::left_area, side::provider});
+  REQUIRE(second->count<service_input>() == 1);
+  const auto input = second->all<service_input>().front();
+  CHECK(!input.on_call);
+  REQUIRE(input.in_use.as<echo>());
+  CHECK(input.in_use.as<echo>()->number == cycle);
+}
+
+TEST_CASE("whoever came first and shall be on call is told so") {
+  requester_world w;
+  auto second = w.listen<provider_manager_actor>();
+  const running_service there{w.elsewhere, w.station, w.one, 70};
+  w.lodm->preferred = w.here;
+  w.lodm->second = w.elsewhere;
+  w.lodm->hedge_after = 20ms;
+  w.lodm->wanted = {};
+  w.offer_from(w.other, w.elsewhere, {w.one});
+  w.lodm->wanted = {"one"};
+  w.offer({w.one}); // both are asked at once
+  REQUIRE(w.other->count<service_request>() == 1);
+  w.tell(w.requester,
+         service_response{w.elsewhere,
+                          w.station,
+                          w.other->all<service_request>().back().number,
+                          {{there, true, "as told"}}},
+         std::vector{second.handle});
+  w.answer(w.last_request(), {{w.one, 7}});
+  w.result(there, 1);
+  REQUIRE(second->count<service_input>() == 1);
+  CHECK(!second->all<service_input>().back().on_call); // it is alone
+  w.result(w.at_here(w.one, 7), 1);
+  REQUIRE(second->count<service_input>() == 2);
+  CHECK(second->all<service_input>().back().on_call);
+  // It has not heard that, and goes on.
+  w.run_for(100ms);
+  w.result(w.at_here(w.one, 7), 2);
+  w.result(there, 3);
+  CHECK(second->count<service_input>() == 3);
+  CHECK(second->all<service_input>().back().on_call);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "a policy may have all cycles planned again") {
   join();
   answer_next();
   second->clear();
   lodm->hedge_after = {};
-  offer_from(other, elsewhere, {two});
-  offer_from(provider, here, {one, two});
   lodm->wanted = {"one"};
-  offer_from(other, elsewhere, {one});
+  offer_from(provider, here, {one, two});
   REQUIRE(second->count<service_input>() == 1);
   CHECK(!second->all<service_input>().front().on_call);
 }

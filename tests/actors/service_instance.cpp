@@ -229,6 +229,19 @@ TEST_CASE_FIXTURE(instance_world, "an instance that is called twice in a "
     CHECK(all[k].cycle > all[k - 1].cycle);
 }
 
+TEST_CASE_FIXTURE(instance_world, "however often it is called an instance runs "
+                                  "no more than one cycle ahead of its grid") {
+  run_for(100ms);
+  call(1);
+  start();
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    run_for(1ms);
+    k % 3 ? call(k) : feed(k);
+  }
+  CHECK(function->runs >= 20);
+  CHECK(function->runs <= 22);
+}
+
 TEST_CASE_FIXTURE(instance_world, "an instance that is no longer on call goes "
                                   "on at once, on its grid") {
   run_for(100ms);

@@ -11,6 +11,9 @@ namespace sofof::test {
 /// Whatever the client said last.
 struct echo {
   std::uint64_t number = 0;
+
+  /// What continues nothing.
+  static constexpr std::uint64_t jump = 999;
 };
 
 void archive(auto& bytes, echo& x) {
@@ -52,6 +55,12 @@ public:
   client_actor spawn_client(caf::actor_system&, const service_setup&,
                             const vehicle_actor& vehicle) const override {
     return vehicle;
+  }
+
+  bool continues(const payload&, const payload& offered,
+                 time_point) const override {
+    const auto said = offered.as<echo>();
+    return !said || said->number != echo::jump;
   }
 
 private:
