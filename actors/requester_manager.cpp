@@ -162,14 +162,16 @@ struct offloaded_state {
     const auto first =
         fits && answer(is_on_call(remote) ? began : result.created);
     const auto usable = fits && (alone || first);
-    std::optional<duration> gap; // only while in use
+    std::optional<duration> gap; // only while in use every period
     if (remote.last_received)
       gap = t - *remote.last_received;
     self->send(setup.recorder,
                cycle_record{result.running, result.cycle, result.created, t,
                             gap, usable, result.doubt});
     remote.last_cycle = result.cycle;
-    if (remote.in_use || in_limits)
+    if (is_on_call(remote))
+      remote.last_received.reset();
+    else if (remote.in_use || in_limits)
       remote.last_received = t;
     if (in_limits) {
       remote.last_in_time = t;

@@ -338,12 +338,14 @@ struct requester_state {
     send_after(self, self, protocol::request_timeout, tick_atom_v, id, number);
   }
 
-  // What the vehicle tells of whom it could ask.
+  // What the vehicle tells of whom it could ask: not where the service runs,
+  // which it would not leave for nothing.
   std::vector<candidate> candidates_for(service_slot& slot) {
     std::vector<candidate> all;
     for (const auto& view : views(slot, 0))
-      all.push_back(
-          {view.id, gain(view, slot.on_board, slot.needs()), view.utilisation});
+      if (!slot.find(view.id))
+        all.push_back({view.id, gain(view, slot.on_board, slot.needs()),
+                       view.utilisation});
     return all;
   }
 
@@ -539,10 +541,19 @@ struct requester_state {
                                         running.provider,
                                         std::numeric_limits<double>::infinity(),
                                         true, at.slot->offloaded.energy_j});
-    if (violation.others_hold || at.at->at != phase::remote)
-      end(*at.slot, running.provider, reason, true);
-    else
-      come_home(*at.slot, reason);
+    if (!violation.others_hold && at.at->at == phase::remote)
+      leave_beside(*at.slot, running.provider);
+    end(*at.slot, running.provider, reason, true);
+  }
+
+  // Nothing usable has come from the others either; but it is one violation.
+  void leave_beside(service_slot& slot, boot_id violator) {
+    const auto all = slot.elsewhere; // a copy: it shrinks
+    for (const auto& at : all)
+      if (at.at == phase::remote && at.provider != violator) {
+        end(slot, at.provider, end_reason::released, true);
+        slot.cool_until[at.provider] = now(self) + protocol::cool_down;
+      }
   }
 
   void take(const service_end& e) {

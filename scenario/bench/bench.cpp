@@ -59,6 +59,7 @@ public:
   }
 
   bench_outcome carry_out() {
+    refuse_foreign();
     remove_old();
     for (std::size_t i = 0; i < options_.scenarios.size(); ++i)
       if (!drive(i))
@@ -81,6 +82,16 @@ private:
     return options_.runs.out / fmt::format("{}.csv", name);
   }
   fs::path page() const { return options_.runs.out / "report.html"; }
+
+  /// A bench goes on where one was; it overwrites nothing else.
+  void refuse_foreign() const {
+    const auto& out = options_.runs.out;
+    if (fs::exists(out) && !fs::is_empty(out) && !fs::exists(out / "runs"))
+      throw input_error{fmt::format(
+          "{}: this folder holds something else than a bench; choose another "
+          "one with --out.",
+          out.string())};
+  }
 
   /// An old ranking may be of others.
   void remove_old() const {

@@ -206,9 +206,15 @@ TEST_CASE_FIXTURE(remote_service_world,
   result(at_other(), 1);
   run_for(101ms);
   CHECK(!is_remote(one));
-  CHECK(ends().size() == 1);
-  CHECK(other->count<service_end>() == 1);
-  // One fallback, not two.
+  REQUIRE(ends().size() == 1);
+  REQUIRE(other->count<service_end>() == 1);
+  // One violation and one fallback, not two; but neither is asked at once.
+  CHECK(ends().front().reason == end_reason::qos_gap);
+  CHECK(other->all<service_end>().front().reason == end_reason::released);
+  lodm->asked.clear();
+  offer({one});
+  offer_from(other, elsewhere, {one});
+  CHECK(lodm->asked.empty());
   std::size_t fallbacks = 0;
   for (const auto& e : episodes())
     fallbacks += e.fallback;

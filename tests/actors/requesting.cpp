@@ -468,6 +468,17 @@ TEST_CASE_FIXTURE(requester_world, "a request tells whom else the vehicle "
   CHECK(told[0].gain == doctest::Approx(told[1].gain - 0.3 * 10 / 50));
 }
 
+TEST_CASE_FIXTURE(requester_world, "who asks to leave a provider does not tell "
+                                   "what it would win by staying") {
+  start_remote({one});
+  lodm->preferred = elsewhere;
+  offer_from(other, elsewhere, {one});
+  REQUIRE(other->count<service_request>() == 1);
+  const auto told = other->all<service_request>().front().candidates;
+  REQUIRE(told.size() == 1);
+  CHECK(told.front().provider == elsewhere);
+}
+
 namespace {
 
 void refuse_and_name(requester_world& world, const service_request& request,

@@ -123,6 +123,18 @@ TEST_CASE("the same runs serve a ranking of others") {
   CHECK(summaries_in(at / "out") == before);
 }
 
+TEST_CASE("a bench writes into no folder of something else") {
+  const workplace at;
+  write_towns(at);
+  fs::create_directory(at / "run");
+  at.write("run/timing.csv", "figure,value\n");
+  const auto end = at.run_sofof({"bench", "small.toml", "--out", "run"});
+  CHECK(end.code == 2);
+  CHECK(contains(end.err, "something else than a bench"));
+  CHECK(contains(end.err, "--out"));
+  CHECK(read_file(at / "run/timing.csv") == "figure,value\n");
+}
+
 TEST_CASE("what cannot be ranked is refused before anything runs") {
   const workplace at;
   write_towns(at);
