@@ -106,7 +106,7 @@ codm_entry codm_edf() {
            "to the busy period (demand); or an offset in the period for which "
            "no deadline is missed (phases)",
            "period, computing time, time limit and offset of all that runs",
-           "Baruah, Rosier & Howell, RTSS 1990; phases are ours",
+           "Baruah et al., Real-Time Systems 2(4), 1990; phases are ours",
            {{"test", "\"phases\", \"demand\" or \"utilisation\"",
              "that a worker must pass"},
             {"network", "time", "part of the time limit that the way takes"},
