@@ -38,7 +38,8 @@ struct remote_source {
   int calls_in_vain = 0;
 };
 
-// Besides its interface: the time to call has come, set in this epoch.
+// Besides its interface: the timer with this number says that it is time to
+// call.
 using manager_impl =
     requester_manager_actor::extend<takes<tick_atom, std::uint64_t>>;
 

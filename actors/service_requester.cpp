@@ -267,7 +267,7 @@ struct requester_state {
                             slot.on_board,
                             setup.future.get()});
     if (decision.release) {
-      come_home(slot, end_reason::released);
+      come_home(slot);
       return {};
     }
     if (decision.source == 0 && decision.second != 0)
@@ -511,11 +511,11 @@ struct requester_state {
   }
 
   // Ends a service wherever it runs.
-  void come_home(service_slot& slot, end_reason reason) {
+  void come_home(service_slot& slot) {
     const auto all = slot.elsewhere;
     for (const auto& at : all)
       if (at.at == phase::remote)
-        end(slot, at.provider, reason, true);
+        end(slot, at.provider, end_reason::released, true);
   }
 
   void start_timed_out(const running_service& running) {
