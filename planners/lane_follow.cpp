@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace sofof {
@@ -52,18 +53,22 @@ struct lane_follow::mind {
   }
 };
 
-lane_follow::lane_follow(route_ptr way, driving_style params)
-    : way_{std::move(way)}, params_{params}, style_{style_of(params)},
-      envelope_{*way_, params_} {}
+lane_follow::lane_follow(route_profile_ptr way, driving_style params)
+    : way_{std::move(way)}, params_{params}, style_{style_of(params)} {}
+
+lane_follow::lane_follow(route_ptr way, const driving_style& params)
+    : lane_follow{std::make_shared<const route_profile>(std::move(way), params),
+                  params} {}
 
 plan_report lane_follow::plan(time_point now, const planning_input& input,
                               const trajectory* previous, trajectory& out,
                               const ocp::budget&) {
-  const centring line{*way_, joined(*way_, now, input, previous),
+  const auto& way = way_->line.way();
+  const centring line{way, joined(way, now, input, previous),
                       params_.centring_length_m};
   mind others;
-  if (!way_->closed())
-    others.stop_at_m = way_->length_m();
+  if (!way.closed())
+    others.stop_at_m = way.length_m();
   if (input.others.stop_at_m)
     others.stop_at_m = std::min(others.stop_at_m, *input.others.stop_at_m);
   if (input.others.lead) {
@@ -96,7 +101,7 @@ double lane_follow::wanted_accel(const lane_motion& x,
   const auto v = x.speed_mps;
   const auto front_m = x.s_m + params_.front_m;
   const auto firm = params_.firm_decel_mps2();
-  const auto limit = envelope_.at(x.s_m);
+  const auto limit = way_->envelope.at(x.s_m);
 
   auto wanted = std::min(params_.max_accel_mps2,
                          limit.accel_mps2 * v / limit.speed_mps

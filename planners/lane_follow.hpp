@@ -4,7 +4,7 @@
 #include "planners/braking.hpp"
 #include "planners/driving_style.hpp"
 #include "planners/lane_motion.hpp"
-#include "planners/speed_envelope.hpp"
+#include "planners/route_profile.hpp"
 #include "planners/trajectory_planner.hpp"
 
 namespace sofof {
@@ -14,7 +14,11 @@ namespace sofof {
 /// is a stop line. A plan made from a point of the plan before continues it.
 class lane_follow final : public trajectory_planner {
 public:
-  lane_follow(route_ptr way, driving_style params);
+  /// @param way  Made with the same style.
+  lane_follow(route_profile_ptr way, driving_style params);
+
+  /// The same, with a profile of its own.
+  lane_follow(route_ptr way, const driving_style& params);
 
   plan_report plan(time_point now, const planning_input& input,
                    const trajectory* previous, trajectory& out,
@@ -26,10 +30,9 @@ private:
   double jerk_limit(double accel_mps2) const;
   double next_accel(const lane_motion& x, const mind& others) const;
 
-  route_ptr way_;
+  route_profile_ptr way_;
   driving_style params_;
   braking_style style_;
-  speed_envelope envelope_;
 };
 
 } // namespace sofof

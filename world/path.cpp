@@ -68,27 +68,6 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Cubic interpolation between two table entries from values and their
-/// derivatives over arc length: of the position that is the unit tangent, of
-/// the heading the curvature.
-struct hermite {
-  double t, step_m;
-
-  template <class T>
-  T operator()(T low, T low_slope, T high, T high_slope) const {
-    const auto rest = 1 - t, rise = t * t * (3 - 2 * t);
-    return (1 - rise) * low + rise * high
-           + (t * rest * step_m) * (rest * low_slope - t * high_slope);
-  }
-
-  template <class T>
-  T slope(T low, T low_slope, T high, T high_slope) const {
-    const auto rest = 1 - t;
-    return (6 * t * rest / step_m) * (high - low)
-           + rest * (1 - 3 * t) * low_slope + t * (3 * t - 2) * high_slope;
-  }
-};
-
 } // namespace
 
 path::path(std::span<const point> points, bool closed) : closed_{closed} {
@@ -113,52 +92,6 @@ path::path(std::span<const point> points, bool closed) : closed_{closed} {
   turn_rad_ = table_.back().heading_rad - table_.front().heading_rad;
   for (const auto& x : table_)
     sharpest_1pm_ = std::max(sharpest_1pm_, std::abs(x.curvature_1pm));
-}
-
-path::place path::locate(double s_m) const {
-  auto laps = 0.0;
-  if (closed_ && !(0 <= s_m && s_m < length_m_))
-    laps = std::floor(s_m / length_m_);
-  const auto steps =
-      std::clamp(s_m - laps * length_m_, 0.0, length_m_) * steps_per_m_;
-  const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
-  return {table_[i], table_[i + 1],
-          std::min(steps - static_cast<double>(i), 1.0), laps};
-}
-
-path_point path::at(double s_m) const {
-  return at(locate(s_m));
-}
-
-path_point path::at(const place& x) const {
-  const auto& [low, high, t, laps] = x;
-  const hermite mix{t, step_m_};
-  return {mix(low.at, low.tangent, high.at, high.tangent),
-          mix(low.heading_rad, low.curvature_1pm, high.heading_rad,
-              high.curvature_1pm)
-              + laps * turn_rad_,
-          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
-}
-
-path_frame path::frame(double s_m) const {
-  const auto x = locate(s_m);
-  const auto& [low, high, t, laps] = x;
-  const hermite mix{t, step_m_};
-  return {at(x), mix.slope(low.at, low.tangent, high.at, high.tangent)};
-}
-
-double path::curvature_1pm(double s_m) const {
-  const auto [low, high, t, laps] = locate(s_m);
-  return (1 - t) * low.curvature_1pm + t * high.curvature_1pm;
-}
-
-path::view path::look(point p, double s_m) const {
-  const auto [low, high, t, laps] = locate(s_m);
-  const hermite mix{t, step_m_};
-  const auto tangent = mix.slope(low.at, low.tangent, high.at, high.tangent);
-  const auto to = p - mix(low.at, low.tangent, high.at, high.tangent);
-  return {dot(tangent, to), cross(tangent, to),
-          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
 }
 
 /// @returns where the foot of the perpendicular is, seen from `s_m`.

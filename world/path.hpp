@@ -3,6 +3,9 @@
 
 #include "world/geometry.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -82,6 +85,7 @@ private:
     double share; // of the step from low to high, in [0, 1]
     double laps;  // whole laps before it
   };
+  struct hermite;
   struct view { // a point as seen from a place on the path
     double along_m, left_m, curvature_1pm;
   };
@@ -103,5 +107,74 @@ private:
   double sharpest_1pm_ = 0;
   bool closed_ = false;
 };
+
+// Inline, for planners ask at every point of a plan.
+
+/// Cubic interpolation between two table entries from values and their
+/// derivatives over arc length: of the position that is the unit tangent, of
+/// the heading the curvature.
+struct path::hermite {
+  double t, step_m;
+
+  template <class T>
+  T operator()(T low, T low_slope, T high, T high_slope) const {
+    const auto rest = 1 - t, rise = t * t * (3 - 2 * t);
+    return (1 - rise) * low + rise * high
+           + (t * rest * step_m) * (rest * low_slope - t * high_slope);
+  }
+
+  template <class T>
+  T slope(T low, T low_slope, T high, T high_slope) const {
+    const auto rest = 1 - t;
+    return (6 * t * rest / step_m) * (high - low)
+           + rest * (1 - 3 * t) * low_slope + t * (3 * t - 2) * high_slope;
+  }
+};
+
+inline path::place path::locate(double s_m) const {
+  auto laps = 0.0;
+  if (closed_ && !(0 <= s_m && s_m < length_m_))
+    laps = std::floor(s_m / length_m_);
+  const auto steps =
+      std::clamp(s_m - laps * length_m_, 0.0, length_m_) * steps_per_m_;
+  const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
+  return {table_[i], table_[i + 1],
+          std::min(steps - static_cast<double>(i), 1.0), laps};
+}
+
+inline path_point path::at(const place& x) const {
+  const auto& [low, high, t, laps] = x;
+  const hermite mix{t, step_m_};
+  return {mix(low.at, low.tangent, high.at, high.tangent),
+          mix(low.heading_rad, low.curvature_1pm, high.heading_rad,
+              high.curvature_1pm)
+              + laps * turn_rad_,
+          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
+
+inline path_point path::at(double s_m) const {
+  return at(locate(s_m));
+}
+
+inline path_frame path::frame(double s_m) const {
+  const auto x = locate(s_m);
+  const auto& [low, high, t, laps] = x;
+  const hermite mix{t, step_m_};
+  return {at(x), mix.slope(low.at, low.tangent, high.at, high.tangent)};
+}
+
+inline double path::curvature_1pm(double s_m) const {
+  const auto [low, high, t, laps] = locate(s_m);
+  return (1 - t) * low.curvature_1pm + t * high.curvature_1pm;
+}
+
+inline path::view path::look(point p, double s_m) const {
+  const auto [low, high, t, laps] = locate(s_m);
+  const hermite mix{t, step_m_};
+  const auto tangent = mix.slope(low.at, low.tangent, high.at, high.tangent);
+  const auto to = p - mix(low.at, low.tangent, high.at, high.tangent);
+  return {dot(tangent, to), cross(tangent, to),
+          (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
+}
 
 } // namespace sofof

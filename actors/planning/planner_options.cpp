@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 
 namespace sofof {
 
@@ -29,9 +30,10 @@ void planner_options::fields(settings& s) {
 std::unique_ptr<trajectory_planner> planner_options::make(const route_ptr& way,
                                                           known_roads& roads,
                                                           bool remote) const {
+  auto profile = roads.profile(way);
   if (name == simple_planner)
-    return std::make_unique<lane_follow>(way, style);
-  return std::make_unique<spatial_planner>(roads.profile(way), style,
+    return std::make_unique<lane_follow>(std::move(profile), style);
+  return std::make_unique<spatial_planner>(std::move(profile), style,
                                            remote ? mec : onboard);
 }
 
