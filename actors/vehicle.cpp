@@ -55,7 +55,7 @@ struct vehicle_actor_state {
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
-  time_point due;                    // of the next step; time does not drift
+  time_point at;                     // of the car's state; it does not drift
   std::uint64_t steps = 0;
   safety_record safety;
   std::optional<drive_figures> figures; // from when it appears on
@@ -77,7 +77,7 @@ struct vehicle_actor_state {
   // What it does of itself: before it is there, it asks to be.
   void act() {
     if (figures)
-      tick();
+      go_on();
     else
       self->send(setup.road, begin_atom_v,
                  motion_report{setup.station, s_m, car}, vehicle_actor{self});
@@ -86,24 +86,25 @@ struct vehicle_actor_state {
   void appear() {
     if (setup.appears_after > 0ms)
       note("appeared");
-    due = now(self);
+    at = now(self);
     figures.emplace(setup.station, setup.car, car.speed_mps);
     plan = std::make_shared<const trajectory>(
-        keep_speed(*setup.way, due, s_m, car.speed_mps));
-    plan_created = due;
+        keep_speed(*setup.way, at, s_m, car.speed_mps));
+    plan_created = at;
     safety.station = setup.station;
     if (setup.v2x)
       broadcast.emplace(*setup.v2x, setup.car, setup.sensor, setup.where);
     requester = setup.spawn_requester(vehicle_actor{self});
     self->monitor(requester); // the car outlives it, and stops safely
     report();
-    next_step();
+    go_on();
   }
 
   // -- ending -------------------------------------------------------------
 
   // The requester goes first: it has episodes to close.
   void leave(const caf::error& reason) {
+    catch_up();
     if (figures)
       flush_figures();
     leaving = reason;
@@ -144,51 +145,74 @@ struct vehicle_actor_state {
 
   // -- moving -------------------------------------------------------------
 
-  void next_step() {
-    due += protocol::control_period;
-    send_at(self, self, due, tick_atom_v);
+  void go_on() {
+    catch_up();
+    if (!has_arrived)
+      send_at(self, self, next_report(), tick_atom_v);
   }
 
-  void tick() {
+  // Moves up to now. Nobody sees the car between its reports, so it does so
+  // when one is due, and before anything changes.
+  void catch_up() {
+    const auto t = now(self);
+    while (figures && !has_arrived && t - at >= protocol::control_period)
+      move();
+  }
+
+  void move() {
     if (is_at_the_end()) {
       arrive();
       return;
     }
-    if (plan->end() - due < reserve)
-      stop_safely();
-    const auto command = follow(car, *plan, due, setup.car);
+    const auto next = at + protocol::control_period;
+    if (plan->end() - next < reserve)
+      stop_safely(next);
+    const auto command = follow(car, *plan, next, setup.car);
     const auto dt_s = to_seconds(protocol::control_period);
     car = step(car, command, setup.car, dt_s);
+    at = next;
     const auto place =
         setup.way->path().project(car.at, s_m + car.speed_mps * dt_s, window_m);
     s_m = place.s_m;
     ++steps;
     keep_safety();
     figures->take(car);
-    if (every(protocol::sensor_period))
+    if (ends(protocol::sensor_period, steps))
       sense(place.d_m);
-    if (every(protocol::ego_period))
+    if (ends(protocol::ego_period, steps))
       tell();
-    if (setup.track_period > 0ms && every(setup.track_period))
-      self->send(setup.recorder, track_record{due, ego(), place.d_m,
-                                              due - plan_created, remote});
-    if (every(figures_period))
+    if (is_tracked(steps))
+      self->send(setup.recorder,
+                 track_record{at, ego(), place.d_m, at - plan_created, remote});
+    if (ends(figures_period, steps))
       flush_figures();
-    next_step();
   }
 
-  // Whether a period ends with this step. Stations take turns, so that not
+  time_point next_report() const {
+    static_assert(protocol::ego_period % protocol::sensor_period == 0ms);
+    static_assert(figures_period % protocol::sensor_period == 0ms);
+    auto next = steps + 1;
+    while (!ends(protocol::sensor_period, next) && !is_tracked(next))
+      ++next;
+    return at + (next - steps) * protocol::control_period;
+  }
+
+  bool is_tracked(std::uint64_t step) const {
+    return setup.track_period > 0ms && ends(setup.track_period, step);
+  }
+
+  // Whether a period ends with a step. Stations take turns, so that not
   // everybody sends in the same moment.
-  bool every(duration period) const {
+  bool ends(duration period, std::uint64_t step) const {
     const auto n = std::max<std::uint64_t>(
         1, static_cast<std::uint64_t>(period / protocol::control_period));
-    return (steps + setup.station) % n == 0;
+    return (step + setup.station) % n == 0;
   }
 
-  void stop_safely() {
+  void stop_safely(time_point from) {
     figures->stop_safely();
     plan = std::make_shared<const trajectory>(
-        safe_stop(*setup.way, due, measured()));
+        safe_stop(*setup.way, from, measured()));
   }
 
   // -- the others ---------------------------------------------------------
@@ -212,6 +236,7 @@ struct vehicle_actor_state {
   }
 
   void take(perception& others) {
+    catch_up();
     newest = std::move(others);
     if (!planning || has_arrived)
       return;
@@ -237,7 +262,7 @@ struct vehicle_actor_state {
   planning_input measured() const {
     const auto& path = setup.way->path();
     const auto place = path.project(car.at, s_m, window_m);
-    return {due - protocol::control_period, // of the step before
+    return {at,
             place.s_m,
             place.d_m,
             wrap_angle(car.heading_rad - path.at(place.s_m).heading_rad),
@@ -250,6 +275,7 @@ struct vehicle_actor_state {
   // -- plans --------------------------------------------------------------
 
   void take(const service_result& result) {
+    catch_up();
     if (result.created < plan_created)
       return;
     const auto t = now(self);
@@ -267,10 +293,15 @@ struct vehicle_actor_state {
     plan_created = result.created;
   }
 
+  void take(const source_change& change) {
+    catch_up();
+    remote = change.remote;
+  }
+
   // -- being seen ---------------------------------------------------------
 
   ego_state ego() const {
-    return {{setup.station, due, car.at, car.heading_rad, car.speed_mps,
+    return {{setup.station, at, car.at, car.heading_rad, car.speed_mps,
              car.accel_mps2, std::tan(car.steer_rad) / setup.car.wheelbase_m},
             s_m};
   }
@@ -297,7 +328,7 @@ struct vehicle_actor_state {
   }
 
   void keep_safety() {
-    const auto age = due - plan_created;
+    const auto age = at - plan_created;
     safety.driven += protocol::control_period;
     safety.max_plan_age = std::max(safety.max_plan_age, age);
     if (age > setup.fresh_limit)
@@ -324,9 +355,7 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const caf::exit_msg& exit) { self->state.leave(exit.reason); });
   return {
       [self](const service_result& result) { self->state.take(result); },
-      [self](const source_change& change) {
-        self->state.remote = change.remote;
-      },
+      [self](const source_change& change) { self->state.take(change); },
       [self](const requester_manager_actor& manager) {
         self->state.planning = manager;
       },

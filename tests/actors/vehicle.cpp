@@ -151,6 +151,48 @@ TEST_CASE_FIXTURE(driving_world, "the own requester hears of the motion every "
   CHECK(own.own.position.x_m == doctest::Approx(own.s_m).epsilon(0.001));
 }
 
+TEST_CASE_FIXTURE(flying_start_world,
+                  "whenever it perceives, a vehicle tells where it is then") {
+  tell(car, manager.handle);
+  for (const auto pause : {10ms, 37ms, 3ms, 110ms, 1ms}) {
+    run_for(pause);
+    tell_of_a_car(*this);
+    const auto input = manager->all<service_input>().back();
+    const auto own = input.what.as<plan_request>()->own;
+    const auto passed_s = to_seconds(own.at - time_point{});
+    CHECK(now() - own.at < 10ms);
+    CHECK(own.position.x_m
+          == doctest::Approx(100 + 10 * passed_s).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("where a vehicle drives does not hang on how often it is asked") {
+  flying_start_world seldom, often;
+  for (auto* world : {&seldom, &often})
+    world->tell(world->car, world->manager.handle);
+  for (const auto pause : {13ms, 50ms, 7ms, 131ms, 20ms, 64ms, 1ms}) {
+    for (auto* world : {&seldom, &often}) {
+      auto slower = world->plan();
+      for (auto& p : slower.points) {
+        p.speed_mps *= 0.8;
+        p.accel_mps2 = -1;
+      }
+      world->give(slower, world->now());
+    }
+    seldom.run_for(pause);
+    for (auto left = pause; left > 0ms; left -= 1ms) {
+      often.run_for(1ms);
+      tell_of_a_car(often);
+    }
+    const auto one = seldom.last_report(), other = often.last_report();
+    CHECK(seldom.report_time() == often.report_time());
+    CHECK(one.s_m == other.s_m);
+    CHECK(one.state.speed_mps == other.state.speed_mps);
+    CHECK(one.state.steer_rad == other.state.steer_rad);
+  }
+  CHECK(seldom.last_report().state.speed_mps < 9.9);
+}
+
 // -- records -----------------------------------------------------------------
 
 TEST_CASE_FIXTURE(driving_world,
