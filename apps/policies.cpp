@@ -1,9 +1,9 @@
 // sofof policies: what decides, and by what.
 #include "apps/command.hpp"
+#include "apps/documented.hpp"
 #include "policies/govern/governors.hpp"
 #include "policies/registry.hpp"
 #include "scenario/input_error.hpp"
-#include "scenario/settings_printer.hpp"
 #include "world/spelling.hpp"
 
 #include <fmt/format.h>
@@ -21,96 +21,64 @@ namespace sofof {
 namespace {
 
 /// Everything of one sort that a scenario can name.
-struct part {
+struct role {
   std::string_view key; ///< In `[policies]`.
   std::string_view what;
   std::vector<policy_notes> all;
-  /// Lists where it stands in a scenario, with its options.
-  std::function<void(settings&, std::string_view name)> show;
+  /// Lists the options of one.
+  std::function<void(settings&, std::string_view name)> options;
 };
 
-void show_table(settings& s, std::string_view key, std::string_view name,
-                const std::function<void(settings&)>& options) {
-  s.table(key, [&](settings& t) {
-    std::string text{name};
-    t.field("name", text);
-    options(t);
-  });
-}
-
-/// @returns how to show what `make` makes.
+/// @param make  From a name to what has options.
 template <class Make>
-auto shown_by(std::string_view key, Make make) {
-  return [key, make](settings& s, std::string_view name) {
-    show_table(s, key, name, [&](settings& t) { make(name)->fields(t); });
-  };
+auto options_by(Make make) {
+  return [make](settings& s, std::string_view name) { make(name)->fields(s); };
 }
 
-template <class Make>
-auto shown_inside(std::string_view side, Make make) {
-  return [side, make](settings& s, std::string_view name) {
-    s.table(side, [&](settings& t) { shown_by("filter", make)(t, name); });
-  };
-}
-
-void show_governor(settings& s, std::string_view name) {
-  s.table("lodm", [name](settings& lodm) {
-    lodm.tables("govern", 1, [name](std::size_t, settings& t) {
-      std::string text{name};
-      t.field("name", text);
-      make_governor(name)->fields(t);
-    });
-  });
-}
-
-std::vector<part> parts() {
+std::vector<role> roles() {
   return {{"lodm", "in the vehicle: whom to ask", lodm_notes(),
-           shown_by("lodm", make_lodm)},
+           options_by(make_lodm)},
           {"codm", "at the provider: whom to accept", codm_notes(),
-           shown_by("codm", make_codm)},
+           options_by(make_codm)},
           {"lodm.filter", "before it: who comes into question",
-           local_filter_notes(), shown_inside("lodm", make_local_filter)},
+           local_filter_notes(), options_by(make_local_filter)},
           {"codm.filter", "before it: who comes into question",
-           central_filter_notes(), shown_inside("codm", make_central_filter)},
+           central_filter_notes(), options_by(make_central_filter)},
           {"lodm.govern", "after it, one or several: the last word",
-           governor_notes(), show_governor}};
+           governor_notes(), options_by(make_governor)}};
 }
 
-std::string list(const part& one) {
+std::string list(const role& one) {
   auto text = fmt::format("{}, {}\n", one.key, one.what);
   for (const auto& notes : one.all)
     text += fmt::format("  {:<18} {}\n", notes.name, notes.summary);
   return text;
 }
 
-std::string list_parameters(const std::vector<parameter_note>& all) {
-  std::string text;
-  for (const auto& one : all)
-    text += fmt::format("  {:<17} {}{}{}\n", one.name, one.meaning,
-                        one.unit == "1" ? "" : ", ",
-                        one.unit == "1" ? "" : one.unit);
-  return text.empty() ? text : "\nOptions:\n" + text;
-}
-
-std::string describe(const part& sort, const policy_notes& one) {
-  const auto table = print_settings([&](settings& all) {
-    all.table("policies",
-              [&](settings& policies) { sort.show(policies, one.name); });
-  });
+std::string describe(const role& sort, const policy_notes& one) {
+  const auto several = sort.key == "lodm.govern";
+  const auto header = several ? fmt::format("[[policies.{}]]", sort.key)
+                              : fmt::format("[policies.{}]", sort.key);
+  const auto options = [&](settings& s) {
+    std::string name{one.name};
+    s.field("name", name);
+    sort.options(s, name);
+  };
   return fmt::format("{} as {}: {}\n"
                      "  decides by: {}\n"
                      "  sees:       {}\n"
                      "  source:     {}\n"
-                     "{}\n"
-                     "In a scenario, with its defaults:\n{}",
+                     "\n"
+                     "{}",
                      one.name, sort.key, one.summary, one.rule, one.sees,
-                     one.source, list_parameters(one.parameters), table);
+                     one.source,
+                     print_documented(header, options, one.parameters));
 }
 
 std::string describe(std::string_view name) {
   std::string text;
   std::vector<std::string_view> known;
-  for (const auto& sort : parts())
+  for (const auto& sort : roles())
     for (const auto& one : sort.all) {
       if (std::ranges::find(known, one.name) == known.end())
         known.push_back(one.name);
@@ -119,14 +87,16 @@ std::string describe(std::string_view name) {
     }
   if (text.empty())
     throw input_error{unknown_word("policy", name, known)};
-  return text;
+  return text
+         + "\nThese are the defaults. docs/policies.md leads to a page on "
+           "it.\n";
 }
 
 std::string list() {
   std::string text;
-  for (const auto& sort : parts())
+  for (const auto& sort : roles())
     text += list(sort);
-  return text;
+  return text + "\nsofof policies NAME describes one.\n";
 }
 
 } // namespace

@@ -45,6 +45,7 @@ public:
   }
   void fields(settings& s) override;
   std::string_view name() const override { return choice_->name(); }
+  std::string title() const override { return choice_->title(); }
 
 protected:
   std::unique_ptr<Filter> filter_;

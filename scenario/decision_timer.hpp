@@ -56,6 +56,7 @@ public:
   }
   void fields(settings& s) override { what_->fields(s); }
   std::string_view name() const override { return what_->name(); }
+  std::string title() const override { return what_->title(); }
 
   std::unique_ptr<whole_policy> clone() const override {
     return std::make_unique<timed_policy>(what_->clone(), times_);

@@ -52,8 +52,8 @@ run_info describe(const scenario& s, const run_options& options,
   info.version = options.version;
   info.clock = options.realtime ? "wall" : "virtual";
   info.profile = options.network.empty() ? s.profiles() : options.network;
-  info.lodm = s.policies.lodm->name();
-  info.codm = s.policies.codm->name();
+  info.lodm = s.policies.lodm->title();
+  info.codm = s.policies.codm->title();
   info.config_toml = configuration_of(s);
   info.map_toml = s.map_text;
   info.trace_text = s.trace_text;

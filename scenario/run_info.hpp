@@ -27,7 +27,7 @@ struct run_info {
   std::string version;     ///< Of this program.
   std::string clock;       ///< Whose time passed: "virtual" or "wall".
   std::string profile;     ///< Of the channel.
-  std::string lodm;        ///< Name of the policy.
+  std::string lodm;        ///< Title of the policy.
   std::string codm;        ///< Name of the policy.
   std::string config_toml; ///< The effective configuration.
   std::string map_toml;    ///< The map that it names; empty for none.

@@ -1,6 +1,7 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #include "scenario/scenario.hpp"
 
+#include "policies/govern/governors.hpp"
 #include "policies/registry.hpp"
 #include "scenario/settings_printer.hpp"
 #include "world/listing.hpp"
@@ -157,12 +158,37 @@ void network_options::fields(settings& s) {
 policy_options::policy_options()
     : lodm{make_lodm("location")}, codm{make_codm("location")} {}
 
+namespace {
+
+/// Where a name belongs that is no policy of the side where it stands.
+std::string place_of_lodm(std::string_view name) {
+  return make_lodm(name) ? fmt::format("It is an LODM: lodm = \"{}\".", name)
+                         : std::string{};
+}
+
+std::string place_of_codm(std::string_view name) {
+  return make_codm(name) ? fmt::format("It is a CODM: codm = \"{}\".", name)
+                         : std::string{};
+}
+
+std::string place_of_governor(std::string_view name) {
+  if (!make_governor(name))
+    return place_of_codm(name);
+  return fmt::format(
+      "It is a governor: lodm = {{ name = \"location\", govern = "
+      "[{{ name = \"{}\" }}] }}.",
+      name);
+}
+
+} // namespace
+
 void policy_options::fields(settings& s) {
   s.table("lodm", [this](settings& t) {
-    list_named(t, lodm, make_lodm, "LODM policy", lodm_names());
+    list_named(t, lodm, make_lodm, "LODM policy", lodm_names(),
+               place_of_governor);
   });
   s.table("codm", [this](settings& t) {
-    list_named(t, codm, make_codm, "CODM policy", codm_names());
+    list_named(t, codm, make_codm, "CODM policy", codm_names(), place_of_lodm);
   });
 }
 

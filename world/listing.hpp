@@ -5,6 +5,7 @@
 #include "world/settings.hpp"
 #include "world/spelling.hpp"
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,15 +28,23 @@ void list_all(settings& s, std::string_view key, std::vector<T>& items) {
 /// @param make    From a name to a pointer, null for an unknown name.
 /// @param what    E.g. "LODM policy".
 /// @param known   All names.
+/// @param hint    From an unknown name to a sentence that tells where it would
+/// be
+///                known; empty for nothing.
 template <class Pointer, class Make>
-void list_named(settings& s, Pointer& object, Make make, std::string_view what,
-                const std::vector<std::string_view>& known) {
+void list_named(
+    settings& s, Pointer& object, Make make, std::string_view what,
+    const std::vector<std::string_view>& known,
+    const std::function<std::string(std::string_view name)>& hint = {}) {
   std::string name{object ? object->name() : ""};
   s.field("name", name);
   if (!object || object->name() != name) {
     Pointer made = make(name);
-    if (!made)
-      return s.refuse("name", unknown_word(what, name, known));
+    if (!made) {
+      const auto more = hint ? hint(name) : std::string{};
+      return s.refuse("name", unknown_word(what, name, known)
+                                  + (more.empty() ? "" : " " + more));
+    }
     object = std::move(made);
   }
   object->fields(s);

@@ -24,6 +24,15 @@ constexpr auto solvers = std::to_array<std::string_view>({
 #endif
 });
 
+/// @returns where a solver is that cannot be chosen.
+std::string_view where_it_is(std::string_view solver) {
+  if (solver == "min_cost_flow")
+    return " \"auto\" takes it wherever all demands are equal.";
+  if (solver == "cbc")
+    return " It is built in by cmake -DSOFOF_WITH_CBC=ON.";
+  return "";
+}
+
 /// Source: see policies/assignment; Tran & Pompili 2019 for the setting.
 class best_assignment final : public central_policy {
 public:
@@ -66,7 +75,8 @@ void best_assignment::fields(settings& s) {
   options_.fields(s);
   s.field("solver", solver_);
   if (std::ranges::find(solvers, solver_) == solvers.end())
-    s.refuse("solver", unknown_word("solver", solver_, solvers));
+    s.refuse("solver", unknown_word("solver", solver_, solvers)
+                           + std::string{where_it_is(solver_)});
   s.field("nodes", nodes_, {0, 1e9});
 }
 

@@ -47,6 +47,13 @@ void governed_lodm::fields(settings& s) {
   });
 }
 
+std::string governed_lodm::title() const {
+  auto text = whole_->title();
+  for (const auto& next : governors_)
+    text.append(" + ").append(next->name());
+  return text;
+}
+
 std::unique_ptr<local_policy> governed_lodm::clone() const {
   auto copy = std::make_unique<governed_lodm>(whole_->clone());
   for (const auto& next : governors_)

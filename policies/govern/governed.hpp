@@ -28,6 +28,7 @@ public:
   /// Those of the policy, and the list `govern`.
   void fields(settings& s) override;
   std::string_view name() const override { return whole_->name(); }
+  std::string title() const override;
   std::unique_ptr<local_policy> clone() const override;
 
 private:

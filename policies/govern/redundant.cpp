@@ -3,6 +3,8 @@
 
 namespace sofof {
 
+using namespace std::chrono_literals;
+
 local_decision redundant::govern(const local_context& context,
                                  const local_decision& wanted) {
   auto decision = wanted;
@@ -29,6 +31,8 @@ local_decision redundant::govern(const local_context& context,
 void redundant::fields(settings& s) {
   s.field("least_late", least_late_, {0, 1});
   s.field("hedge_after", hedge_after_, duration{0});
+  if (hedge_after_ > 1s) // no service waits so long
+    s.refuse("hedge_after", "must not be more than \"1s\".");
 }
 
 } // namespace sofof

@@ -23,6 +23,28 @@ std::unique_ptr<local_policy> always_with(const std::string& governor,
 
 } // namespace
 
+TEST_CASE("a policy has its governors in its title") {
+  option_list options;
+  options.lengths = {{"govern", 2}};
+  options.texts = {{"govern.0.name", "predictive_gate"},
+                   {"govern.1.name", "hysteresis"}};
+  const auto lodm = make_lodm("nearest");
+  CHECK(lodm->title() == "nearest");
+  lodm->fields(options);
+  CHECK(lodm->name() == "nearest");
+  CHECK(lodm->title() == "nearest + predictive_gate + hysteresis");
+  CHECK(lodm->clone()->title() == lodm->title());
+}
+
+TEST_CASE("nobody waits longer than a second for a hedge") {
+  option_list options;
+  options.lengths = {{"govern", 1}};
+  options.texts = {{"govern.0.name", "redundancy"}};
+  options.times = {{"govern.0.hedge_after", 1001ms}};
+  make_lodm("always")->fields(options);
+  CHECK(options.refused == decltype(options.refused){"govern.0.hedge_after"});
+}
+
 TEST_CASE("an unknown governor is refused") {
   option_list options;
   options.lengths = {{"govern", 1}};
