@@ -34,6 +34,10 @@ struct bench_arguments {
         entrants.empty() ? usual_entrants : entrants;
     if (!entrants.empty() || std::filesystem::exists(file))
       std::ranges::move(bench::load_entrants(file), std::back_inserter(all));
+    else if (policies == "all")
+      std::cerr << "sofof: there is no " << usual_entrants
+                << " here, so nobody takes part but the policies themselves "
+                   "(--entrants FILE)\n";
     return all;
   }
 

@@ -64,7 +64,7 @@ public:
     for (std::size_t i = 0; i < options_.scenarios.size(); ++i)
       if (!drive(i))
         return {.interrupted = true};
-    add_regret(judged_);
+    compare_scores(judged_);
     std::vector<leaderboard> boards{rank(judged_, expected_, "")};
     for (const auto& scenario : expected_.scenarios)
       boards.push_back(rank(judged_, expected_, scenario));

@@ -44,6 +44,7 @@ constexpr criterion all_criteria[]{
     {"fairness", "fairness (Jain)", "Jain", 3, better::more},
     {"messages_per_s", "signalling, messages/s", "", 2, better::less},
     {regret_name, "regret, %", "regret %", 1, better::less},
+    {than_location_name, "score above location's, %", "", 1, better::less},
     {score_name, "score", "score", 4, better::less},
 };
 
@@ -194,20 +195,31 @@ judged_run judge(const study::measured_run& measured, const yardstick& by) {
   return judged;
 }
 
-void add_regret(std::vector<judged_run>& runs) {
-  constexpr std::string_view best_possible = "oracle";
-  std::map<std::pair<std::string, std::int64_t>, double> least;
+namespace {
+
+/// Adds how much the score of each run is above that of an entrant in the same
+/// scenario with the same seed, percent.
+void compare(std::vector<judged_run>& runs, std::string_view with,
+             std::string_view name) {
+  std::map<std::pair<std::string, std::int64_t>, double> scores;
   for (const auto& run : runs)
-    if (run.entrant == best_possible)
-      least.emplace(std::pair{run.scenario, run.seed},
-                    run.values.at(score_name));
+    if (run.entrant == with)
+      scores.emplace(std::pair{run.scenario, run.seed},
+                     run.values.at(score_name));
   for (auto& run : runs) {
-    const auto found = least.find({run.scenario, run.seed});
-    if (found == least.end() || found->second <= 0)
+    const auto found = scores.find({run.scenario, run.seed});
+    if (found == scores.end() || found->second <= 0)
       continue;
     run.values.emplace(
-        regret_name, percent * (run.values.at(score_name) / found->second - 1));
+        name, percent * (run.values.at(score_name) / found->second - 1));
   }
+}
+
+} // namespace
+
+void compare_scores(std::vector<judged_run>& runs) {
+  compare(runs, "oracle", regret_name);
+  compare(runs, "location", than_location_name);
 }
 
 } // namespace sofof::bench

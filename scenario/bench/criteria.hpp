@@ -30,6 +30,7 @@ std::span<const criterion> criteria();
 
 inline constexpr std::string_view score_name = "score";
 inline constexpr std::string_view regret_name = "regret_percent";
+inline constexpr std::string_view than_location_name = "than_location_percent";
 
 /// What a scenario says about its runs, whoever decides.
 struct yardstick {
@@ -58,8 +59,9 @@ struct judged_run {
 /// @throws input_error when its summary lacks what every run writes.
 judged_run judge(const study::measured_run& run, const yardstick& by);
 
-/// Adds to each run how much worse its score is than that of the entrant called
-/// "oracle", in the same scenario with the same seed, percent of the latter.
-void add_regret(std::vector<judged_run>& runs);
+/// Adds to each run how much worse its score is than those of the entrants
+/// called "oracle" and "location", in the same scenario with the same seed,
+/// percent of theirs: so noise that they have in common does not count.
+void compare_scores(std::vector<judged_run>& runs);
 
 } // namespace sofof::bench

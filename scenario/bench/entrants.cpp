@@ -37,6 +37,20 @@ bool is_among(std::string_view name, const std::vector<entrant>& all) {
   return std::ranges::find(all, name, &entrant::name) != all.end();
 }
 
+/// @param name  Its own, or that of a policy behind its side: "codm:edf".
+const entrant& find_entrant(const std::vector<entrant>& all,
+                            std::string_view name) {
+  const auto plain = name.substr(name.find(':') + 1);
+  const auto found = std::ranges::find_if(all, [&](const entrant& x) {
+    return x.name == name
+           || (name.starts_with("lodm:") && x.name == plain && x.lodm == plain)
+           || (name.starts_with("codm:") && x.name == plain && x.codm == plain);
+  });
+  if (found == all.end())
+    throw input_error{unknown_word("entrant", name, names_of(all))};
+  return *found;
+}
+
 std::string text_of(const toml::table& policies, std::string_view side) {
   const auto* node = policies.get(side);
   if (!node)
@@ -129,13 +143,15 @@ std::vector<entrant> chosen_from(const std::vector<entrant>& all,
   for (std::size_t at = 0; at <= wanted.size();) {
     const auto comma = std::min(wanted.find(',', at), wanted.size());
     const auto name = wanted.substr(at, comma - at);
-    const auto found = std::ranges::find(all, name, &entrant::name);
-    if (found == all.end())
-      throw input_error{unknown_word("entrant", name, names_of(all))};
-    if (is_among(name, chosen))
+    if (name == everybody)
+      throw input_error{fmt::format("\"{}\" has everybody in it; let it stand "
+                                    "alone.",
+                                    everybody)};
+    const auto& found = find_entrant(all, name);
+    if (is_among(found.name, chosen))
       throw input_error{
-          fmt::format("the entrant \"{}\" stands there twice.", name)};
-    chosen.push_back(*found);
+          fmt::format("the entrant \"{}\" stands there twice.", found.name)};
+    chosen.push_back(found);
     at = comma + 1;
   }
   return chosen;

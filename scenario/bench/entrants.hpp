@@ -34,7 +34,9 @@ std::vector<entrant> load_entrants(const std::filesystem::path& file);
 std::vector<entrant> parse_entrants(std::string_view text,
                                     const std::string& file);
 
-/// @param wanted  Names separated by commas, or "all".
+/// @param wanted  Names separated by commas, or "all". A policy may stand
+/// behind
+///                its side, "lodm:nearest", "codm:edf".
 /// @returns those, in the order in which they are wanted.
 /// @throws input_error for a name that nobody has, or that stands there twice.
 std::vector<entrant> chosen_from(const std::vector<entrant>& all,

@@ -1,4 +1,4 @@
-// The policy of docs/policies.md, as it is printed there.
+// The policies of docs/policies.md, as they are printed there.
 #include "policies/entry.hpp"
 #include "tests/support/option_list.hpp"
 
@@ -6,6 +6,7 @@
 
 namespace sofof {
 lodm_entry lodm_slow_only();
+codm_entry codm_slowest_first();
 } // namespace sofof
 
 using namespace sofof;
@@ -38,4 +39,24 @@ TEST_CASE("the policy of the tutorial has an option, and stands behind a "
   options.numbers = {{"filter.min_distance_m", 101}};
   lodm->fields(options);
   CHECK(!asks(*lodm, 3));
+}
+
+TEST_CASE("the provider's policy of the tutorial gives the room to the slowest "
+          "of an epoch") {
+  const auto codm = codm_slowest_first().make();
+  test::option_list options;
+  options.texts = {{"filter.name", "none"}};
+  codm->fields(options);
+  CHECK(codm->epoch_s() == 0.25);
+  const std::vector<point> route{{0, 0}};
+  std::vector<request_view> asked;
+  for (const auto speed_mps : {14.0, 3.0, 8.0})
+    asked.push_back({1, "any", route, speed_mps, 0.3});
+  const polygon area{{{0, 0}, {1, 0}, {1, 1}}};
+  const road_map map{"street", {}, {}};
+  const auto decided = codm->decide({time_point{}, asked, {}, 0, 1, area, map});
+  REQUIRE(decided.size() == 3);
+  CHECK(!decided[0].accept);
+  CHECK(decided[1].accept);
+  CHECK(decided[2].accept);
 }

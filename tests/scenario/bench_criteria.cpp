@@ -157,14 +157,25 @@ TEST_CASE("regret is against the oracle in the same scenario, same seed") {
       scored("mine", "a", 1, 0.3),  scored("oracle", "a", 1, 0.2),
       scored("mine", "a", 2, 0.3),  scored("oracle", "b", 1, 0.1),
       scored("mine", "b", 1, 0.11), scored("oracle", "a", 2, 0.3)};
-  add_regret(runs);
+  compare_scores(runs);
   CHECK(value(runs[0], regret_name) == near(50, 1e-9));
   CHECK(value(runs[1], regret_name) == 0);
   CHECK(value(runs[2], regret_name) == 0);
   CHECK(value(runs[4], regret_name) == near(10, 1e-9));
   std::vector<judged_run> alone{scored("mine", "a", 1, 0.3)};
-  add_regret(alone);
+  compare_scores(alone);
   CHECK_FALSE(alone[0].values.contains(regret_name));
+  CHECK_FALSE(alone[0].values.contains(than_location_name));
+}
+
+TEST_CASE("who is better than location is so on the same noise") {
+  std::vector<judged_run> runs{
+      scored("mine", "a", 1, 0.3), scored("location", "a", 1, 0.4),
+      scored("mine", "a", 2, 0.4), scored("location", "a", 2, 0.5)};
+  compare_scores(runs);
+  CHECK(value(runs[0], than_location_name) == near(-25, 1e-9));
+  CHECK(value(runs[1], than_location_name) == 0);
+  CHECK(value(runs[2], than_location_name) == near(-20, 1e-9));
 }
 
 TEST_CASE("every figure of a run is of a criterion, and each has one name") {
@@ -177,8 +188,8 @@ TEST_CASE("every figure of a run is of a criterion, and each has one name") {
     CAPTURE(name);
     CHECK(std::ranges::count(all, name, &criterion::name) == 1);
   }
-  // Regret needs an oracle.
-  CHECK(judge(run, usual()).values.size() == all.size() - 1);
+  // Regret needs an oracle, and comparing needs location.
+  CHECK(judge(run, usual()).values.size() == all.size() - 2);
 }
 
 TEST_CASE("a scenario tells limits, periods and what a service takes") {

@@ -108,6 +108,23 @@ TEST_CASE("some of them can be chosen, in any order") {
   CHECK_THROWS_WITH_AS(chosen_from(all, "edf,edf"),
                        "the entrant \"edf\" stands there twice.", input_error);
   CHECK_THROWS_AS(chosen_from(all, ""), input_error);
+  CHECK_THROWS_WITH_AS(chosen_from(all, "edf,all"),
+                       "\"all\" has everybody in it; let it stand alone.",
+                       input_error);
+}
+
+TEST_CASE("a policy may be chosen by its name behind its side") {
+  const auto all = plain_entrants();
+  const auto some =
+      chosen_from(all, "codm:edf,codm:always,lodm:always,lodm:nearest");
+  REQUIRE(some.size() == 4);
+  CHECK(some[0].name == "edf");
+  CHECK(some[1].codm == "always");
+  CHECK(some[2].lodm == "always");
+  CHECK(some[3].name == "nearest");
+  CHECK_THROWS_AS(chosen_from(all, "lodm:edf"), input_error);
+  CHECK_THROWS_WITH_AS(chosen_from(all, "edf,codm:edf"),
+                       "the entrant \"edf\" stands there twice.", input_error);
 }
 
 TEST_CASE("the entrants that come with the program are as they should be") {
