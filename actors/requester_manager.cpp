@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,14 +54,12 @@ struct offloaded_state {
   instance_actor local;
   watchdog_actor watchdog;
   std::vector<remote_source> remotes;
-  first_response answers;     // of planning cycles, by any of them
-  boot_id hedge = 0;          // the provider that is on call beside others,
-  duration hedge_after{};     // when a cycle is not answered for so long
-  time_point began;           // the latest cycle of who is not on call
-  std::uint64_t timer = 0;    // the one that counts
-  std::uint64_t answered = 0; // the latest cycle that was,
-  time_point answered_began;  // and when it began
-  running_service watched;    // by whose name the watchdog watches
+  first_response answers;  // of planning cycles, by any of them
+  boot_id hedge = 0;       // the provider that is on call beside others,
+  duration hedge_after{};  // when a cycle is not answered for so long
+  time_point began;        // the latest cycle of who is not on call
+  std::uint64_t timer = 0; // the one that counts
+  running_service watched; // by whose name the watchdog watches
   service_input newest;
   payload in_use;         // the last result that the client got,
   running_service source; // of whom,
@@ -71,6 +68,7 @@ struct offloaded_state {
   void start() {
     setup.local.running = {0, setup.station, setup.kind, 0};
     setup.local.results = self;
+    answers = first_response{setup.options.period};
     local = spawn_instance(self->system(), setup.local);
     self->link_to(local);
     watchdog = spawn_qos_watchdog(self->system(), setup.options.limits,
@@ -160,8 +158,9 @@ struct offloaded_state {
       await_next(result.created);
     const auto alone = !is_remote() || (remote.in_use && sources() == 1);
     const auto fits = in_limits && (alone || continues(result));
-    const auto first =
-        fits && answer(is_on_call(remote) ? began : result.created);
+    // Who is on call answers the cycle that it was called for.
+    const auto start = is_on_call(remote) ? began : result.created;
+    const auto first = fits && answers.use(start);
     const auto usable = fits && (alone || first);
     std::optional<duration> gap; // only while in use every period
     if (remote.last_received)
@@ -192,25 +191,6 @@ struct offloaded_state {
       give_up_silent();
     if (is_on_call(remote) && input_due(remote))
       feed_remote(remote); // it has not heard that it is on call
-  }
-
-  // Providers are half a period out of step at most: what began later than
-  // that after the cycle that was answered last is the next one. Who is on call
-  // answers the cycle that he was called for.
-  // @returns whether it is the first answer to its cycle.
-  bool answer(time_point start) {
-    const auto cycle = number_of(start);
-    if (!answers.use(cycle))
-      return false;
-    answered = cycle;
-    answered_began = start;
-    return true;
-  }
-
-  std::uint64_t number_of(time_point start) const {
-    const auto periods = std::lround(to_seconds(start - answered_began)
-                                     / to_seconds(setup.options.period));
-    return answered + static_cast<std::uint64_t>(std::max(0L, periods));
   }
 
   // -- the hedge ------------------------------------------------------------
@@ -250,7 +230,7 @@ struct offloaded_state {
       return;
     const auto since = now(self) - hedge_after - began;
     await_next(began + since / setup.options.period * setup.options.period);
-    if (!answers.hedge_due(number_of(began), began, now(self), hedge_after))
+    if (!answers.hedge_due(began, now(self), hedge_after))
       return;
     for (auto& remote : remotes)
       if (remote.in_use && is_on_call(remote) && feed_remote(remote))

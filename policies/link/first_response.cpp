@@ -3,12 +3,12 @@
 
 namespace sofof {
 
-bool first_response::use(std::uint64_t cycle) {
-  if (answered(cycle)) {
+bool first_response::use(time_point began) {
+  if (answered(began)) {
     ++dropped_;
     return false;
   }
-  newest_ = cycle;
+  newest_ = began;
   return true;
 }
 

@@ -31,37 +31,48 @@ std::vector<point> plan(int points, double left_m) {
 
 TEST_CASE("of each cycle the first response is used, later ones are dropped "
           "and counted") {
-  first_response responses;
-  CHECK(responses.use(0));
-  CHECK(!responses.use(0));
-  CHECK(responses.use(1));
-  CHECK(responses.use(3));
-  CHECK(!responses.use(2));
-  CHECK(!responses.use(3));
+  first_response responses{100ms};
+  CHECK(responses.use(at(0ms)));
+  CHECK(!responses.use(at(0ms)));
+  CHECK(responses.use(at(100ms)));
+  CHECK(responses.use(at(300ms)));
+  CHECK(!responses.use(at(200ms)));
+  CHECK(!responses.use(at(300ms)));
   CHECK(responses.dropped() == 3);
 }
 
-TEST_CASE("no cycle is used twice, in whatever order responses come") {
+TEST_CASE("what begins half a period after a cycle is of the next one") {
+  first_response responses{100ms};
+  CHECK(responses.use(at(1s)));
+  CHECK(!responses.use(at(1049ms)));
+  CHECK(responses.use(at(1050ms)));
+  CHECK(!responses.use(at(1099ms)));
+  CHECK(responses.use(at(1100ms)));
+}
+
+TEST_CASE("no cycle is used twice, in whatever order responses come, and "
+          "however far providers are out of step") {
   dice random{5};
-  first_response responses;
-  std::set<std::uint64_t> used;
+  first_response responses{100ms};
+  std::set<long> used;
   std::uint64_t heard = 0;
   for (int k = 0; k < 5000; ++k) {
-    const auto cycle = static_cast<std::uint64_t>(k / 3 + random.between(0, 9));
+    const auto cycle = static_cast<long>(k / 3 + random.between(0, 9));
+    const auto step = from_seconds(0.001 * random.between(-24, 24));
     ++heard;
-    if (responses.use(cycle))
+    if (responses.use(at(1s) + cycle * 100ms + step))
       REQUIRE(used.insert(cycle).second);
   }
   CHECK(used.size() + responses.dropped() == heard);
 }
 
 TEST_CASE("a hedge is due after h, unless an answer is there") {
-  first_response responses;
-  CHECK(!responses.hedge_due(1, at(1s), at(1019ms), 20ms));
-  CHECK(responses.hedge_due(1, at(1s), at(1020ms), 20ms));
-  responses.use(1);
-  CHECK(!responses.hedge_due(1, at(1s), at(1020ms), 20ms));
-  CHECK(responses.hedge_due(2, at(1100ms), at(1120ms), 20ms));
+  first_response responses{100ms};
+  CHECK(!responses.hedge_due(at(1s), at(1019ms), 20ms));
+  CHECK(responses.hedge_due(at(1s), at(1020ms), 20ms));
+  responses.use(at(1s));
+  CHECK(!responses.hedge_due(at(1s), at(1020ms), 20ms));
+  CHECK(responses.hedge_due(at(1100ms), at(1120ms), 20ms));
 }
 
 TEST_CASE("all providers miss a cycle with the product of their chances") {

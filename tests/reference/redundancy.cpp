@@ -56,21 +56,20 @@ struct redundancy_outcome {
 
 // What happens in the order in which it happens, cycle by cycle.
 redundancy_outcome drive_hedged(duration hedge_after) {
-  first_response responses;
+  first_response responses{cycle_period};
   redundancy_outcome seen;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const auto sent = time_point{cycle * cycle_period};
-    const auto number = static_cast<std::uint64_t>(cycle);
     auto used = lost;
     const auto answer = [&](duration after) {
-      if (after < lost && responses.use(number))
+      if (after < lost && responses.use(sent))
         used = after;
     };
     const auto first = latency(cycle, 0);
     if (first <= hedge_after)
       answer(first);
     if (hedge_after < never
-        && responses.hedge_due(number, sent, sent + hedge_after, hedge_after)) {
+        && responses.hedge_due(sent, sent + hedge_after, hedge_after)) {
       ++seen.extra;
       const auto second = latency(cycle, 1);
       const auto late = second < lost ? hedge_after + second : lost;
