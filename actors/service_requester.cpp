@@ -500,22 +500,30 @@ struct requester_state {
     note("switch", running.provider, running.kind, running.counter, "remote");
   }
 
-  // Ends a service where it is no longer wanted.
-  void leave_others(service_slot& slot) {
-    const auto all = slot.elsewhere; // a copy: it shrinks
-    for (const auto& at : all)
-      if (at.at == phase::remote && !slot.wants(at.provider)) {
-        end(slot, at.provider, end_reason::handed_over, true);
-        slot.since = now(self);
-      }
+  // Ends a service where it runs, at those providers of whom that is true.
+  // @returns at whom.
+  template <class Predicate>
+  std::vector<boot_id> leave(service_slot& slot, end_reason reason,
+                             Predicate is_meant) {
+    std::vector<boot_id> left;
+    for (const auto& at : slot.elsewhere)
+      if (at.at == phase::remote && is_meant(at.provider))
+        left.push_back(at.provider);
+    for (const auto id : left)
+      end(slot, id, reason, true);
+    return left;
   }
 
-  // Ends a service wherever it runs.
+  void leave_others(service_slot& slot) {
+    const auto left =
+        leave(slot, end_reason::handed_over,
+              [&slot](boot_id provider) { return !slot.wants(provider); });
+    if (!left.empty())
+      slot.since = now(self);
+  }
+
   void come_home(service_slot& slot) {
-    const auto all = slot.elsewhere;
-    for (const auto& at : all)
-      if (at.at == phase::remote)
-        end(slot, at.provider, end_reason::released, true);
+    leave(slot, end_reason::released, [](boot_id) { return true; });
   }
 
   void start_timed_out(const running_service& running) {
@@ -548,12 +556,11 @@ struct requester_state {
 
   // Nothing usable has come from the others either; but it is one violation.
   void leave_beside(service_slot& slot, boot_id violator) {
-    const auto all = slot.elsewhere; // a copy: it shrinks
-    for (const auto& at : all)
-      if (at.at == phase::remote && at.provider != violator) {
-        end(slot, at.provider, end_reason::released, true);
-        slot.cool_until[at.provider] = now(self) + protocol::cool_down;
-      }
+    const auto left =
+        leave(slot, end_reason::released,
+              [violator](boot_id provider) { return provider != violator; });
+    for (const auto id : left)
+      slot.cool_until[id] = now(self) + protocol::cool_down;
   }
 
   void take(const service_end& e) {

@@ -93,4 +93,18 @@ trajectory_point trajectory::at(double t_s) const {
                  std::clamp(steps - static_cast<double>(i), 0.0, 1.0));
 }
 
+trajectory rest_of(const trajectory& plan, time_point from) {
+  if (plan.empty() || plan.start >= from)
+    return plan;
+  trajectory rest{from, {}};
+  const auto step_s = plan.points.size() > 1 ? plan.points[1].t_s : 0;
+  const auto passed_s = to_seconds(from - plan.start);
+  for (auto t_s = 0.0; passed_s + t_s <= plan.points.back().t_s && step_s > 0;
+       t_s = static_cast<double>(rest.points.size()) * step_s) {
+    rest.points.push_back(plan.at(passed_s + t_s));
+    rest.points.back().t_s = t_s;
+  }
+  return rest;
+}
+
 } // namespace sofof

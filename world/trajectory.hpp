@@ -46,4 +46,8 @@ struct trajectory {
   trajectory_point at(double t_s) const;
 };
 
+/// @returns what a plan still holds from a time on, in the same steps; a plan
+/// that begins later as it is, and nothing of one that is over.
+trajectory rest_of(const trajectory& plan, time_point from);
+
 } // namespace sofof

@@ -73,21 +73,6 @@ etsi::planned_trajectory written(const planned_points& plan) {
   return out;
 }
 
-// What a plan still holds at a time, in the same steps.
-trajectory rest_of(const trajectory& plan, time_point at) {
-  if (plan.empty() || plan.start >= at)
-    return plan;
-  trajectory rest{at, {}};
-  const auto step_s = plan.points.size() > 1 ? plan.points[1].t_s : 0;
-  const auto passed_s = to_seconds(at - plan.start);
-  for (auto t_s = 0.0; passed_s + t_s <= plan.points.back().t_s && step_s > 0;
-       t_s = static_cast<double>(rest.points.size()) * step_s) {
-    rest.points.push_back(plan.at(passed_s + t_s));
-    rest.points.back().t_s = t_s;
-  }
-  return rest;
-}
-
 planned_points understood(const etsi::planned_trajectory& plan) {
   planned_points out{plan.start_delta_time, plan.delta_time, {}};
   for (const auto& p : plan.points)

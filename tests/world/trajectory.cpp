@@ -100,3 +100,28 @@ TEST_CASE("a stranger's plan is not sound when it could mislead the car") {
   CHECK(!spoilt([](auto& p) { p[4].at.x_m = 1.7e308; }));
   CHECK(!spoilt([](auto& p) { p[4].speed_mps = 1e9; }));
 }
+
+TEST_CASE(
+    "the rest of a plan goes on where the plan is by then, in its steps") {
+  const auto plan = on_a_circle();
+  const auto from = plan.start + from_seconds(0.43);
+  const auto rest = rest_of(plan, from);
+  CHECK(rest.start == from);
+  CHECK(rest.is_sound());
+  REQUIRE(rest.points.size() == 6); // to 0.93 s
+  CHECK(rest.points[1].t_s == Approx(0.1));
+  for (const auto& p : rest.points) {
+    const auto there = plan.at(from + from_seconds(p.t_s));
+    CHECK(distance_m(p.at, there.at) < 1e-9);
+    CHECK(p.speed_mps == Approx(there.speed_mps));
+  }
+}
+
+TEST_CASE("a plan that begins later is whole, and of one that is over nothing "
+          "is left") {
+  const auto plan = on_a_circle();
+  CHECK(rest_of(plan, plan.start).points.size() == plan.points.size());
+  CHECK(rest_of(plan, plan.start - from_seconds(1)).start == plan.start);
+  CHECK(rest_of(plan, plan.end() + from_seconds(0.01)).empty());
+  CHECK(rest_of({}, plan.start).empty());
+}
