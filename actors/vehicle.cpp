@@ -55,7 +55,7 @@ struct vehicle_actor_state {
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
-  time_point at;                     // of the car's state; it does not drift
+  time_point car_at;                 // of its state; it does not drift
   std::uint64_t steps = 0;
   safety_record safety;
   std::optional<drive_figures> figures; // from when it appears on
@@ -86,11 +86,11 @@ struct vehicle_actor_state {
   void appear() {
     if (setup.appears_after > 0ms)
       note("appeared");
-    at = now(self);
+    car_at = now(self);
     figures.emplace(setup.station, setup.car, car.speed_mps);
     plan = std::make_shared<const trajectory>(
-        keep_speed(*setup.way, at, s_m, car.speed_mps));
-    plan_created = at;
+        keep_speed(*setup.way, car_at, s_m, car.speed_mps));
+    plan_created = car_at;
     safety.station = setup.station;
     if (setup.v2x)
       broadcast.emplace(*setup.v2x, setup.car, setup.sensor, setup.where);
@@ -155,7 +155,7 @@ struct vehicle_actor_state {
   // when one is due, and before anything changes.
   void catch_up() {
     const auto t = now(self);
-    while (figures && !has_arrived && t - at >= protocol::control_period)
+    while (figures && !has_arrived && t - car_at >= protocol::control_period)
       move();
   }
 
@@ -164,13 +164,13 @@ struct vehicle_actor_state {
       arrive();
       return;
     }
-    const auto next = at + protocol::control_period;
+    const auto next = car_at + protocol::control_period;
     if (plan->end() - next < reserve)
       stop_safely(next);
     const auto command = follow(car, *plan, next, setup.car);
     const auto dt_s = to_seconds(protocol::control_period);
     car = step(car, command, setup.car, dt_s);
-    at = next;
+    car_at = next;
     const auto place =
         setup.way->path().project(car.at, s_m + car.speed_mps * dt_s, window_m);
     s_m = place.s_m;
@@ -182,19 +182,20 @@ struct vehicle_actor_state {
     if (ends(protocol::ego_period, steps))
       tell();
     if (is_tracked(steps))
-      self->send(setup.recorder,
-                 track_record{at, ego(), place.d_m, at - plan_created, remote});
+      self->send(setup.recorder, track_record{car_at, ego(), place.d_m,
+                                              car_at - plan_created, remote});
     if (ends(figures_period, steps))
       flush_figures();
   }
 
   time_point next_report() const {
+    static_assert(protocol::sensor_period % protocol::control_period == 0ms);
     static_assert(protocol::ego_period % protocol::sensor_period == 0ms);
     static_assert(figures_period % protocol::sensor_period == 0ms);
     auto next = steps + 1;
     while (!ends(protocol::sensor_period, next) && !is_tracked(next))
       ++next;
-    return at + (next - steps) * protocol::control_period;
+    return car_at + (next - steps) * protocol::control_period;
   }
 
   bool is_tracked(std::uint64_t step) const {
@@ -236,8 +237,8 @@ struct vehicle_actor_state {
   }
 
   void take(perception& others) {
+    newest = std::move(others); // a report of this moment tells of it
     catch_up();
-    newest = std::move(others);
     if (!planning || has_arrived)
       return;
     plan_request request{setup.way->name(), anchor(), newest, ego().own};
@@ -262,7 +263,7 @@ struct vehicle_actor_state {
   planning_input measured() const {
     const auto& path = setup.way->path();
     const auto place = path.project(car.at, s_m, window_m);
-    return {at,
+    return {car_at,
             place.s_m,
             place.d_m,
             wrap_angle(car.heading_rad - path.at(place.s_m).heading_rad),
@@ -301,7 +302,7 @@ struct vehicle_actor_state {
   // -- being seen ---------------------------------------------------------
 
   ego_state ego() const {
-    return {{setup.station, at, car.at, car.heading_rad, car.speed_mps,
+    return {{setup.station, car_at, car.at, car.heading_rad, car.speed_mps,
              car.accel_mps2, std::tan(car.steer_rad) / setup.car.wheelbase_m},
             s_m};
   }
@@ -328,7 +329,7 @@ struct vehicle_actor_state {
   }
 
   void keep_safety() {
-    const auto age = at - plan_created;
+    const auto age = car_at - plan_created;
     safety.driven += protocol::control_period;
     safety.max_plan_age = std::max(safety.max_plan_age, age);
     if (age > setup.fresh_limit)

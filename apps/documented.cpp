@@ -7,28 +7,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace sofof {
 
 namespace {
 
-constexpr double no_limit = 1e300;
-
-/// @returns the number without the sign and the noughts of a great exponent.
-std::string text_of(double number) {
-  auto text = fmt::format("{:g}", number);
-  if (const auto at = text.find("e+"); at != text.npos)
-    text.erase(at + 1, text.find_first_not_of("+0", at + 1) - at - 1);
-  return text;
-}
-
 std::string text_of(settings::range r) {
-  if (r.min > -no_limit && r.max < no_limit)
-    return fmt::format("{} to {}", text_of(r.min), text_of(r.max));
-  if (r.min > -no_limit)
-    return fmt::format("from {}", text_of(r.min));
-  return r.max < no_limit ? fmt::format("to {}", text_of(r.max)) : "";
+  constexpr settings::range any;
+  if (r.min > any.min && r.max < any.max)
+    return fmt::format("{} to {}", r.min, r.max);
+  if (r.min > any.min)
+    return fmt::format("from {}", r.min);
+  return r.max < any.max ? fmt::format("to {}", r.max) : "";
 }
 
 /// Notes the options of one table.
@@ -55,6 +47,7 @@ public:
     put(key, quoted_toml(print_duration(value)),
         fmt::format("from \"{}\"", print_duration(min)));
   }
+  // No policy has any of these.
   void field(std::string_view, std::vector<std::string>&) override {}
   void field(std::string_view, point&) override {}
   void field(std::string_view, std::vector<point>&) override {}

@@ -27,6 +27,7 @@ struct role {
   std::vector<policy_notes> all;
   /// Lists the options of one.
   std::function<void(settings&, std::string_view name)> options;
+  bool several = false; ///< A list of them.
 };
 
 /// @param make  From a name to what has options.
@@ -45,7 +46,7 @@ std::vector<role> roles() {
           {"codm.filter", "before it: who comes into question",
            central_filter_notes(), options_by(make_central_filter)},
           {"lodm.govern", "after it, one or several: the last word",
-           governor_notes(), options_by(make_governor)}};
+           governor_notes(), options_by(make_governor), true}};
 }
 
 std::string list(const role& one) {
@@ -56,9 +57,8 @@ std::string list(const role& one) {
 }
 
 std::string describe(const role& sort, const policy_notes& one) {
-  const auto several = sort.key == "lodm.govern";
-  const auto header = several ? fmt::format("[[policies.{}]]", sort.key)
-                              : fmt::format("[policies.{}]", sort.key);
+  const auto header = sort.several ? fmt::format("[[policies.{}]]", sort.key)
+                                   : fmt::format("[policies.{}]", sort.key);
   const auto options = [&](settings& s) {
     std::string name{one.name};
     s.field("name", name);
@@ -87,9 +87,7 @@ std::string describe(std::string_view name) {
     }
   if (text.empty())
     throw input_error{unknown_word("policy", name, known)};
-  return text
-         + "\nThese are the defaults. docs/policies.md leads to a page on "
-           "it.\n";
+  return text + "\nThese are the defaults. docs/policies.md tells more.\n";
 }
 
 std::string list() {

@@ -76,7 +76,7 @@ public:
   virtual void fields(settings&) {}
 
   virtual std::string_view name() const = 0;
-  /// @returns its name and those of all that has a say in it, for results.
+  /// @returns its name, with those of governors behind it, for results.
   virtual std::string title() const { return std::string{name()}; }
 
   /// @returns a policy with the same options and learned state; every

@@ -28,7 +28,7 @@ struct run_info {
   std::string clock;       ///< Whose time passed: "virtual" or "wall".
   std::string profile;     ///< Of the channel.
   std::string lodm;        ///< Title of the policy.
-  std::string codm;        ///< Name of the policy.
+  std::string codm;        ///< Likewise.
   std::string config_toml; ///< The effective configuration.
   std::string map_toml;    ///< The map that it names; empty for none.
   std::string trace_text;  ///< The trace that it names; empty for none.

@@ -34,6 +34,21 @@ double to_rad(double angle_deg) {
   return angle_deg * std::numbers::pi / 180;
 }
 
+/// @returns where a name belongs that is no policy of the side where it stands;
+/// nothing for one that nobody has.
+std::string right_place(std::string_view name) {
+  if (make_lodm(name))
+    return fmt::format("It is an LODM: lodm = \"{}\".", name);
+  if (make_codm(name))
+    return fmt::format("It is a CODM: codm = \"{}\".", name);
+  if (make_governor(name))
+    return fmt::format(
+        "It is a governor: lodm = {{ name = \"location\", govern = "
+        "[{{ name = \"{}\" }}] }}.",
+        name);
+  return {};
+}
+
 } // namespace
 
 void fleet_options::fields(settings& s) {
@@ -158,37 +173,12 @@ void network_options::fields(settings& s) {
 policy_options::policy_options()
     : lodm{make_lodm("location")}, codm{make_codm("location")} {}
 
-namespace {
-
-/// Where a name belongs that is no policy of the side where it stands.
-std::string place_of_lodm(std::string_view name) {
-  return make_lodm(name) ? fmt::format("It is an LODM: lodm = \"{}\".", name)
-                         : std::string{};
-}
-
-std::string place_of_codm(std::string_view name) {
-  return make_codm(name) ? fmt::format("It is a CODM: codm = \"{}\".", name)
-                         : std::string{};
-}
-
-std::string place_of_governor(std::string_view name) {
-  if (!make_governor(name))
-    return place_of_codm(name);
-  return fmt::format(
-      "It is a governor: lodm = {{ name = \"location\", govern = "
-      "[{{ name = \"{}\" }}] }}.",
-      name);
-}
-
-} // namespace
-
 void policy_options::fields(settings& s) {
   s.table("lodm", [this](settings& t) {
-    list_named(t, lodm, make_lodm, "LODM policy", lodm_names(),
-               place_of_governor);
+    list_named(t, lodm, make_lodm, "LODM policy", lodm_names(), right_place);
   });
   s.table("codm", [this](settings& t) {
-    list_named(t, codm, make_codm, "CODM policy", codm_names(), place_of_lodm);
+    list_named(t, codm, make_codm, "CODM policy", codm_names(), right_place);
   });
 }
 

@@ -28,9 +28,8 @@ void list_all(settings& s, std::string_view key, std::vector<T>& items) {
 /// @param make    From a name to a pointer, null for an unknown name.
 /// @param what    E.g. "LODM policy".
 /// @param known   All names.
-/// @param hint    From an unknown name to a sentence that tells where it would
-/// be
-///                known; empty for nothing.
+/// @param hint    From an unknown name to a sentence on where it belongs, or
+///                to nothing.
 template <class Pointer, class Make>
 void list_named(
     settings& s, Pointer& object, Make make, std::string_view what,

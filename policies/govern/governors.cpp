@@ -53,7 +53,8 @@ const std::vector<governor_entry>& governors() {
           "probability to be late below which one provider is enough"},
          {"hedge_after", "time",
           "the second plans only cycles that the first has not answered for so "
-          "long, well below max_interarrival - period; 0: all"}}},
+          "long, well below max_interarrival - period, at most \"10s\"; 0: "
+          "all"}}},
        made<redundant>}};
   return all;
 }

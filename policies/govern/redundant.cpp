@@ -3,7 +3,12 @@
 
 namespace sofof {
 
-using namespace std::chrono_literals;
+namespace {
+
+/// Who waits for a result longer than that waits in vain.
+constexpr duration longest_wait = std::chrono::seconds{10};
+
+} // namespace
 
 local_decision redundant::govern(const local_context& context,
                                  const local_decision& wanted) {
@@ -31,8 +36,8 @@ local_decision redundant::govern(const local_context& context,
 void redundant::fields(settings& s) {
   s.field("least_late", least_late_, {0, 1});
   s.field("hedge_after", hedge_after_, duration{0});
-  if (hedge_after_ > 1s) // no service waits so long
-    s.refuse("hedge_after", "must not be more than \"1s\".");
+  if (hedge_after_ > longest_wait)
+    s.refuse("hedge_after", "must not be more than \"10s\".");
 }
 
 } // namespace sofof

@@ -117,6 +117,24 @@ double score(const run_figures& run, const yardstick& by) {
          + of_violations * violated;
 }
 
+/// Adds how much the score of each run is above that of an entrant in the same
+/// scenario with the same seed, percent.
+void compare(std::vector<judged_run>& runs, std::string_view with,
+             std::string_view name) {
+  std::map<std::pair<std::string, std::int64_t>, double> scores;
+  for (const auto& run : runs)
+    if (run.entrant == with)
+      scores.emplace(std::pair{run.scenario, run.seed},
+                     run.values.at(score_name));
+  for (auto& run : runs) {
+    const auto found = scores.find({run.scenario, run.seed});
+    if (found == scores.end() || found->second <= 0)
+      continue;
+    run.values.emplace(
+        name, percent * (run.values.at(score_name) / found->second - 1));
+  }
+}
+
 } // namespace
 
 std::span<const criterion> criteria() {
@@ -194,28 +212,6 @@ judged_run judge(const study::measured_run& measured, const yardstick& by) {
                 && run.must("safety.collisions") == 0;
   return judged;
 }
-
-namespace {
-
-/// Adds how much the score of each run is above that of an entrant in the same
-/// scenario with the same seed, percent.
-void compare(std::vector<judged_run>& runs, std::string_view with,
-             std::string_view name) {
-  std::map<std::pair<std::string, std::int64_t>, double> scores;
-  for (const auto& run : runs)
-    if (run.entrant == with)
-      scores.emplace(std::pair{run.scenario, run.seed},
-                     run.values.at(score_name));
-  for (auto& run : runs) {
-    const auto found = scores.find({run.scenario, run.seed});
-    if (found == scores.end() || found->second <= 0)
-      continue;
-    run.values.emplace(
-        name, percent * (run.values.at(score_name) / found->second - 1));
-  }
-}
-
-} // namespace
 
 void compare_scores(std::vector<judged_run>& runs) {
   compare(runs, "oracle", regret_name);

@@ -41,11 +41,13 @@ bool is_among(std::string_view name, const std::vector<entrant>& all) {
 const entrant& find_entrant(const std::vector<entrant>& all,
                             std::string_view name) {
   const auto plain = name.substr(name.find(':') + 1);
-  const auto found = std::ranges::find_if(all, [&](const entrant& x) {
-    return x.name == name
-           || (name.starts_with("lodm:") && x.name == plain && x.lodm == plain)
-           || (name.starts_with("codm:") && x.name == plain && x.codm == plain);
-  });
+  auto found = std::ranges::find(all, name, &entrant::name);
+  if (found == all.end())
+    found = std::ranges::find_if(all, [&](const entrant& x) {
+      return x.name == plain
+             && ((name.starts_with("lodm:") && x.lodm == plain)
+                 || (name.starts_with("codm:") && x.codm == plain));
+    });
   if (found == all.end())
     throw input_error{unknown_word("entrant", name, names_of(all))};
   return *found;

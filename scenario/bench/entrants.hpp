@@ -34,11 +34,11 @@ std::vector<entrant> load_entrants(const std::filesystem::path& file);
 std::vector<entrant> parse_entrants(std::string_view text,
                                     const std::string& file);
 
-/// @param wanted  Names separated by commas, or "all". A policy may stand
-/// behind
-///                its side, "lodm:nearest", "codm:edf".
+/// @param wanted  Names separated by commas, or "all" alone. A policy may have
+///                its side before it: "lodm:nearest", "codm:edf".
 /// @returns those, in the order in which they are wanted.
-/// @throws input_error for a name that nobody has, or that stands there twice.
+/// @throws input_error for a name that nobody has, that stands there twice, and
+/// for "all" among others.
 std::vector<entrant> chosen_from(const std::vector<entrant>& all,
                                  std::string_view wanted);
 

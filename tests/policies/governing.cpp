@@ -36,11 +36,11 @@ TEST_CASE("a policy has its governors in its title") {
   CHECK(lodm->clone()->title() == lodm->title());
 }
 
-TEST_CASE("nobody waits longer than a second for a hedge") {
+TEST_CASE("nobody waits longer than ten seconds for a hedge") {
   option_list options;
   options.lengths = {{"govern", 1}};
   options.texts = {{"govern.0.name", "redundancy"}};
-  options.times = {{"govern.0.hedge_after", 1001ms}};
+  options.times = {{"govern.0.hedge_after", 10'001ms}};
   make_lodm("always")->fields(options);
   CHECK(options.refused == decltype(options.refused){"govern.0.hedge_after"});
 }

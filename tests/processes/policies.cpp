@@ -23,9 +23,11 @@ listed(const std::string& text) {
   return all;
 }
 
-/// @returns the table at `begin`, as `check` prints it: without comments, and
-/// without its filter, which has a table of its own there.
-std::string table_at(const std::string& text, std::size_t begin) {
+/// @returns the first table with a header, without comments, and without its
+/// filter, which may have a table of its own.
+std::string table_in(const std::string& text, const std::string& header) {
+  const auto begin = text.find(header);
+  REQUIRE(begin != text.npos);
   std::istringstream lines{text.substr(begin)};
   std::string table;
   for (std::string line; std::getline(lines, line) && !line.empty();)
@@ -65,14 +67,24 @@ TEST_CASE("every policy that is listed is described, and what is said of its "
     REQUIRE(begin != told.npos);
     CHECK(contains(told.substr(begin), "decides by: "));
     CHECK(contains(told.substr(begin), "source: "));
-    const auto options = told.find("[policies." + side + "]", begin);
-    REQUIRE(options != told.npos);
+    const auto header = "[policies." + side + "]";
     const auto check = at.run_sofof(
         {"check", "config/ulm_lehr.toml", "--set", setting(side, name)});
     CHECK(check.code == 0);
     // What ulm_lehr.toml says for itself are the defaults as well.
-    CHECK(contains(check.out, table_at(told, options)));
+    CHECK(table_in(told.substr(begin), header) == table_in(check.out, header));
   }
+}
+
+TEST_CASE("an option is described beside its default, with unit and range") {
+  const workplace at;
+  const auto told = at.run_sofof({"policies", "location"}).out;
+  CHECK(contains(told,
+                 "\nradius_m = 300.0       # m, 0 to 1000000: r_off, of the "
+                 "disc round the provider\n"));
+  CHECK(contains(told, "\nmin_time = \"5s\"        # from \"0s\": t_min; "));
+  CHECK(contains(at.run_sofof({"policies", "assignment"}).out,
+                 "\nfilter = \"location\"\n"));
 }
 
 TEST_CASE("an unknown policy is refused, and the one meant is named") {
