@@ -6,7 +6,7 @@ namespace sofof {
 namespace {
 
 /// Who waits for a result longer than that waits in vain.
-constexpr duration longest_wait = std::chrono::seconds{10};
+constexpr duration longest_hedge = std::chrono::seconds{10};
 
 } // namespace
 
@@ -36,7 +36,7 @@ local_decision redundant::govern(const local_context& context,
 void redundant::fields(settings& s) {
   s.field("least_late", least_late_, {0, 1});
   s.field("hedge_after", hedge_after_, duration{0});
-  if (hedge_after_ > longest_wait)
+  if (hedge_after_ > longest_hedge)
     s.refuse("hedge_after", "must not be more than \"10s\".");
 }
 
