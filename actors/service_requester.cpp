@@ -3,10 +3,9 @@
 
 #include "actors/cpu_accounts.hpp"
 #include "actors/on_air.hpp"
-#include "actors/service_manager.hpp"
+#include "actors/onboard_service.hpp"
 #include "actors/service_slot.hpp"
 #include "actors/time.hpp"
-#include "world/drawn_phase.hpp"
 #include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -39,7 +38,7 @@ struct requester_state {
   requester_impl::stateful_pointer<requester_state> self;
   requester_setup setup;
   std::vector<service_slot> slots;
-  std::map<boot_id, known_provider> providers;
+  known_providers providers;
   ego_state ego;
   std::uint32_t last_request = 0;
   std::uint64_t decisions = 0;
@@ -48,18 +47,7 @@ struct requester_state {
   void start() {
     self->monitor(setup.vehicle);
     for (const auto& kind : setup.kinds)
-      slots.push_back(
-          {kind,
-           spawn_manager(kind),
-           on_board_cost(setup.computer, kind->common.task),
-           offloaded_cost(setup.computer, kind->common.task, takes_no_time),
-           {},
-           {},
-           0,
-           {},
-           now(self),
-           {},
-           {}});
+      start(kind);
     charge_self();
     epoch = from_seconds(setup.lodm->epoch_s());
     if (epoch > duration{0})
@@ -76,60 +64,27 @@ struct requester_state {
   // -- services of this vehicle -------------------------------------------
 
   service_setup setup_of(const service_kind& kind) const {
-    return {.world = setup.world,
-            .where = setup.where,
-            .station = setup.station,
-            .noise = setup.noise.part(kind.name()),
-            .crossings_granted = setup.crossings_granted,
-            .clock = clock_of(self)};
+    return onboard_setup(setup, kind, clock_of(self));
   }
 
-  requester_manager_actor spawn_manager(const service_kind_ptr& shared) {
-    const auto& kind = *shared;
-    const auto here = setup_of(kind);
-    auto client = kind.spawn_client(self->system(), here, setup.vehicle);
-    if (client != setup.vehicle)
-      self->link_to(client);
-    auto manager = spawn_requester_manager(
-        self->system(),
-        {setup.station, kind.name(), kind.common,
-         [shared, here](service_input input, bool takes_over) {
-           return shared->on_air(here, std::move(input), takes_over);
-         },
-         [shared, here](const payload& result, const service_input& latest,
-                        time_point now) {
-           return shared->off_air(here, result, latest, now);
-         },
-         [shared](const payload& in_use, const payload& offered,
-                  time_point now) {
-           return shared->continues(in_use, offered, now);
-         },
-         local_instance(kind, here), client, self, setup.recorder});
-    self->link_to(manager);
-    return manager;
-  }
-
-  instance_setup local_instance(const service_kind& kind,
-                                const service_setup& here) const {
-    instance_setup local;
-    local.function = kind.make_function(here);
-    local.period = kind.common.period;
-    local.phase = drawn_phase(here.noise.part("local phase"), local.period);
-    local.finish = local_run_time(on(setup.computer, kind.common), here.noise);
-    return local;
-  }
-
-  std::function<time_point(time_point, std::uint64_t)>
-  local_run_time(const service_options& options, random_stream noise) const {
-    if (!setup.virtual_time)
-      return [](time_point start, std::uint64_t) { return start; };
-    return [options, draws = noise.part("local run time")](
-               time_point start, std::uint64_t cycle) {
-      const auto drawn =
-          from_seconds(draws.normal(to_seconds(options.run_time_mean),
-                                    to_seconds(options.run_time_sd), cycle));
-      return start + std::clamp(drawn, duration{0}, options.run_time_max);
-    };
+  void start(const service_kind_ptr& kind) {
+    auto own = spawn_onboard_service(self->system(), setup, kind, self,
+                                     setup_of(*kind));
+    if (own.client != setup.vehicle)
+      self->link_to(own.client);
+    self->link_to(own.manager);
+    slots.push_back(
+        {kind,
+         std::move(own.manager),
+         on_board_cost(setup.computer, kind->common.task),
+         offloaded_cost(setup.computer, kind->common.task, takes_no_time),
+         {},
+         {},
+         0,
+         {},
+         now(self),
+         {},
+         {}});
   }
 
   service_slot* find(std::string_view kind) {
@@ -201,14 +156,18 @@ struct requester_state {
   template <class Predicate>
   void weigh(Predicate is_due, boot_id offering) {
     std::map<boot_id, std::vector<service_name>> wanted;
-    const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
-                                           protocol::route_spacing_m);
+    const auto path = path_ahead();
     for (auto& slot : slots)
       if (!slot.is_moving() && is_due(slot))
         for (const auto source : decide(slot, offering, path))
           wanted[source].push_back(slot.kind->name());
     for (auto& [source, kinds] : wanted)
       request(source, std::move(kinds), path);
+  }
+
+  std::vector<point> path_ahead() const {
+    return setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
+                                protocol::route_spacing_m);
   }
 
   known_provider& meet(boot_id id, const provider_actor& from) {
@@ -240,7 +199,7 @@ struct requester_state {
   // @returns who shall be asked for a service.
   std::vector<boot_id> decide(service_slot& slot, boot_id offering,
                               std::span<const point> path, boot_id only = 0) {
-    auto all = views(slot, offering);
+    auto all = slot.views(providers, offering, now(self));
     if (only != 0)
       std::erase_if(all, [&](const provider_view& x) {
         return x.id != only && !slot.find(x.id);
@@ -299,31 +258,12 @@ struct requester_state {
     self->send(slot.manager, hedge, after);
   }
 
-  // @returns first where a service runs, then who may be asked for it: who
-  // offers just now, then by id.
-  std::vector<provider_view> views(service_slot& slot, boot_id offering) {
-    const auto t = now(self);
-    std::vector<provider_view> all;
-    for (const auto& at : slot.elsewhere)
-      if (const auto i = providers.find(at.provider); i != providers.end())
-        all.push_back(slot.view_of(i->second, t));
-    const auto add = [&](boot_id id, const known_provider& provider) {
-      if (!slot.find(id) && slot.may_ask(provider, t))
-        all.push_back(slot.view_of(provider, t));
-    };
-    if (const auto i = providers.find(offering); i != providers.end())
-      add(i->first, i->second);
-    for (const auto& [id, provider] : providers)
-      if (id != offering)
-        add(id, provider);
-    return all;
-  }
-
   void request(boot_id id, std::vector<service_name> wanted,
                const std::vector<point>& path) {
     auto& provider = providers.at(id);
     const auto number = ++last_request;
-    auto candidates = candidates_for(*find(wanted.front().view()));
+    auto candidates =
+        find(wanted.front().view())->candidates(providers, now(self));
     provider.open_request = number;
     for (const auto& kind : wanted) {
       std::erase(provider.offer.kinds, kind);
@@ -336,17 +276,6 @@ struct requester_state {
                                path, ego.own.speed_mps, std::move(candidates)},
                requester_actor{self});
     send_after(self, self, protocol::request_timeout, tick_atom_v, id, number);
-  }
-
-  // What the vehicle tells of whom it could ask: not where the service runs,
-  // which it would not leave for nothing.
-  std::vector<candidate> candidates_for(service_slot& slot) {
-    std::vector<candidate> all;
-    for (const auto& view : views(slot, 0))
-      if (!slot.find(view.id))
-        all.push_back({view.id, gain(view, slot.on_board, slot.needs()),
-                       view.utilisation});
-    return all;
   }
 
   void request_timed_out(boot_id id, std::uint32_t number) {
@@ -421,15 +350,9 @@ struct requester_state {
     if (other == providers.end() || slot.find(instead)
         || !slot.may_ask(other->second, now(self)))
       return;
-    const auto path = setup.way->waypoints(ego.s_m, protocol::route_ahead_m,
-                                           protocol::route_spacing_m);
+    const auto path = path_ahead();
     for (const auto id : decide(slot, instead, path, instead))
       request(id, {service_name{slot.kind->name()}}, path);
-  }
-
-  static void drop(service_slot& slot, boot_id provider) {
-    std::erase_if(slot.elsewhere,
-                  [provider](const auto& x) { return x.provider == provider; });
   }
 
   void decided(const service_slot& slot, boot_id provider, bool yes,

@@ -95,6 +95,34 @@ provider_view service_slot::view_of(const known_provider& provider,
           .cost = offloaded};
 }
 
+std::vector<provider_view> service_slot::views(const known_providers& providers,
+                                               boot_id offering,
+                                               time_point now) {
+  std::vector<provider_view> all;
+  for (const auto& at : elsewhere)
+    if (const auto i = providers.find(at.provider); i != providers.end())
+      all.push_back(view_of(i->second, now));
+  const auto add = [&](boot_id id, const known_provider& provider) {
+    if (!find(id) && may_ask(provider, now))
+      all.push_back(view_of(provider, now));
+  };
+  if (const auto i = providers.find(offering); i != providers.end())
+    add(i->first, i->second);
+  for (const auto& [id, provider] : providers)
+    if (id != offering)
+      add(id, provider);
+  return all;
+}
+
+std::vector<candidate>
+service_slot::candidates(const known_providers& providers, time_point now) {
+  std::vector<candidate> all;
+  for (const auto& view : views(providers, 0, now))
+    if (!find(view.id))
+      all.push_back({view.id, gain(view, on_board, needs()), view.utilisation});
+  return all;
+}
+
 bool is_fallback(end_reason reason) {
   switch (reason) {
     case end_reason::left_area:

@@ -27,6 +27,8 @@ struct known_provider {
   bool offers(std::string_view kind) const;
 };
 
+using known_providers = std::map<boot_id, known_provider>;
+
 enum class phase { requested, starting, remote };
 
 /// A provider that runs a service, or is asked to.
@@ -73,6 +75,15 @@ struct service_slot {
   /// Whether its offer holds, and nothing speaks against asking.
   bool may_ask(const known_provider& provider, time_point now) const;
   provider_view view_of(const known_provider& provider, time_point now);
+  /// @param offering  Who offers it just now; 0: nobody.
+  /// @returns first where it runs, then who may be asked for it: who offers
+  /// just now, then by id.
+  std::vector<provider_view> views(const known_providers& providers,
+                                   boot_id offering, time_point now);
+  /// @returns what the vehicle tells of whom it could ask: not where the
+  /// service runs, which it would not leave for nothing.
+  std::vector<candidate> candidates(const known_providers& providers,
+                                    time_point now);
 };
 
 /// @returns whether a service that ends so comes home unplanned.
