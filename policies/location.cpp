@@ -18,9 +18,10 @@ std::optional<area_stay> stay_in_area(std::span<const point> route,
     return std::nullopt;
   if (speed_mps < slowest_mps)
     return area_stay{route.first(1), std::numeric_limits<double>::infinity()};
+  const auto enough_m = enough_s * speed_mps;
   double passed_m = 0;
   std::size_t count = 1;
-  while (count < route.size() && !(passed_m / speed_mps > enough_s)
+  while (count < route.size() && !(passed_m > enough_m)
          && area.contains(route[count])) {
     passed_m += distance_m(route[count - 1], route[count]);
     ++count;

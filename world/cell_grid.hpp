@@ -5,7 +5,6 @@
 #include "world/geometry.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -78,15 +77,17 @@ public:
 
 private:
   std::int64_t index(double x_m) const {
-    return static_cast<std::int64_t>(std::floor(x_m / cell_m_));
+    const auto cell = x_m / cell_m_;
+    const auto whole = static_cast<std::int64_t>(cell); // towards 0
+    return whole - (cell < static_cast<double>(whole) ? 1 : 0);
   }
 
   template <class Function>
   void for_cells(point a, point b, double margin_m, Function f) const {
-    const auto right = index(std::fmax(a.x_m, b.x_m) + margin_m);
-    const auto top = index(std::fmax(a.y_m, b.y_m) + margin_m);
-    for (auto x = index(std::fmin(a.x_m, b.x_m) - margin_m); x <= right; ++x)
-      for (auto y = index(std::fmin(a.y_m, b.y_m) - margin_m); y <= top; ++y)
+    const auto right = index(std::max(a.x_m, b.x_m) + margin_m);
+    const auto top = index(std::max(a.y_m, b.y_m) + margin_m);
+    for (auto x = index(std::min(a.x_m, b.x_m) - margin_m); x <= right; ++x)
+      for (auto y = index(std::min(a.y_m, b.y_m) - margin_m); y <= top; ++y)
         f(static_cast<std::uint64_t>(x) << 32
           ^ (static_cast<std::uint64_t>(y) & 0xffffffff));
   }

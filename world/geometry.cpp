@@ -92,15 +92,15 @@ polygon::polygon(std::vector<point> corners) : corners_{std::move(corners)} {
   for (const auto corner : corners_)
     middle_ = middle_ + 1 / static_cast<double>(n) * corner;
   const auto has_middle = casts_oddly(middle_);
-  within_m_ = std::numeric_limits<double>::infinity();
+  auto within_m = std::numeric_limits<double>::infinity(), beyond_m = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const auto a = corners_[i], b = corners_[(i + 1) % n];
-    within_m_ = std::min(within_m_, distance_to_segment_m(middle_, a, b));
-    beyond_m_ = std::max(beyond_m_, distance_m(middle_, a));
+    within_m = std::min(within_m, distance_to_segment_m(middle_, a, b));
+    beyond_m = std::max(beyond_m, distance_m(middle_, a));
   }
   // Rounding must not decide.
-  within_m_ = has_middle ? within_m_ * (1 - rounding) : 0;
-  beyond_m_ *= 1 + rounding;
+  within_m2_ = has_middle ? within_m * within_m * (1 - rounding) : 0;
+  beyond_m2_ = beyond_m * beyond_m * (1 + rounding);
 }
 
 polygon polygon::regular(point centre, double radius_m, unsigned corners) {
@@ -114,10 +114,10 @@ polygon polygon::regular(point centre, double radius_m, unsigned corners) {
 }
 
 bool polygon::contains(point p) const {
-  const auto away_m = distance_m(p, middle_);
-  if (away_m < within_m_)
+  const auto away_m2 = dot(p - middle_, p - middle_);
+  if (away_m2 < within_m2_)
     return true;
-  return !(away_m > beyond_m_) && casts_oddly(p);
+  return !(away_m2 > beyond_m2_) && casts_oddly(p);
 }
 
 // Counts how often a ray crosses the rim.

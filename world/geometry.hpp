@@ -63,7 +63,7 @@ private:
 
   std::vector<point> corners_;
   point middle_;
-  double within_m_ = 0, beyond_m_ = 0; // of the middle: all inside, outside
+  double within_m2_ = 0, beyond_m2_ = 0; // of the middle: all inside, outside
 };
 
 /// @returns the distance from `p` to the segment from `a` to `b`, m.
