@@ -1,7 +1,7 @@
 // Options as a scenario has them, with what they mean beside.
 #include "apps/documented.hpp"
 
-#include "scenario/toml_text.hpp"
+#include "scenario/settings_printer.hpp"
 #include "scenario/units.hpp"
 
 #include <fmt/format.h>
@@ -32,40 +32,49 @@ public:
   std::vector<line> all;
 
   void field(std::string_view key, bool& value) override {
-    put(key, value ? "true" : "false");
+    put(key, "", value);
   }
   void field(std::string_view key, double& value, range r) override {
-    put(key, number_text(value), text_of(r));
+    put(key, text_of(r), value, r);
   }
   void field(std::string_view key, std::int64_t& value, range r) override {
-    put(key, fmt::format("{}", value), text_of(r));
+    put(key, text_of(r), value, r);
   }
   void field(std::string_view key, std::string& value) override {
-    put(key, quoted_toml(value));
+    put(key, "", value);
   }
   void field(std::string_view key, duration& value, duration min) override {
-    put(key, quoted_toml(print_duration(value)),
-        fmt::format("from \"{}\"", print_duration(min)));
+    put(key, fmt::format("from \"{}\"", print_duration(min)), value, min);
   }
-  // No policy has any of these.
-  void field(std::string_view, std::vector<std::string>&) override {}
-  void field(std::string_view, point&) override {}
-  void field(std::string_view, std::vector<point>&) override {}
+  void field(std::string_view key, std::vector<std::string>& value) override {
+    put(key, "", value);
+  }
+  void field(std::string_view key, point& value) override {
+    put(key, "", value);
+  }
+  void field(std::string_view key, std::vector<point>& value) override {
+    put(key, "", value);
+  }
   void table(std::string_view key,
              const std::function<void(settings&)>& list) override {
     lines part;
     list(part);
     const auto name = std::ranges::find(part.all, "name", &line::key);
     if (name != part.all.end())
-      put(key, name->value);
+      all.push_back({std::string{key}, name->value, {}});
   }
   void tables(std::string_view, std::size_t,
               const std::function<void(std::size_t, settings&)>&) override {}
   void refuse(std::string_view, const std::string&) override {}
 
 private:
-  void put(std::string_view key, std::string value, std::string range = {}) {
-    all.push_back({std::string{key}, std::move(value), std::move(range)});
+  // The value as a file has it.
+  template <class... Value>
+  void put(std::string_view key, std::string range, Value&... value) {
+    auto text = print_settings([&](settings& s) { s.field(key, value...); });
+    text.erase(0, key.size() + std::string_view{" = "}.size());
+    text.pop_back(); // the end of the line
+    all.push_back({std::string{key}, std::move(text), std::move(range)});
   }
 };
 

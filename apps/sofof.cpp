@@ -3,12 +3,16 @@
 #include "network/network_error.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/runtime.hpp"
+#include "world/spelling.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <malloc.h>
+#include <string_view>
+#include <vector>
 
 namespace {
 
@@ -18,6 +22,16 @@ constexpr int wrong_input = 2;
 int complain(const char* what, int exit_code) {
   std::fprintf(stderr, "sofof: %s\n", what);
   return exit_code;
+}
+
+/// @throws input_error for a command that there is none of.
+void check_command(const CLI::App& app, std::string_view word) {
+  std::vector<std::string_view> known;
+  for (const auto* command :
+       app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (!word.starts_with('-') && std::ranges::count(known, word) == 0)
+    throw sofof::input_error{sofof::unknown_word("command", word, known)};
 }
 
 int obey(int argc, char** argv) {
@@ -46,6 +60,8 @@ int obey(int argc, char** argv) {
   sofof::add_decode(app, exit_code);
   sofof::add_encode(app, exit_code);
   sofof::add_keys(app, exit_code);
+  if (argc > 1)
+    check_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

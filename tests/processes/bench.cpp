@@ -135,6 +135,22 @@ TEST_CASE("a bench writes into no folder of something else") {
   CHECK(read_file(at / "run/timing.csv") == "figure,value\n");
 }
 
+TEST_CASE("who wants all, where the usual entrants are missing, is told so") {
+  const workplace at;
+  write_towns(at);
+  fs::create_directory(at / "run");
+  at.write("run/timing.csv", "figure,value\n"); // so that nothing runs
+  const auto told = [&at](const std::string& policies) {
+    const auto end = at.run_sofof(
+        {"bench", "small.toml", "--policies", policies, "--out", "run"});
+    return contains(end.err, "there is no config/policies.toml here");
+  };
+  CHECK_FALSE(told("all"));
+  fs::remove(at / "config/policies.toml");
+  CHECK(told("all"));
+  CHECK_FALSE(told("location"));
+}
+
 TEST_CASE("what cannot be ranked is refused before anything runs") {
   const workplace at;
   write_towns(at);

@@ -25,6 +25,14 @@ TEST_CASE("wrong usage is refused") {
   CHECK(at.inventory() == before);
 }
 
+TEST_CASE("a command that is misspelt is told which one is meant") {
+  const workplace at;
+  const auto end = at.run_sofof({"drvie", scenario_file});
+  CHECK(end.code == 2);
+  CHECK(end.out == "");
+  CHECK(contains(end.err, "did you mean \"drive\"?"));
+}
+
 TEST_CASE("help is everywhere, and has an example") {
   const workplace at;
   for (const std::vector<std::string>& words :
