@@ -27,7 +27,7 @@ struct bench_arguments {
   std::size_t seeds = 3;
   sweep_arguments runs;
 
-  /// @returns the plain ones, and those of the file.
+  /// @returns the plain ones, those of the file, and scenarios' own.
   std::vector<bench::entrant> known() const {
     auto all = bench::plain_entrants();
     const std::filesystem::path file =
@@ -38,6 +38,9 @@ struct bench_arguments {
       std::cerr << "sofof: there is no " << usual_entrants
                 << " here, so nobody takes part but the policies themselves "
                    "(--entrants FILE)\n";
+    for (const auto& scenario : files)
+      if (auto own = bench::own_entrant(scenario))
+        all.push_back(*std::move(own));
     return all;
   }
 

@@ -45,11 +45,23 @@ std::vector<std::string> names_of(const std::vector<fs::path>& files) {
   return names;
 }
 
+/// Who decides is what entrants differ in.
+void refuse_policies(const std::vector<std::string>& set) {
+  for (const auto& one : set)
+    if (one.starts_with("policies.") || one.starts_with("policies="))
+      throw input_error{fmt::format(
+          "--set {}: each entrant sets the policies itself; write one with "
+          "this option, in a file for --entrants or as [policies] of a "
+          "scenario.",
+          one)};
+}
+
 class bench_at_work {
 public:
   bench_at_work(const bench_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console)
       : options_{options}, interrupted_{interrupted}, console_{console} {
+    refuse_policies(options.set);
     expected_.scenarios = names_of(options.scenarios);
     expected_.seeds = options.seeds;
     for (const auto& one : options.entrants)

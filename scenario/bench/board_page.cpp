@@ -18,6 +18,16 @@ constexpr std::string_view across = "violations_per_h";
 constexpr std::string_view upwards = "energy_saved_percent";
 /// Nobody above the line has any of these.
 constexpr std::string_view of_safety[] = {"without_plan_s_per_h", "collisions"};
+/// Beside the score; the rest stands further down.
+constexpr std::string_view that_count[] = {
+    "offloaded_percent", across, "latency_p99_ms", upwards, regret_name};
+/// So many columns fit on a page.
+constexpr std::size_t most_columns = 7;
+
+template <class Names>
+bool is_one_of(std::string_view name, const Names& names) {
+  return std::ranges::find(names, name) != std::end(names);
+}
 
 const criterion& criterion_of(std::string_view name) {
   return *std::ranges::find(criteria(), name, &criterion::name);
@@ -30,69 +40,98 @@ std::string text_of(const standing& one, const criterion& by) {
              : absent;
 }
 
+bool has(const leaderboard& board, std::string_view name) {
+  return std::ranges::any_of(board.standings, [name](const auto& one) {
+    return one.values.contains(name);
+  });
+}
+
 /// @returns the criteria, of those that count most or of the others, by which
-/// anybody has a figure; without the score.
-std::vector<criterion> shown_of(const leaderboard& board, bool that_count) {
+/// anybody has a figure; without those that have an interval.
+std::vector<criterion> shown_of(const leaderboard& board, bool most) {
   std::vector<criterion> all;
   for (const auto& by : criteria())
-    if (by.name != score_name && by.brief.empty() != that_count
-        && std::ranges::find(of_safety, by.name) == std::end(of_safety)
-        && std::ranges::any_of(board.standings, [&by](const auto& one) {
-             return one.values.contains(by.name);
-           }))
+    if (by.name != score_name && by.name != than_location_name
+        && is_one_of(by.name, that_count) == most
+        && !is_one_of(by.name, of_safety) && has(board, by.name))
       all.push_back(by);
   return all;
 }
 
-std::string interval_of(const standing& one) {
-  const auto found = one.values.find(score_name);
+std::string interval_of(const standing& one, std::string_view name) {
+  const auto found = one.values.find(name);
   if (found == one.values.end())
     return absent;
-  const auto places = criterion_of(score_name).decimals;
+  const auto places = criterion_of(name).decimals;
   return fmt::format("{:.{}f} … {:.{}f}", found->second.low, places,
                      found->second.high, places);
 }
 
-report::table ranking(const leaderboard& board,
-                      std::span<const decision_cost> costs) {
+report::table ranking(const leaderboard& board) {
   report::table t;
   const auto shown = shown_of(board, true);
-  t.columns = {"", "entrant", "score", "95 % interval"};
+  std::vector<std::string_view> compared{score_name};
+  if (has(board, than_location_name))
+    compared.push_back(than_location_name);
+  t.columns = {"", "entrant"};
+  for (const auto name : compared) {
+    t.columns.emplace_back(criterion_of(name).title);
+    t.columns.emplace_back("95 % interval");
+  }
   for (const auto& by : shown)
     t.columns.emplace_back(by.brief);
-  t.columns.emplace_back("decide µs");
   std::size_t place = 0;
   for (const auto& one : board.above()) {
-    std::vector<std::string> row{std::to_string(++place), one.entrant,
-                                 text_of(one, criterion_of(score_name)),
-                                 interval_of(one)};
+    std::vector<std::string> row{std::to_string(++place), one.entrant};
+    for (const auto name : compared) {
+      row.push_back(text_of(one, criterion_of(name)));
+      row.push_back(interval_of(one, name));
+    }
     for (const auto& by : shown)
       row.push_back(text_of(one, by));
-    const auto us = slowest_p99_us(costs, one.entrant, board.scenario);
-    row.push_back(us ? fmt::format("{:.1f}", *us) : absent);
     t.rows.push_back(std::move(row));
   }
-  t.note = "Means over all runs: the offloaded share, QoS violations and "
-           "fallbacks per vehicle and hour, the 99 % quantile of latency, "
-           "energy saved, Jain's index of fairness, and the 99 % quantile of "
-           "the time that the slower side takes to decide.";
+  t.note = "Means over all runs: the score; how much it is above that of the "
+           "entrant location, run by run; the offloaded share; QoS violations "
+           "per vehicle and hour; the 99 % quantile of latency; energy saved; "
+           "and how much the score is above the oracle's.";
   return t;
 }
 
-report::table other_figures(const leaderboard& board) {
-  report::table t;
-  t.title = "Other figures";
+std::string time_of(const standing& one, const leaderboard& board,
+                    std::span<const decision_cost> costs) {
+  const auto us = slowest_p99_us(costs, one.entrant, board.scenario);
+  return us ? fmt::format("{:.1f}", *us) : absent;
+}
+
+/// @returns tables that are no wider than a page; the times are in the first.
+std::vector<report::table> other_figures(const leaderboard& board,
+                                         std::span<const decision_cost> costs) {
   const auto shown = shown_of(board, false);
-  t.columns = {"entrant"};
-  for (const auto& by : shown)
-    t.columns.emplace_back(by.title);
-  for (const auto& one : board.above()) {
-    auto& row = t.rows.emplace_back();
-    row.push_back(one.entrant);
-    for (const auto& by : shown)
-      row.push_back(text_of(one, by));
+  std::vector<report::table> all;
+  for (std::size_t from = 0; all.empty() || from < shown.size();) {
+    auto& t = all.emplace_back();
+    t.columns = {"entrant"};
+    const auto first = all.size() == 1;
+    if (first) {
+      t.title = "Other figures";
+      t.columns.emplace_back("time to decide, 99 %, µs");
+    }
+    const auto to =
+        std::min(shown.size(), from + most_columns - t.columns.size());
+    for (auto i = from; i < to; ++i)
+      t.columns.emplace_back(shown[i].title);
+    for (const auto& one : board.above()) {
+      auto& row = t.rows.emplace_back();
+      row.push_back(one.entrant);
+      if (first)
+        row.push_back(time_of(one, board, costs));
+      for (auto i = from; i < to; ++i)
+        row.push_back(text_of(one, shown[i]));
+    }
+    from = to;
   }
-  return t;
+  return all;
 }
 
 report::table below_the_line(const leaderboard& board) {
@@ -142,13 +181,14 @@ report::scatter trade_off(const leaderboard& board) {
 void add_board(report::section& to, const leaderboard& board,
                std::span<const decision_cost> costs) {
   if (!board.above().empty())
-    to.blocks.emplace_back(ranking(board, costs));
+    to.blocks.emplace_back(ranking(board));
   if (!board.below().empty())
     to.blocks.emplace_back(below_the_line(board));
   if (auto plane = trade_off(board); !plane.dots.empty())
     to.blocks.emplace_back(std::move(plane));
   if (!board.above().empty())
-    to.blocks.emplace_back(other_figures(board));
+    for (auto& figures : other_figures(board, costs))
+      to.blocks.emplace_back(std::move(figures));
 }
 
 report::section overall(const leaderboard& board, std::size_t scenarios,

@@ -44,7 +44,7 @@ constexpr criterion all_criteria[]{
     {"fairness", "fairness (Jain)", "Jain", 3, better::more},
     {"messages_per_s", "signalling, messages/s", "", 2, better::less},
     {regret_name, "regret, %", "regret %", 1, better::less},
-    {than_location_name, "score above location's, %", "", 1, better::less},
+    {than_location_name, "than location, %", "", 1, better::less},
     {score_name, "score", "score", 4, better::less},
 };
 

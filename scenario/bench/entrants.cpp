@@ -137,6 +137,22 @@ std::vector<entrant> load_entrants(const std::filesystem::path& file) {
   return parse_entrants(*text, file.string());
 }
 
+std::optional<entrant> own_entrant(const std::filesystem::path& scenario) {
+  const auto text = read_text(scenario);
+  if (!text)
+    return std::nullopt; // who loads it says so
+  const auto root = parse_toml(*text, scenario.string());
+  const auto* policies = root["policies"].as_table();
+  if (!policies)
+    return std::nullopt;
+  entrant own{scenario.filename().string(), text_of(*policies, "lodm"),
+              text_of(*policies, "codm")};
+  if (own.lodm == beside && own.codm == beside)
+    return std::nullopt;
+  check_name(own.name, scenario.string());
+  return own;
+}
+
 std::vector<entrant> chosen_from(const std::vector<entrant>& all,
                                  std::string_view wanted) {
   if (wanted == everybody)

@@ -4,6 +4,7 @@
 #include "scenario/sweep/plan.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,11 @@ std::vector<entrant> load_entrants(const std::filesystem::path& file);
 /// The same for text in memory.
 std::vector<entrant> parse_entrants(std::string_view text,
                                     const std::string& file);
+
+/// @returns what a scenario itself says of policies, called as its file;
+/// nothing if that is "location" on both sides, or there is no such file.
+/// @throws input_error when it is no TOML.
+std::optional<entrant> own_entrant(const std::filesystem::path& scenario);
 
 /// @param wanted  Names separated by commas, or "all" alone. A policy may have
 ///                its side before it: "lodm:nearest", "codm:edf".

@@ -123,6 +123,21 @@ TEST_CASE("the same runs serve a ranking of others") {
   CHECK(summaries_in(at / "out") == before);
 }
 
+TEST_CASE("a scenario's own policies are ranked with the others") {
+  const workplace at;
+  at.write("mine.toml",
+           std::string{small_town}
+               + "[policies]\n"
+                 "codm = { name = \"drift_plus_penalty\", V = 7.0 }\n");
+  const auto end =
+      at.run_sofof({"bench", "mine.toml", "--policies", "location,mine.toml",
+                    "--seeds", "1", "--out", "out"});
+  CAPTURE(end.err);
+  REQUIRE(end.code == 0);
+  CHECK(contains(end.out, "\nmine.toml "));
+  CHECK(contains(read_file(at / "out/leaderboard.csv"), "V = 7.0"));
+}
+
 TEST_CASE("a bench writes into no folder of something else") {
   const workplace at;
   write_towns(at);
@@ -170,6 +185,8 @@ TEST_CASE("what cannot be ranked is refused before anything runs") {
   };
   refused({"small.toml", "--policies", "nearst"}, "did you mean \"nearest\"?");
   refused({"no_such.toml"}, "no_such.toml: this file cannot be read.");
+  refused({"small.toml", "--set", "policies.codm.V=3"},
+          "each entrant sets the policies itself");
   refused({"small.toml", "other/small.toml"},
           "other/small.toml: the name \"small\" is taken");
   refused({"small.toml", "--entrants", "mine.toml"}, "mine.toml:1:14: ");

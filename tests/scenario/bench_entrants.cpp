@@ -95,6 +95,17 @@ TEST_CASE("mistakes in a file of entrants are found where they stand") {
                        "no_such.toml: this file cannot be read.", input_error);
 }
 
+TEST_CASE("what a scenario says of policies takes part under its file's name") {
+  const auto own = own_entrant("config/busy_worker.toml");
+  REQUIRE(own.has_value());
+  CHECK(own->name == "busy_worker.toml");
+  CHECK(own->lodm == "always");
+  CHECK(own->codm.find("\"phases\"") != std::string::npos);
+  // Location on both sides takes part already.
+  CHECK_FALSE(own_entrant("config/bench/spiky_5g.toml").has_value());
+  CHECK_FALSE(own_entrant("no_such.toml").has_value());
+}
+
 TEST_CASE("some of them can be chosen, in any order") {
   const auto all = plain_entrants();
   CHECK(chosen_from(all, "all").size() == all.size());
