@@ -55,6 +55,7 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const service_kind_ptr& kind,
                                       onboard_requester_actor requester,
                                       const service_setup& here) {
+  auto local = local_instance(vehicle, *kind, here);
   auto client = kind->spawn_client(sys, here, vehicle.vehicle);
   auto manager = spawn_requester_manager(
       sys,
@@ -69,8 +70,7 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
        [kind](const payload& in_use, const payload& offered, time_point now) {
          return kind->continues(in_use, offered, now);
        },
-       local_instance(vehicle, *kind, here), client, std::move(requester),
-       vehicle.recorder});
+       std::move(local), client, std::move(requester), vehicle.recorder});
   return {std::move(client), std::move(manager)};
 }
 

@@ -18,8 +18,8 @@ service_setup onboard_setup(const requester_setup& vehicle,
                             std::function<time_point()> clock);
 
 /// Spawns client and manager, which ends with its local instance. The
-/// requester is to be linked to both.
-/// @param here  `onboard_setup`.
+/// requester is to be linked to both, but for a client that is the vehicle.
+/// @param here  What `onboard_setup` returned for this vehicle and kind.
 onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const requester_setup& vehicle,
                                       const service_kind_ptr& kind,

@@ -47,7 +47,7 @@ struct requester_state {
   void start() {
     self->monitor(setup.vehicle);
     for (const auto& kind : setup.kinds)
-      start(kind);
+      add(kind);
     charge_self();
     epoch = from_seconds(setup.lodm->epoch_s());
     if (epoch > duration{0})
@@ -67,7 +67,7 @@ struct requester_state {
     return onboard_setup(setup, kind, clock_of(self));
   }
 
-  void start(const service_kind_ptr& kind) {
+  void add(const service_kind_ptr& kind) {
     auto own = spawn_onboard_service(self->system(), setup, kind, self,
                                      setup_of(*kind));
     if (own.client != setup.vehicle)

@@ -38,9 +38,7 @@ struct bench_arguments {
       std::cerr << "sofof: there is no " << usual_entrants
                 << " here, so nobody takes part but the policies themselves "
                    "(--entrants FILE)\n";
-    for (const auto& scenario : files)
-      if (auto own = bench::own_entrant(scenario))
-        all.push_back(*std::move(own));
+    bench::add_own_entrants(all, files);
     return all;
   }
 
@@ -89,8 +87,9 @@ void add_bench(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 999)); // from 1000 on for training
   args->runs.add_to(*command);
   command
-      ->add_option("--set", args->set,
-                   "Change an option of the scenarios in all runs")
+      ->add_option(
+          "--set", args->set,
+          "Change an option of the scenarios, no policy's, in all runs")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);

@@ -26,11 +26,13 @@ int complain(const char* what, int exit_code) {
 
 /// @throws input_error for a command that there is none of.
 void check_command(const CLI::App& app, std::string_view word) {
+  if (word.starts_with('-'))
+    return; // an option
   std::vector<std::string_view> known;
   for (const auto* command :
        app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(command->get_name());
-  if (!word.starts_with('-') && std::ranges::count(known, word) == 0)
+  if (std::ranges::count(known, word) == 0)
     throw sofof::input_error{sofof::unknown_word("command", word, known)};
 }
 

@@ -18,10 +18,10 @@ constexpr std::string_view across = "violations_per_h";
 constexpr std::string_view upwards = "energy_saved_percent";
 /// Nobody above the line has any of these.
 constexpr std::string_view of_safety[] = {"without_plan_s_per_h", "collisions"};
-/// Beside the score; the rest stands further down.
-constexpr std::string_view that_count[] = {
+/// Beside the score, with brief heads; the rest stands further down.
+constexpr std::string_view beside_score[] = {
     "offloaded_percent", across, "latency_p99_ms", upwards, regret_name};
-/// So many columns fit on a page.
+/// So many columns with whole titles fit on a page.
 constexpr std::size_t most_columns = 7;
 
 template <class Names>
@@ -46,13 +46,13 @@ bool has(const leaderboard& board, std::string_view name) {
   });
 }
 
-/// @returns the criteria, of those that count most or of the others, by which
+/// @returns the criteria, of those beside the score or of the others, by which
 /// anybody has a figure; without those that have an interval.
-std::vector<criterion> shown_of(const leaderboard& board, bool most) {
+std::vector<criterion> shown_of(const leaderboard& board, bool beside) {
   std::vector<criterion> all;
   for (const auto& by : criteria())
     if (by.name != score_name && by.name != than_location_name
-        && is_one_of(by.name, that_count) == most
+        && is_one_of(by.name, beside_score) == beside
         && !is_one_of(by.name, of_safety) && has(board, by.name))
       all.push_back(by);
   return all;

@@ -4,6 +4,7 @@
 #include "policies/registry.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/settings_printer.hpp"
 #include "scenario/toml_file.hpp"
 #include "scenario/toml_nodes.hpp"
 #include "scenario/toml_settings.hpp"
@@ -60,11 +61,14 @@ std::string text_of(const toml::table& policies, std::string_view side) {
   return node->value<std::string>().value_or(value_text(*node));
 }
 
-/// Refuses names that would be taken for something else.
+/// @returns whether nobody would take it for something else.
+bool is_name(std::string_view name) {
+  return !name.empty() && name.find_first_of(",\"\n\r\t") == name.npos
+         && !name.starts_with(' ') && !name.ends_with(' ') && name != everybody;
+}
+
 void check_name(std::string_view name, const std::string& place) {
-  const auto odd = name.find_first_of(",\"\n\r\t") != name.npos
-                   || name.starts_with(' ') || name.ends_with(' ');
-  if (name.empty() || odd)
+  if (!is_name(name) && name != everybody)
     throw input_error{fmt::format("{}: {} is no name for an entrant; it must "
                                   "be a word without commas and quotes.",
                                   place, quoted_toml(name))};
@@ -74,12 +78,22 @@ void check_name(std::string_view name, const std::string& place) {
                                   place, everybody)};
 }
 
-/// Reads them as a scenario would, to find mistakes where they stand.
-void check_policies(const toml::node& line, std::string_view file) {
+/// Reads them as a scenario would, and finds mistakes where they stand.
+policy_options read_policies(const toml::node& line, std::string_view file) {
   policy_options policies;
   toml_settings reader{line, file};
   policies.fields(reader);
   reader.finish();
+  return policies;
+}
+
+/// @returns whether they are those of a scenario that says nothing.
+bool are_usual(policy_options policies) {
+  policy_options usual;
+  const auto text = [](policy_options& x) {
+    return print_settings([&x](settings& s) { x.fields(s); });
+  };
+  return text(policies) == text(usual);
 }
 
 } // namespace
@@ -121,7 +135,7 @@ std::vector<entrant> parse_entrants(std::string_view text,
       throw input_error{fmt::format(
           "{}: an entrant is a table, {{ lodm = POLICY, codm = POLICY }}.",
           place)};
-    check_policies(line, file);
+    read_policies(line, file);
     const auto& policies = *line.as_table();
     all.push_back({std::string{key.str()}, text_of(policies, "lodm"),
                    text_of(policies, "codm")});
@@ -139,18 +153,26 @@ std::vector<entrant> load_entrants(const std::filesystem::path& file) {
 
 std::optional<entrant> own_entrant(const std::filesystem::path& scenario) {
   const auto text = read_text(scenario);
-  if (!text)
-    return std::nullopt; // who loads it says so
+  const auto name = scenario.filename().string();
+  if (!text || !is_name(name))
+    return std::nullopt; // who loads it says what is wrong
   const auto root = parse_toml(*text, scenario.string());
   const auto* policies = root["policies"].as_table();
-  if (!policies)
+  if (!policies || are_usual(read_policies(*policies, scenario.string())))
     return std::nullopt;
-  entrant own{scenario.filename().string(), text_of(*policies, "lodm"),
-              text_of(*policies, "codm")};
-  if (own.lodm == beside && own.codm == beside)
-    return std::nullopt;
-  check_name(own.name, scenario.string());
-  return own;
+  return entrant{name, text_of(*policies, "lodm"), text_of(*policies, "codm")};
+}
+
+void add_own_entrants(std::vector<entrant>& to,
+                      const std::vector<std::string>& scenarios) {
+  for (const auto& scenario : scenarios)
+    if (auto own = own_entrant(scenario)) {
+      if (is_among(own->name, to))
+        throw input_error{fmt::format("{}: there is an entrant \"{}\" already; "
+                                      "rename one of them.",
+                                      scenario, own->name)};
+      to.push_back(*std::move(own));
+    }
 }
 
 std::vector<entrant> chosen_from(const std::vector<entrant>& all,

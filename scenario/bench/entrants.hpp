@@ -36,9 +36,15 @@ std::vector<entrant> parse_entrants(std::string_view text,
                                     const std::string& file);
 
 /// @returns what a scenario itself says of policies, called as its file;
-/// nothing if that is "location" on both sides, or there is no such file.
-/// @throws input_error when it is no TOML.
+/// nothing if that is "location" with its defaults on both sides, if there is
+/// no such file, or if nobody could ask for that name ("all", or with a comma).
+/// @throws input_error with the place of the first mistake.
 std::optional<entrant> own_entrant(const std::filesystem::path& scenario);
+
+/// Adds those of all scenarios.
+/// @throws input_error also where a name is taken.
+void add_own_entrants(std::vector<entrant>& to,
+                      const std::vector<std::string>& scenarios);
 
 /// @param wanted  Names separated by commas, or "all" alone. A policy may have
 ///                its side before it: "lodm:nearest", "codm:edf".

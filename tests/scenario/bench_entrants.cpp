@@ -103,7 +103,15 @@ TEST_CASE("what a scenario says of policies takes part under its file's name") {
   CHECK(own->codm.find("\"phases\"") != std::string::npos);
   // Location on both sides takes part already.
   CHECK_FALSE(own_entrant("config/bench/spiky_5g.toml").has_value());
+  CHECK_FALSE(own_entrant("config/ulm_lehr.toml").has_value()); // says it all
   CHECK_FALSE(own_entrant("no_such.toml").has_value());
+}
+
+TEST_CASE("no two entrants have one name") {
+  auto all =
+      parse_entrants("\"busy_worker.toml\" = { codm = \"edf\" }", "mine.toml");
+  CHECK_THROWS_WITH_AS(add_own_entrants(all, {"config/busy_worker.toml"}),
+                       doctest::Contains("already"), input_error);
 }
 
 TEST_CASE("some of them can be chosen, in any order") {
