@@ -20,7 +20,8 @@ struct reproduce_arguments {
   int obey() const {
     const auto how = runs.given("paper");
     const study::reproduction_options all{folder,        how.out,  how.program,
-                                          SOFOF_VERSION, how.show, how.sites};
+                                          SOFOF_VERSION, how.show, how.make,
+                                          how.jobs};
     if (!study::reproduce(all, interrupted, std::cout)) {
       std::cout << "interrupted; the same command goes on from here\n";
       return static_cast<int>(run_outcome::interrupted);

@@ -51,7 +51,6 @@ int obey(int argc, char** argv) {
   sofof::add_sweep(app, exit_code);
   sofof::add_bench(app, exit_code);
   sofof::add_train(app, exit_code);
-  sofof::add_worker(app, exit_code);
   sofof::add_provide(app, exit_code);
   sofof::add_drive(app, exit_code);
   sofof::add_reproduce(app, exit_code);

@@ -8,7 +8,6 @@
 #include "messages/record.hpp"
 #include "messages/remote.hpp"
 #include "messages/service.hpp"
-#include "messages/work.hpp"
 
 #include <caf/result.hpp>
 #include <caf/typed_actor.hpp>
@@ -19,9 +18,7 @@
 
 namespace sofof {
 
-struct begin_atom; // words of nothing but their name, in type_ids.hpp
-struct look_atom;
-struct next_atom;
+struct begin_atom; // a word of nothing but its name, in type_ids.hpp
 
 template <class... Ts>
 using takes = caf::result<void>(Ts...);
@@ -146,30 +143,14 @@ using entrance_actor = caf::typed_actor<
     // It is welcome, or refused by an error that says why.
     caf::result<peer_welcome, session_actor>(peer_hello, uplink_actor)>;
 
-/// All that a process makes public, a provider's or a worker's. It never
-/// changes, so that programs of different age can tell each other that they
-/// are.
+/// All that a provider's process makes public. It never changes, so that
+/// programs of different age can tell each other that they are.
 using gate_actor = caf::typed_actor<
     // Protocol version and fingerprint of the types of who asks. Answered by
     // the own ones, and, if they are the same, a number to sign and the
     // entrance.
     caf::result<std::uint32_t, std::uint64_t, std::string,
                 caf::strong_actor_ptr>(std::uint32_t, std::uint64_t)>;
-
-/// Where one run is carried out for another host; a worker's entrance. Only who
-/// has introduced itself is heard, and when it goes, all is forgotten.
-using workbench_actor = caf::typed_actor<
-    // Who orders the run. Answered by how many the worker carries out at a
-    // time, or refused by an error that says why.
-    caf::result<std::uint32_t>(worker_hello),
-    // Part of a file of the order.
-    takes<file_piece>,
-    // The order is complete: the run shall begin.
-    takes<begin_atom>,
-    // Has it ended? Answered as soon as it has, or with the next life sign.
-    caf::result<run_report>(look_atom),
-    // The next part of the results; an empty one is the end.
-    caf::result<file_piece>(next_atom)>;
 
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -109,10 +108,6 @@ bool is_result(const fs::path& file, const fs::path& folder) {
   return std::ranges::any_of(files_of_a_run, [&](const auto name) {
     return same_place(file, folder / name);
   });
-}
-
-bool is_result_name(std::string_view name) {
-  return std::ranges::find(files_of_a_run, name) != std::end(files_of_a_run);
 }
 
 void remove_results(const fs::path& folder) {

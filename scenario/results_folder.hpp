@@ -26,9 +26,6 @@ make_results_folder(const std::optional<std::filesystem::path>& wanted,
 bool is_result(const std::filesystem::path& file,
                const std::filesystem::path& folder);
 
-/// @returns whether a run writes a file of this very name.
-bool is_result_name(std::string_view name);
-
 /// @returns whether two paths lead to the same place, there or not.
 bool same_place(const std::filesystem::path& a, const std::filesystem::path& b);
 

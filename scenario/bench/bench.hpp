@@ -33,7 +33,7 @@ struct bench_outcome {
 /// moment, the same call goes on.
 /// @param console  Gets the progress, what failed, and the leaderboard.
 /// @throws input_error when a file is missing or wrong, or results cannot be
-///         kept; std::runtime_error when all sites are lost.
+///         kept.
 bench_outcome bench(const bench_options& options,
                     const std::atomic<bool>& interrupted,
                     std::ostream& console);

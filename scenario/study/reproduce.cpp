@@ -58,7 +58,8 @@ private:
     how.program = options_.program;
     how.show = options_.show;
     how.title = fmt::format("{} ({} of {})  ", name, ++begun_, sweeps);
-    how.sites = options_.sites;
+    how.make = options_.make;
+    how.jobs = options_.jobs;
     const auto outcome = sweep(plan, how, interrupted_, console_);
     if (outcome.interrupted)
       throw interruption{};

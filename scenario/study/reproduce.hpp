@@ -2,14 +2,12 @@
 #pragma once
 
 #include "scenario/progress.hpp"
-#include "scenario/sweep/run_site.hpp"
+#include "scenario/sweep/run_maker.hpp"
 
 #include <atomic>
 #include <filesystem>
 #include <iosfwd>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace sofof::study {
 
@@ -19,7 +17,8 @@ struct reproduction_options {
   std::string program;          ///< See `run_store`.
   std::string version;
   progress::output show = progress::output::quiet;
-  std::vector<std::shared_ptr<run_site>> sites; ///< At least one.
+  run_maker make;
+  unsigned jobs = 1; ///< Runs at the same time, >= 1.
 };
 
 /// Makes all runs that have not been made before, and writes report.html and

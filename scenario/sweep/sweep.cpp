@@ -1,4 +1,4 @@
-// Points become jobs, sites carry them out, summaries become a table.
+// Points become jobs, threads make their runs, summaries become a table.
 #include "scenario/sweep/sweep.hpp"
 
 #include "scenario/input_error.hpp"
@@ -6,7 +6,6 @@
 #include "scenario/output_file.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/stopwatch.hpp"
-#include "scenario/sweep/job_list.hpp"
 #include "scenario/sweep/point_table.hpp"
 #include "scenario/sweep/run_store.hpp"
 #include "scenario/toml_file.hpp"
@@ -15,8 +14,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <ostream>
 #include <set>
@@ -44,7 +46,7 @@ double cost_of(const scenario& s) {
   return cycles;
 }
 
-/// A sweep at work: shared by the threads of its sites and the console's.
+/// A sweep at work: shared by the threads that make runs and the console's.
 class sweep_at_work {
 public:
   sweep_at_work(const sweep_plan& plan, const sweep_options& options,
@@ -59,18 +61,13 @@ public:
   }
 
   sweep_outcome carry_out() {
-    job_list<job> jobs{wanted()};
-    run_all(jobs);
+    waiting_ = wanted();
+    run_all();
     if (interrupted_) {
       sweep_outcome cut_short;
       cut_short.interrupted = true;
       return cut_short;
     }
-    if (jobs.waiting() > 0)
-      throw std::runtime_error{
-          fmt::format("no site is left for {} runs: {}; the "
-                      "same command goes on later.",
-                      jobs.waiting(), last_loss_)};
     return finish();
   }
 
@@ -128,95 +125,63 @@ private:
           describe(plan_, points_.front()), errors_.front())};
   }
 
-  void run_all(job_list<job>& jobs) {
+  void run_all() {
     progress shown{console_, options_.show};
     const stopwatch watch;
-    std::vector<std::thread> hands;
-    at_site_.resize(options_.sites.size());
-    double last_there_s = 0;
+    std::vector<std::thread> threads;
+    const auto useful = std::min<std::size_t>(options_.jobs, waiting_.size());
+    working_ = useful;
+    for (std::size_t i = 0; i < useful; ++i)
+      threads.emplace_back([this] { work(); });
     std::unique_lock lock{mutex_};
     for (;;) {
-      if (interrupted_)
-        jobs.stop();
-      else
-        hire(jobs, hands);
-      hear_news();
       tell_news(shown);
-      const auto wall_s = watch.elapsed_s();
-      if (working_ > 0)
-        last_there_s = wall_s;
-      else if (interrupted_ || jobs.waiting() == 0
-               || wall_s - last_there_s >= to_seconds(options_.patience))
+      if (working_ == 0)
         break;
-      shown.show([&] { return line(jobs, wall_s); }, wall_s);
+      const auto wall_s = watch.elapsed_s();
+      shown.show([&] { return line(wall_s); }, wall_s);
       constexpr std::chrono::milliseconds look_period{100};
       changed_.wait_for(lock, look_period);
     }
     shown.clear();
-    tell_news(shown);
     lock.unlock();
-    for (auto& hand : hands)
-      hand.join();
+    for (auto& thread : threads)
+      thread.join();
   }
 
-  /// Sites come and go: as many hands for each as it has slots now.
-  void hire(job_list<job>& jobs, std::vector<std::thread>& hands) {
-    for (std::size_t i = 0; i < at_site_.size(); ++i)
-      while (jobs.waiting() > 0 && at_site_[i] < options_.sites[i]->slots()) {
-        ++at_site_[i];
-        ++working_;
-        hands.emplace_back([this, &jobs, i] { work(jobs, i); });
-      }
-  }
-
-  void work(job_list<job>& jobs, std::size_t site) {
-    while (auto next = jobs.take())
-      if (interrupted_) {
-        jobs.hand_back(*next);
-        break;
-      } else if (!try_one(jobs, *options_.sites[site], *next)) {
-        break;
-      }
-    const std::lock_guard lock{mutex_};
-    --at_site_[site];
+  /// One thread: makes runs until there are no more.
+  void work() {
+    std::unique_lock lock{mutex_};
+    while (!waiting_.empty() && !interrupted_) {
+      const auto next = std::move(waiting_.front());
+      waiting_.pop_front();
+      lock.unlock();
+      auto why = failure_of(next);
+      lock.lock();
+      if (why)
+        report(next.point, *why);
+      ++done_;
+      cost_done_ += next.cost;
+    }
     --working_;
     changed_.notify_all();
   }
 
-  /// @returns whether the site is still there.
-  bool try_one(job_list<job>& jobs, run_site& site, const job& one) {
+  /// Makes a run.
+  /// @returns why there is no result; nullopt if there is one.
+  std::optional<std::string> failure_of(const job& one) const {
     try {
-      site.carry_out(load(one.point), store_->folder_of(one.run), interrupted_);
-    } catch (const site_lost& loss) {
-      jobs.hand_back(one);
-      const std::lock_guard lock{mutex_};
-      last_loss_ = loss.what();
-      news_.push_back(fmt::format("{}; others do its run", loss.what()));
-      return false;
+      options_.make(load(one.point), store_->folder_of(one.run), interrupted_);
+      return std::nullopt;
     } catch (const std::exception& problem) {
-      const std::lock_guard lock{mutex_};
-      report(one.point, problem.what());
+      return problem.what();
     }
-    jobs.done();
-    const std::lock_guard lock{mutex_};
-    ++done_;
-    cost_done_ += one.cost;
-    return true;
   }
 
   void report(std::size_t point, const std::string& why) {
     errors_[point] = why;
     news_.push_back(fmt::format("point {} ({}) failed: {}", point + 1,
                                 describe(plan_, points_[point]), why));
-  }
-
-  void hear_news() {
-    for (const auto& site : options_.sites)
-      for (auto& line : site->news()) {
-        if (site->slots() == 0)
-          last_loss_ = line;
-        news_.push_back(std::move(line));
-      }
   }
 
   void tell_news(progress& shown) {
@@ -229,12 +194,12 @@ private:
     news_.clear();
   }
 
-  std::string line(const job_list<job>& jobs, double wall_s) const {
+  std::string line(double wall_s) const {
     auto text = fmt::format("{}{} of {} runs", options_.title, found_ + done_,
                             found_ + all_);
     if (found_ > 0)
       text += fmt::format(" ({} from before)", found_);
-    text += fmt::format("  {} at work", jobs.at_work());
+    text += fmt::format("  {} at work", working_);
     if (cost_done_ > 0)
       text += fmt::format(
           "  ETA {}", for_people(wall_s * (cost_ - cost_done_) / cost_done_));
@@ -269,12 +234,11 @@ private:
   std::vector<point_result> results_;
   std::vector<std::string> errors_;
 
-  std::mutex mutex_; ///< Of all below, while sites are at work.
+  std::mutex mutex_; ///< Of all below, while threads make runs.
   std::condition_variable changed_;
+  std::deque<job> waiting_;
   std::vector<std::string> news_;
-  std::string last_loss_;
-  std::vector<std::size_t> at_site_; ///< Hands of each.
-  std::size_t working_ = 0;          ///< All hands.
+  std::size_t working_ = 0; ///< Threads.
   std::size_t found_ = 0, all_ = 0, done_ = 0;
   double cost_ = 0, cost_done_ = 0;
 };

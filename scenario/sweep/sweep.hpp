@@ -3,15 +3,12 @@
 
 #include "scenario/progress.hpp"
 #include "scenario/sweep/plan.hpp"
-#include "scenario/sweep/run_site.hpp"
-#include "world/time.hpp"
+#include "scenario/sweep/run_maker.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <iosfwd>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,10 +19,8 @@ struct sweep_options {
   std::string program;       ///< See `run_store`.
   progress::output show = progress::output::quiet;
   std::string title; ///< In front of the progress.
-  /// Where runs are carried out, all at once; at least one.
-  std::vector<std::shared_ptr<run_site>> sites;
-  /// So long it waits for a site to come back when all are away.
-  duration patience = std::chrono::seconds{10};
+  run_maker make;
+  unsigned jobs = 1; ///< Runs at the same time, >= 1.
 };
 
 /// What became of the points of a sweep.
@@ -45,8 +40,7 @@ struct sweep_outcome {
 /// on. A point that fails is reported and does not stop the others.
 /// @param interrupted  Once true, it ends soon; what is finished is kept.
 /// @param console      Gets the progress and what failed.
-/// @throws input_error when results cannot be kept, or no point can be loaded;
-///         std::runtime_error when all sites are lost.
+/// @throws input_error when results cannot be kept, or no point can be loaded.
 sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
                     const std::atomic<bool>& interrupted,
                     std::ostream& console);

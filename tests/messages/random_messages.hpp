@@ -99,12 +99,6 @@ template <>
 inline constexpr std::size_t arity<life_echo> = 3;
 template <>
 inline constexpr std::size_t arity<stream_id> = 3;
-template <>
-inline constexpr std::size_t arity<worker_hello> = 3;
-template <>
-inline constexpr std::size_t arity<file_piece> = 2;
-template <>
-inline constexpr std::size_t arity<run_report> = 2;
 
 /// Everything that travels and is not a handle.
 using all_messages =
@@ -115,8 +109,7 @@ using all_messages =
                perception, event_record, decision_record, cycle_record,
                episode_record, track_record, safety_record, collision_record,
                drive_record, plan_switch_record, site_view, its_pdu, air_record,
-               peer_hello, peer_welcome, life_sign, life_echo, stream_id,
-               worker_hello, file_piece, run_report>;
+               peer_hello, peer_welcome, life_sign, life_echo, stream_id>;
 
 /// @returns references to all members.
 template <class T>

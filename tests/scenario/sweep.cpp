@@ -1,8 +1,7 @@
-// Runs of a sweep: shared, found again, handed on, and put into one table.
+// Runs of a sweep: shared, found again, and put into one table.
 #include "scenario/sweep/sweep.hpp"
 
 #include "scenario/input_error.hpp"
-#include "scenario/sweep/job_list.hpp"
 #include "scenario/sweep/run_store.hpp"
 #include "scenario/toml_file.hpp"
 #include "tests/support/scratch.hpp"
@@ -13,7 +12,6 @@
 #include <mutex>
 #include <set>
 #include <sstream>
-#include <thread>
 
 using namespace sofof;
 namespace fs = std::filesystem;
@@ -37,39 +35,20 @@ seeds = 4
 )";
 
 /// Writes summaries instead of driving.
-class made_up_site : public run_site {
+class made_up_runs {
 public:
-  std::size_t slots() const override { return is_there ? 1 : 0; }
-  std::vector<std::string> news() override {
-    if (is_there || !comes_back)
-      return {};
-    is_there = true;
-    return {"it is back"};
-  }
-  void carry_out(const scenario& s, const fs::path& folder,
-                 const std::atomic<bool>&) override {
-    while (waits_for && waits_for->is_there)
-      std::this_thread::yield();
+  void make(const scenario& s, const fs::path& folder) {
     const std::lock_guard lock{mutex_};
     seeds.insert(s.seed);
     if (s.seed == failing)
       throw std::runtime_error{"it must not be."};
-    if (lost_after-- == 0) {
-      is_there = false;
-      throw site_lost{"the site has gone"};
-    }
     fs::create_directories(folder);
     std::ofstream{folder / "summary.json"} << summary(s);
   }
 
-  std::multiset<std::int64_t> seeds; ///< Of all runs that it was asked for.
+  std::multiset<std::int64_t> seeds; ///< Of all runs that were asked for.
   std::int64_t failing = 0;          ///< The run of this seed fails.
-  int lost_after = -1;               ///< So many runs; negative: never.
-  std::atomic<bool> is_there = true;
-  bool comes_back = false; ///< Once it is lost.
-  double collisions = 0;   ///< Of each run.
-  /// Begins with nothing before this one is lost.
-  const made_up_site* waits_for = nullptr;
+  double collisions = 0;             ///< Of each run.
 
 private:
   std::string summary(const scenario& s) const {
@@ -87,7 +66,7 @@ private:
 /// A folder with a sweep of four seeds.
 struct sweep_of_four {
   test::scratch at;
-  std::shared_ptr<made_up_site> site = std::make_shared<made_up_site>();
+  made_up_runs made;
   std::ostringstream console;
   std::atomic<bool> interrupted = false;
 
@@ -100,8 +79,8 @@ struct sweep_of_four {
     sweep_options all;
     all.out = at / "out";
     all.program = "this";
-    all.sites = {site};
-    all.patience = {};
+    all.make = [this](const scenario& s, const fs::path& folder,
+                      const std::atomic<bool>&) { made.make(s, folder); };
     return all;
   }
 
@@ -120,7 +99,7 @@ TEST_CASE("every point is run once and becomes a line") {
   const auto outcome = four.run();
   CHECK(outcome.good == 4);
   CHECK(outcome.all_good());
-  CHECK(four.site->seeds == std::multiset<std::int64_t>{1, 2, 3, 4});
+  CHECK(four.made.seeds == std::multiset<std::int64_t>{1, 2, 3, 4});
   std::istringstream lines{four.table()};
   std::string line;
   std::getline(lines, line);
@@ -140,12 +119,12 @@ TEST_CASE("a finished run is not run again, unless its program is another") {
   four.run();
   const auto before = four.table();
   four.run();
-  CHECK(four.site->seeds.size() == 4);
+  CHECK(four.made.seeds.size() == 4);
   CHECK(four.table() == before);
   auto newer = four.options();
   newer.program = "that";
   four.run(newer);
-  CHECK(four.site->seeds.size() == 8);
+  CHECK(four.made.seeds.size() == 8);
 }
 
 TEST_CASE("an interrupted or torn run is run again") {
@@ -162,13 +141,13 @@ TEST_CASE("an interrupted or torn run is run again") {
       std::ofstream{run.path() / "summary.json"} << other;
     }
   four.run();
-  CHECK(four.site->seeds.size() == 6);
+  CHECK(four.made.seeds.size() == 6);
   CHECK(four.table() == before);
 }
 
 TEST_CASE("a point that fails is reported and stops nobody") {
   sweep_of_four four;
-  four.site->failing = 2;
+  four.made.failing = 2;
   const auto outcome = four.run();
   CHECK(outcome.good == 3);
   CHECK(outcome.failed == 1);
@@ -213,49 +192,15 @@ name = "another"
 set = { "fleet.0.count" = 1 }
 )";
   CHECK(four.run().good == 8);
-  CHECK(four.site->seeds.size() == 4);
+  CHECK(four.made.seeds.size() == 4);
 }
 
 TEST_CASE("a run that was unsafe is called so") {
   sweep_of_four four;
-  four.site->collisions = 1;
+  four.made.collisions = 1;
   const auto outcome = four.run();
   CHECK(outcome.unsafe == 4);
   CHECK(four.table().find(",unsafe,") != std::string::npos);
-}
-
-TEST_CASE("the runs of a lost site are given to others") {
-  sweep_of_four four;
-  auto others = std::make_shared<made_up_site>();
-  four.site->lost_after = 1;
-  auto both = four.options();
-  both.sites.push_back(others);
-  others->waits_for = four.site.get();
-  const auto outcome = four.run(both);
-  CHECK(outcome.good == 4);
-  CHECK(four.console.str() == "the site has gone; others do its run\n");
-}
-
-TEST_CASE("a lost site that comes back gets runs again") {
-  sweep_of_four four;
-  four.site->lost_after = 1;
-  four.site->comes_back = true;
-  auto patient = four.options();
-  patient.patience = std::chrono::minutes{5};
-  CHECK(four.run(patient).good == 4);
-  CHECK(four.console.str()
-        == "the site has gone; others do its run\nit is back\n");
-}
-
-TEST_CASE("a sweep without a site ends with a sentence and can go on") {
-  sweep_of_four four;
-  four.site->lost_after = 2;
-  CHECK_THROWS_WITH(four.run(),
-                    "no site is left for 2 runs: the site has gone; the same "
-                    "command goes on later.");
-  four.site->is_there = true;
-  four.run();
-  CHECK(four.site->seeds.size() == 5); // the third was tried twice
 }
 
 TEST_CASE("an interrupted sweep writes no table") {
@@ -271,16 +216,4 @@ TEST_CASE("two sweeps do not share a folder at the same time") {
   CHECK_THROWS_WITH_AS(four.run(),
                        doctest::Contains("another sweep is at work there"),
                        input_error);
-}
-
-TEST_CASE("a job that is handed back goes to whoever waits") {
-  job_list<int> jobs{{7}};
-  CHECK(jobs.take() == 7);
-  std::optional<int> got;
-  std::thread other{[&] { got = jobs.take(); }};
-  jobs.hand_back(7);
-  other.join();
-  CHECK(got == 7);
-  jobs.done();
-  CHECK_FALSE(jobs.take());
 }

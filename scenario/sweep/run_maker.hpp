@@ -1,0 +1,25 @@
+// What makes one run of a sweep.
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace sofof {
+
+/// Makes one run, on the thread that calls. Its results are in the folder when
+/// it returns; whatever was there of a run is replaced. What it throws says why
+/// there is no result. Several threads call it at the same time.
+/// @param interrupted  Once true, it returns soon, with what there is.
+using run_maker =
+    std::function<void(const scenario& s, const std::filesystem::path& folder,
+                       const std::atomic<bool>& interrupted)>;
+
+/// @param version  Of this program, for the summaries.
+/// @returns what makes runs in virtual time.
+run_maker virtual_runs(std::string version);
+
+} // namespace sofof
