@@ -53,7 +53,7 @@ descriptor::~descriptor() {
     close(fd_);
 }
 
-std::string print_address(const socket_address& address, bool with_port) {
+std::string print_address(const socket_address& address) {
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> port{};
   if (getnameinfo(reinterpret_cast<const sockaddr*>(&address.storage),
@@ -61,8 +61,6 @@ std::string print_address(const socket_address& address, bool with_port) {
                   port.size(), NI_NUMERICHOST | NI_NUMERICSERV)
       != 0)
     return "an unknown address";
-  if (!with_port)
-    return host.data();
   return std::strchr(host.data(), ':')
              ? fmt::format("[{}]:{}", host.data(), port.data())
              : fmt::format("{}:{}", host.data(), port.data());

@@ -39,8 +39,8 @@ struct socket_address {
   socklen_t size = 0;
 };
 
-/// @returns e.g. "10.0.0.1:4711"; without the port: "10.0.0.1".
-std::string print_address(const socket_address& address, bool with_port);
+/// @returns e.g. "10.0.0.1:4711".
+std::string print_address(const socket_address& address);
 
 /// Listens at the first address that the host has.
 /// @throws network_error when that cannot be.

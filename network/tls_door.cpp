@@ -2,6 +2,7 @@
 #include "network/tls_door.hpp"
 
 #include "network/carrier.hpp"
+#include "network/fair_share.hpp"
 #include "network/network_error.hpp"
 #include "network/refusal_log.hpp"
 #include "network/seats.hpp"
@@ -14,7 +15,6 @@
 #include <atomic>
 #include <cerrno>
 #include <list>
-#include <map>
 #include <poll.h>
 #include <system_error>
 #include <thread>
@@ -67,7 +67,7 @@ private:
   /// A connection that is not carried yet.
   struct guest {
     std::string name; ///< Its address, later its identity, too.
-    std::string host;
+    network_prefix network;
     deadline until;
     descriptor outer;
     tls_handshake handshake;
@@ -131,7 +131,7 @@ private:
           accepts_again_ = now_ + pause_without_files;
         return;
       }
-      const auto name = print_address(peer, true);
+      const auto name = print_address(peer);
       if (seats_.are_all_taken()) {
         tell_refusal(name, fmt::format("all {} connections are taken",
                                        options_.most_connections));
@@ -143,7 +143,7 @@ private:
       const auto fd = socket.get();
       try {
         guests_.push_back({name,
-                           print_address(peer, false),
+                           prefix_of(peer),
                            now_ + options_.handshake_timeout,
                            std::move(socket),
                            {*context_, fd, tls_side::answerer},
@@ -156,16 +156,21 @@ private:
     }
   }
 
-  /// Refuses the oldest guest of the host that has the most of them.
+  /// Refuses a handshake of a network that has the most of them.
   void make_room() {
-    std::map<std::string, std::size_t> by_host;
-    for (const auto& guest : guests_)
-      ++by_host[guest.host];
-    const auto crowd = std::ranges::max_element(
-        by_host, {}, [](const auto& entry) { return entry.second; });
-    const auto oldest = std::ranges::find(guests_, crowd->first, &guest::host);
-    refuse(oldest, fmt::format("{} handshakes of its host are unfinished",
-                               crowd->second));
+    std::vector<guest_list::iterator> unfinished;
+    std::vector<network_prefix> networks;
+    for (auto at = guests_.begin(); at != guests_.end(); ++at)
+      if (!at->inner) {
+        unfinished.push_back(at);
+        networks.push_back(at->network);
+      }
+    if (unfinished.empty())
+      return;
+    const auto draw = options_.draws.uniform(drawn_++);
+    const auto victim = unfinished[choose_victim(networks, draw)];
+    refuse(victim, fmt::format("{} handshakes of its network are unfinished",
+                               std::ranges::count(networks, victim->network)));
   }
 
   void advance(guest_list::iterator at) {
@@ -261,7 +266,8 @@ private:
 
   // Of the thread:
   refusal_log log_;
-  guest_list guests_; // the oldest first
+  guest_list guests_;
+  std::uint64_t drawn_ = 0; // of the victims
   deadline now_ = deadline_clock::now();
   deadline accepts_again_ = now_;
 

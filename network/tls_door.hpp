@@ -4,6 +4,7 @@
 
 #include "network/credentials.hpp"
 #include "network/network_address.hpp"
+#include "world/random.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -22,9 +23,11 @@ struct door_options {
   /// A connection through which nothing at all crosses for so long is closed,
   /// and so is one whose peer does not acknowledge for so long.
   std::chrono::milliseconds idle{2000};
-  /// Unfinished ones. One more, and the oldest of the host that has the most
-  /// of them makes room.
-  std::size_t most_handshakes = 64;
+  /// Unfinished ones. For one more, one of the network that has the most of
+  /// them makes room (network/fair_share.hpp).
+  std::size_t most_handshakes = 256;
+  /// Choose which one; for peers that cannot guess them, of a secret seed.
+  random_stream draws{0, "handshakes"};
   std::size_t most_connections = 512;
   std::size_t most_per_peer = 16; ///< Connections per identity.
   /// Told who was refused and why, in a sentence without its full stop, at

@@ -1,7 +1,9 @@
 // Where others reach a process, and what it shows them.
 #include "scenario/front.hpp"
 
+#include "network/nonce.hpp"
 #include "scenario/input_error.hpp"
+#include "world/fingerprint.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +34,11 @@ front::open(network_runtime& time, const gate_actor& gate,
   const auto port = time.publish(gate, own_ ? 0 : listen_.port);
   if (!own_)
     return {listen_.host, port};
-  door_.emplace(*own_, door_options{.listen = listen_,
-                                    .inner_port = port,
-                                    .on_refusal = std::move(on_refusal)});
+  door_.emplace(*own_,
+                door_options{.listen = listen_,
+                             .inner_port = port,
+                             .draws = {fingerprint(draw_nonce()), "handshakes"},
+                             .on_refusal = std::move(on_refusal)});
   return {listen_.host, door_->port()};
 }
 
