@@ -16,7 +16,8 @@ inline constexpr auto program_file = "/proc/self/exe";
 /// @returns its version and a fingerprint: another build may give other
 /// results.
 inline std::string this_program() {
-  const auto text = read_text(program_file);
+  constexpr std::size_t longest_program = std::size_t{1} << 30;
+  const auto text = read_text(program_file, longest_program);
   return fmt::format("{} {:016x}", SOFOF_VERSION,
                      fingerprint(text.value_or("")));
 }

@@ -1,8 +1,8 @@
 // From a scenario file to a scenario that is ready to run.
 #include "scenario/load.hpp"
 
+#include "network/regular_file.hpp"
 #include "scenario/checks.hpp"
-#include "scenario/input_error.hpp"
 #include "scenario/map_file.hpp"
 #include "scenario/toml_file.hpp"
 
@@ -19,11 +19,11 @@ namespace {
 /// Reads a file that an option of the scenario names.
 std::string read_named(const fs::path& file, std::string_view key,
                        const toml_file& source) {
-  auto text = read_text(file);
-  if (!text)
-    source.refuse(key,
-                  fmt::format("the file {} cannot be read.", file.string()));
-  return *std::move(text);
+  auto content = read_regular_file(file, longest_input);
+  if (!content.refusal.empty())
+    source.refuse(key, fmt::format("the file {} cannot be read: {}.",
+                                   file.string(), content.refusal));
+  return std::move(content.text);
 }
 
 /// Streets never change, so a thread that loads one map again and again, for a
@@ -94,11 +94,7 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
 
 scenario load_scenario(const fs::path& file,
                        std::span<const std::string> overrides) {
-  const auto text = read_text(file);
-  if (!text)
-    throw input_error{
-        fmt::format("{}: this file cannot be read.", file.string())};
-  return parse_scenario(*text, file, overrides);
+  return parse_scenario(require_text(file), file, overrides);
 }
 
 } // namespace sofof

@@ -2,16 +2,14 @@
 #include "scenario/problem_file.hpp"
 
 #include "scenario/input_error.hpp"
+#include "scenario/toml_file.hpp"
 #include "world/spelling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <cerrno>
-#include <fstream>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 namespace sofof {
@@ -202,14 +200,9 @@ instances<Instance> read_all(const node& file, From from) {
 }
 
 json parse(const std::filesystem::path& path) {
-  errno = 0;
-  std::ifstream in{path};
-  if (!in || std::filesystem::is_directory(path))
-    throw input_error(fmt::format(
-        "cannot read {}: {}", path.string(),
-        std::generic_category().message(errno != 0 ? errno : EISDIR)));
+  const auto text = require_text(path);
   try {
-    return json::parse(in);
+    return json::parse(text);
   } catch (const json::parse_error& e) {
     throw input_error(
         fmt::format("{}: this is no JSON: {}", path.string(), e.what()));

@@ -1,17 +1,19 @@
 // A TOML file in memory, with the place of everything in it.
 #include "scenario/toml_file.hpp"
 
+#include "network/regular_file.hpp"
 #include "scenario/input_error.hpp"
+#include "scenario/toml_depth.hpp"
 #include "scenario/toml_nodes.hpp"
 #include "scenario/toml_settings.hpp"
 #include "scenario/toml_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace sofof {
 
@@ -71,6 +73,8 @@ public:
         key_{text.substr(0, text.find('='))} {
     if (key_.size() == text.size())
       refuse("there is no value, write KEY=VALUE.");
+    if (std::ranges::count(key_, '.') >= most_dots)
+      refuse(fmt::format("the key has more than {} parts.", most_toml_depth));
     value_ = text.substr(key_.size() + 1);
   }
 
@@ -107,8 +111,10 @@ private:
   }
 
   toml::table value() const {
+    const auto text = fmt::format("value = {}", value_);
+    check_toml_depth(text, place_);
     try {
-      auto parsed = toml::parse(fmt::format("value = {}", value_), place_);
+      auto parsed = toml::parse(text, place_);
       if (parsed.size() == 1)
         return parsed;
     } catch (const toml::parse_error&) {
@@ -116,6 +122,8 @@ private:
     }
     return parse_toml(fmt::format("value = {}", quoted_toml(value_)), place_);
   }
+
+  static constexpr std::ptrdiff_t most_dots = most_toml_depth;
 
   std::string place_;
   std::string_view key_;
@@ -129,12 +137,20 @@ struct toml_file::content {
   toml::table root;
 };
 
-std::optional<std::string> read_text(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::ifstream in{file, std::ios::binary};
-  if (!in || std::filesystem::is_directory(file, ignored))
+std::optional<std::string> read_text(const std::filesystem::path& file,
+                                     std::size_t most) {
+  auto content = read_regular_file(file, most);
+  if (!content.refusal.empty())
     return std::nullopt;
-  return std::string{std::istreambuf_iterator{in}, {}};
+  return std::move(content.text);
+}
+
+std::string require_text(const std::filesystem::path& file, std::size_t most) {
+  auto content = read_regular_file(file, most);
+  if (content.refusal.empty())
+    return std::move(content.text);
+  throw input_error{fmt::format("{}: this file cannot be read: {}.",
+                                file.string(), content.refusal)};
 }
 
 toml_file::toml_file(std::string_view text, const std::string& file)

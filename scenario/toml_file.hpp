@@ -3,6 +3,7 @@
 
 #include "world/settings.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,8 +13,22 @@
 
 namespace sofof {
 
-/// @returns the whole content of a file; nullopt when it cannot be read.
-std::optional<std::string> read_text(const std::filesystem::path& file);
+/// Files that people write, such as scenarios, maps and traces, are no longer;
+/// bytes.
+inline constexpr std::size_t longest_input = std::size_t{16} << 20;
+
+/// Files that a run has written are no longer; bytes.
+inline constexpr std::size_t longest_results = std::size_t{4} << 30;
+
+/// @returns the whole content of a file; nullopt when it cannot be read, is no
+/// regular file, or is longer than `most`.
+std::optional<std::string> read_text(const std::filesystem::path& file,
+                                     std::size_t most = longest_input);
+
+/// The same for a file that has to be there.
+/// @throws input_error, which says what is wrong with it.
+std::string require_text(const std::filesystem::path& file,
+                         std::size_t most = longest_input);
 
 /// Options as a file says them. Keys are dotted paths; elements of lists go by
 /// number or by their `name`: `provider.0.area_radius_m`, `provider.mec.name`.

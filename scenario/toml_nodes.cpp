@@ -2,6 +2,7 @@
 #include "scenario/toml_nodes.hpp"
 
 #include "scenario/input_error.hpp"
+#include "scenario/toml_depth.hpp"
 #include "scenario/toml_settings.hpp"
 #include "scenario/toml_text.hpp"
 
@@ -41,6 +42,7 @@ std::string inline_text(const toml::array& list) {
 } // namespace
 
 toml::table parse_toml(std::string_view text, std::string_view file) {
+  check_toml_depth(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& problem) {

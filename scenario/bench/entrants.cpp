@@ -144,11 +144,7 @@ std::vector<entrant> parse_entrants(std::string_view text,
 }
 
 std::vector<entrant> load_entrants(const std::filesystem::path& file) {
-  const auto text = read_text(file);
-  if (!text)
-    throw input_error{
-        fmt::format("{}: this file cannot be read.", file.string())};
-  return parse_entrants(*text, file.string());
+  return parse_entrants(require_text(file), file.string());
 }
 
 std::optional<entrant> own_entrant(const std::filesystem::path& scenario) {

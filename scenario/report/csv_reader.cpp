@@ -27,10 +27,7 @@ bool parse(std::string_view text, T& value) {
 csv_reader::csv_reader(const std::filesystem::path& file,
                        std::span<const std::string_view> wanted, ending end)
     : file_{file.string()}, wanted_(wanted.begin(), wanted.end()) {
-  auto content = read_text(file);
-  if (!content)
-    throw input_error{fmt::format("{}: the file cannot be read.", file_)};
-  content_ = std::move(*content);
+  content_ = require_text(file, longest_results);
   if (end == ending::killed) {
     content_.resize(content_.rfind('\n') + 1); // npos + 1 is 0
     if (content_.empty())

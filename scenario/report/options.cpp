@@ -1,6 +1,8 @@
 // Compares TOML by its leaves.
 #include "scenario/report/options.hpp"
 
+#include "scenario/toml_nodes.hpp"
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -36,7 +38,7 @@ void collect(const toml::node& from, const std::string& name, leaves& to) {
 
 leaves leaves_of(std::string_view text) {
   leaves all;
-  collect(toml::parse(text), "", all);
+  collect(parse_toml(text, "config.toml"), "", all);
   return all;
 }
 

@@ -189,12 +189,9 @@ std::optional<run_summary> read_summary(const fs::path& folder) {
 
 std::vector<event_line> read_events(const fs::path& folder) {
   const auto file = folder / "events.jsonl";
-  const auto content = read_text(file);
-  if (!content)
-    throw input_error{
-        fmt::format("{}: the file cannot be read.", file.string())};
+  const auto content = require_text(file, longest_results);
   std::vector<event_line> all;
-  std::string_view rest = *content;
+  std::string_view rest = content;
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     const auto place = fmt::format("{}:{}", file.string(), number);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view before_axes = "point", behind_axes = "seed";
 
 std::vector<std::string> columns_of(const std::filesystem::path& table) {
-  const auto text = read_text(table).value_or("");
+  const auto text = read_text(table, longest_results).value_or("");
   const auto header = std::string_view{text}.substr(0, text.find('\n'));
   std::vector<std::string> names;
   for (std::size_t at = 0; at <= header.size();) {

@@ -216,11 +216,7 @@ sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
 
 sweep_plan load_sweep(const std::filesystem::path& file,
                       std::span<const std::string> overrides) {
-  const auto text = read_text(file);
-  if (!text)
-    throw input_error{
-        fmt::format("{}: this file cannot be read.", file.string())};
-  return parse_sweep(*text, file, overrides);
+  return parse_sweep(require_text(file), file, overrides);
 }
 
 std::vector<sweep_point> points_of(const sweep_plan& plan) {

@@ -2,6 +2,8 @@
 #include "tests/processes/workplace.hpp"
 #include "tests/scenario/mistakes.hpp"
 
+#include <sys/stat.h>
+
 using namespace sofof;
 using namespace sofof::test;
 namespace fs = std::filesystem;
@@ -50,6 +52,40 @@ TEST_CASE("a missing file is refused") {
   check_refused({}, {"nowhere/town.toml"},
                 "sofof: nowhere/town.toml: ", {"cannot be read"});
   check_refused({}, {"config"}, "sofof: config: ", {"cannot be read"});
+}
+
+TEST_CASE("what is no regular file, or a huge one, is refused at once") {
+  const workplace at;
+  REQUIRE(mkfifo((at / "pipe").c_str(), 0600) == 0);
+  at.write("huge", "");
+  fs::resize_file(at / "huge", std::uintmax_t{10} << 30);
+  for (const auto& [file, why] :
+       std::vector<std::pair<std::string, std::string_view>>{
+           {"pipe", "it is a pipe"},
+           {"/dev/zero", "it is a device"},
+           {"huge", "it is longer than 16 MiB"}}) {
+    CAPTURE(file);
+    const auto named = file.starts_with('/') ? file : "../" + file;
+    check_refused(at, {file}, "sofof: " + file + ": ", {why});
+    check_refused(at, {scenario_file, "--set", "map=" + named}, "the file ",
+                  {why});
+    check_refused(at,
+                  {scenario_file, "--set", "network=trace", "--set",
+                   "network.trace=" + named},
+                  "the file ", {why});
+  }
+}
+
+TEST_CASE("TOML that nests without end is refused") {
+  const workplace at;
+  for (const std::string_view part : {"a.", "[", "{a="}) {
+    std::string text = part == "a." ? "[" : "x = ";
+    for (int i = 0; i < 200'000; ++i)
+      text += part;
+    at.write("config/deep.toml", text);
+    check_refused(at, {"config/deep.toml"},
+                  "sofof: config/deep.toml:1:", {"nested deeper than 64"});
+  }
 }
 
 TEST_CASE("a TOML syntax error is refused") {

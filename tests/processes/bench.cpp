@@ -184,7 +184,8 @@ TEST_CASE("what cannot be ranked is refused before anything runs") {
     CHECK_FALSE(fs::exists(at / "out"));
   };
   refused({"small.toml", "--policies", "nearst"}, "did you mean \"nearest\"?");
-  refused({"no_such.toml"}, "no_such.toml: this file cannot be read.");
+  refused({"no_such.toml"},
+          "no_such.toml: this file cannot be read: No such file or directory.");
   refused({"small.toml", "other/small.toml"},
           "other/small.toml: the name \"small\" is taken");
   refused({"small.toml", "--entrants", "mine.toml"}, "mine.toml:1:14: ");

@@ -48,5 +48,6 @@ TEST_CASE("a folder that is not the paper's is refused with a sentence") {
   const auto end = at.run_sofof({"reproduce", "config", "--out", "paper"});
   CHECK(end.code == 2);
   CHECK(end.err
-        == "sofof: config/latency_plot.toml: this file cannot be read.\n");
+        == "sofof: config/latency_plot.toml: this file cannot be read: No such "
+           "file or directory.\n");
 }

@@ -91,8 +91,10 @@ TEST_CASE("mistakes in a file of entrants are found where they stand") {
   CHECK(refusal("\"a,b\" = { lodm = \"nearest\" }\n").find("is no name")
         != std::string::npos);
   CHECK(refusal("x = \n").starts_with("mine.toml:1:"));
-  CHECK_THROWS_WITH_AS(load_entrants("no_such.toml"),
-                       "no_such.toml: this file cannot be read.", input_error);
+  CHECK_THROWS_WITH_AS(
+      load_entrants("no_such.toml"),
+      "no_such.toml: this file cannot be read: No such file or directory.",
+      input_error);
 }
 
 TEST_CASE("what a scenario says of policies takes part under its file's name") {
