@@ -58,7 +58,7 @@ struct bench_arguments {
     std::cout << "report in " << (what.runs.out / "report.html").string()
               << '\n';
     return static_cast<int>(outcome.all_good ? run_outcome::good
-                                             : run_outcome::unsafe);
+                                             : run_outcome::failed);
   }
 };
 

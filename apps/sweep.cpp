@@ -31,7 +31,7 @@ int tell_outcome(const sweep_outcome& outcome) {
                            outcome.good, outcome.unsafe, outcome.failed,
                            outcome.table.string());
   return static_cast<int>(outcome.all_good() ? run_outcome::good
-                                             : run_outcome::unsafe);
+                                             : run_outcome::failed);
 }
 
 } // namespace

@@ -185,6 +185,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
+  options.when_unwritable = write_failure::ends_the_files;
   options.network = "real";
   options.whose = name;
   options.news = [board] { return board->take(); };
@@ -241,6 +242,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
+  options.when_unwritable = write_failure::ends_the_files;
   options.network = "real";
   options.whose = "cars";
   options.news = [board] { return board->take(); };

@@ -12,4 +12,11 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// A sentence of the same kind about a disk that is full, broken or read-only:
+/// nothing that was typed is wrong.
+class storage_error : public input_error {
+public:
+  using input_error::input_error;
+};
+
 } // namespace sofof

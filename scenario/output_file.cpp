@@ -16,13 +16,27 @@ namespace {
 
 [[noreturn]] void refused(const std::filesystem::path& path, int error,
                           std::string_view choose) {
-  throw input_error(fmt::format(
-      "cannot write {}: {}; choose {}{}", path.string(),
-      std::generic_category().message(error), choose,
-      error == ENOSPC || error == EDQUOT ? " or free some space" : ""));
+  refuse_to_write(fmt::format("cannot write {}: {}; choose {}{}", path.string(),
+                              std::generic_category().message(error), choose,
+                              error == ENOSPC || error == EDQUOT
+                                  ? " or free some space"
+                                  : ""),
+                  error);
 }
 
 } // namespace
+
+void refuse_to_write(const std::string& sentence, int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EIO:
+    case EROFS:
+      throw storage_error{sentence};
+    default:
+      throw input_error{sentence};
+  }
+}
 
 void output_file::check(const std::filesystem::path& path,
                         std::string_view choose) {

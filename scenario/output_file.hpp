@@ -10,6 +10,12 @@
 
 namespace sofof {
 
+/// Refuses to write something.
+/// @param error  Of the system. Of a full or broken disk it makes a
+///               storage_error.
+/// @throws input_error.
+[[noreturn]] void refuse_to_write(const std::string& sentence, int error);
+
 /// Lines are appended to `text` and go to the disk block by block.
 class output_file {
 public:

@@ -1,31 +1,30 @@
-// The results folder of a run: every record becomes a line while it runs,
-// the summary comes last. What the files hold: docs/results.md.
+// The results of a run: its figures, and its files as long as they can be
+// written.
 #pragma once
 
 #include "messages/record.hpp"
 #include "scenario/cpu_table.hpp"
-#include "scenario/csv.hpp"
 #include "scenario/metrics.hpp"
-#include "scenario/output_file.hpp"
-#include "scenario/pcap_file.hpp"
+#include "scenario/result_files.hpp"
 #include "scenario/run_info.hpp"
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace sofof {
 
-/// Writes the files of one run. Every member throws `input_error` when the
-/// disk refuses to take more.
+/// Counts every record of a run, and writes it to the files in its folder.
+/// Every member throws `input_error` when the disk refuses to take more; what
+/// was not written has not been counted either, so that it may be taken again
+/// once the files are closed.
 class results final : public record_sink {
 public:
   /// Removes the files of an earlier run and starts new ones.
   /// @param folder  From `make_results_folder`, or any that exists.
   results(std::filesystem::path folder, run_info run);
+  /// Without files.
+  explicit results(run_info run);
 
   void take(const event_record& x) override;
   void take(const decision_record& x) override;
@@ -47,9 +46,12 @@ public:
 
   const metrics& so_far() const { return metrics_; }
 
-  /// Brings all files up to date; to be called every few seconds, so that a
-  /// killed run keeps what it recorded.
+  /// Brings all files up to date; to be called now and then, so that a killed
+  /// run keeps what it recorded.
   void flush();
+
+  /// Writes no more files; what they hold stays, as of a run that was killed.
+  void close_files() { files_.reset(); }
 
   /// Closes all files and writes the summary, once. A folder without one is
   /// of a run that was killed.
@@ -57,27 +59,10 @@ public:
   run_end finish(time_point end, double wall_s, bool interrupted);
 
 private:
-  struct timing {
-    std::string name;
-    double value;
-  };
-
-  std::string_view name_of(boot_id provider) const;
-  void write_vehicles() const;
-  void write_distributions() const;
-  void write_timing(const run_end& end) const;
-
-  std::optional<pcap_file> pcap_; // before results are replaced
-  std::filesystem::path folder_;
   run_info run_;
   metrics metrics_;
-  std::map<boot_id, std::string> names_;
-  std::vector<timing> timings_;
-  std::string cpu_csv_; // empty: none
-  csv_file episodes_;
-  std::optional<csv_file> cycles_;
-  std::optional<csv_file> tracks_;
-  output_file events_;
+  figures_of_clock of_clock_;
+  std::optional<result_files> files_;
 };
 
 } // namespace sofof

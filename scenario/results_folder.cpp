@@ -2,6 +2,7 @@
 #include "scenario/results_folder.hpp"
 
 #include "scenario/input_error.hpp"
+#include "scenario/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -24,10 +25,12 @@ constexpr std::string_view files_of_a_run[] = {
     "trace.txt",    "trace.txt.tmp",    "vehicles.csv", "distributions.csv",
     "cpu.csv",      "cpu.csv.tmp"};
 
-[[noreturn]] void refused(const fs::path& folder, const std::string& why) {
-  throw input_error(fmt::format("cannot make the results folder {}: {}; "
-                                "choose another one with --out",
-                                folder.string(), why));
+[[noreturn]] void refused(const fs::path& folder, const std::string& why,
+                          int error = 0) {
+  refuse_to_write(fmt::format("cannot make the results folder {}: {}; choose "
+                              "another one with --out",
+                              folder.string(), why),
+                  error);
 }
 
 /// Makes a folder and its parents, or nothing.
@@ -51,7 +54,7 @@ bool make_all(const fs::path& folder) {
   std::error_code ignored;
   for (; !done.empty(); done.pop_back())
     fs::remove(done.back(), ignored);
-  refused(folder, error.message());
+  refused(folder, error.message(), error.value());
 }
 
 std::string safe_name(std::string_view scenario) {
@@ -115,9 +118,10 @@ void remove_results(const fs::path& folder) {
     std::error_code error;
     fs::remove(folder / name, error);
     if (error)
-      throw input_error(
+      refuse_to_write(
           fmt::format("cannot replace {}: {}; choose another folder with --out",
-                      (folder / name).string(), error.message()));
+                      (folder / name).string(), error.message()),
+          error.value());
   }
 }
 

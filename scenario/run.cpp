@@ -30,6 +30,7 @@ using namespace std::chrono_literals;
 constexpr duration virtual_slice = 1s;
 constexpr duration wall_slice = 100ms;
 constexpr double flush_every_s = 2;
+constexpr double flush_every_real_s = 0.5;
 
 /// Accounts of computing time begin so late: roads are got ready and rooms
 /// filled once, at the start.
@@ -87,14 +88,34 @@ void tell_news(const run_options& options, progress& shown,
   }
 }
 
+/// Tells once that files are no longer written.
+class loss_teller {
+public:
+  void look_at(const record_keeper& keeper, progress& shown,
+               std::ostream& console) {
+    if (is_told_)
+      return;
+    const auto why = keeper.loss();
+    if (!why)
+      return;
+    is_told_ = true;
+    shown.clear();
+    console << "the run goes on without results: " << *why << std::endl;
+  }
+
+private:
+  bool is_told_ = false;
+};
+
 /// Moves the run to its end, or to where it was interrupted.
 time_point advance(runtime& time, time_point end, const run_options& options,
                    const std::atomic<bool>& interrupted, record_keeper& keeper,
-                   progress& shown, const stopwatch& watch,
+                   loss_teller& losses, progress& shown, const stopwatch& watch,
                    std::ostream& console) {
   const auto start = time.now();
   const auto total_s = options.endless ? 0 : to_seconds(end - start);
   const auto slice = options.realtime ? wall_slice : virtual_slice;
+  const auto flush_s = options.realtime ? flush_every_real_s : flush_every_s;
   double flushed_s = 0;
   auto t = start;
   while (t < end && !interrupted) {
@@ -103,7 +124,7 @@ time_point advance(runtime& time, time_point end, const run_options& options,
     if (options.news)
       tell_news(options, shown, console);
     const auto wall_s = watch.elapsed_s();
-    const auto flush = wall_s - flushed_s > flush_every_s;
+    const auto flush = wall_s - flushed_s > flush_s;
     if (flush)
       flushed_s = wall_s;
     const auto offloaded = keeper.with([flush](results& r) {
@@ -111,6 +132,7 @@ time_point advance(runtime& time, time_point end, const run_options& options,
         r.flush();
       return r.so_far().offloaded_now();
     });
+    losses.look_at(keeper, shown, console);
     if (!options.endless)
       shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
   }
@@ -145,6 +167,8 @@ void check_capture(const scenario& s, const run_options& options) {
 
 /// Removes the results of a run that has not begun, as far as that is possible.
 void discard(const std::filesystem::path& folder, bool was_there) {
+  if (folder.empty())
+    return;
   try {
     remove_results(folder);
   } catch (const input_error&) { // why it has not begun is more important
@@ -153,6 +177,25 @@ void discard(const std::filesystem::path& folder, bool was_there) {
   std::error_code not_empty;
   if (!was_there)
     std::filesystem::remove(folder, not_empty);
+}
+
+struct kept_results {
+  std::filesystem::path folder; ///< Empty: none could be made.
+  std::shared_ptr<record_keeper> keeper;
+};
+
+kept_results make_keeper(const std::string& name, std::int64_t seed,
+                         const run_info& info, const run_options& options) {
+  try {
+    const auto folder =
+        make_results_folder(options.out, name, seed, options.force);
+    return {folder, std::make_shared<record_keeper>(folder, info,
+                                                    options.when_unwritable)};
+  } catch (const storage_error& full) {
+    if (options.when_unwritable == write_failure::ends_the_run)
+      throw;
+    return {{}, std::make_shared<record_keeper>(info, full.what())};
+  }
 }
 
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
@@ -193,17 +236,18 @@ run_outcome run_part(const scenario& s, const run_options& options,
   const auto name =
       options.whose.empty() ? s.name : s.name + "-" + options.whose;
   const auto was_there = options.out && std::filesystem::exists(*options.out);
-  const auto folder =
-      make_results_folder(options.out, name, s.seed, options.force);
   info.start = time.now();
-  const auto keeper = std::make_shared<record_keeper>(folder, info);
+  const auto kept = make_keeper(name, s.seed, info, options);
+  const auto& folder = kept.folder;
+  const auto& keeper = kept.keeper;
+  loss_teller losses;
   progress shown{console, options.show};
   const stopwatch watch;
   auto timed = s;
   const auto deciding = add_timers(timed.policies);
   const auto actors = build(
       time.system(), timed, keeper, time.clock(), !options.realtime,
-      [keeper](const auto& why) { keeper->fail(why); }, here);
+      [keeper = keeper](const auto& why) { keeper->fail(why); }, here);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   time_point ended;
   std::optional<cpu_table> computed;
@@ -217,15 +261,15 @@ run_outcome run_part(const scenario& s, const run_options& options,
       time.run_until(std::min(info.start + settling, end));
       meter.emplace(*ledger, time.now());
     }
-    ended = advance(time, end, options, interrupted, *keeper, shown, watch,
-                    console);
+    ended = advance(time, end, options, interrupted, *keeper, losses, shown,
+                    watch, console);
     if (meter)
       computed = meter->read(time.now());
   } catch (const start_refused&) {
     dismiss(actors, time);
     discard(folder, was_there);
     throw;
-  } catch (...) { // the disk is full, say
+  } catch (...) { // the disk is full, say, of a run that this ends
     dismiss(actors, time);
     if (!is_started)
       discard(folder, was_there);
@@ -234,19 +278,26 @@ run_outcome run_part(const scenario& s, const run_options& options,
   dismiss(actors, time);
   if (computed && options.on_cpu)
     options.on_cpu(*computed);
-  return keeper->with([&](results& r) {
+  const auto last = keeper->with([&](results& r) {
     if (computed)
       r.take(*computed);
     for (const auto& [name, value] : deciding.figures())
       r.take_timing(name, value);
-    const auto last =
-        r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
-    if (options.show != progress::output::quiet)
-      console << table(r.so_far(), info, last, folder, options.colour);
-    if (last.interrupted)
-      return run_outcome::interrupted;
-    return r.so_far().safety().ok() ? run_outcome::good : run_outcome::unsafe;
+    return r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
   });
+  losses.look_at(*keeper, shown, console);
+  const auto is_lost = keeper->loss().has_value();
+  const auto is_safe = keeper->with([&](const results& r) {
+    if (options.show != progress::output::quiet)
+      console << table(r.so_far(), info, last, is_lost ? "" : folder,
+                       options.colour);
+    return r.so_far().safety().ok();
+  });
+  if (is_lost)
+    return run_outcome::failed;
+  if (last.interrupted)
+    return run_outcome::interrupted;
+  return is_safe ? run_outcome::good : run_outcome::failed;
 }
 
 } // namespace sofof

@@ -7,6 +7,7 @@
 #include "scenario/progress.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/write_failure.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -23,8 +24,9 @@ struct run_options {
   /// Which of several processes writes it: part of the name if none is asked
   /// for.
   std::string whose;
-  std::string pcap;      ///< Where to capture all ITS messages, if asked for.
-  bool force = false;    ///< Write into a folder that is not empty.
+  std::string pcap;   ///< Where to capture all ITS messages, if asked for.
+  bool force = false; ///< Write into a folder that is not empty.
+  write_failure when_unwritable = write_failure::ends_the_run;
   bool realtime = false; ///< On the wall clock instead of in virtual time.
   /// Keep accounts of computing time, for cpu.csv; on the wall clock only.
   bool cpu = false;
@@ -43,7 +45,7 @@ struct run_options {
 /// How a run ended; the values are the command's exit codes.
 enum class run_outcome {
   good = 0,
-  unsafe = 1,        ///< Its own safety checks failed, or an actor died.
+  failed = 1, ///< It was unsafe, an actor died, or its results were lost.
   interrupted = 130, ///< As a shell counts Ctrl-C.
 };
 
@@ -62,8 +64,8 @@ std::string configuration_of(scenario s);
 ///                     kept and marked.
 /// @param console      Gets the progress and the final table.
 /// @throws input_error when the results folder is refused, or it or the
-///         capture cannot be written, or computing time is asked for where
-///         none passes.
+///         capture cannot be written and this ends the run, or computing time
+///         is asked for where none passes.
 run_outcome run(const scenario& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console);
 

@@ -303,6 +303,8 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
     energy_lines(out, paint, m.cycles(), m.together().ride.distance_m);
   }
   air_lines(out, paint, m.air());
+  if (folder.empty())
+    return out;
   out += fmt::format("\nresults in {}\n", folder.string());
   if (!run.pcap.empty())
     out += fmt::format("{} message{} in {}\n", messages_of(m.air()),

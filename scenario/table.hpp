@@ -10,7 +10,7 @@
 namespace sofof {
 
 /// @param m       Finished.
-/// @param folder  Where the files are.
+/// @param folder  Where the files are; empty: they could not be written.
 /// @param colour  The reader is a terminal.
 /// @returns lines of at most 80 columns (names and paths may be longer),
 /// with figures in columns, one per kind of service.

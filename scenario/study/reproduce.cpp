@@ -88,7 +88,7 @@ private:
     const auto outcome = run(s, how, interrupted_, nowhere);
     if (outcome == run_outcome::interrupted)
       throw interruption{};
-    if (outcome == run_outcome::unsafe)
+    if (outcome == run_outcome::failed)
       throw std::runtime_error{fmt::format(
           "the run in {} was unsafe, summary.json says how; it needs an idle "
           "machine, its clock is the wall's.",
