@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <openssl/bio.h>
+#include <openssl/bn.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
@@ -35,7 +37,7 @@ int no_password(char*, int, int, void*) {
   return -1;
 }
 
-std::vector<std::string> uris_in(X509& certificate) {
+std::vector<std::string> uris_in(const X509& certificate) {
   std::vector<std::string> uris;
   const names_ptr names{static_cast<GENERAL_NAMES*>(
       X509_get_ext_d2i(&certificate, NID_subject_alt_name, nullptr, nullptr))};
@@ -79,9 +81,35 @@ std::string explain(int error, int depth, X509& certificate) {
       return "is not signed by this CA";
     case X509_V_ERR_INVALID_PURPOSE:
       return "is not made for what it names";
+    case X509_V_ERR_EXCLUDED_VIOLATION:
+    case X509_V_ERR_PERMITTED_VIOLATION:
+      return "names a host or a mailbox, which its CA may not name";
     default:
       return std::string{"is refused: "} + X509_verify_cert_error_string(error);
   }
+}
+
+/// @returns the CA that has signed a certificate that was accepted.
+const X509* issuer_in(X509_STORE_CTX& check) {
+  constexpr int issuer = 1;
+  auto* chain = X509_STORE_CTX_get0_chain(&check);
+  return sk_X509_num(chain) > issuer ? sk_X509_value(chain, issuer) : nullptr;
+}
+
+/// A CA with names of its own signs for no others. X.509 has no constraints for
+/// URIs without a host.
+bool may_name(const X509& ca, const peer_identity& who) {
+  const auto permitted = uris_in(ca);
+  if (permitted.empty())
+    return true;
+  if (who.is_provider())
+    return std::ranges::count(permitted, uris_of(who).front()) > 0;
+  std::vector<std::string> stations;
+  for (const auto& uri : permitted)
+    if (uri.starts_with(station_prefix))
+      stations.push_back(uri);
+  const auto all = identity_of(stations);
+  return all && std::ranges::includes(all->stations, who.stations);
 }
 
 } // namespace
@@ -94,6 +122,24 @@ x509_ptr certificate_from_pem(std::string_view pem) {
         PEM_read_bio_X509(bio.get(), nullptr, no_password, nullptr));
   forget_openssl_errors();
   return certificate;
+}
+
+std::vector<x509_ptr> certificates_from_pem(std::string_view pem) {
+  const auto bio = reader_of(pem);
+  std::vector<x509_ptr> all;
+  while (bio) {
+    all.emplace_back(
+        PEM_read_bio_X509(bio.get(), nullptr, no_password, nullptr));
+    if (all.back())
+      continue;
+    all.pop_back();
+    // The end of the text, or something else.
+    if (ERR_GET_REASON(ERR_peek_last_error()) != PEM_R_NO_START_LINE)
+      all.clear();
+    break;
+  }
+  forget_openssl_errors();
+  return all;
 }
 
 std::string to_pem(X509& certificate) {
@@ -115,14 +161,36 @@ key_ptr key_from_pem(std::string_view pem) {
   return key;
 }
 
-x509_store_ptr store_of(X509& ca) {
+x509_store_ptr store_of(std::span<const x509_ptr> authorities) {
   x509_store_ptr store{X509_STORE_new()};
-  require_openssl(store && X509_STORE_add_cert(store.get(), &ca) == 1,
-                  "trusting a CA");
+  require_openssl(store != nullptr, "trusting a CA");
+  for (const auto& ca : authorities)
+    require_openssl(X509_STORE_add_cert(store.get(), ca.get()) == 1,
+                    "trusting a CA");
   return store;
 }
 
-certificate_verdict examine(X509& certificate, X509_STORE& trusted) {
+std::string serial_of(const X509& certificate) {
+  const std::unique_ptr<BIGNUM, decltype(&BN_free)> number{
+      ASN1_INTEGER_to_BN(X509_get0_serialNumber(&certificate), nullptr),
+      BN_free};
+  char* text = number ? BN_bn2hex(number.get()) : nullptr;
+  require_openssl(text != nullptr, "reading a serial number");
+  std::string serial = text;
+  OPENSSL_free(text);
+  return serial;
+}
+
+bool has_expired(const X509& certificate) {
+  return X509_cmp_current_time(X509_get0_notAfter(&certificate)) <= 0;
+}
+
+std::string end_of(const X509& certificate) {
+  return print_time(X509_get0_notAfter(&certificate));
+}
+
+certificate_verdict examine(X509& certificate, X509_STORE& trusted,
+                            validity when) {
   const auto uris = uris_in(certificate);
   auto who = identity_of(uris);
   const x509_check_ptr check{X509_STORE_CTX_new()};
@@ -134,6 +202,8 @@ certificate_verdict examine(X509& certificate, X509_STORE& trusted) {
   auto* rules = X509_STORE_CTX_get0_param(check.get());
   X509_VERIFY_PARAM_set_auth_level(rules, security_level);
   X509_VERIFY_PARAM_set_flags(rules, X509_V_FLAG_X509_STRICT);
+  if (when == validity::ever)
+    X509_VERIFY_PARAM_set_flags(rules, X509_V_FLAG_NO_CHECK_TIME);
   if (who)
     X509_STORE_CTX_set_purpose(check.get(), who->is_provider()
                                                 ? X509_PURPOSE_SSL_SERVER
@@ -149,6 +219,10 @@ certificate_verdict examine(X509& certificate, X509_STORE& trusted) {
     return {{},
             "names no station and no provider",
             X509_V_ERR_APPLICATION_VERIFICATION};
+  if (const auto* ca = issuer_in(*check); ca && !may_name(*ca, *who))
+    return {{},
+            "names " + describe(*who) + ", which its CA may not name",
+            X509_V_ERR_PERMITTED_VIOLATION};
   return {std::move(who), {}, X509_V_OK};
 }
 

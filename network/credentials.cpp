@@ -2,15 +2,16 @@
 #include "network/credentials.hpp"
 
 #include "network/network_error.hpp"
+#include "network/regular_file.hpp"
+#include "network/secret_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <openssl/evp.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
-#include <system_error>
+#include <utility>
 
 namespace sofof {
 
@@ -21,25 +22,17 @@ constexpr std::string_view purpose = "sofof proof 1\n";
 
 constexpr auto remedy = "`sofof keys issue` makes it anew";
 
-struct file_closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 std::string read_pem(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, file_closer> file{
-      std::fopen(path.c_str(), "rb")};
-  std::string text(largest_certificate + 1, '\0');
-  if (file)
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-  if (!file || std::ferror(file.get()))
-    throw network_error{
-        fmt::format("cannot read {}: {}; {} in a folder that you can read",
-                    path.string(), std::generic_category().message(errno),
-                    errno == ENOENT ? "`sofof keys issue` makes it" : remedy)};
-  if (text.size() > largest_certificate)
+  auto content = read_regular_file(path, largest_certificate);
+  if (content.error == EFBIG)
     throw network_error{
         fmt::format("{} is too long to be right: {}", path.string(), remedy)};
-  return text;
+  if (!content.refusal.empty())
+    throw network_error{fmt::format(
+        "cannot read {}: {}; {} in a folder that you can read", path.string(),
+        content.refusal,
+        content.error == ENOENT ? "`sofof keys issue` makes it" : remedy)};
+  return std::move(content.text);
 }
 
 x509_ptr read_certificate(const std::filesystem::path& path) {
@@ -50,13 +43,40 @@ x509_ptr read_certificate(const std::filesystem::path& path) {
   return certificate;
 }
 
+std::vector<x509_ptr> read_authorities(const std::filesystem::path& path) {
+  auto all = certificates_from_pem(read_pem(path));
+  if (all.empty())
+    throw network_error{
+        fmt::format("{} is not a certificate: {}", path.string(), remedy)};
+  for (const auto& ca : all)
+    if (X509_check_ca(ca.get()) != 1)
+      throw network_error{
+          fmt::format("{} is not the certificate of a CA: copy the one that "
+                      "`sofof keys init` wrote",
+                      path.string())};
+  return all;
+}
+
 key_ptr read_key(const std::filesystem::path& path) {
+  check_secret(path);
   auto key = key_from_pem(read_pem(path));
   if (!key)
     throw network_error{
         fmt::format("{} is not a private key without a password: {}",
                     path.string(), remedy)};
   return key;
+}
+
+revocation_list read_revoked(const std::filesystem::path& path) {
+  const auto content = read_regular_file(path, revocation_list::longest);
+  if (content.error == ENOENT)
+    return {};
+  if (!content.refusal.empty())
+    throw network_error{
+        fmt::format("cannot read {}: {}; copy the one that `sofof keys revoke` "
+                    "wrote",
+                    path.string(), content.refusal)};
+  return {content.text, path.string()};
 }
 
 const unsigned char* octets(std::span<const std::byte> bytes) {
@@ -82,33 +102,44 @@ bool is_signed(std::span<const std::byte> bytes,
 
 } // namespace
 
-credentials::credentials(const std::filesystem::path& folder) {
+credentials::credentials(const std::filesystem::path& folder)
+    : parts_{load(folder)} {}
+
+std::shared_ptr<const credentials::parts>
+credentials::load(const std::filesystem::path& folder) {
   const auto ca_file = folder / "ca.pem";
   const auto certificate_file = folder / "cert.pem";
   const auto key_file = folder / "key.pem";
-  const auto ca = read_certificate(ca_file);
-  if (X509_check_ca(ca.get()) != 1)
-    throw network_error{
-        fmt::format("{} is not the certificate of a CA: copy the one that "
-                    "`sofof keys init` wrote",
-                    ca_file.string())};
-  certificate_ = read_certificate(certificate_file);
-  key_ = read_key(key_file);
-  trusted_ = store_of(*ca);
-  if (X509_check_private_key(certificate_.get(), key_.get()) != 1) {
+  const auto all = std::make_shared<parts>();
+  const auto authorities = read_authorities(ca_file);
+  all->authorities = authorities.size();
+  all->trusted = store_of(authorities);
+  all->certificate = read_certificate(certificate_file);
+  all->key = read_key(key_file);
+  all->revoked = read_revoked(folder / "revoked");
+  if (X509_check_private_key(all->certificate.get(), all->key.get()) != 1) {
     forget_openssl_errors();
     throw network_error{fmt::format("{} is not the key of {}: take both from "
                                     "the same `sofof keys issue`",
                                     key_file.string(),
                                     certificate_file.string())};
   }
-  auto verdict = examine(*certificate_, *trusted_);
+  // Whether it has been revoked is for others to say: a list with our own
+  // certificate is still good for those of others.
+  auto verdict = sofof::examine(*all->certificate, *all->trusted);
   if (!verdict.who)
     throw network_error{fmt::format("{} {} (the CA is {}): {}",
                                     certificate_file.string(), verdict.refusal,
                                     ca_file.string(), remedy)};
-  who_ = std::move(*verdict.who);
-  pem_ = to_pem(*certificate_);
+  all->who = std::move(*verdict.who);
+  all->pem = to_pem(*all->certificate);
+  return all;
+}
+
+certificate_verdict credentials::examine(X509& certificate) const {
+  if (revoked().contains(certificate))
+    return {{}, "has been revoked", X509_V_ERR_CERT_REVOKED};
+  return sofof::examine(certificate, trusted());
 }
 
 std::vector<std::byte>
@@ -122,7 +153,7 @@ credentials::sign(std::span<const std::byte> bytes) const {
   require_openssl(
       digest
           && EVP_DigestSignInit(digest.get(), nullptr, EVP_sha256(), nullptr,
-                                key_.get())
+                                &key())
                  == 1
           && EVP_DigestSignUpdate(digest.get(), purpose.data(), purpose.size())
                  == 1
@@ -145,7 +176,7 @@ proof credentials::prove(std::string_view certificate_pem,
   const auto certificate = certificate_from_pem(certificate_pem);
   if (!certificate)
     return {{}, "what was sent is not a certificate"};
-  auto verdict = examine(*certificate, *trusted_);
+  auto verdict = examine(*certificate);
   if (!verdict.who)
     return {{}, "the certificate " + verdict.refusal};
   if (!is_signed(bytes, signature, X509_get0_pubkey(certificate.get())))

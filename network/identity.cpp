@@ -10,7 +10,6 @@ namespace sofof {
 namespace {
 
 constexpr std::string_view ours = "urn:sofof:";
-constexpr std::string_view station_prefix = "urn:sofof:station:";
 constexpr std::string_view provider_prefix = "urn:sofof:provider:";
 constexpr std::size_t longest_name = 63;
 

@@ -11,6 +11,9 @@
 
 namespace sofof {
 
+/// What URIs of stations begin with.
+inline constexpr std::string_view station_prefix = "urn:sofof:station:";
+
 /// Either some stations or the name of a provider.
 struct peer_identity {
   std::vector<station_id> stations; ///< Each once, in order.

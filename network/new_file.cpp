@@ -2,10 +2,12 @@
 #include "network/new_file.hpp"
 
 #include "network/network_error.hpp"
+#include "network/socket.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <string>
@@ -48,22 +50,48 @@ public:
     return link(name_.c_str(), path.c_str()) == 0;
   }
 
+  bool rename_to(const std::filesystem::path& path) const {
+    return rename(name_.c_str(), path.c_str()) == 0;
+  }
+
 private:
   std::string name_;
   int fd_;
 };
+
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw network_error{fmt::format("cannot write {}: {}; choose another folder",
+                                  path.string(),
+                                  std::generic_category().message(errno))};
+}
 
 } // namespace
 
 void write_new_file(const std::filesystem::path& path, std::string_view text,
                     mode_t mode) {
   temporary_file file{path};
-  if (file.is_open() && file.allow(mode) && file.write(text)
-      && file.link_to(path))
-    return;
-  throw network_error{fmt::format("cannot write {}: {}; choose another folder",
-                                  path.string(),
-                                  std::generic_category().message(errno))};
+  if (!file.is_open() || !file.allow(mode) || !file.write(text)
+      || !file.link_to(path))
+    refuse(path);
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view text,
+                  mode_t mode) {
+  temporary_file file{path};
+  if (!file.is_open() || !file.allow(mode) || !file.write(text)
+      || !file.rename_to(path))
+    refuse(path);
+}
+
+void append_to_file(const std::filesystem::path& path, std::string_view line,
+                    mode_t mode) {
+  const descriptor file{
+      open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, mode)};
+  // In one piece: others may add theirs at the same time.
+  if (!file
+      || write(file.get(), line.data(), line.size())
+             != static_cast<ssize_t>(line.size()))
+    refuse(path);
 }
 
 } // namespace sofof

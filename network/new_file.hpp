@@ -1,4 +1,4 @@
-// Files that are written whole, and never over others.
+// Files that are written whole, and lines that are added to some.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +12,16 @@ namespace sofof {
 /// @throws network_error when there is one already, or it cannot be written;
 /// nothing is left behind then.
 void write_new_file(const std::filesystem::path& path, std::string_view text,
+                    mode_t mode);
+
+/// The same in the place of a file that may be there already.
+void replace_file(const std::filesystem::path& path, std::string_view text,
+                  mode_t mode);
+
+/// Adds a line to a file, which is made where it is missing.
+/// @param mode  Of a new file.
+/// @throws network_error when it cannot be written.
+void append_to_file(const std::filesystem::path& path, std::string_view line,
                     mode_t mode);
 
 } // namespace sofof

@@ -186,7 +186,7 @@ TEST_CASE("a file that cannot be read has its sentence") {
     fs::remove(folder / name);
     fs::create_directory(folder / name);
     CHECK(contains(loading(folder), "cannot read " + (folder / name).string()
-                                        + ": Is a directory"));
+                                        + ": it is a folder"));
   }
 }
 
@@ -257,4 +257,171 @@ TEST_CASE("a certificate for one thing is no good for another") {
     X509_add_ext(&x, name.get(), -1);
   });
   CHECK(contains(loading(folder), "is not made for what it names"));
+}
+
+TEST_CASE("a key that others may use is refused") {
+  const key_folder keys;
+  for (const auto mode : {0640, 0604, 0620, 0644, 0666, 0610}) {
+    CAPTURE(mode);
+    const auto folder = keys.issue(car_of_three);
+    REQUIRE(chmod((folder / "key.pem").c_str(), mode) == 0);
+    CHECK(contains(loading(folder),
+                   "`chmod 600 " + (folder / "key.pem").string() + "`"));
+  }
+  REQUIRE(chmod((keys.path() / "ca_key.pem").c_str(), 0640) == 0);
+  CHECK(
+      contains(sentence_of([&] { keys.issue(mec); }), "ca_key.pem is secret"));
+}
+
+TEST_CASE("a CA names neither hosts nor mailboxes") {
+  const key_folder keys;
+  for (const auto* name : {"DNS:example.org", "IP:10.0.0.1", "IP:2001:db8::1",
+                           "email:mail@example.org"}) {
+    CAPTURE(name);
+    const auto folder = keys.issue(car_of_three);
+    keys.alter(folder, [name](X509& x) {
+      const auto at = X509_get_ext_by_NID(&x, NID_subject_alt_name, -1);
+      X509_EXTENSION_free(X509_delete_ext(&x, at));
+      const auto both = std::string{"URI:urn:sofof:station:101,"} + name;
+      const x509_extension_ptr names{X509V3_EXT_conf_nid(
+          nullptr, nullptr, NID_subject_alt_name, both.c_str())};
+      X509_add_ext(&x, names.get(), -1);
+    });
+    CHECK(contains(loading(folder), "names a host or a mailbox"));
+  }
+  CHECK(keys.credentials_for({{}, "mec.ulm.example"}).identity().provider
+        == "mec.ulm.example");
+}
+
+TEST_CASE("a CA with names of its own names nobody else") {
+  const key_folder other;
+  const auto folder = other.path() / "narrow";
+  init_keys(folder, {{101, 102, 103}, {"mec"}});
+  const auto refusal = [&](const peer_identity& who) {
+    return sentence_of([&] { issue_keys(folder, who); });
+  };
+  CHECK(refusal(car_of_three) == "nothing was thrown");
+  CHECK(refusal(mec) == "nothing was thrown");
+  CHECK(contains(refusal({{103, 104}, {}}), "which its CA may not name"));
+  CHECK(contains(refusal({{}, "other"}), "which its CA may not name"));
+  // Somebody with its key can sign anything, but nobody believes it.
+  const auto keys = folder / "station-101-103";
+  const auto certificate = certificate_from_pem(read_file(keys / "cert.pem"));
+  const auto at =
+      X509_get_ext_by_NID(certificate.get(), NID_subject_alt_name, -1);
+  X509_EXTENSION_free(X509_delete_ext(certificate.get(), at));
+  const x509_extension_ptr name{X509V3_EXT_conf_nid(
+      nullptr, nullptr, NID_subject_alt_name, "URI:urn:sofof:station:7")};
+  X509_add_ext(certificate.get(), name.get(), -1);
+  const auto ca_key = key_from_pem(read_file(folder / "ca_key.pem"));
+  REQUIRE(X509_sign(certificate.get(), ca_key.get(), EVP_sha256()) > 0);
+  write_text(keys / "cert.pem", to_pem(*certificate));
+  CHECK(contains(loading(keys), "station 7, which its CA may not name"));
+}
+
+TEST_CASE("a folder may trust several CAs") {
+  const key_folder keys;
+  const key_folder others;
+  const auto folder = keys.issue(car_of_three);
+  const auto own_ca = read_file(folder / "ca.pem");
+  const auto other_ca = read_file(others.path() / "ca.pem");
+  for (const auto& text : {own_ca + other_ca, other_ca + own_ca}) {
+    write_text(folder / "ca.pem", text);
+    const credentials own{folder};
+    CHECK(own.authorities() == 2);
+    for (const auto* ca : {&keys, &others})
+      CHECK(own.examine(*certificate_from_pem(
+                            read_file(ca->issue(mec) / "cert.pem")))
+                .who
+            == mec);
+  }
+  write_text(folder / "ca.pem", own_ca
+                                    + "-----BEGIN CERTIFICATE-----\nAAAA\n"
+                                      "-----END CERTIFICATE-----\n");
+  CHECK(contains(loading(folder), "ca.pem is not a certificate"));
+  // Who signs may trust others, too, and says so to those it signs for.
+  write_text(keys.path() / "ca.pem", other_ca + own_ca);
+  CHECK(keys.credentials_for(mec).authorities() == 2);
+}
+
+TEST_CASE("certificates are revoked by whom they name, or by their number") {
+  const key_folder keys;
+  const auto revoked = [&](const revocation_choice& which) {
+    return revoke_keys(keys.path(), which).size();
+  };
+  const auto first = keys.issue({{101, 102}, {}});
+  const auto second = keys.issue({{102, 103}, {}});
+  const auto third = keys.issue({{103}, {}});
+  const auto provider = keys.issue(mec);
+  CHECK(revoked({{{102}, {}}, {}}) == 2);
+  CHECK(revoked({{{102}, {}}, {}}) == 0);
+  CHECK(revoked({{{101, 103}, {}}, {}}) == 1);
+  CHECK(contains(sentence_of([&] {
+                   revoked({{{7}, {}}, {}});
+                 }),
+                 "has issued nothing to station 7"));
+  const auto own = keys.credentials_for({{9}, {}});
+  const auto is_good = [&](const fs::path& folder) {
+    const auto verdict =
+        own.examine(*certificate_from_pem(read_file(folder / "cert.pem")));
+    return verdict.who.has_value();
+  };
+  CHECK(own.revoked().size() == 3);
+  CHECK_FALSE(is_good(first));
+  CHECK_FALSE(is_good(second));
+  CHECK_FALSE(is_good(third));
+  CHECK(is_good(provider));
+  const auto serial =
+      serial_of(*certificate_from_pem(read_file(provider / "cert.pem")));
+  CHECK(revoked({{}, serial}) == 1);
+  CHECK(revoked({{}, "12:34:ab"}) == 1);
+  CHECK(contains(sentence_of([&] {
+                   revoked({{}, "no"});
+                 }),
+                 "'no' is no serial number"));
+  CHECK(keys.credentials_for(mec).revoked().size() == 5);
+}
+
+TEST_CASE("a renewed certificate names the same peer") {
+  const key_folder keys;
+  const auto folder = keys.issue(car_of_three);
+  const auto before = credentials{folder};
+  keys.alter(folder, expire);
+  CHECK(renew_keys(keys.path(), folder, 30) == car_of_three);
+  const credentials after{folder};
+  CHECK(after.identity() == car_of_three);
+  CHECK(after.certificate_pem() != before.certificate_pem());
+  CHECK(mode_of(folder / "key.pem") == 0600);
+
+  const auto refusal = [&](const fs::path& of) {
+    return sentence_of([&] { renew_keys(keys.path(), of); });
+  };
+  const key_folder others;
+  CHECK(contains(refusal(others.issue(mec)), "is not signed by this CA"));
+  CHECK(contains(refusal(keys.path() / "none"), "holds no certificate"));
+  write_text(folder / "notes.txt", "mine");
+  CHECK(contains(refusal(folder), "notes.txt is no file of"));
+  fs::remove(folder / "notes.txt");
+  revoke_keys(keys.path(), {car_of_three, {}});
+  CHECK(contains(refusal(folder), "has been revoked"));
+}
+
+TEST_CASE("a list of revoked certificates is numbers, or refused with its "
+          "place") {
+  const revocation_list list{"\n# lost in May\n 0A:1b:2C # stations 101\r\n"
+                             "0a1b2c\nff\n",
+                             "revoked"};
+  CHECK(list.size() == 2);
+  CHECK(list.contains(std::string{"0A1B2C"}));
+  CHECK(list.contains(std::string{"FF"}));
+  CHECK_FALSE(list.contains(std::string{"0A1B"}));
+  for (const auto* text : {"ff\nxyz\n", "ff\n12 34\n", "\n0\n"})
+    CHECK(contains(sentence_of([&] {
+                     revocation_list{text, "revoked"};
+                   }),
+                   "revoked:2: this is no serial number"));
+  const key_folder keys;
+  const auto folder = keys.issue(mec);
+  fs::create_directory(folder / "revoked");
+  CHECK(contains(loading(folder), "revoked: it is a folder"));
 }

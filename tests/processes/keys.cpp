@@ -40,7 +40,13 @@ TEST_CASE("keys that cannot be made are refused") {
         {"keys", "issue", "keys", "--provider", "a/b"},
         {"keys", "issue", "keys", "--provider", "mec", "--days", "0"},
         {"keys", "issue", "keys", "--provider", "mec", "--days", "x"},
-        {"keys", "issue", "config", "--provider", "mec"}}) {
+        {"keys", "issue", "config", "--provider", "mec"},
+        {"keys", "renew", "keys"},
+        {"keys", "renew", "keys", "config"},
+        {"keys", "revoke", "keys"},
+        {"keys", "revoke", "keys", "--station", "1"},
+        {"keys", "revoke", "keys", "--serial", "xyz"},
+        {"keys", "revoke", "config", "--serial", "01"}}) {
     CAPTURE(words);
     const auto end = at.run_sofof(words);
     CHECK(end.code == 2);
