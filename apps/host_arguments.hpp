@@ -1,6 +1,7 @@
 // The command-line arguments of processes that talk to others.
 #pragma once
 
+#include "apps/signals.hpp"
 #include "scenario/hosts.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/units.hpp"
@@ -40,6 +41,10 @@ struct host_arguments {
   /// @param to  Gets them.
   void give(host_options& to) const {
     to.keys = keys;
+    if (!keys.empty()) {
+      to.keys_have_changed = &keys_have_changed;
+      catch_hang_up();
+    }
     to.clock = test_clock_of(clock);
     to.protocol = protocol;
   }

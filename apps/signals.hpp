@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM.
+// Ctrl-C, SIGTERM and SIGHUP.
 #pragma once
 
 #include <atomic>
@@ -18,6 +18,14 @@ inline void catch_signals() {
   };
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+}
+
+/// Set by SIGHUP: keys shall be read again.
+inline std::atomic<bool> keys_have_changed{false};
+
+/// Without this call SIGHUP ends the process.
+inline void catch_hang_up() {
+  std::signal(SIGHUP, [](int) { keys_have_changed = true; });
 }
 
 } // namespace sofof

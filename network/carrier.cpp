@@ -55,6 +55,14 @@ void carrier::drop() {
   wake_.call();
 }
 
+void carrier::revoke(revocation_list revoked) {
+  {
+    const std::lock_guard lock{mutex_};
+    new_list_ = std::move(revoked);
+  }
+  wake_.call();
+}
+
 void carrier::run() {
   leave_signals_to_others();
   using std::chrono::milliseconds;
@@ -73,18 +81,33 @@ void carrier::run() {
     serve_ready_ones(now);
     if (now >= next_look) {
       close_idle_ones(now);
+      close_distrusted_ones();
       next_look = now + look_around;
     }
   }
 }
 
 void carrier::take_new_ones(deadline now) {
-  const std::lock_guard lock{mutex_};
-  for (auto& tunnel : new_ones_) {
+  std::vector<tls_tunnel> arrived;
+  std::optional<revocation_list> list;
+  {
+    const std::lock_guard lock{mutex_};
+    arrived.swap(new_ones_);
+    list.swap(new_list_);
+  }
+  if (list) {
+    revoked_ = std::move(*list);
+    close_distrusted_ones();
+  }
+  for (auto& tunnel : arrived) {
+    // Its handshake may have been older than the list.
+    if (auto why = tunnel.distrust(revoked_); !why.empty()) {
+      tunnel.end_distrusted(std::move(why));
+      continue;
+    }
     ready_.push_back(++last_number_);
     loads_.emplace(last_number_, load{std::move(tunnel), now});
   }
-  new_ones_.clear();
 }
 
 void carrier::drop_all() {
@@ -117,12 +140,15 @@ void carrier::make_ready(load_number number) {
 
 void carrier::serve_ready_ones(deadline now) {
   for (const auto number : std::exchange(ready_, {})) {
-    auto& load = loads_.at(number);
+    const auto found = loads_.find(number);
+    if (found == loads_.end())
+      continue; // it was distrusted meanwhile
+    auto& load = found->second;
     auto& tunnel = load.tunnel;
     const auto turn = tunnel.move();
     if (turn.ended) {
       tunnel.end(tunnel.who_closed());
-      loads_.erase(number);
+      loads_.erase(found);
       continue;
     }
     load.is_ready = turn.more;
@@ -148,6 +174,19 @@ void carrier::watch(int fd, load_number number, std::uint32_t& watched,
                                  : EPOLL_CTL_MOD;
   watch_fd(epoll_, how, fd, number, wanted);
   watched = wanted;
+}
+
+void carrier::close_distrusted_ones() {
+  for (auto at = loads_.begin(); at != loads_.end();) {
+    auto& tunnel = at->second.tunnel;
+    auto why = tunnel.distrust(revoked_);
+    if (why.empty()) {
+      ++at;
+      continue;
+    }
+    tunnel.end_distrusted(std::move(why));
+    at = loads_.erase(at);
+  }
 }
 
 void carrier::close_idle_ones(deadline now) {

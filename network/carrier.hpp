@@ -1,7 +1,9 @@
-// A thread that carries the bytes of many tunnels.
+// A thread that carries the bytes of many tunnels, each for as long as the
+// certificate at its other end is good.
 #pragma once
 
 #include "network/deadline.hpp"
+#include "network/revocation_list.hpp"
 #include "network/socket.hpp"
 #include "network/tls_tunnel.hpp"
 
@@ -10,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <unordered_map>
 #include <vector>
@@ -19,7 +22,8 @@ namespace sofof {
 class carrier {
 public:
   /// @param idle  A tunnel through which nothing at all crosses for so long is
-  ///              closed.
+  ///              closed, as is one whose peer's certificate has expired,
+  ///              0.2 s later at most.
   /// @throws network_error when the system has no more files.
   explicit carrier(std::chrono::milliseconds idle);
   /// Closes all tunnels.
@@ -32,6 +36,10 @@ public:
 
   /// Closes all tunnels, soon. Any thread may call this.
   void drop();
+
+  /// Closes the tunnels to hosts whose certificates are revoked, within the
+  /// next turn, and all that are carried later. Any thread may call this.
+  void revoke(revocation_list revoked);
 
 private:
   struct load {
@@ -52,6 +60,7 @@ private:
   void watch(int fd, load_number number, std::uint32_t& watched,
              std::uint32_t wanted);
   void close_idle_ones(deadline now);
+  void close_distrusted_ones();
 
   const std::chrono::milliseconds idle_;
   descriptor epoll_;
@@ -59,9 +68,11 @@ private:
   std::atomic<bool> stops_ = false;
   std::atomic<bool> drops_ = false;
   std::mutex mutex_;
-  std::vector<tls_tunnel> new_ones_; // guarded by mutex_
+  std::vector<tls_tunnel> new_ones_; // guarded by mutex_, as is
+  std::optional<revocation_list> new_list_;
 
   // Of the thread:
+  revocation_list revoked_;
   std::unordered_map<load_number, load> loads_;
   load_number last_number_ = 0;
   std::vector<load_number> ready_;

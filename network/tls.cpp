@@ -14,11 +14,9 @@ namespace sofof {
 int judge_certificate(X509_STORE_CTX* asked, void*) {
   auto* tls = static_cast<SSL*>(
       X509_STORE_CTX_get_ex_data(asked, SSL_get_ex_data_X509_STORE_CTX_idx()));
-  auto& verdict =
-      static_cast<tls_handshake::notes*>(SSL_get_app_data(tls))->verdict;
-  auto* certificate = X509_STORE_CTX_get0_cert(asked);
-  auto* trusted = SSL_CTX_get_cert_store(SSL_get_SSL_CTX(tls));
-  verdict = examine(*certificate, *trusted);
+  auto& notes = *static_cast<tls_handshake::notes*>(SSL_get_app_data(tls));
+  auto& verdict = notes.verdict;
+  verdict = notes.own.examine(*X509_STORE_CTX_get0_cert(asked));
   const bool wants_provider = SSL_is_server(tls) == 0;
   if (verdict.who && verdict.who->is_provider() != wants_provider)
     verdict = {{},
@@ -29,7 +27,7 @@ int judge_certificate(X509_STORE_CTX* asked, void*) {
   return verdict.who ? 1 : 0;
 }
 
-ssl_context_ptr make_tls_context(const credentials& own) {
+tls_context make_tls_context(const credentials& own) {
   ssl_context_ptr context{SSL_CTX_new(TLS_method())};
   auto* c = context.get();
   require_openssl(c && SSL_CTX_set_min_proto_version(c, TLS1_3_VERSION) == 1
@@ -53,11 +51,13 @@ ssl_context_ptr make_tls_context(const credentials& own) {
   SSL_CTX_set_options(c, SSL_OP_IGNORE_UNEXPECTED_EOF);
   // Else one call would read as long as a peer sends what is no data.
   SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);
-  return context;
+  return {own, std::move(context)};
 }
 
-tls_handshake::tls_handshake(SSL_CTX& context, int socket, tls_side side)
-    : notes_{std::make_unique<notes>()}, tls_{SSL_new(&context)} {
+tls_handshake::tls_handshake(const tls_context& context, int socket,
+                             tls_side side)
+    : notes_{new notes{context.own, {}}}, tls_{
+                                              SSL_new(context.settings.get())} {
   require_openssl(tls_ && SSL_set_fd(tls_.get(), socket) == 1, "beginning TLS");
   SSL_set_app_data(tls_.get(), notes_.get());
   if (side == tls_side::answerer)
@@ -110,6 +110,8 @@ std::string explain_tls_error() {
       return "it wants to see a certificate";
     case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
       return "it does not trust the CA of our certificate";
+    case SSL_R_SSLV3_ALERT_CERTIFICATE_REVOKED:
+      return "our certificate has been revoked";
     case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:
       return "it takes our certificate for expired: do the clocks agree?";
     case SSL_R_SSLV3_ALERT_BAD_CERTIFICATE:

@@ -15,9 +15,15 @@ enum class tls_side {
   answerer, ///< Shows a provider, wants stations.
 };
 
+/// What handshakes begin with.
+struct tls_context {
+  credentials own;
+  ssl_context_ptr settings;
+};
+
 /// TLS 1.3 and nothing older, no sessions that are resumed.
 /// @throws network_error when OpenSSL does not take the credentials.
-ssl_context_ptr make_tls_context(const credentials& own);
+tls_context make_tls_context(const credentials& own);
 
 /// The handshake of a connection that does not block.
 class tls_handshake {
@@ -25,7 +31,7 @@ public:
   enum class step { waits_to_read, waits_to_write, done, failed };
 
   /// @param socket  Connected; outlives this and what `take` returns.
-  tls_handshake(SSL_CTX& context, int socket, tls_side side);
+  tls_handshake(const tls_context& context, int socket, tls_side side);
 
   /// Goes on as far as it can now.
   step advance();
@@ -41,6 +47,7 @@ public:
 
 private:
   struct notes {
+    credentials own;
     certificate_verdict verdict;
   };
 

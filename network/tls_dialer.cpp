@@ -19,6 +19,7 @@
 #include <poll.h>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sofof {
@@ -28,9 +29,9 @@ namespace {
 /// A pause when the system has no more files.
 constexpr std::chrono::milliseconds breather{100};
 
-ssl_context_ptr context_for(const credentials* own) {
+std::optional<tls_context> context_for(const credentials* own) {
   if (!own)
-    return nullptr;
+    return std::nullopt;
   if (own->identity().is_provider())
     throw network_error{fmt::format(
         "the certificate names {}, but vehicles need one of their stations: "
@@ -58,9 +59,11 @@ std::string explain_connect_error(int error) {
 class tls_dialer::switchboard {
 public:
   switchboard(const credentials* own, dialer_options options)
-      : options_{std::move(options)}, context_{context_for(own)},
-        listener_{listen_at({"127.0.0.1", 0})}, port_{port_of(listener_)},
+      : options_{std::move(options)}, listener_{listen_at({"127.0.0.1", 0})},
+        port_{port_of(listener_)}, context_{context_for(own)},
         carrier_{options_.idle} {
+    if (own)
+      carrier_.revoke(own->revoked());
     thread_ = std::thread{[this] { run(); }};
   }
 
@@ -73,6 +76,16 @@ public:
   void hang_up() {
     hangs_up_ = true;
     wake_->call();
+  }
+
+  void renew(const credentials& own) {
+    auto context = context_for(&own);
+    {
+      const std::lock_guard lock{mutex_};
+      next_context_ = std::move(context);
+    }
+    wake_->call();
+    carrier_.revoke(own.revoked());
   }
 
   std::uint16_t port() const { return port_; }
@@ -102,6 +115,7 @@ private:
       const auto events = wait();
       now_ = deadline_clock::now();
       wake_->answer();
+      take_new_context();
       // In the same order as they were waited for.
       auto at = calls_.begin();
       for (std::size_t i = first_call; i < events.size(); ++i) {
@@ -141,6 +155,12 @@ private:
       for (auto& event : events)
         event.revents = 0;
     return events;
+  }
+
+  void take_new_context() {
+    const std::lock_guard lock{mutex_};
+    if (next_context_)
+      context_ = std::exchange(next_context_, std::nullopt);
   }
 
   void accept_one() {
@@ -296,6 +316,8 @@ private:
 
   void explain(const tunnel_end& end) {
     using cause = tunnel_end::cause;
+    if (end.why == cause::distrusted)
+      set_last_error(end.failure);
     if (end.why == cause::idle)
       set_last_error(
           fmt::format("nothing crossed for {} ms", options_.idle.count()));
@@ -322,7 +344,6 @@ private:
   static constexpr std::size_t first_call = 2;
 
   const dialer_options options_;
-  const ssl_context_ptr context_; // none: plain
   const descriptor listener_;
   const std::uint16_t port_;
   std::atomic<std::size_t> carried_ = 0;
@@ -330,9 +351,11 @@ private:
   std::atomic<bool> hangs_up_ = false;
   const std::shared_ptr<wake_up> wake_ = std::make_shared<wake_up>();
   mutable std::mutex mutex_;
-  std::string last_error_; // guarded by mutex_
+  std::string last_error_; // guarded by mutex_, as is
+  std::optional<tls_context> next_context_;
 
   // Of the thread:
+  std::optional<tls_context> context_; // none: plain
   call_list calls_;
   std::optional<name_lookup> lookup_;
   deadline now_ = deadline_clock::now();
@@ -346,6 +369,10 @@ tls_dialer::tls_dialer(const credentials* own, dialer_options options)
     : switchboard_{std::make_unique<switchboard>(own, std::move(options))} {}
 
 tls_dialer::~tls_dialer() = default;
+
+void tls_dialer::renew(const credentials& own) {
+  switchboard_->renew(own);
+}
 
 void tls_dialer::hang_up() {
   switchboard_->hang_up();

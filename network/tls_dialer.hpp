@@ -51,6 +51,13 @@ public:
   /// this.
   void hang_up();
 
+  /// Goes by other credentials from now on, for connections that are opened
+  /// later, and closes those to providers that they have revoked. Not for a
+  /// dialer without TLS. Any thread may call this.
+  /// @throws network_error when they name no stations, or OpenSSL does not take
+  /// them; then all stays as it was.
+  void renew(const credentials& own);
+
   /// @returns the port of 127.0.0.1 that leads to the remote host.
   std::uint16_t port() const;
 

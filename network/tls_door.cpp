@@ -15,9 +15,12 @@
 #include <atomic>
 #include <cerrno>
 #include <list>
+#include <mutex>
+#include <optional>
 #include <poll.h>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sofof {
@@ -44,11 +47,12 @@ const credentials& provider_only(const credentials& own) {
 class tls_door::doorkeeper {
 public:
   doorkeeper(const credentials& own, door_options options)
-      : options_{std::move(options)}, context_{make_tls_context(
-                                          provider_only(own))},
-        listener_{listen_at(options_.listen)}, port_{port_of(listener_)},
-        seats_{options_.most_connections, options_.most_per_peer},
+      : options_{std::move(options)}, listener_{listen_at(options_.listen)},
+        port_{port_of(listener_)}, seats_{options_.most_connections,
+                                          options_.most_per_peer},
+        context_{make_tls_context(provider_only(own))},
         log_{options_.on_refusal}, carrier_{options_.idle} {
+    carrier_.revoke(own.revoked());
     thread_ = std::thread{[this] { run(); }};
   }
 
@@ -58,6 +62,16 @@ public:
     thread_.join();
     for (const auto& guest : guests_)
       leave_seat(guest);
+  }
+
+  void renew(const credentials& own) {
+    auto context = make_tls_context(provider_only(own));
+    {
+      const std::lock_guard lock{mutex_};
+      next_context_ = std::move(context);
+    }
+    wake_.call();
+    carrier_.revoke(own.revoked());
   }
 
   std::uint16_t port() const { return port_; }
@@ -83,6 +97,7 @@ private:
       const auto events = wait();
       now_ = deadline_clock::now();
       wake_.answer();
+      take_messages();
       // In the same order as they were waited for.
       auto at = guests_.begin();
       for (std::size_t i = first_guest; i < events.size(); ++i) {
@@ -123,6 +138,19 @@ private:
     return events;
   }
 
+  /// What other threads have left here.
+  void take_messages() {
+    std::vector<std::string> distrusted;
+    {
+      const std::lock_guard lock{mutex_};
+      distrusted.swap(distrusted_);
+      if (next_context_)
+        context_ = *std::exchange(next_context_, std::nullopt);
+    }
+    for (const auto& sentence : distrusted)
+      log_.add(sentence, now_);
+  }
+
   void accept_new_ones() {
     for (int i = 0; i < most_new_ones; ++i) {
       auto [socket, peer, error] = accept_from(listener_);
@@ -146,7 +174,7 @@ private:
                            prefix_of(peer),
                            now_ + options_.handshake_timeout,
                            std::move(socket),
-                           {*context_, fd, tls_side::answerer},
+                           {context_, fd, tls_side::answerer},
                            POLLIN,
                            {},
                            {}});
@@ -216,12 +244,24 @@ private:
       return;
     }
     ++accepted_;
-    carrier_.carry({wire{std::move(at->outer), at->handshake.take()},
-                    wire{std::move(at->inner)},
-                    [this, seat = at->seat](const tunnel_end&) {
-                      seats_.give_back(seat);
-                    }});
+    carrier_.carry(
+        {wire{std::move(at->outer), at->handshake.take()},
+         wire{std::move(at->inner)},
+         [this, seat = at->seat, name = at->name](const tunnel_end& end) {
+           seats_.give_back(seat);
+           if (end.why == tunnel_end::cause::distrusted)
+             leave_message(name + " was disconnected: " + end.failure);
+         }});
     guests_.erase(at);
+  }
+
+  /// For the thread, by others.
+  void leave_message(std::string sentence) {
+    {
+      const std::lock_guard lock{mutex_};
+      distrusted_.push_back(std::move(sentence));
+    }
+    wake_.call();
   }
 
   void time_out(guest_list::iterator at) {
@@ -255,7 +295,6 @@ private:
   static constexpr std::size_t first_guest = 2;
 
   const door_options options_;
-  const ssl_context_ptr context_;
   const descriptor listener_;
   const std::uint16_t port_;
   seats seats_;
@@ -263,8 +302,12 @@ private:
   std::atomic<std::uint64_t> refused_ = 0;
   std::atomic<bool> stops_ = false;
   wake_up wake_;
+  std::mutex mutex_;
+  std::optional<tls_context> next_context_; // guarded by mutex_, as is
+  std::vector<std::string> distrusted_;     // who was, and why
 
   // Of the thread:
+  tls_context context_;
   refusal_log log_;
   guest_list guests_;
   std::uint64_t drawn_ = 0; // of the victims
@@ -279,6 +322,10 @@ tls_door::tls_door(const credentials& own, door_options options)
     : keeper_{std::make_unique<doorkeeper>(own, std::move(options))} {}
 
 tls_door::~tls_door() = default;
+
+void tls_door::renew(const credentials& own) {
+  keeper_->renew(own);
+}
 
 std::uint16_t tls_door::port() const {
   return keeper_->port();

@@ -1,5 +1,6 @@
-// A provider's front door: lets in who shows a certificate of our CA, and
-// carries the bytes between them and a port of this machine.
+// A provider's front door: lets in who shows a certificate of our CAs, for as
+// long as it is good, and carries the bytes between them and a port of this
+// machine.
 #pragma once
 
 #include "network/credentials.hpp"
@@ -30,8 +31,9 @@ struct door_options {
   random_stream draws{0, "handshakes"};
   std::size_t most_connections = 512;
   std::size_t most_per_peer = 16; ///< Connections per identity.
-  /// Told who was refused and why, in a sentence without its full stop, at
-  /// most once a second; on the door's thread; must not block or throw.
+  /// Told who was refused or distrusted later, and why, in a sentence without
+  /// its full stop, at most once a second; on the door's thread; must not block
+  /// or throw.
   std::function<void(const std::string&)> on_refusal;
 };
 
@@ -52,6 +54,13 @@ public:
   ~tls_door();
   tls_door(const tls_door&) = delete;
   tls_door& operator=(const tls_door&) = delete;
+
+  /// Goes by other credentials from now on, for handshakes that begin later,
+  /// and closes the connections of peers that they have revoked. Nobody else
+  /// notices. Any thread may call this.
+  /// @throws network_error when they are no provider's, or OpenSSL does not
+  /// take them; then all stays as it was.
+  void renew(const credentials& own);
 
   /// @returns the port it listens at.
   std::uint16_t port() const;

@@ -1,6 +1,8 @@
 // Bytes from side to side.
 #include "network/tls_tunnel.hpp"
 
+#include "network/certificate.hpp"
+
 #include <span>
 #include <sys/epoll.h>
 #include <utility>
@@ -89,6 +91,20 @@ void tls_tunnel::update_events() {
   };
   far_events_ = reads(inward_) | writes(outward_);
   near_events_ = reads(outward_) | writes(inward_);
+}
+
+void tls_tunnel::end_distrusted(std::string why) {
+  if (const auto handler = std::exchange(on_end_, nullptr))
+    handler({tunnel_end::cause::distrusted, std::move(why), inward_.moved});
+}
+
+std::string tls_tunnel::distrust(const revocation_list& revoked) const {
+  const auto* certificate = far_.certificate();
+  if (!certificate)
+    return {};
+  if (revoked.contains(*certificate))
+    return "its certificate has been revoked";
+  return has_expired(*certificate) ? "its certificate has expired" : "";
 }
 
 void tls_tunnel::end(tunnel_end::cause why) {

@@ -1,6 +1,7 @@
 // Carries bytes between two connections, both ways, as they come.
 #pragma once
 
+#include "network/revocation_list.hpp"
 #include "network/wire.hpp"
 
 #include <array>
@@ -18,10 +19,13 @@ struct tunnel_end {
     near_closed, ///< Our own process did.
     far_closed,  ///< The other host did, or the connection to it broke.
     idle,        ///< Nothing crossed for too long.
+    distrusted,  ///< The other host's certificate is good no more.
     stopped,     ///< By the end of its carrier.
   };
   cause why = cause::stopped;
-  std::string failure;            ///< Of the connection, if it broke.
+  /// Why the connection broke, or what is wrong with the certificate; empty for
+  /// all else.
+  std::string failure;
   std::uint64_t bytes_inward = 0; ///< From the other host.
 };
 
@@ -47,6 +51,12 @@ public:
 
   /// Tells how it ended.
   void end(tunnel_end::cause why);
+  /// The same for a peer that is distrusted, for this reason.
+  void end_distrusted(std::string why);
+
+  /// @returns what is wrong now with the certificate of the other host, as
+  /// words about it, "its certificate"; empty: nothing.
+  std::string distrust(const revocation_list& revoked) const;
 
   /// Which side ended it, once it has.
   tunnel_end::cause who_closed() const { return closed_by_; }

@@ -44,6 +44,10 @@ wire::outcome wire::write(std::span<const std::byte> from) {
   return tls_outcome(result, moved);
 }
 
+const X509* wire::certificate() const {
+  return tls_ ? SSL_get0_peer_certificate(tls_.get()) : nullptr;
+}
+
 wire::outcome wire::plain_outcome(long moved) {
   if (moved > 0)
     return {state::moved, static_cast<std::size_t>(moved)};

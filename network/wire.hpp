@@ -36,6 +36,8 @@ public:
   outcome write(std::span<const std::byte> from);
 
   int fd() const { return socket_.get(); }
+  /// @returns the certificate that the peer has shown; null: plain.
+  const X509* certificate() const;
   /// @returns why it failed, with the peer as "it".
   const std::string& failure() const { return failure_; }
 

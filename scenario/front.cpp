@@ -11,34 +11,36 @@
 
 namespace sofof {
 
-std::optional<credentials> load_keys(const network_address& at,
-                                     const std::string& folder,
-                                     std::string_view option) {
+std::shared_ptr<key_ring> load_keys(const network_address& at,
+                                    const std::string& folder,
+                                    std::string_view option,
+                                    key_ring::user check) {
   if (!folder.empty())
-    return credentials{folder};
+    return std::make_shared<key_ring>(folder, std::move(check));
   if (at.host != "127.0.0.1" && at.host != "localhost")
     throw input_error(fmt::format(
         "{} {} is not 127.0.0.1, and connections beyond this machine must be "
         "secured; make certificates with `sofof keys` and name their folder "
         "with --keys",
         option, print_address(at)));
-  return std::nullopt;
+  return nullptr;
 }
 
-front::front(const std::optional<credentials>& own, network_address listen)
-    : own_{own}, listen_{std::move(listen)} {}
+front::front(std::shared_ptr<key_ring> keys, network_address listen)
+    : keys_{std::move(keys)}, listen_{std::move(listen)} {}
 
 network_address
 front::open(network_runtime& time, const gate_actor& gate,
             std::function<void(const std::string&)> on_refusal) {
-  const auto port = time.publish(gate, own_ ? 0 : listen_.port);
-  if (!own_)
+  const auto port = time.publish(gate, keys_ ? 0 : listen_.port);
+  if (!keys_)
     return {listen_.host, port};
-  door_.emplace(*own_,
+  door_.emplace(keys_->now(),
                 door_options{.listen = listen_,
                              .inner_port = port,
                              .draws = {fingerprint(draw_nonce()), "handshakes"},
                              .on_refusal = std::move(on_refusal)});
+  keys_->add_user([this](const credentials& own) { door_->renew(own); });
   return {listen_.host, door_->port()};
 }
 

@@ -1,12 +1,13 @@
 // Where others reach a process, and what it shows them.
 #pragma once
 
-#include "network/credentials.hpp"
+#include "network/key_ring.hpp"
 #include "network/network_address.hpp"
 #include "network/tls_door.hpp"
 #include "scenario/runtime.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,19 +16,21 @@ namespace sofof {
 
 /// Nobody outside may hear or say anything in plain words.
 /// @param option  Of the command line, that gave the address.
-/// @returns what to show to others; nothing on this machine alone, unless it is
+/// @param check   Of credentials that are read, now or later.
+/// @returns what to show to others; null on this machine alone, unless it is
 /// asked for.
-/// @throws input_error, network_error.
-std::optional<credentials> load_keys(const network_address& at,
-                                     const std::string& folder,
-                                     std::string_view option);
+/// @throws input_error, network_error, and what `check` throws.
+std::shared_ptr<key_ring> load_keys(const network_address& at,
+                                    const std::string& folder,
+                                    std::string_view option,
+                                    key_ring::user check);
 
 /// Where the bytes of a gate come in: it listens in plain words on this
 /// machine, and in front of it, if it is secured, a door.
 class front {
 public:
-  /// @param own  Outlives it.
-  front(const std::optional<credentials>& own, network_address listen);
+  /// @param keys  Null: none. What is read again, the door goes by.
+  front(std::shared_ptr<key_ring> keys, network_address listen);
 
   /// @returns the address that others reach the gate at.
   /// @throws input_error, network_error.
@@ -35,7 +38,7 @@ public:
                        std::function<void(const std::string&)> on_refusal);
 
 private:
-  const std::optional<credentials>& own_;
+  std::shared_ptr<key_ring> keys_;
   network_address listen_;
   std::optional<tls_door> door_;
 };

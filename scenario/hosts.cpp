@@ -4,7 +4,7 @@
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
 #include "actors/supervisor.hpp"
-#include "network/credentials.hpp"
+#include "network/key_ring.hpp"
 #include "network/nonce.hpp"
 #include "network/tls_dialer.hpp"
 #include "scenario/front.hpp"
@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -61,6 +62,19 @@ private:
   std::optional<std::string> refusal_;
   bool is_connected_ = false;
 };
+
+/// @returns what a run asks for news, which also reads the keys again when
+/// they have changed.
+std::function<std::vector<std::string>()>
+news_of(std::shared_ptr<news_board> board, const host_options& what,
+        std::shared_ptr<key_ring> keys) {
+  return [board = std::move(board), keys = std::move(keys),
+          changed = what.keys_have_changed] {
+    if (keys && changed && changed->exchange(false))
+      board->tell(keys->read_again());
+    return board->take();
+  };
+}
 
 /// What both sides must have in common: the map and the services.
 std::uint64_t fingerprint_of_world(const scenario& s) {
@@ -178,17 +192,17 @@ run_outcome provide(const scenario& s, const provide_options& what,
                                   "of one process; remove it, and end this "
                                   "process instead",
                                   name));
-  const auto own = load_keys(what.listen, what.keys, "--listen");
-  if (own)
-    check_identity(*own, what.keys, name);
-  front door{own, what.listen};
+  const auto keys = load_keys(
+      what.listen, what.keys, "--listen",
+      [&](const credentials& own) { check_identity(own, what.keys, name); });
+  front door{keys, what.listen};
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
   options.when_unwritable = write_failure::ends_the_files;
   options.network = "real";
   options.whose = name;
-  options.news = [board] { return board->take(); };
+  options.news = news_of(board, what, keys);
   part here;
   here.drives = [](station_id) { return false; };
   here.provides = [place](std::size_t k) { return k == place; };
@@ -206,8 +220,8 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.clock = time->clock();
     setup.recorder = actors.recorder;
     setup.draw_nonce = &draw_nonce;
-    setup.examine = [&own](const peer_hello& hello, const std::string& nonce) {
-      return own ? examine(*own, hello, nonce) : believe(hello);
+    setup.examine = [keys](const peer_hello& hello, const std::string& nonce) {
+      return keys ? examine(keys->now(), hello, nonce) : believe(hello);
     };
     setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
       board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
@@ -221,7 +235,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
     });
     console << fmt::format("provider {} listens on {}{}", name,
                            print_address(at),
-                           own ? "" : ", for this machine alone")
+                           keys ? "" : ", for this machine alone")
             << std::endl;
   };
   return run_part(s, options, here, *time, interrupted, console, open);
@@ -237,7 +251,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   };
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
-  std::optional<credentials> own;
+  std::shared_ptr<key_ring> keys;
   std::vector<std::unique_ptr<tls_dialer>> dialers; // outlive what uses them
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
@@ -245,7 +259,6 @@ run_outcome drive(const scenario& s, const drive_options& what,
   options.when_unwritable = write_failure::ends_the_files;
   options.network = "real";
   options.whose = "cars";
-  options.news = [board] { return board->take(); };
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
     if (std::ranges::find(here.remotes, place, &part::remote_provider::place)
@@ -253,10 +266,11 @@ run_outcome drive(const scenario& s, const drive_options& what,
       throw input_error(fmt::format("--provider: {} is given twice; a provider "
                                     "has one address",
                                     s.providers[place].name));
-    if (auto keys = load_keys(to.at, what.keys, "--provider"); keys && !own) {
-      check_identity(*keys, what.keys, stations);
-      own = std::move(keys);
-    }
+    if (!keys)
+      keys = load_keys(to.at, what.keys, "--provider",
+                       [&](const credentials& own) {
+                         check_identity(own, what.keys, stations);
+                       });
     uplink_setup setup;
     setup.provider = s.providers[place].name;
     setup.address = print_address(to.at);
@@ -268,9 +282,13 @@ run_outcome drive(const scenario& s, const drive_options& what,
     setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                       .part(place)
                       .part(stations.empty() ? 0 : stations.front());
-    if (own) {
+    if (keys) {
+      const auto own = keys->now();
       dialers.push_back(std::make_unique<tls_dialer>(
-          &*own, dialer_options{.remote = to.at, .provider = setup.provider}));
+          &own, dialer_options{.remote = to.at, .provider = setup.provider}));
+      keys->add_user([&dialer = *dialers.back()](const credentials& fresh) {
+        dialer.renew(fresh);
+      });
       setup.connect = [&time = *time, &dialer = *dialers.back()]()
           -> std::variant<gate_actor, std::string> {
         auto gate = time.connect(dialer.port());
@@ -280,8 +298,9 @@ run_outcome drive(const scenario& s, const drive_options& what,
         return gate;
       };
       setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
-      setup.prove = [&own = *own, provider = setup.provider](
+      setup.prove = [keys, provider = setup.provider](
                         peer_hello& hello, const std::string& nonce) {
+        const auto own = keys->now();
         hello.certificate = own.certificate_pem();
         hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
       };
@@ -301,6 +320,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
            return spawn_uplink(time.system(), std::move(with));
          }});
   }
+  options.news = news_of(board, what, keys);
   const auto outcome = run_part(s, options, here, *time, interrupted, console);
   for (const auto& dialer : dialers)
     dialer->hang_up(); // attempts end now

@@ -6,6 +6,7 @@
 #include "network/network_address.hpp"
 #include "scenario/run.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -15,7 +16,9 @@ namespace sofof {
 
 /// What both sides have in common.
 struct host_options {
-  std::string keys;  ///< Folder with certificate and key; empty on loopback.
+  std::string keys; ///< Folder with certificate and key; empty on loopback.
+  /// Once true, the folder is read again, and this is false again; null: never.
+  std::atomic<bool>* keys_have_changed = nullptr;
   clock_error clock; ///< For tests: how far the own clock is off, ...
   std::uint32_t protocol = remote_protocol; ///< ... and what it speaks.
 };

@@ -50,7 +50,7 @@ void answer(const plug& line, SSL_CTX& context) {
 /// @returns what TLS says first.
 bytes client_hello(const credentials& own) {
   const auto context = make_tls_context(own);
-  const ssl_ptr tls{SSL_new(context.get())};
+  const ssl_ptr tls{SSL_new(context.settings.get())};
   SSL_set_bio(tls.get(), BIO_new(BIO_s_mem()), BIO_new(BIO_s_mem()));
   SSL_connect(tls.get());
   forget_openssl_errors();
