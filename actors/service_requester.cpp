@@ -262,8 +262,8 @@ struct requester_state {
                const std::vector<point>& path) {
     auto& provider = providers.at(id);
     const auto number = ++last_request;
-    auto candidates =
-        find(wanted.front().view())->candidates(providers, now(self));
+    auto candidates = find(wanted.front().view())
+                          ->candidates(providers, ego.own.position, now(self));
     provider.open_request = number;
     for (const auto& kind : wanted) {
       std::erase(provider.offer.kinds, kind);

@@ -115,12 +115,21 @@ std::vector<provider_view> service_slot::views(const known_providers& providers,
 }
 
 std::vector<candidate>
-service_slot::candidates(const known_providers& providers, time_point now) {
-  std::vector<candidate> all;
-  for (const auto& view : views(providers, 0, now))
-    if (!find(view.id))
-      all.push_back({view.id, gain(view, on_board, needs()), view.utilisation});
-  return all;
+service_slot::candidates(const known_providers& providers, point from,
+                         time_point now) {
+  auto all = views(providers, 0, now);
+  std::erase_if(all, [&](const provider_view& view) { return find(view.id); });
+  if (all.size() > protocol::most_candidates) {
+    std::ranges::stable_sort(all, {}, [&](const provider_view& view) {
+      return distance_m(view.at, from);
+    });
+    all.resize(protocol::most_candidates);
+    std::ranges::sort(all, {}, &provider_view::id);
+  }
+  std::vector<candidate> told;
+  for (const auto& view : all)
+    told.push_back({view.id, gain(view, on_board, needs()), view.utilisation});
+  return told;
 }
 
 bool is_fallback(end_reason reason) {

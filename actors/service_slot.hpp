@@ -81,9 +81,11 @@ struct service_slot {
   std::vector<provider_view> views(const known_providers& providers,
                                    boot_id offering, time_point now);
   /// @returns what the vehicle tells of whom it could ask: not where the
-  /// service runs, which it would not leave for nothing.
+  /// service runs, which it would not leave for nothing. Of more than
+  /// protocol::most_candidates the nearest; by id.
+  /// @param from  Where the vehicle is, m, east-north.
   std::vector<candidate> candidates(const known_providers& providers,
-                                    time_point now);
+                                    point from, time_point now);
 };
 
 /// @returns whether a service that ends so comes home unplanned.

@@ -3,6 +3,8 @@
 
 #include "world/time.hpp"
 
+#include <cstddef>
+
 namespace sofof::protocol {
 
 using namespace std::chrono_literals;
@@ -41,6 +43,9 @@ inline constexpr duration clock_tolerance = 200ms;
 constexpr bool is_of_future(time_point at, time_point now) {
   return at > now + clock_tolerance;
 }
+
+/// A request names so many providers at most that could be asked, the nearest.
+inline constexpr std::size_t most_candidates = 64;
 
 /// Planned path that a requester looks at and sends along, m, and its step.
 inline constexpr double route_ahead_m = 800;
