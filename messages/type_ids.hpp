@@ -2,6 +2,7 @@
 // must agree on it: append only.
 #pragma once
 
+#include "messages/admission.hpp"
 #include "messages/interfaces.hpp"
 
 #include <caf/type_id.hpp>
@@ -65,5 +66,6 @@ CAF_ADD_TYPE_ID(sofof, (sofof::session_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::entrance_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::gate_actor))
 CAF_ADD_ATOM(sofof, sofof, begin_atom)
+CAF_ADD_TYPE_ID(sofof, (sofof::admission))
 
 CAF_END_TYPE_ID_BLOCK(sofof)

@@ -122,10 +122,20 @@ std::vector<socket_address> resolve(const network_address& address) {
   return all;
 }
 
-started_connection start_connecting(const socket_address& address) {
+started_connection
+start_connecting(const socket_address& address,
+                 const std::function<void(std::uint16_t)>& on_bound) {
   started_connection started{new_socket(address.storage.ss_family), 0};
   if (!started.socket)
     return {{}, errno};
+  if (on_bound) {
+    const auto any = loopback_port(0);
+    if (bind(started.socket.get(),
+             reinterpret_cast<const sockaddr*>(&any.storage), any.size)
+        != 0)
+      return {{}, errno};
+    on_bound(port_of(started.socket));
+  }
   enable(started.socket, IPPROTO_TCP, TCP_NODELAY);
   if (connect(started.socket.get(),
               reinterpret_cast<const sockaddr*>(&address.storage), address.size)

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <sys/socket.h>
 #include <utility>
@@ -46,8 +47,8 @@ std::string print_address(const socket_address& address);
 /// @throws network_error when that cannot be.
 descriptor listen_at(const network_address& address);
 
-/// @returns the port that a listening socket got.
-std::uint16_t port_of(const descriptor& listener);
+/// @returns the port that a socket got.
+std::uint16_t port_of(const descriptor& socket);
 
 /// A connection that somebody opened, or why there is none.
 struct accepted_socket {
@@ -70,7 +71,11 @@ struct started_connection {
 };
 
 /// Begins to connect; the connection will send small messages at once.
-started_connection start_connecting(const socket_address& address);
+/// @param on_bound  Told the own port before anything is sent from it, on
+///                  connections within this machine alone; may be empty.
+started_connection
+start_connecting(const socket_address& address,
+                 const std::function<void(std::uint16_t)>& on_bound = {});
 
 /// @returns the address of a port of this machine, for its own processes.
 socket_address loopback_port(std::uint16_t port);

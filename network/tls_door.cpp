@@ -88,6 +88,7 @@ private:
     short waits_for = POLLIN;
     std::string seat; ///< Its identity, once it has a seat.
     descriptor inner; ///< The connection to the inner port, once it has begun.
+    std::uint16_t inner_from = 0; ///< Its own port, if that is registered.
   };
   using guest_list = std::list<guest>;
 
@@ -177,6 +178,7 @@ private:
                            {context_, fd, tls_side::answerer},
                            POLLIN,
                            {},
+                           {},
                            {}});
       } catch (const network_error& e) {
         tell_refusal(name, e.what());
@@ -231,7 +233,12 @@ private:
       return;
     }
     at->seat = std::move(who);
-    auto [inner, error] = start_connecting(loopback_port(options_.inner_port));
+    auto [inner, error] = start_connecting(
+        loopback_port(options_.inner_port), [&](std::uint16_t port) {
+          at->inner_from = port;
+          if (options_.peers)
+            options_.peers->add(port, at->handshake.who());
+        });
     at->inner = std::move(inner);
     at->waits_for = POLLOUT;
     if (!at->inner)
@@ -244,14 +251,16 @@ private:
       return;
     }
     ++accepted_;
-    carrier_.carry(
-        {wire{std::move(at->outer), at->handshake.take()},
-         wire{std::move(at->inner)},
-         [this, seat = at->seat, name = at->name](const tunnel_end& end) {
-           seats_.give_back(seat);
-           if (end.why == tunnel_end::cause::distrusted)
-             leave_message(name + " was disconnected: " + end.failure);
-         }});
+    carrier_.carry({wire{std::move(at->outer), at->handshake.take()},
+                    wire{std::move(at->inner)},
+                    [this, seat = at->seat, name = at->name,
+                     port = at->inner_from](const tunnel_end& end) {
+                      forget_port(port);
+                      seats_.give_back(seat);
+                      if (end.why == tunnel_end::cause::distrusted)
+                        leave_message(name
+                                      + " was disconnected: " + end.failure);
+                    }});
     guests_.erase(at);
   }
 
@@ -288,8 +297,14 @@ private:
   }
 
   void leave_seat(const guest& guest) {
+    forget_port(guest.inner_from);
     if (!guest.seat.empty())
       seats_.give_back(guest.seat);
+  }
+
+  void forget_port(std::uint16_t port) {
+    if (options_.peers && port != 0)
+      options_.peers->remove(port);
   }
 
   static constexpr std::size_t first_guest = 2;

@@ -5,6 +5,7 @@
 
 #include "network/credentials.hpp"
 #include "network/network_address.hpp"
+#include "network/peer_register.hpp"
 #include "world/random.hpp"
 
 #include <chrono>
@@ -31,6 +32,8 @@ struct door_options {
   random_stream draws{0, "handshakes"};
   std::size_t most_connections = 512;
   std::size_t most_per_peer = 16; ///< Connections per identity.
+  /// Knows who is behind each connection with `inner_port`; may be null.
+  std::shared_ptr<peer_register> peers;
   /// Told who was refused or distrusted later, and why, in a sentence without
   /// its full stop, at most once a second; on the door's thread; must not block
   /// or throw.

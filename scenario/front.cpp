@@ -39,6 +39,7 @@ front::open(network_runtime& time, const gate_actor& gate,
                 door_options{.listen = listen_,
                              .inner_port = port,
                              .draws = {fingerprint(draw_nonce()), "handshakes"},
+                             .peers = peers_,
                              .on_refusal = std::move(on_refusal)});
   keys_->add_user([this](const credentials& own) { door_->renew(own); });
   return {listen_.host, door_->port()};

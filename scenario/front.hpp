@@ -32,6 +32,9 @@ public:
   /// @param keys  Null: none. What is read again, the door goes by.
   front(std::shared_ptr<key_ring> keys, network_address listen);
 
+  /// @returns who is behind the connections that its door carries.
+  const peer_register& peers() const { return *peers_; }
+
   /// @returns the address that others reach the gate at.
   /// @throws input_error, network_error.
   network_address open(network_runtime& time, const gate_actor& gate,
@@ -40,6 +43,7 @@ public:
 private:
   std::shared_ptr<key_ring> keys_;
   network_address listen_;
+  std::shared_ptr<peer_register> peers_ = std::make_shared<peer_register>();
   std::optional<tls_door> door_;
 };
 

@@ -2,6 +2,7 @@
 #include "scenario/hosts.hpp"
 
 #include "actors/remote/gate.hpp"
+#include "actors/remote/printable.hpp"
 #include "actors/remote/uplink.hpp"
 #include "actors/supervisor.hpp"
 #include "network/key_ring.hpp"
@@ -29,19 +30,22 @@ namespace {
 /// busy for a while, and nobody should be judged by results of that time.
 constexpr duration first_rest = std::chrono::seconds{1};
 
+/// On this machine alone a peer is heard as if it were so many.
+constexpr std::size_t most_unknown_stations = 256;
+
 /// What actors say to people; the console's thread asks for it.
 class news_board {
 public:
   void tell(std::string line) {
     const std::lock_guard lock{mutex_};
-    lines_.push_back(std::move(line));
+    lines_.push_back(printable(std::move(line)));
   }
   void refuse(const std::string& why) {
     const std::lock_guard lock{mutex_};
     if (is_connected_) // to another provider: whoever drives goes on
-      lines_.push_back(why);
+      lines_.push_back(printable(why));
     else
-      refusal_ = why;
+      refusal_ = printable(why);
   }
   void connected() {
     const std::lock_guard lock{mutex_};
@@ -122,14 +126,22 @@ peer_finding believe(const peer_hello& hello) {
   return {describe(peer_identity{{all.begin(), all.end()}, {}}), {}};
 }
 
+/// @param tls  Whom TLS has established.
 peer_finding examine(const credentials& own, const peer_hello& hello,
-                     const std::string& nonce) {
+                     const std::string& nonce,
+                     const std::optional<peer_identity>& tls) {
   const auto& provider = own.identity().provider;
   const auto proved =
       own.prove(hello.certificate, proof_of(nonce, provider, hello.stations),
                 hello.signature);
   if (!proved.who)
     return {{}, proved.refusal};
+  if (tls != proved.who)
+    return {
+        {},
+        fmt::format("its hello is signed for {}, but its connection is that "
+                    "of {}",
+                    describe(*proved.who), tls ? describe(*tls) : "nobody")};
   for (const auto station : hello.stations)
     if (!proved.who->has(station))
       return {{},
@@ -220,13 +232,26 @@ run_outcome provide(const scenario& s, const provide_options& what,
     setup.clock = time->clock();
     setup.recorder = actors.recorder;
     setup.draw_nonce = &draw_nonce;
-    setup.examine = [keys](const peer_hello& hello, const std::string& nonce) {
-      return keys ? examine(keys->now(), hello, nonce) : believe(hello);
+    setup.examine = [keys, &time = *time](const peer_hello& hello,
+                                          const std::string& nonce,
+                                          const caf::node_id& process) {
+      return keys
+                 ? examine(keys->now(), hello, nonce, time.identity_of(process))
+                 : believe(hello);
     };
     setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
       board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
                   + (is_here ? " connected" : " disconnected"));
     };
+    filter_setup filter;
+    if (keys)
+      filter.identify = [&door](std::uint16_t port) {
+        return door.peers().find(port);
+      };
+    filter.stations = most_unknown_stations;
+    filter.recorder = setup.recorder;
+    filter.on_refusal = [board](const std::string& why) { board->tell(why); };
+    time->filter(std::move(filter));
     const auto gate = spawn_gate(time->system(), std::move(setup));
     watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
                   "the gate");
@@ -259,6 +284,10 @@ run_outcome drive(const scenario& s, const drive_options& what,
   options.when_unwritable = write_failure::ends_the_files;
   options.network = "real";
   options.whose = "cars";
+  filter_setup filter;
+  filter.stations = stations.size();
+  filter.on_refusal = [board](const std::string& why) { board->tell(why); };
+  time->filter(std::move(filter));
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
     if (std::ranges::find(here.remotes, place, &part::remote_provider::place)

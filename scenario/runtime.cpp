@@ -112,6 +112,15 @@ public:
 
   caf::actor_system& system() override { return system_; }
 
+  void filter(filter_setup setup) override {
+    filter_connections(system_.middleman(), std::move(setup), peers_);
+  }
+
+  std::optional<peer_identity>
+  identity_of(const caf::node_id& process) const override {
+    return peers_->find(process);
+  }
+
   std::uint16_t publish(const gate_actor& gate, std::uint16_t port) override {
     constexpr auto reuse = true; // soon after another one, which was killed
     const auto open =
@@ -144,6 +153,8 @@ private:
              "that wants --keys?";
     if (why == caf::sec::connection_timeout)
       return "it does not answer";
+    if (why == caf::sec::redundant_connection)
+      return "an earlier connection with it has not ended yet";
     if (why == caf::sec::incompatible_versions)
       return "it was built with another version of CAF";
     return "who listens there speaks another language";
@@ -151,6 +162,7 @@ private:
 
   static constexpr auto this_machine = "127.0.0.1";
 
+  const std::shared_ptr<peer_nodes> peers_ = std::make_shared<peer_nodes>();
   network_config config_;
   caf::actor_system system_{config_};
   std::vector<caf::actor> gates_;

@@ -1,6 +1,7 @@
 // The time that a run lives in: virtual or wall clock, around one CAF system.
 #pragma once
 
+#include "actors/remote/connection_filter.hpp"
 #include "actors/time.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
@@ -8,9 +9,11 @@
 
 #include <caf/actor.hpp>
 #include <caf/actor_system.hpp>
+#include <caf/node_id.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -40,6 +43,15 @@ public:
 /// A wall-clock runtime that talks to other processes.
 class network_runtime : public runtime {
 public:
+  /// Filters what comes from other processes; before anything is published or
+  /// connected.
+  virtual void filter(filter_setup setup) = 0;
+
+  /// @returns whom TLS has established behind a process that is connected;
+  /// nothing where that is not known.
+  virtual std::optional<peer_identity>
+  identity_of(const caf::node_id& process) const = 0;
+
   /// Makes a gate public on this machine alone.
   /// @param port  0: any.
   /// @returns the port.

@@ -5,6 +5,7 @@
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
+#include <caf/node_id.hpp>
 
 #include <functional>
 #include <optional>
@@ -30,18 +31,18 @@ struct gate_setup {
   /// @returns a number that nobody can guess, new every time. What it throws
   /// refuses the one who needs it.
   std::function<std::string()> draw_nonce;
-  std::function<peer_finding(const peer_hello&, const std::string& nonce)>
+  /// Asks whether a hello, signed over this number, may come from this process.
+  std::function<peer_finding(const peer_hello&, const std::string& nonce,
+                             const caf::node_id& process)>
       examine;
   /// Told who has come in, and who has gone; of many a second, not of all.
   std::function<void(const std::set<station_id>&, bool is_here)> on_peer =
       [](const auto&, bool) {};
 };
 
-/// Lets those in who speak the same language, drive on the same map and have
-/// proved for whom they speak, each into a session of its own. Whoever comes
-/// in again with a station takes the place of the session of its name that
-/// spoke for it. A name has a limit of sessions, and a process one of
-/// entrances, so that nobody keeps others out. All that a process publishes.
+/// Gives each process that speaks the same language a number to sign and an
+/// entrance to introduce itself at. A process has a limit of entrances, so that
+/// it does not keep others out. All that a process publishes.
 gate_actor spawn_gate(caf::actor_system& sys, gate_setup setup);
 
 } // namespace sofof

@@ -1,319 +1,43 @@
-// The provider's end of a connection to vehicles on another host.
+// The end of a connection that the peer can reach: it passes on what the peer
+// says, and nothing else.
 #include "actors/remote/session.hpp"
 
-#include "actors/remote/far_requester.hpp"
-#include "actors/remote/origin.hpp"
-#include "actors/remote/pulse.hpp"
-#include "actors/time.hpp"
-#include "policies/latest_value.hpp"
-#include "policies/rate_limit.hpp"
+#include "actors/remote/session_core.hpp"
 
-#include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-#include <optional>
-#include <vector>
 
 namespace sofof {
 
 namespace {
 
-using namespace std::chrono_literals;
-
-// It is a session_mouth, too.
-using session_impl = session_actor::extend<
-    takes<station_id, service_offer>,
-    takes<service_response, std::vector<provider_manager_actor>>,
-    takes<service_result>, takes<tick_atom>>;
-
-/// What a station may say a second: CAMs, CPMs and inputs at 10 Hz or 20. The
-/// protocol's few words go beside that.
-constexpr double words_per_station_s = 100;
-/// What a peer may say beyond that: credits for each of its stations, and signs
-/// of life.
-constexpr double credits_per_station_s = 100;
-constexpr double signs_s = 200;
-/// So long a session outlives its provider, to hand on what it said last.
-constexpr duration last_words = 50ms;
-/// For what was held up and comes at once.
-constexpr double burst_s = 2;
-constexpr std::size_t streams_per_station = 8;
-constexpr std::size_t longest_route = 1000;
-constexpr std::size_t most_kinds = 64;
-/// Between two notes of what was dropped.
-constexpr duration complaint_period = 1s;
-
-struct session_state {
-  static inline const char* name = "session";
-
-  session_impl::stateful_pointer<session_state> self;
-  session_setup setup;
-  std::optional<pulse> life;
-  std::map<station_id, rate_limit> allowances;
-  std::map<station_id, requester_actor> voices;
-  std::map<running_service, provider_manager_actor> managers;
-  std::optional<latest_values<stream_id, service_result>> results;
-  std::optional<rate_limit> attention; // for all that the peer says
-  std::optional<time_point> ends_at;   // once the provider has
-  time_point next_complaint;
-  std::uint64_t dropped = 0;
-
-  void start() {
-    const auto t = now(self);
-    life.emplace(t, std::chrono::milliseconds{setup.peer_clock.epoch_unix_ms()
-                                              - setup.clock.epoch_unix_ms()});
-    for (const auto station : setup.stations)
-      allowances.try_emplace(station, words_per_station_s,
-                             burst_s * words_per_station_s);
-    const auto words_s = signs_s
-                         + (words_per_station_s + credits_per_station_s)
-                               * static_cast<double>(setup.stations.size());
-    attention.emplace(words_s, burst_s * words_s);
-    results.emplace(streams_per_station * setup.stations.size(),
-                    protocol::silence_limit);
-    self->monitor(setup.peer);
-    self->monitor(setup.provider);
-    note("peer_connected", 0,
-         fmt::format("{} stations", setup.stations.size()));
-    tick();
-  }
-
-  // -- who speaks -----------------------------------------------------------
-
-  bool is_from_peer() {
-    const auto is = self->current_sender()
-                    == caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
-    if (!is)
-      drop(0, "a stranger speaks");
-    else if (!attention->take(now(self)))
-      drop(0, "the peer says too much");
+session_actor::behavior_type session(session_actor::pointer self,
+                                     session_setup setup) {
+  const auto peer = caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
+  const auto core =
+      spawn_session_core(self->system(), std::move(setup), session_actor{self});
+  self->link_to(core); // they end together
+  // Nor does it hear what no interface has.
+  self->set_default_handler(caf::drop);
+  self->set_down_handler([](const caf::down_msg&) {});
+  const auto pass_on = [self, peer, core](const auto&... xs) {
+    if (self->current_sender() == peer)
+      self->send(core, xs...);
     else
-      return true;
-    return false;
-  }
-
-  bool speaks_for(station_id station) {
-    if (!is_from_peer())
-      return false;
-    const auto does = setup.stations.contains(station);
-    if (!does)
-      drop(station, "speaks for another station");
-    return does;
-  }
-
-  bool is_allowed(station_id station) {
-    const auto is = allowances.at(station).take(now(self));
-    if (!is)
-      drop(station, "says too much");
-    return is;
-  }
-
-  void drop(station_id station, std::string_view why) {
-    ++dropped;
-    const auto t = now(self);
-    if (t < next_complaint)
-      return;
-    next_complaint = t + complaint_period;
-    note("peer_ignored", station, fmt::format("{}; {} so far", why, dropped));
-  }
-
-  const requester_actor& voice_of(station_id station) {
-    auto& voice = voices[station];
-    if (!voice)
-      voice = spawn_far_requester(self->system(), station, session_impl{self});
-    return voice;
-  }
-
-  // -- what the peer says ---------------------------------------------------
-
-  // What is dropped is acknowledged, too: its stream would stop for a while.
-  // What is not goes first.
-  void take(station_id station, const its_pdu& message) {
-    if (!speaks_for(station))
-      return;
-    hand_on(station, message);
-    self->send(setup.peer, stream_of(station, message));
-  }
-  void take(const service_input& input) {
-    if (!speaks_for(input.running.station))
-      return;
-    hand_on(input);
-    self->send(setup.peer, stream_of(input.running, stream_id::what::input));
-  }
-
-  void hand_on(station_id station, const its_pdu& message) {
-    if (!is_allowed(station))
-      return;
-    if (message.station() != station) {
-      drop(station, "carries another station's message");
-      return;
-    }
-    if (const auto clock = life->clock(now(self)))
-      self->send(setup.provider,
-                 its_pdu{message.octets, life->time_of_day(*clock)},
-                 voice_of(station));
-  }
-
-  void take(const service_request& request) {
-    if (!speaks_for(request.station))
-      return;
-    if (request.route.size() > longest_route
-        || request.kinds.size() > most_kinds)
-      drop(request.station, "asks for too much");
-    else
-      self->send(setup.provider, request, voice_of(request.station));
-  }
-
-  void hand_on(const service_input& input) {
-    if (!is_allowed(input.running.station))
-      return;
-    const auto manager = managers.find(input.running);
-    const auto clock = life->clock(now(self));
-    if (manager == managers.end() || !clock)
-      return;
-    auto here = input;
-    here.at -= clock->ahead;
-    if (const auto message = input.what.as<its_pdu>())
-      here.what =
-          payload::of(its_pdu{message->octets, life->time_of_day(*clock)});
-    self->send(manager->second, std::move(here));
-  }
-
-  void end(const service_end& e) {
-    if (!speaks_for(e.running.station))
-      return;
-    forget(e.running);
-    self->send(setup.provider, e);
-  }
-
-  // -- what the provider says -----------------------------------------------
-
-  void take(const service_response& response,
-            const std::vector<provider_manager_actor>& given) {
-    auto manager = given.begin();
-    for (const auto& v : response.verdicts)
-      if (v.accepted && manager != given.end())
-        managers.insert_or_assign(v.running, *manager++);
-    self->send(setup.peer, response);
-  }
-
-  void take(const service_result& result) {
-    const auto stream = stream_of(result.running, stream_id::what::result);
-    if (const auto next = results->offer(stream, result, now(self)))
-      self->send(setup.peer, *next);
-  }
-
-  void acknowledge(const stream_id& stream) {
-    if (const auto next = results->acknowledge(stream, now(self)))
-      self->send(setup.peer, *next);
-  }
-
-  void tell_end(const service_end& e) {
-    forget(e.running);
-    self->send(setup.peer, e);
-  }
-
-  void forget(const running_service& running) {
-    managers.erase(running);
-    results->forget(stream_of(running, stream_id::what::result));
-  }
-
-  // -- the connection -------------------------------------------------------
-
-  void tick() {
-    const auto t = now(self);
-    if (ends_at && t >= *ends_at) {
-      leave("the provider has ended");
-      return;
-    }
-    if (life->is_lost(t)) {
-      leave("silent");
-      return;
-    }
-    self->send(setup.peer, life->beat(t));
-    send_after(self, self, protocol::life_sign_period, tick_atom_v);
-  }
-
-  void lost(const caf::down_msg& down) {
-    const auto provider = down.source == setup.provider.address();
-    if (provider && down.reason == caf::exit_reason::user_shutdown)
-      ends_at = now(self) + last_words; // they are still to be handed on
-    else if (provider || down.source == setup.peer.address())
-      leave("gone");
-  }
-
-  void leave(std::string_view why) {
-    note("peer_lost", 0, why);
-    self->quit(caf::exit_reason::remote_link_unreachable);
-  }
-
-  void note(std::string what, station_id station, std::string_view detail) {
-    self->send(setup.recorder, event_record{now(self),
-                                            std::move(what),
-                                            station,
-                                            0,
-                                            {},
-                                            0,
-                                            std::string{detail}});
-  }
-};
-
-session_impl::behavior_type
-session(session_impl::stateful_pointer<session_state> self,
-        session_setup setup) {
-  self->state.self = self;
-  self->state.setup = std::move(setup);
-  self->state.start();
-  self->set_down_handler(
-      [self](const caf::down_msg& down) { self->state.lost(down); });
-  // The gate has let its stations in anew.
-  self->set_exit_handler(
-      [self](const caf::exit_msg&) { self->state.leave("replaced"); });
+      self->send(core, std::string{"a stranger speaks"});
+  };
   return {
-      [self](station_id station, const its_pdu& message) {
-        self->state.take(station, message);
+      [=](station_id station, const its_pdu& message) {
+        pass_on(station, message);
       },
-      [self](const service_request& request) { self->state.take(request); },
-      [self](const service_input& input) { self->state.take(input); },
-      [self](const service_end& e) {
-        if (e.from == side::requester)
-          self->state.end(e);
-        else if (is_from_here(self))
-          self->state.tell_end(e);
+      [=](const service_request& request) { pass_on(request); },
+      [=](const service_input& input) { pass_on(input); },
+      [=](const service_end& end) {
+        if (end.from == side::requester)
+          pass_on(end);
       },
-      [self](const life_sign& sign) {
-        if (!self->state.is_from_peer())
-          return;
-        self->send(self->state.setup.peer, pulse::answer(sign, now(self)));
-      },
-      [self](const life_echo& echo) {
-        if (self->state.is_from_peer())
-          self->state.life->take(echo, now(self));
-      },
-      [self](const stream_id& stream) {
-        if (self->state.is_from_peer())
-          self->state.acknowledge(stream);
-      },
-      [self](station_id station, const service_offer& offer) {
-        if (is_from_here(self))
-          self->send(self->state.setup.peer, station, offer);
-      },
-      [self](const service_response& response,
-             const std::vector<provider_manager_actor>& managers) {
-        if (is_from_here(self))
-          self->state.take(response, managers);
-      },
-      [self](const service_result& result) {
-        if (is_from_here(self))
-          self->state.take(result);
-      },
-      [self](tick_atom) {
-        if (is_from_here(self))
-          self->state.tick();
-      },
+      [=](const life_sign& sign) { pass_on(sign); },
+      [=](const life_echo& echo) { pass_on(echo); },
+      [=](const stream_id& stream) { pass_on(stream); },
   };
 }
 

@@ -1,12 +1,12 @@
 // The vehicles' end of a connection to a provider on another host.
 #include "actors/remote/uplink.hpp"
 
-#include "actors/remote/origin.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/pulse.hpp"
-#include "actors/remote/type_block.hpp"
 #include "actors/time.hpp"
 #include "policies/back_off.hpp"
 #include "policies/latest_value.hpp"
+#include "policies/rate_limit.hpp"
 
 #include <caf/event_based_actor.hpp>
 #include <caf/send.hpp>
@@ -23,8 +23,8 @@ namespace sofof {
 
 namespace {
 
-// It is an uplink_mouth, too.
-using uplink_impl = uplink_actor::extend<
+// Its handle never leaves the process. It is an uplink_mouth, too.
+using uplink_impl = connection_user::extend<
     takes<station_id, its_pdu>, takes<service_request>, takes<service_input>,
     // This station's messages go there.
     takes<station_id, link_actor>,
@@ -42,22 +42,24 @@ constexpr std::size_t streams_of_station = 8;
 constexpr duration between_stations = std::chrono::milliseconds{5};
 constexpr duration all_stations = std::chrono::seconds{1}; ///< At most.
 
+constexpr double told_s = 1;
+constexpr double told_at_once = 20;
+
 /// A refusal later than this is news.
 constexpr duration beginning = std::chrono::seconds{5};
 
 struct uplink_state {
   static inline const char* name = "uplink";
-  static constexpr auto closed = "it has closed the connection meanwhile";
 
   uplink_impl::stateful_pointer<uplink_state> self;
-  uplink_setup setup;
-  std::uint64_t types = fingerprint_of_types();
+  std::shared_ptr<const uplink_setup> setup;
   std::map<station_id, link_actor> vehicles;
   struct last_cam {
     its_pdu message;
     time_point said;
   };
   std::map<station_id, last_cam> cams;
+  uplink_actor connection; // while we introduce ourselves, and afterwards
   // -- while connected
   session_actor session;
   std::optional<pulse> life;
@@ -71,13 +73,13 @@ struct uplink_state {
   std::uint64_t attempts = 0;
   time_point next_attempt;
   std::optional<time_point> trying_since;
-  gate_actor gate; // while we introduce ourselves there
   bool was_connected = false;
   time_point began;
   std::string last_news;
+  rate_limit allowance{told_s, told_at_once}; // a provider may come and go
 
   void start() {
-    words.emplace(streams_of_station * setup.stations.size(),
+    words.emplace(streams_of_station * setup->stations.size(),
                   protocol::silence_limit);
     began = now(self);
     plan_attempt();
@@ -90,7 +92,7 @@ struct uplink_state {
       if (life->is_lost(t))
         disconnected("it has answered nothing for a second");
       else
-        self->send(session, life->beat(t));
+        tell_session(life->beat(t));
     } else if (t >= next_attempt && !is_trying(t)) {
       attempt();
     }
@@ -100,7 +102,7 @@ struct uplink_state {
   // -- connecting -----------------------------------------------------------
 
   void plan_attempt() {
-    next_attempt = now(self) + pauses.next_wait(setup.noise.uniform(attempts));
+    next_attempt = now(self) + pauses.next_wait(setup->noise.uniform(attempts));
     ++attempts;
   }
 
@@ -113,157 +115,91 @@ struct uplink_state {
   void attempt() {
     trying_since = now(self);
     plan_attempt();
-    auto helper = [connect = setup.connect, uplink = uplink_impl{self}] {
+    auto helper = [connect = setup->connect, uplink = uplink_impl{self}] {
       const auto found = connect();
       if (const auto* gate = std::get_if<gate_actor>(&found))
         caf::send_as(uplink, uplink, tick_atom_v, *gate);
       else
         caf::send_as(uplink, uplink, tick_atom_v, std::get<std::string>(found));
     };
-    if (setup.aside)
-      setup.aside(std::move(helper));
+    if (setup->aside)
+      setup->aside(std::move(helper));
     else
       self->system().spawn<caf::detached>(
           [helper = std::move(helper)](caf::event_based_actor*) { helper(); });
   }
 
   void failed(const std::string& why) {
-    if (session || gate)
+    if (connection)
       return; // another attempt was faster
     trying_since.reset();
     tell(fmt::format("no connection to provider {} at {}: {}; trying again",
-                     setup.provider, setup.address, why));
+                     setup->provider, setup->address, why));
   }
 
   void introduce_to(const gate_actor& found) {
-    if (session || gate)
-      return; // another attempt was faster
-    gate = found;
-    // Who has forwarded a question does not tell when the connection is gone.
-    self->monitor(gate);
-    self->request(gate, protocol::introduction_timeout, setup.protocol, types)
-        .then(
-            [this, found](std::uint32_t protocol, std::uint64_t theirs,
-                          const std::string& nonce,
-                          const caf::strong_actor_ptr& in) {
-              if (gate != found)
-                return;
-              if (protocol != setup.protocol || theirs != types)
-                refused(fmt::format("it speaks {}, this program {}; install "
-                                    "the same version on both sides",
-                                    spoken(protocol, theirs),
-                                    spoken(setup.protocol, types)));
-              else if (!in)
-                not_now("it lets nobody in now");
-              else
-                introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
-            },
-            [this, found](const caf::error& error) {
-              if (gate == found)
-                not_now(sentence(error));
-            });
+    if (!connection) // else another attempt was faster
+      connection = spawn_connection(self->system(), found, setup,
+                                    connection_user{uplink_impl{self}});
   }
 
-  void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
-    peer_hello hello{setup.provider,
-                     setup.stations,
-                     setup.world,
-                     setup.clock.epoch_unix_ms(),
-                     {},
-                     {}};
-    setup.prove(hello, nonce);
-    self->request(entrance, protocol::introduction_timeout, std::move(hello),
-                  uplink_actor{uplink_impl{self}})
-        .then(
-            [this, to = gate, at = entrance.node()](const peer_welcome& welcome,
-                                                    const session_actor& with) {
-              if (gate != to)
-                return;
-              if (!with || with.node() != at)
-                not_now("it has no end of its own");
-              else if (!is_time_of_day(welcome.epoch_unix_ms))
-                refused("its clock shows no time of day");
-              else
-                connected(welcome, with);
-            },
-            [this, to = gate](const caf::error& error) {
-              if (gate != to)
-                return;
-              if (error == caf::sec::invalid_argument)
-                refused(sentence(error));
-              else
-                not_now(sentence(error));
-            });
-  }
-
-  void leave_gate() {
-    self->demonitor(gate);
-    gate = nullptr;
+  void not_let_in(const std::string& why, bool for_ever) {
+    connection = nullptr;
     trying_since.reset();
+    if (for_ever)
+      refused(why);
+    else
+      failed(why);
   }
 
-  void not_now(const std::string& why) {
-    leave_gate();
-    failed(why);
-  }
-
-  // Whoever drives goes on driving, even if nobody will ever plan for it; only
-  // who has just begun would rather know.
+  // A vehicle goes on driving, even if nobody will ever plan for it; only who
+  // has just begun would rather know.
   void refused(const std::string& why) {
-    leave_gate();
     const auto news = fmt::format("provider {} at {} refuses: {}",
-                                  setup.provider, setup.address, why);
+                                  setup->provider, setup->address, why);
     if (was_connected || now(self) - began > beginning)
       tell(news);
     else
-      setup.on_refusal(news);
-  }
-
-  static std::string sentence(const caf::error& error) {
-    if (error.context().match_elements<std::string>())
-      return error.context().get_as<std::string>(0);
-    if (error == caf::sec::request_timeout)
-      return "it does not answer";
-    return closed;
+      setup->on_refusal(news);
   }
 
   void connected(const peer_welcome& welcome, const session_actor& with) {
-    leave_gate();
+    trying_since.reset();
     was_connected = true;
-    setup.on_connected();
+    setup->on_connected();
     session = with;
     const auto t = now(self);
     life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
-                                              - setup.clock.epoch_unix_ms()});
+                                              - setup->clock.epoch_unix_ms()});
     self->monitor(session);
-    self->send(session, life->beat(t));
-    note("provider_connected", welcome.boot, setup.address);
-    tell(fmt::format("connected to provider {} at {}", setup.provider,
-                     setup.address));
+    tell_session(life->beat(t));
+    note("provider_connected", welcome.boot, setup->address);
+    tell(fmt::format("connected to provider {} at {}", setup->provider,
+                     setup->address));
   }
 
   void disconnected(std::string_view why) {
     self->demonitor(session);
     session = nullptr;
+    self->send_exit(connection, caf::exit_reason::user_shutdown);
+    connection = nullptr;
     is_heard = false;
     turns.clear();
     life.reset();
     words->clear();
-    setup.hang_up();
+    setup->hang_up();
     plan_attempt();
     for (const auto& x : running)
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
     running.clear();
     note("provider_lost", 0, why);
     tell(fmt::format("lost provider {} at {}: {}; vehicles plan for themselves",
-                     setup.provider, setup.address, why));
+                     setup->provider, setup->address, why));
   }
 
   void lost(const caf::actor_addr& who) {
     if (session && session.address() == who)
       disconnected("the connection is gone");
-    else if (gate && gate.address() == who)
-      not_now(closed);
   }
 
   // -- what vehicles say ----------------------------------------------------
@@ -284,9 +220,9 @@ struct uplink_state {
 
   void send(const stream_id& stream, const word& what) {
     if (const auto* message = std::get_if<its_pdu>(&what))
-      self->send(session, stream.station, *message);
+      tell_session(stream.station, *message);
     else
-      self->send(session, std::get<service_input>(what));
+      tell_session(std::get<service_input>(what));
   }
 
   void acknowledge(const stream_id& stream) {
@@ -297,13 +233,13 @@ struct uplink_state {
   // Whose turn has not come is not connected yet.
   void ask(const service_request& request) {
     if (session && !turns.contains(request.station))
-      self->send(session, request);
+      tell_session(request);
   }
 
   void end(const service_end& e) {
     forget(e.running);
     if (session)
-      self->send(session, e);
+      tell_session(e);
   }
 
   void forget(const running_service& x) {
@@ -313,10 +249,16 @@ struct uplink_state {
 
   // -- what the provider says -----------------------------------------------
 
-  bool is_from_session() {
-    return session
+  // What an earlier connection said may still be under way.
+  bool is_from_connection() {
+    return connection
            && self->current_sender()
-                  == caf::actor_cast<caf::strong_actor_ptr>(session);
+                  == caf::actor_cast<caf::strong_actor_ptr>(connection);
+  }
+
+  template <class... Ts>
+  void tell_session(const Ts&... xs) {
+    caf::send_as(connection, session, xs...);
   }
 
   template <class Message>
@@ -328,12 +270,12 @@ struct uplink_state {
   // By the answer the session knows our clock, and thus how old CAMs are.
   void answer(const life_sign& sign) {
     const auto t = now(self);
-    self->send(session, pulse::answer(sign, t));
+    tell_session(pulse::answer(sign, t));
     if (std::exchange(is_heard, true))
       return;
-    auto turn = std::max(t, began + setup.rest);
-    const auto n = static_cast<std::int64_t>(setup.stations.size());
-    for (const auto station : setup.stations) {
+    auto turn = std::max(t, began + setup->rest);
+    const auto n = static_cast<std::int64_t>(setup->stations.size());
+    for (const auto station : setup->stations) {
       turns.insert_or_assign(station, turn);
       send_at(self, self, turn, tick_atom_v, station);
       turn += std::min(between_stations, all_stations / n);
@@ -370,7 +312,7 @@ struct uplink_state {
     const auto vehicle = vehicles.find(response.station);
     if (vehicle == vehicles.end())
       return;
-    const auto most = streams_of_station * setup.stations.size();
+    const auto most = streams_of_station * setup->stations.size();
     for (const auto& v : response.verdicts)
       if (v.accepted && v.running.station == response.station
           && running.size() < most)
@@ -382,7 +324,7 @@ struct uplink_state {
 
   void take(const service_result& result) {
     hand_on(result);
-    self->send(session, stream_of(result.running, stream_id::what::result));
+    tell_session(stream_of(result.running, stream_id::what::result));
   }
 
   void hand_on(const service_result& result) {
@@ -410,14 +352,15 @@ struct uplink_state {
   // -- news -----------------------------------------------------------------
 
   void tell(const std::string& news) {
-    if (news != last_news)
-      setup.on_news(news);
+    if (news == last_news || !allowance.take(now(self)))
+      return;
     last_news = news;
+    setup->on_news(news);
   }
 
   void note(std::string what, boot_id boot, std::string_view detail) {
     self->send(
-        setup.recorder,
+        setup->recorder,
         event_record{
             now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
   }
@@ -426,74 +369,68 @@ struct uplink_state {
 uplink_impl::behavior_type
 uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
   self->state.self = self;
-  self->state.setup = std::move(setup);
+  self->state.setup = std::make_shared<const uplink_setup>(std::move(setup));
   self->state.start();
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down.source); });
   return {
       [self](station_id station, const service_offer& offer) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.take(station, offer);
       },
       [self](const service_response& response) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.take(response);
       },
       [self](const service_result& result) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.take(result);
       },
       [self](const service_end& e) {
-        if (e.from == side::provider && self->state.is_from_session())
+        if (e.from == side::provider && self->state.is_from_connection())
           self->state.tell_end(e);
-        else if (e.from == side::requester && is_from_here(self))
+        else if (e.from == side::requester)
           self->state.end(e);
       },
       [self](const life_sign& sign) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.answer(sign);
       },
       [self](const life_echo& echo) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.take(echo);
       },
       [self](const stream_id& stream) {
-        if (self->state.is_from_session())
+        if (self->state.is_from_connection())
           self->state.acknowledge(stream);
       },
       [self](station_id station, const its_pdu& message) {
-        if (is_from_here(self))
-          self->state.say(station, message);
+        self->state.say(station, message);
       },
-      [self](const service_request& request) {
-        if (is_from_here(self))
-          self->state.ask(request);
-      },
+      [self](const service_request& request) { self->state.ask(request); },
       [self](const service_input& input) {
-        if (is_from_here(self))
-          self->state.say(stream_of(input.running, stream_id::what::input),
-                          input);
+        self->state.say(stream_of(input.running, stream_id::what::input),
+                        input);
       },
       [self](station_id station, const link_actor& vehicle) {
-        if (is_from_here(self))
-          self->state.vehicles.insert_or_assign(station, vehicle);
+        self->state.vehicles.insert_or_assign(station, vehicle);
       },
-      [self](tick_atom) {
-        if (is_from_here(self))
-          self->state.tick();
-      },
+      [self](tick_atom) { self->state.tick(); },
       [self](tick_atom, station_id station) {
-        if (is_from_here(self))
-          self->state.begin_to_speak(station);
+        self->state.begin_to_speak(station);
+      },
+      [self](const peer_welcome& welcome, const session_actor& session) {
+        if (self->state.is_from_connection())
+          self->state.connected(welcome, session);
+      },
+      [self](const std::string& why, bool for_ever) {
+        if (self->state.is_from_connection())
+          self->state.not_let_in(why, for_ever);
       },
       [self](tick_atom, const gate_actor& gate) {
-        if (is_from_here(self))
-          self->state.introduce_to(gate);
+        self->state.introduce_to(gate);
       },
-      [self](tick_atom, const std::string& why) {
-        if (is_from_here(self))
-          self->state.failed(why);
-      },
+      [self](tick_atom, const std::string& why) { self->state.failed(why); },
   };
 }
 
@@ -505,9 +442,7 @@ uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup) {
 
 void introduce(const uplink_mouth& uplink, station_id station,
                const link_actor& far_provider) {
-  // In its name, for nobody from elsewhere is believed.
-  caf::send_as(far_provider, caf::actor_cast<uplink_impl>(uplink), station,
-               far_provider);
+  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, far_provider);
 }
 
 } // namespace sofof

@@ -82,7 +82,8 @@ struct gate_world : virtual_world {
         throw std::runtime_error{"no numbers left"};
       return "nonce " + std::to_string(++nonces);
     };
-    s.examine = [this](const peer_hello& from, const std::string& nonce) {
+    s.examine = [this](const peer_hello& from, const std::string& nonce,
+                       const caf::node_id&) {
       proofs.push_back(nonce);
       return peer_finding{from.certificate, doubt};
     };
@@ -336,6 +337,26 @@ TEST_CASE_FIXTURE(gate_world, "nobody has more than 16 sessions at a time") {
   CHECK(enter_as("car", {17}).welcome);
 }
 
+TEST_CASE_FIXTURE(gate_world, "an entrance is for the process that asked for "
+                              "it, and no other one uses it up") {
+  const auto at = knock();
+  tell_as(somebody_in(7, std::make_shared<greeting>()),
+          caf::actor_cast<entrance_actor>(at.in), hello, peer.handle);
+  CHECK(proofs.empty());
+  CHECK(enter(at, hello).welcome);
+}
+
+TEST_CASE_FIXTURE(gate_world, "a name that comes in again and again is let in "
+                              "once a second, and others are not kept out") {
+  for (int k = 0; k < 32; ++k)
+    kill(enter_as("one", {103}).session);
+  CHECK(enter_as("one", {103}).error == "one comes in too often");
+  CHECK(enter_as("other", {104}).welcome);
+  run_for(1s);
+  CHECK(enter_as("one", {103}).welcome);
+  CHECK(!enter_as("one", {103}).welcome);
+}
+
 TEST_CASE_FIXTURE(gate_world, "peers do not let one another in") {
   const auto far = somebody_in(7, std::make_shared<greeting>());
   tell_as(far, gate, hello, peer.handle, std::string{"car"});
@@ -376,6 +397,6 @@ TEST_CASE_FIXTURE(gate_world, "who comes and goes is told, in this order, and "
   kill(second.session);
   CHECK(comings.back() == coming{{102}, false});
   for (int k = 0; k < 200; ++k)
-    kill(enter_as("one", {103}).session);
+    kill(enter_as("car " + std::to_string(k), {103}).session);
   CHECK(comings.size() < 110);
 }

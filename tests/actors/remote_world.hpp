@@ -144,8 +144,8 @@ struct remote_world : virtual_world {
     g.name = "server";
     g.recorder = there.handle;
     g.draw_nonce = [] { return std::string{"number"}; };
-    g.examine = [](const peer_hello& hello,
-                   const std::string&) -> peer_finding {
+    g.examine = [](const peer_hello& hello, const std::string&,
+                   const caf::node_id&) -> peer_finding {
       if (hello.certificate == "honest")
         return {"honest", {}};
       return {{}, "nobody knows it"};

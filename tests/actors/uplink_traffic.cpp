@@ -32,11 +32,13 @@ TEST_CASE_FIXTURE(uplink_world, "nobody without a name speaks for a vehicle") {
   connect();
   accept(one);
   forget();
-  tell(uplink, station, cam_of(station));
-  tell(uplink, service_request{boot, station, 1, {"one"}, {}, 5});
-  tell(uplink, service_input{one, now(), payload::of(echo{1})});
-  tell(uplink, service_end{one});
+  const auto within_reach = caf::actor_cast<uplink_mouth>(host->peer);
+  tell(within_reach, station, cam_of(station));
+  tell(within_reach, service_request{boot, station, 1, {"one"}, {}, 5});
+  tell(within_reach, service_input{one, now(), payload::of(echo{1})});
+  tell(within_reach, service_end{one});
   CHECK(session->entries().empty());
+  CHECK(!is_gone(within_reach));
 }
 
 TEST_CASE_FIXTURE(uplink_world, "each vehicle gets what is meant for it, as if "

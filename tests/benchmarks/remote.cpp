@@ -126,7 +126,7 @@ void forwarded_round_trip(benchmark::State& state) {
   in.clock = there->clock();
   in.recorder = spawn_recorder(there->system(), sink);
   in.draw_nonce = [] { return std::string{}; };
-  in.examine = [](const auto&, const auto&) { return peer_finding{}; };
+  in.examine = [](const auto&...) { return peer_finding{}; };
   const auto recorder = in.recorder;
   const auto port =
       there->publish(spawn_gate(there->system(), std::move(in)), 0);

@@ -71,6 +71,7 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::entrance_actor",
       "sofof::gate_actor",
       "sofof::begin_atom",
+      "sofof::admission",
   };
   constexpr auto first = caf::id_block::sofof::begin;
   CHECK(first == 200);

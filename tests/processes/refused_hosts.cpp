@@ -24,7 +24,7 @@ TEST_CASE("a provider of another version refuses, and both are named") {
   provider_process provider{at, "provider", {}};
   check_refused(at.run_sofof(drive_words("drive", provider.port(),
                                          {"--test-protocol", "7"})),
-                {"provider mec", "refuses", "protocol 5 ", "protocol 7 ",
+                {"provider mec", "refuses", "protocol 6 ", "protocol 7 ",
                  "same version"});
   CHECK_FALSE(std::filesystem::exists(at / "drive")); // nothing has begun
   CHECK(provider.run().runs());

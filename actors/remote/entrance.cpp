@@ -1,0 +1,128 @@
+// Where one peer introduces itself.
+#include "actors/remote/entrance.hpp"
+
+#include "actors/time.hpp"
+#include "world/protocol.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace sofof {
+
+/// For how many stations a peer can speak.
+constexpr std::size_t most_claims = 10'000;
+
+struct entrance_state {
+  static inline const char* name = "entrance";
+
+  entrance_actor::stateful_pointer<entrance_state> self = nullptr;
+  admissions_actor admissions;
+  std::shared_ptr<const gate_setup> setup;
+  caf::node_id process;
+  std::string nonce;
+  bool is_used = false;
+
+  // The admissions live long, and do not forget by themselves who watched them.
+  ~entrance_state() {
+    if (self)
+      self->demonitor(admissions);
+  }
+
+  caf::result<peer_welcome, session_actor> take(const peer_hello& hello,
+                                                const uplink_actor& peer) {
+    // Actor ids can be guessed: another process must not use it up.
+    const auto& sender = self->current_sender();
+    if (!sender || sender->node() != process)
+      return caf::make_error(caf::sec::invalid_argument, "it was not invited");
+    const auto found = look_at(hello, peer);
+    if (found.refusal) {
+      if (!is_used)
+        self->quit(); // a peer that fails begins anew
+      self->send(admissions, *found.refusal);
+      return caf::make_error(caf::sec::invalid_argument, *found.refusal);
+    }
+    is_used = true;
+    auto promise = self->make_response_promise<peer_welcome, session_actor>();
+    self->request(admissions, caf::infinite,
+                  admission{{hello, peer, found.name}})
+        .then(
+            [this, promise](const peer_welcome& welcome,
+                            const session_actor& session) mutable {
+              promise.deliver(welcome, session);
+              self->quit();
+            },
+            [this, promise](caf::error& error) mutable {
+              promise.deliver(std::move(error));
+              self->quit();
+            });
+    return promise;
+  }
+
+  peer_finding look_at(const peer_hello& hello,
+                       const uplink_actor& peer) const {
+    if (const auto why = objection(hello, peer))
+      return {{}, why};
+    return setup->examine(hello, nonce, process);
+  }
+
+  std::optional<std::string> objection(const peer_hello& hello,
+                                       const uplink_actor& peer) const {
+    if (is_used)
+      return "introduces itself twice";
+    // It must not let a session of ours speak to our own actors.
+    if (!peer || peer.node() != process)
+      return "it has no end of its own";
+    if (hello.provider != setup->name)
+      return fmt::format("it is provider {}", setup->name);
+    if (hello.stations.empty() || hello.stations.size() > most_claims)
+      return fmt::format("speaks for {} stations; 1 to {} are possible",
+                         hello.stations.size(), most_claims);
+    if (!is_time_of_day(hello.epoch_unix_ms))
+      return "its clock shows no time of day";
+    if (hello.world != setup->world)
+      return fmt::format("provider {} has another map or other services; start "
+                         "both sides with the same scenario file",
+                         setup->name);
+    return std::nullopt;
+  }
+};
+
+namespace {
+
+entrance_actor::behavior_type
+entrance(entrance_actor::stateful_pointer<entrance_state> self,
+         const admissions_actor& admissions,
+         std::shared_ptr<const gate_setup> setup, caf::node_id process,
+         std::string nonce) {
+  auto& s = self->state;
+  s.self = self;
+  s.admissions = admissions;
+  s.setup = std::move(setup);
+  s.process = std::move(process);
+  s.nonce = std::move(nonce);
+  // It dies with the admissions, but they do not with it.
+  self->monitor(admissions);
+  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
+  self->set_default_handler(caf::drop); // what no interface has
+  return {
+      [self](const peer_hello& hello, const uplink_actor& peer) {
+        return self->state.take(hello, peer);
+      },
+  };
+}
+
+} // namespace
+
+entrance_actor spawn_entrance(caf::actor_system& sys,
+                              const admissions_actor& admissions,
+                              std::shared_ptr<const gate_setup> setup,
+                              caf::node_id process, std::string nonce) {
+  return sys.spawn(entrance, admissions, std::move(setup), std::move(process),
+                   std::move(nonce));
+}
+
+} // namespace sofof

@@ -1,0 +1,16 @@
+// The messages that processes may send each other.
+#pragma once
+
+#include "actors/remote/frame_check.hpp"
+
+namespace sofof {
+
+/// @returns what a process of vehicles may send to a provider's: what the
+/// interfaces of gate, entrance and session take.
+const message_forms& messages_to_provider();
+
+/// @returns what a provider's process may send to one of vehicles: what the
+/// interface of the uplink takes, and what gate and entrance answer.
+const message_forms& messages_to_vehicles();
+
+} // namespace sofof

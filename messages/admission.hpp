@@ -1,0 +1,39 @@
+// A peer that may get a session.
+#pragma once
+
+#include "messages/interfaces.hpp"
+
+#include <caf/allowed_unsafe_message_type.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace sofof {
+
+/// A hello that an entrance of this process has examined. Nothing else makes
+/// one that holds anything, and none crosses between processes.
+class admission {
+public:
+  struct content {
+    peer_hello hello;
+    uplink_actor peer;
+    std::string name; ///< Of the holder of its certificate.
+  };
+
+  admission() = default; ///< Holds nothing; CAF wants it.
+
+  /// @returns who may get a session; null for nobody.
+  const content* get() const { return content_.get(); }
+
+private:
+  friend struct entrance_state;
+  explicit admission(content what)
+      : content_{std::make_shared<const content>(std::move(what))} {}
+
+  std::shared_ptr<const content> content_;
+};
+
+} // namespace sofof
+
+CAF_ALLOW_UNSAFE_MESSAGE_TYPE(sofof::admission)

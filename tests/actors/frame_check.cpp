@@ -1,0 +1,340 @@
+// Tests of what is judged of a frame before anything of it is deserialised.
+#include "actors/remote/frame_check.hpp"
+
+#include "actors/remote/public_messages.hpp"
+#include "messages/type_ids.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <caf/binary_serializer.hpp>
+#include <caf/error.hpp>
+#include <caf/message.hpp>
+#include <caf/sec.hpp>
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sofof::test::frames {
+
+namespace {
+
+using octets = std::vector<std::byte>;
+
+constexpr std::uint64_t told = 0x1000'0000'0000'0000;
+constexpr std::uint64_t asked = told | 7;
+constexpr std::uint64_t answered = asked | 0x8000'0000'0000'0000;
+
+enum : std::uint8_t {
+  server_hello,
+  client_hello,
+  direct,
+  routed,
+  monitor,
+  down,
+  heartbeat
+};
+
+template <class... Ts>
+octets serialised(const Ts&... xs) {
+  virtual_world world; // actor handles need one
+  caf::byte_buffer buffer;
+  caf::binary_serializer sink{world.system(), buffer};
+  REQUIRE((sink.apply(xs) && ...));
+  octets out(buffer.size());
+  std::memcpy(out.data(), buffer.data(), out.size());
+  return out;
+}
+
+/// A message as BASP sends it: no stages, then its elements.
+template <class... Ts>
+octets message_of(const Ts&... xs) {
+  return serialised(std::vector<std::uint16_t>{}, caf::make_message(xs...));
+}
+
+octets operator+(octets a, const octets& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+octets node(std::uint8_t filled_with = 7) {
+  octets n(25, std::byte{filled_with});
+  n.front() = std::byte{1};
+  return n;
+}
+
+struct connection {
+  frame_check check;
+  time_point now{};
+
+  connection(bool is_accepted, const message_forms& forms,
+             frame_bounds bounds = {1e6, 1e12})
+      : check{is_accepted, forms, bounds} {}
+
+  std::string take(std::uint8_t operation, const octets& payload,
+                   std::uint64_t data = 0, std::uint8_t flags = 0) {
+    const frame_header header{
+        operation,
+        flags,
+        static_cast<std::uint32_t>(payload.size()),
+        data,
+        5,
+        operation == direct || operation == monitor ? 9u : 0u};
+    const auto why = check.objection(header);
+    return std::string{why.empty() ? check.objection(header, payload, now)
+                                   : why};
+  }
+};
+
+/// What a provider hears of a peer that has introduced its node.
+struct at_provider : connection {
+  explicit at_provider(frame_bounds bounds = {1e6, 1e12})
+      : connection{true, messages_to_provider(), bounds} {
+    REQUIRE(take(client_hello, node()).empty());
+  }
+};
+
+/// What vehicles hear of a provider that they have called.
+struct at_vehicles : connection {
+  at_vehicles() : connection{false, messages_to_vehicles()} {
+    REQUIRE(take(server_hello, node() + octets(100)).empty());
+  }
+};
+
+const std::string unknown = "its message is none that it may send";
+const running_service running{11, 101, "trajectory_planning", 3};
+
+} // namespace
+
+TEST_CASE("what vehicles say to a provider is admitted") {
+  at_provider at;
+  CHECK(at.take(heartbeat, {}) == "");
+  CHECK(at.take(monitor, node() + node(9)) == "");
+  CHECK(at.take(down, node() + node(9) + octets(6)) == "");
+  CHECK(at.take(direct, message_of(std::uint32_t{6}, std::uint64_t{1}), asked)
+        == "");
+  CHECK(at.take(direct, message_of(station_id{101}, its_pdu{octets(300), {}}),
+                told)
+        == "");
+  service_request request{11, 101, 1, {"a", "b"}, {}, 5};
+  request.route.resize(1000);
+  request.candidates.resize(64);
+  request.kinds.resize(64, service_name{"a_name_that_is_rather_long"});
+  CHECK(at.take(direct, message_of(request), told) == "");
+  CHECK(at.take(direct, message_of(service_input{running, {}, {}}), told)
+        == "");
+  CHECK(at.take(direct, message_of(service_end{running}), told) == "");
+  CHECK(at.take(direct, message_of(life_sign{}), told) == "");
+  CHECK(at.take(direct, message_of(life_echo{}), told) == "");
+  CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
+}
+
+TEST_CASE("what a provider says to vehicles is admitted") {
+  at_vehicles at;
+  CHECK(at.take(direct, message_of(station_id{101}, service_offer{}), told)
+        == "");
+  CHECK(at.take(direct, message_of(service_response{}), told) == "");
+  CHECK(at.take(direct, message_of(service_result{running, 1, {}, {}}), told)
+        == "");
+  CHECK(at.take(direct, message_of(service_end{running}), told) == "");
+  CHECK(at.take(direct, message_of(life_sign{}), told) == "");
+  CHECK(at.take(direct, message_of(life_echo{}), told) == "");
+  CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
+  CHECK(at.take(direct,
+                message_of(std::uint32_t{6}, std::uint64_t{1}, std::string{"n"},
+                           caf::strong_actor_ptr{}),
+                answered)
+        == "");
+  CHECK(at.take(direct, message_of(peer_welcome{}, session_actor{}), answered)
+        == "");
+  CHECK(at.take(direct,
+                message_of(caf::make_error(caf::sec::invalid_argument,
+                                           std::string(300, 'x'))),
+                answered)
+        == "");
+  CHECK(at.take(direct, message_of(caf::error{caf::sec::request_receiver_down}),
+                answered)
+        == "");
+  CHECK(at.take(direct, message_of(caf::error{}), answered) == "");
+}
+
+TEST_CASE("the largest hello that is possible is admitted") {
+  at_provider at;
+  peer_hello hello{"mec", std::vector<station_id>(10'000), 1,
+                   2,     std::string(64 * 1024, 'c'),     octets(1024)};
+  CHECK(at.take(direct, message_of(hello, uplink_actor{}), asked) == "");
+}
+
+TEST_CASE("each message goes its own way alone") {
+  at_provider provider;
+  at_vehicles vehicles;
+  const auto sign = message_of(life_sign{});
+  const auto result = message_of(service_result{running, 1, {}, {}});
+  const auto greeting = message_of(std::uint32_t{6}, std::uint64_t{1});
+  const auto welcome = message_of(peer_welcome{}, session_actor{});
+  for (const auto id : {asked, answered, std::uint64_t{0}, 3 * told, 2 * told,
+                        told | std::uint64_t{1} << 63}) {
+    CAPTURE(id);
+    CHECK(provider.take(direct, sign, id) == unknown);
+  }
+  CHECK(provider.take(direct, result, told) == unknown);
+  CHECK(provider.take(direct, greeting, told) == unknown);
+  CHECK(provider.take(direct, welcome, answered) == unknown);
+  CHECK(provider.take(direct, message_of(caf::error{}), answered) == unknown);
+  CHECK(vehicles.take(direct, greeting, asked) == unknown);
+  CHECK(vehicles.take(direct, welcome, told) == unknown);
+  CHECK(vehicles.take(direct, message_of(caf::error{}), told) == unknown);
+}
+
+TEST_CASE("words of the process itself are none of a peer's") {
+  at_provider provider;
+  at_vehicles vehicles;
+  const auto refused = [&](const octets& message) {
+    for (const auto id : {told, asked, answered}) {
+      CHECK(provider.take(direct, message, id) == unknown);
+      CHECK(vehicles.take(direct, message, id) == unknown);
+    }
+  };
+  refused(message_of(tick_atom_v));
+  refused(message_of(std::string{"a line for the journal"}));
+  refused(message_of(peer_hello{}, uplink_actor{}, std::string{"name"}));
+  refused(message_of(event_record{}));
+  refused(message_of(caf::make_message(caf::make_message())));
+  refused(message_of(caf::exit_msg{{}, caf::exit_reason::kill}));
+  refused(message_of(life_sign{}, life_sign{}));
+  refused(message_of());
+}
+
+TEST_CASE("an error is a code of a known kind and a sentence at most") {
+  at_vehicles at;
+  const auto take = [&](const caf::error& error) {
+    return at.take(direct, message_of(error), answered);
+  };
+  CHECK(take(caf::make_error(caf::sec::runtime_error, std::string{"a"},
+                             std::string{"b"}))
+        == unknown);
+  CHECK(take(caf::make_error(caf::sec::runtime_error,
+                             caf::make_message(std::string{"a"})))
+        == unknown);
+  CHECK(take(caf::make_error(caf::sec::runtime_error, 7)) == unknown);
+  CHECK(take(caf::make_error(caf::pec::trailing_character)) == unknown);
+  // Shorter or longer than it says.
+  auto error = message_of(
+      caf::make_error(caf::sec::runtime_error, std::string{"sentence"}));
+  CHECK(at.take(direct, error, answered) == "");
+  error.push_back(std::byte{0});
+  CHECK(at.take(direct, error, answered) == unknown);
+  error.resize(error.size() - 2);
+  CHECK(at.take(direct, error, answered) == unknown);
+}
+
+TEST_CASE("a message has no actor to be forwarded to") {
+  at_provider at;
+  auto message = message_of(life_sign{});
+  message.front() = std::byte{1};
+  CHECK(at.take(direct, message, told) == unknown);
+}
+
+TEST_CASE("a message of more octets than its kind needs is refused") {
+  at_provider at;
+  service_request request{11, 101, 1, {"a"}, {}, 5};
+  request.candidates.resize(2000);
+  CHECK(at.take(direct, message_of(request), told)
+        == "its message is too long");
+  const auto big = octets(1024 * 1024);
+  CHECK(at.take(direct, big, told) == "its frame is none that it may send");
+}
+
+TEST_CASE("the first frame is the handshake, and there is no second one") {
+  const auto first = "its first frame is not its handshake";
+  const auto twice = "it introduces its node twice";
+  const auto sign = message_of(life_sign{});
+  connection accepted{true, messages_to_provider()};
+  CHECK(accepted.take(direct, sign, told) == first);
+  CHECK(accepted.take(heartbeat, {}) == first);
+  CHECK(accepted.take(server_hello, node() + octets(9)) == first);
+  CHECK(accepted.take(client_hello, node()) == "");
+  CHECK(accepted.take(client_hello, node()) == twice);
+  CHECK(accepted.take(server_hello, node())
+        == "its frame is none that it may send");
+  connection opened{false, messages_to_vehicles()};
+  CHECK(opened.take(client_hello, node()) == first);
+  CHECK(opened.take(server_hello, node()) == "");
+  CHECK(opened.take(server_hello, node()) == twice);
+}
+
+TEST_CASE("a peer has a node id of its own kind") {
+  connection none{true, messages_to_provider()};
+  CHECK(none.take(client_hello, {std::byte{0xff}})
+        == "its frame is none that it may send");
+  auto by_name = node();
+  by_name.front() = std::byte{0};
+  CHECK(none.take(client_hello, by_name) == "it has no node id");
+  CHECK(none.check.node().empty());
+  at_provider at;
+  CHECK(at.check.node().size() == 25);
+  CHECK(at.take(monitor, node() + by_name) == "it speaks for no node");
+  CHECK(at.take(down, by_name + node()) == "it speaks for no node");
+}
+
+TEST_CASE("frames of no known operation, with flags or of odd sizes are "
+          "refused") {
+  const auto none = "its frame is none that it may send";
+  at_provider at;
+  CHECK(at.take(routed, octets(60)) == none);
+  CHECK(at.take(7, {}) == none);
+  CHECK(at.take(255, {}) == none);
+  CHECK(at.take(heartbeat, octets(1)) == none);
+  CHECK(at.take(monitor, octets(49)) == none);
+  CHECK(at.take(monitor, octets(51)) == none);
+  CHECK(at.take(down, octets(49)) == none);
+  CHECK(at.take(down, octets(9000)) == none);
+  CHECK(at.take(direct, {}, told) == none);
+  CHECK(at.take(direct, message_of(life_sign{}), told, 1) == none);
+}
+
+TEST_CASE("a peer that sends more than its share is refused, and one that was "
+          "held up for two seconds is not") {
+  at_provider by_frames{{100, 1e9}};
+  const auto sign = message_of(life_sign{});
+  int admitted = 0;
+  while (by_frames.take(direct, sign, told).empty())
+    ++admitted;
+  CHECK(admitted == 199); // and the handshake
+  CHECK(by_frames.take(heartbeat, {}) == "it sends too many messages");
+  by_frames.now += std::chrono::seconds{1};
+  for (int k = 0; k < 100; ++k)
+    CHECK(by_frames.take(direct, sign, told) == "");
+  CHECK(by_frames.take(direct, sign, told) == "it sends too many messages");
+
+  at_provider by_octets{{1e9, 10'000}};
+  const auto cam = message_of(station_id{1}, its_pdu{octets(4900), {}});
+  for (int k = 0; k < 4; ++k)
+    CHECK(by_octets.take(direct, cam, told) == "");
+  CHECK(by_octets.take(direct, cam, told) == "it sends too many octets");
+}
+
+TEST_CASE("bounds grow with the stations of a peer") {
+  const auto one = bounds_for(1), twenty = bounds_for(20);
+  // 10 CAMs, 10 CPMs, 2 services of 20 inputs and 20 acknowledgements, and
+  // 20 life signs, asked and answered.
+  CHECK(one.frames_s > 2 * (10 + 10 + 2 * 40 + 40));
+  CHECK(twenty.frames_s > 19 * (one.frames_s - bounds_for(0).frames_s));
+  CHECK(twenty.octets_s > one.octets_s);
+}
+
+TEST_CASE("whatever part of a frame comes, nothing past its end is read") {
+  for (const auto& whole :
+       {message_of(
+            caf::make_error(caf::sec::runtime_error, std::string{"sentence"})),
+        message_of(peer_welcome{}, session_actor{})})
+    for (std::size_t n = 1; n < whole.size(); ++n) {
+      at_vehicles at;
+      const octets part{whole.begin(),
+                        whole.begin() + static_cast<std::ptrdiff_t>(n)};
+      at.take(direct, part, answered); // under the address sanitizer
+    }
+}
+
+} // namespace sofof::test::frames
