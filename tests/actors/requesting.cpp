@@ -2,6 +2,8 @@
 #include "tests/actors/requester_world.hpp"
 #include "world/protocol.hpp"
 
+#include <algorithm>
+
 using namespace sofof;
 using namespace sofof::test;
 
@@ -466,6 +468,29 @@ TEST_CASE_FIXTURE(requester_world, "a request tells whom else the vehicle "
   CHECK(told[1].utilisation == 0.75);
   // It computes for 10 ms of 50: lambda_T 10 / 50 more.
   CHECK(told[0].gain == doctest::Approx(told[1].gain - 0.3 * 10 / 50));
+}
+
+TEST_CASE_FIXTURE(requester_world, "of more providers than a request may name "
+                                   "it names the nearest") {
+  lodm->wanted = {};
+  drive_to(0);
+  std::vector<probe<provider_actor>> all;
+  for (boot_id k = 1; k <= 2 * protocol::most_candidates; ++k) {
+    all.push_back(listen<provider_actor>());
+    // Those with odd ids are near.
+    tell_as(all.back().handle, requester,
+            service_offer{1000 + k, {k % 2 == 1 ? 100. : 900., 0}, {one}, 0.5});
+  }
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  tell_as(provider.handle, requester,
+          service_offer{here, {50, 0}, {one}, 0.25, 2, 10ms});
+  const auto told = last_request().candidates;
+  REQUIRE(told.size() == protocol::most_candidates);
+  CHECK(std::ranges::count(told, here, &candidate::provider) == 1);
+  CHECK(std::ranges::is_sorted(told, {}, &candidate::provider));
+  for (const auto& c : told)
+    CHECK((c.provider == here || c.provider % 2 == 1));
 }
 
 TEST_CASE_FIXTURE(requester_world, "who asks to leave a provider does not tell "
