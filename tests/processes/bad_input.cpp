@@ -70,7 +70,7 @@ TEST_CASE("what is no regular file, or a huge one, is refused at once") {
     check_refused(at, {scenario_file, "--set", "map=" + named}, "the file ",
                   {why});
     check_refused(at,
-                  {scenario_file, "--set", "network=trace", "--set",
+                  {scenario_file, "--set", "network.profile=trace", "--set",
                    "network.trace=" + named},
                   "the file ", {why});
   }
