@@ -71,13 +71,14 @@ private:
   std::mt19937 numbers_{20};
 };
 
-/// Sends `world.wanted` changes of these payloads, as if they had come by a
-/// connection.
+/// Sends changes of these payloads, as if they had come by a connection.
+/// @param look  Called now and then, to see what came of them.
 /// @returns how many were admitted and could be read.
-template <class World, class To>
+template <class World, class To, class Look>
 std::size_t send_changed(World& world, const std::vector<octets>& honest,
                          const message_forms& forms, bool is_accepted,
-                         const caf::strong_actor_ptr& from, const To& to) {
+                         const caf::strong_actor_ptr& from, const To& to,
+                         Look look) {
   changer change;
   frame_check check{is_accepted, forms, {1e12, 1e15}};
   octets node(is_accepted ? 25 : 60, std::byte{1});
@@ -110,10 +111,15 @@ std::size_t send_changed(World& world, const std::vector<octets>& honest,
     ++read;
     caf::actor_cast<caf::abstract_actor*>(to)->enqueue(
         from, caf::make_message_id(), std::move(message), nullptr);
-    if (n % 64 == 0)
+    if (n % 16 == 0) // below what a session hears
       world.live(50ms);
+    if (n % 1024 == 0) {
+      look();
+      world.forget();
+    }
   }
   world.live(1s);
+  look();
   return read;
 }
 
@@ -135,14 +141,15 @@ TEST_CASE_FIXTURE(session_world, "whatever admitted messages hold, a session "
       payload_of(stream_id{station})};
   const auto read = send_changed(
       *this, honest, messages_to_provider(), true,
-      caf::actor_cast<caf::strong_actor_ptr>(peer.handle), session);
+      caf::actor_cast<caf::strong_actor_ptr>(peer.handle), session, [this] {
+        REQUIRE(!is_gone(session));
+        for (const auto& asked : provider->all<service_request>())
+          CHECK((asked.station == station || asked.station == neighbour));
+        for (const auto& ended : provider->all<service_end>())
+          CHECK((ended.running.station == station
+                 || ended.running.station == neighbour));
+      });
   CHECK(read > wanted() / 10);
-  CHECK(!is_gone(session));
-  for (const auto& asked : provider->all<service_request>())
-    CHECK((asked.station == station || asked.station == neighbour));
-  for (const auto& ended : provider->all<service_end>())
-    CHECK((ended.running.station == station
-           || ended.running.station == neighbour));
 }
 
 TEST_CASE_FIXTURE(uplink_world, "whatever admitted messages hold, vehicles "
@@ -159,7 +166,8 @@ TEST_CASE_FIXTURE(uplink_world, "whatever admitted messages hold, vehicles "
       payload_of(stream_id{station})};
   const auto read = send_changed(
       *this, honest, messages_to_vehicles(), false,
-      caf::actor_cast<caf::strong_actor_ptr>(session.handle), host->peer);
+      caf::actor_cast<caf::strong_actor_ptr>(session.handle), host->peer,
+      [this] { REQUIRE(notes("provider_lost") == 0); });
   CHECK(read > wanted() / 10);
   CHECK(!is_gone(uplink));
   CHECK(!is_gone(far));
