@@ -111,9 +111,9 @@ private:
 
 } // namespace
 
-bool peer_nodes::add(const std::string& node, peer_identity who) {
+bool peer_nodes::add(const std::string& node, const peer_identity& who) {
   const std::lock_guard lock{mutex_};
-  return by_node_.try_emplace(node, std::move(who)).second;
+  return by_node_.try_emplace(node, who).second;
 }
 
 void peer_nodes::remove(const std::string& node) {

@@ -23,7 +23,7 @@ namespace sofof {
 class peer_nodes {
 public:
   /// @returns whether it was added; a node that is known stays what it is.
-  bool add(const std::string& node, peer_identity who);
+  bool add(const std::string& node, const peer_identity& who);
   void remove(const std::string& node);
 
   /// @returns whom TLS has established behind a node; nothing for a node
