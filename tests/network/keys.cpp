@@ -2,6 +2,7 @@
 #include "network/network_error.hpp"
 #include "tests/network/key_folder.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
 
@@ -424,4 +425,33 @@ TEST_CASE("a list of revoked certificates is numbers, or refused with its "
   const auto folder = keys.issue(mec);
   fs::create_directory(folder / "revoked");
   CHECK(contains(loading(folder), "revoked: it is a folder"));
+}
+
+TEST_CASE("damaged lists of CAs and of revoked certificates do no harm") {
+  const key_folder keys;
+  const key_folder others;
+  const auto authorities =
+      read_file(keys.path() / "ca.pem") + read_file(others.path() / "ca.pem");
+  const std::string numbers = "# lost\n0a:1B # car\nffee\n\n12345678\n";
+  dice draws{3};
+  const auto damaged = [&](std::string text) {
+    const auto changes = draws.between(1, 6);
+    for (int i = 0; i < changes; ++i)
+      text[static_cast<std::size_t>(
+          draws.between(0, static_cast<double>(text.size())))] =
+          static_cast<char>(draws.between(0, 256));
+    return text;
+  };
+  int good = 0;
+  constexpr int tries = 2000;
+  for (int n = 0; n < tries; ++n) {
+    CHECK(certificates_from_pem(damaged(authorities)).size() <= 2);
+    const auto text = damaged(numbers);
+    const auto said = sentence_of([&] {
+      good += revocation_list{text, "x"}.size() <= 4;
+    });
+    CHECK((said == "nothing was thrown" || said.starts_with("x:")));
+  }
+  CHECK(good > 0);
+  CHECK(good < tries);
 }
