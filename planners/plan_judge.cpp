@@ -1,0 +1,294 @@
+// Whether a plan that another computer has made may be followed.
+#include "planners/plan_judge.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace sofof {
+
+namespace {
+
+constexpr auto boundless = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+bool plan_judge::history::add(bool failed) {
+  bits = (bits << 1 | static_cast<unsigned>(failed)) & 0b111;
+  return failed && std::popcount(bits) >= 2;
+}
+
+plan_verdict plan_judge::judge_unreadable() {
+  if (unreadable_.add(true))
+    return {false, objection{"readable", 0, 1}};
+  return {false, {}};
+}
+
+plan_verdict plan_judge::judge(const judged_plan& x) {
+  const auto passed_s = judged_at_ ? std::min(to_seconds(x.now - *judged_at_),
+                                              limits.longest_pause_s)
+                                   : 0;
+  judged_at_ = x.now;
+  unreadable_.add(false);
+  if (to_seconds(x.now - x.own.at) > limits.own_age_s)
+    return {false, {}};
+
+  const auto t = std::max(x.own.at, x.plan.start);
+  const auto first = x.plan.at(t);
+  const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
+  const auto here =
+      x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
+  const auto away_m = distance_m(first.at, here);
+  const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
+  const auto misplaced =
+      away_m > limits.same_place_m || faster_mps > limits.same_speed_mps;
+  if (misplaced_.add(misplaced))
+    return {false, away_m > limits.same_place_m
+                       ? objection{"place", away_m, limits.same_place_m}
+                       : objection{"place", faster_mps, limits.same_speed_mps}};
+  const auto age_s = to_seconds(x.now - x.plan.start);
+  const auto is_old = age_s > limits.most_age_s;
+  if (old_.add(is_old))
+    return {false, objection{"age", age_s, limits.most_age_s}};
+  const auto repeats = is_repeated(x);
+  if (repeated_.add(repeats))
+    return {false, objection{"repetition", 1, 0}};
+  if (misplaced || is_old || repeats)
+    return {false, {}};
+
+  const auto found = follow(x);
+  if (found.fault)
+    return {false, found.fault};
+  if (beside_.add(found.leaves_lane))
+    return {false,
+            objection{"road", found.beyond_m, limits.most_beyond_soon_m}};
+  if (const auto fault = pass_line(x))
+    return {false, fault};
+  bodies_.look(x.way, x.s_m, x.seen.objects, car_);
+  const auto touched = touch(x);
+  if (near_.add(touched.has_value()))
+    return {false, touched};
+  if (const auto fault = brake(x, found.brakes_hard, passed_s))
+    return {false, fault};
+  if (const auto fault = stand(x, passed_s))
+    return {false, fault};
+  return {};
+}
+
+// -- the plan alone -------------------------------------------------------
+
+plan_judge::walk plan_judge::follow(const judged_plan& x) const {
+  walk found;
+  const auto& path = x.way.path();
+  const auto late_s = to_seconds(x.now - x.plan.start);
+  auto worst_m = -boundless, soon_m = -boundless;
+  auto at_first_m = boundless, after_a_second_m = boundless;
+  double first_mps = 0, first_s_m = 0;
+  for (const auto& p : x.plan.points) {
+    const auto ahead_s = p.t_s - late_s;
+    if (ahead_s < -limits.step_s)
+      continue;
+    if (ahead_s > limits.horizon_s)
+      break;
+    const auto lane = path.frame(p.s_m);
+    const auto d_m = cross(lane.tangent, p.at - lane.at);
+    const point axis{std::cos(p.heading_rad), std::sin(p.heading_rad)};
+    const auto front = p.at + car_.wheelbase_m * axis;
+    const auto under = path.frame(p.s_m + car_.wheelbase_m);
+    const auto front_d_m = cross(under.tangent, front - under.at);
+    const auto beyond_m = std::max(std::abs(d_m), std::abs(front_d_m))
+                          + car_.width_m / 2 - x.way.half_width_m(p.s_m);
+    if (at_first_m == boundless) {
+      at_first_m = beyond_m;
+      first_mps = p.speed_mps;
+      first_s_m = p.s_m;
+    }
+    worst_m = std::max(worst_m, beyond_m);
+    if (ahead_s <= limits.soon_s) {
+      soon_m = std::max(soon_m, beyond_m);
+      after_a_second_m = beyond_m;
+    }
+    if (ahead_s <= limits.hard_soon_s && p.accel_mps2 < limits.hard_mps2)
+      found.brakes_hard = true;
+
+    const auto limit_mps =
+        limits.limit_factor * x.way.limit_mps(p.s_m) + limits.above_limit_mps;
+    const auto must_slow_by_mps2 =
+        (first_mps * first_mps - limit_mps * limit_mps)
+        / (2 * std::max(p.s_m - first_s_m, 0.1));
+    const auto across_mps2 =
+        p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm);
+    if (found.fault)
+      continue;
+    if (p.speed_mps > limit_mps
+        && (must_slow_by_mps2 < limits.slowing_mps2
+            || p.speed_mps > first_mps + limits.speeding_up_mps))
+      found.fault = {"speed", p.speed_mps, limit_mps};
+    else if (p.accel_mps2 > limits.most_along_mps2)
+      found.fault = {"along", p.accel_mps2, limits.most_along_mps2};
+    else if (across_mps2 > limits.most_across_mps2)
+      found.fault = {"across", across_mps2, limits.most_across_mps2};
+  }
+  const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
+  found.beyond_m = soon_m;
+  found.leaves_lane = soon_m > limits.most_beyond_soon_m && !leads_back;
+  if (worst_m > limits.most_beyond_m && !found.fault
+      && !(leads_back && worst_m <= at_first_m + limits.way_back_m))
+    found.fault = {"road", worst_m, limits.most_beyond_m};
+  return found;
+}
+
+std::optional<objection> plan_judge::pass_line(const judged_plan& x) const {
+  if (!x.seen.stop_at_m)
+    return std::nullopt;
+  const auto line_m = *x.seen.stop_at_m + limits.beyond_line_m;
+  const auto v = x.own.speed_mps;
+  const auto room_m = line_m - (x.s_m + car_.front_m);
+  if (room_m <= v * v / (2 * limits.own_line_decel_mps2))
+    return std::nullopt; // it cannot stop there any more, whatever the plan
+  const auto then =
+      x.plan.at(to_seconds(x.now - x.plan.start) + limits.reaction_s);
+  const auto stops_at_m =
+      then.s_m + car_.front_m
+      + then.speed_mps * then.speed_mps / (2 * limits.line_decel_mps2);
+  if (stops_at_m <= line_m)
+    return std::nullopt;
+  return objection{"stop_line", stops_at_m - line_m, 0};
+}
+
+bool plan_judge::is_repeated(const judged_plan& x) {
+  if (x.fingerprint == 0)
+    return false;
+  const auto known = std::ranges::find(said_, x.fingerprint) != said_.end();
+  if (!known) {
+    if (said_.size() < limits.remembered) {
+      said_.reserve(limits.remembered);
+      said_.push_back(x.fingerprint);
+    } else {
+      said_[next_said_] = x.fingerprint;
+    }
+    next_said_ = (next_said_ + 1) % limits.remembered;
+  }
+  return known && x.own.speed_mps > limits.moves_mps
+         && x.plan.points.front().speed_mps > limits.moves_mps;
+}
+
+// -- others ---------------------------------------------------------------
+
+// Along the plan for so long, then braking on its line.
+std::optional<double> plan_judge::first_touch_s(const judged_plan& x,
+                                                const trajectory& plan,
+                                                double until_s,
+                                                double decel_mps2) {
+  motion_.clear();
+  const auto late_s = to_seconds(x.now - plan.start);
+  // What was seen was seen a little earlier.
+  const auto seen_s = to_seconds(x.now - x.seen.at);
+  const auto& path = x.way.path();
+  double s_m = 0, d_m = 0, v = 0;
+  for (double t = 0; t <= limits.horizon_s; t += limits.step_s) {
+    if (t <= until_s) {
+      const auto p = plan.at(late_s + t);
+      const auto lane = path.frame(p.s_m);
+      s_m = p.s_m;
+      d_m = cross(lane.tangent, p.at - lane.at);
+      v = p.speed_mps;
+    } else {
+      const auto slower = std::max(0.0, v - decel_mps2 * limits.step_s);
+      s_m += limits.step_s * (v + slower) / 2;
+      v = slower;
+    }
+    motion_.push_back({t + seen_s, s_m, d_m, v});
+  }
+  return bodies_.first_touch_s(motion_, car_);
+}
+
+std::optional<objection> plan_judge::touch(const judged_plan& x) {
+  if (bodies_.empty())
+    return std::nullopt;
+  const auto touched_s = first_touch_s(x, x.plan, limits.horizon_s, 0);
+  // Else there is time to see what it does next.
+  const auto soon =
+      touched_s
+      && first_touch_s(x, x.plan, limits.reaction_s, limits.avoiding_mps2);
+  if (!soon)
+    return std::nullopt;
+  const auto braking_avoids =
+      !first_touch_s(x, x.plan, 0, limits.avoiding_mps2);
+  const auto going_on_avoids =
+      x.in_use && x.in_use->is_sound() && x.in_use->end() > x.now
+      && !first_touch_s(x, *x.in_use, limits.horizon_s, 0);
+  if (!braking_avoids && !going_on_avoids)
+    return std::nullopt;
+  return objection{"others", *touched_s, limits.horizon_s};
+}
+
+// -- braking and standing -------------------------------------------------
+
+bool plan_judge::has_reason_to_brake(const judged_plan& x) const {
+  const auto v = x.own.speed_mps;
+  const auto front_m = x.s_m + car_.front_m;
+  const auto near_m = v * limits.brake_reason_s + limits.brake_reason_m;
+  if (x.seen.stop_at_m
+      && *x.seen.stop_at_m - front_m < v * v / 4 + limits.brake_reason_m)
+    return true;
+  if (!x.way.closed()
+      && x.way.length_m() - front_m < v * v / 4 + limits.brake_reason_m)
+    return true;
+  return bodies_.any_ahead(near_m)
+         || (!x.crossings_granted
+             && bodies_.any_near(near_m, limits.brake_beside_m));
+}
+
+std::optional<objection> plan_judge::brake(const judged_plan& x,
+                                           bool brakes_hard, double passed_s) {
+  if (has_reason_to_brake(x))
+    braking_s_ = 0;
+  else if (brakes_hard)
+    braking_s_ += passed_s;
+  else
+    braking_s_ = std::max(0.0, braking_s_ - passed_s);
+  if (braking_s_ < limits.longest_hard_s)
+    return std::nullopt;
+  return objection{"braking", braking_s_, limits.longest_hard_s};
+}
+
+// What the way alone allows over the next metres.
+double plan_judge::free_speed_mps(const judged_plan& x) const {
+  constexpr double ahead_m = 20, spacing_m = 5;
+  auto free = boundless;
+  for (double s = 0; s <= ahead_m; s += spacing_m) {
+    const auto at_m = x.s_m + s;
+    const auto bend =
+        std::max(std::abs(x.way.path().curvature_1pm(at_m)), 1e-6);
+    free = std::min({free, x.way.limit_mps(at_m),
+                     std::sqrt(limits.comfortable_across_mps2 / bend)});
+  }
+  return free;
+}
+
+std::optional<objection> plan_judge::stand(const judged_plan& x,
+                                           double passed_s) {
+  const auto late_s = to_seconds(x.now - x.plan.start);
+  const auto v = x.own.speed_mps;
+  const auto soon = x.plan.at(late_s + limits.soon_s).speed_mps;
+  const auto later = x.plan.at(late_s + 2 * limits.soon_s).speed_mps;
+  const auto free = free_speed_mps(x);
+  const auto front_m = x.s_m + car_.front_m;
+  const auto near_m =
+      v * v / (2 * limits.slows_by_mps2) + limits.waits_before_m;
+  const auto waits =
+      soon >= limits.slow_share * free || later > v + limits.speeding_up_mps
+      || (x.seen.stop_at_m && *x.seen.stop_at_m - front_m < near_m)
+      || (!x.way.closed() && x.way.length_m() - front_m < near_m)
+      || bodies_.any_ahead(near_m)
+      || (!x.crossings_granted
+          && bodies_.any_near(near_m, limits.waits_beside_m));
+  standing_s_ = waits ? 0 : standing_s_ + passed_s;
+  if (standing_s_ < limits.longest_standing_s)
+    return std::nullopt;
+  return objection{"standing", standing_s_, limits.longest_standing_s};
+}
+
+} // namespace sofof

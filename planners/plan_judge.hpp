@@ -1,0 +1,164 @@
+// Whether a plan that another computer has made may be followed.
+#pragma once
+
+#include "planners/ego_estimate.hpp"
+#include "planners/foreseen_bodies.hpp"
+#include "planners/planning_input.hpp"
+#include "world/objection.hpp"
+#include "world/perception.hpp"
+#include "world/route.hpp"
+#include "world/trajectory.hpp"
+#include "world/vehicle.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// A plan, and what the vehicle itself knows about its situation.
+struct judged_plan {
+  const route& way;
+  const trajectory& plan;   ///< Sound, `s_m` on that route.
+  const trajectory* in_use; ///< The plan followed until now; null: none.
+  const told_state& own;    ///< The vehicle's motion as it measured it.
+  double s_m;               ///< Its rear axle on the route.
+  const perception& seen;   ///< By the vehicle, and granted to it.
+  bool crossings_granted;   ///< Else drivers judge crossings.
+  time_point now;
+  /// Of what was received, times left out; 0: none.
+  std::uint64_t fingerprint = 0;
+};
+
+/// What a judge says of one plan.
+struct plan_verdict {
+  bool usable = true; ///< Else the vehicle stays with the plan in use.
+  /// Present: the source of the plan is not to be believed any more.
+  std::optional<objection> refused{};
+};
+
+/// The limits of `plan_judge`.
+struct plan_limits {
+  double same_place_m = 1.0; ///< From the vehicle to where a plan begins.
+  double same_speed_mps = 1.5;
+  double most_age_s = 0.2;
+  double own_age_s = 0.2; ///< Who does not know itself better cannot judge.
+
+  double horizon_s = 2.5; ///< Plans are looked at so far ahead,
+  double step_s = 0.1;    ///< in such steps.
+  double soon_s = 1.0;    ///< The nearer part of it.
+
+  double most_beyond_m = 0.25; ///< The body beyond the lane's edge.
+  double most_beyond_soon_m = 0.05;
+  double way_back_m = 0.03; ///< A plan that leads back by so much is good.
+
+  double limit_factor = 1.1;    ///< Of the speed limit,
+  double above_limit_mps = 0.5; ///< and so much more.
+  double slowing_mps2 = 2.5;    ///< More is not asked for before a lower limit.
+  double most_along_mps2 = 3.5;
+  double most_across_mps2 = 4.5;
+
+  /// Until the own planner brakes in place of a refused plan: two results, one
+  /// cycle on board, and the rise of the braking.
+  double reaction_s = 0.7;
+  double line_decel_mps2 = 4.5; ///< By which it could still stop then.
+  /// What can stop now by this does not pass a line unless it wants to.
+  double own_line_decel_mps2 = 4.0;
+  double beyond_line_m = 0.7;
+  double avoiding_mps2 = 5.0; ///< Braking instead of touching a body.
+
+  double hard_mps2 = -4.5;      ///< Braking that needs a reason,
+  double hard_soon_s = 0.15;    ///< if it is planned for so soon,
+  double longest_hard_s = 0.45; ///< and goes on for so long.
+  double brake_reason_s = 3.0;  ///< A body or line is a reason so near ahead,
+  double brake_reason_m = 15.0; ///< and so much nearer or farther.
+
+  double brake_beside_m = 40; ///< Where drivers judge crossings: beside, too.
+
+  double longest_standing_s = 3.0;      ///< Slow for nothing.
+  double slow_share = 0.5;              ///< Of what the way allows.
+  double speeding_up_mps = 0.3;         ///< Who does so is not slow.
+  double comfortable_across_mps2 = 1.8; ///< The way allows so much in bends.
+  double waits_before_m = 25; ///< A body or line is a reason so near ahead.
+  double waits_beside_m = 60; ///< Where drivers judge crossings: beside, too.
+  double slows_by_mps2 = 1.5; ///< On the way to where it waits.
+
+  double longest_pause_s = 0.2;  ///< Between two results in a row.
+  std::size_t remembered = 1200; ///< Results; a minute, at 20 a second.
+  double moves_mps = 1.0;        ///< Who is slower may be sent a plan again.
+};
+
+/// Judges the plans that one provider makes for one vehicle, one after the
+/// other, before they are used. A vehicle that refuses a plan goes on with the
+/// plan in use, and has its own planner's within 0.15 s; so nothing is refused
+/// that can still be mended then, and nothing that is no worse than what the
+/// vehicle could do instead.
+///
+/// * `place`: it begins elsewhere than the vehicle is, or at another speed.
+/// * `age`, `repetition`: it is old, or was sent before with other times.
+/// * `road`: the body leaves the lane by much, or a little within a second.
+/// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
+/// * `stop_line`: soon the vehicle could not stop before the line any more.
+/// * `others`: it touches a body, also if the vehicle leaves it soon and
+/// brakes,
+///   while braking now, or the plan in use, would not.
+/// * `braking`: hard, for a while, with nothing ahead. It is obeyed until then:
+///   the provider may see a body that the vehicle cannot.
+/// * `standing`: slow for long, with nothing ahead, and not speeding up.
+///
+/// `place`, `age`, `repetition`, `others` and the little of `road` are refused
+/// when two of three results in a row are so. Limits: `plan_limits`.
+///
+/// No heap after the first results.
+class plan_judge {
+public:
+  explicit plan_judge(const vehicle_params& car = {}) : car_{car} {}
+
+  plan_verdict judge(const judged_plan& x);
+
+  /// A result came that is no plan at all.
+  plan_verdict judge_unreadable();
+
+private:
+  static constexpr plan_limits limits{};
+
+  /// Of the latest results, whether they failed a check: the newest first.
+  struct history {
+    unsigned bits = 0;
+    bool add(bool failed); // @returns whether two of three have failed
+  };
+  /// What a walk along the plan finds.
+  struct walk {
+    std::optional<objection> fault; // the first one
+    bool leaves_lane = false;       // a little, and soon
+    double beyond_m = 0;
+    bool brakes_hard = false;
+  };
+
+  walk follow(const judged_plan& x) const;
+  std::optional<objection> pass_line(const judged_plan& x) const;
+  std::optional<objection> touch(const judged_plan& x);
+  std::optional<double> first_touch_s(const judged_plan& x,
+                                      const trajectory& plan, double until_s,
+                                      double decel_mps2);
+  bool has_reason_to_brake(const judged_plan& x) const;
+  std::optional<objection> brake(const judged_plan& x, bool brakes_hard,
+                                 double passed_s);
+  std::optional<objection> stand(const judged_plan& x, double passed_s);
+  bool is_repeated(const judged_plan& x);
+  double free_speed_mps(const judged_plan& x) const;
+
+  vehicle_params car_;
+  foreseen_bodies bodies_;
+  std::vector<place_in_time> motion_; // room that is used again
+  std::vector<std::uint64_t> said_;   // fingerprints, round and round
+  std::size_t next_said_ = 0;
+  std::optional<time_point> judged_at_; // the last plan
+  history misplaced_, old_, repeated_, beside_, near_, unreadable_;
+  double braking_s_ = 0;  // without a reason
+  double standing_s_ = 0; // likewise
+};
+
+} // namespace sofof

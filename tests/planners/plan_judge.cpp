@@ -1,0 +1,313 @@
+// Tests of the judge of plans: what it refuses, after how many results, and
+// what it must not refuse.
+#include "planners/plan_judge.hpp"
+
+#include "tests/support/toy_streets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A car on a straight street with a limit of 10 m/s, 200 m along it, and a
+/// provider that sends plans every 50 ms. The car follows each of them.
+struct judged_drive {
+  route_ptr way = street();
+  time_point now{10s};
+  double s_m = 200, d_m = 0, speed_mps = 10;
+  perception seen;
+  bool granted = true;
+  std::uint64_t fingerprint = 0;
+  trajectory in_use;
+  plan_judge judge;
+
+  static route_ptr street(bool closed = false) {
+    const road_map map{
+        "street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
+    return map.make_route("street", std::vector<std::string>{"street"}, closed);
+  }
+
+  /// From where the car is.
+  /// @param slope  How far it goes to the left for each metre.
+  trajectory plan(double accel_mps2, double slope = 0) const {
+    trajectory x;
+    x.start = now;
+    auto s = s_m, v = speed_mps;
+    for (int k = 0; k <= 60; ++k) {
+      const auto a = v > 0 || accel_mps2 > 0 ? accel_mps2 : 0;
+      x.points.push_back(
+          {0.1 * k, s, {s, d_m + slope * (s - s_m)}, slope, 0, v, a});
+      const auto next = std::max(0.0, v + 0.1 * a);
+      s += 0.05 * (v + next);
+      v = next;
+    }
+    return x;
+  }
+
+  plan_verdict ask(const trajectory& x) {
+    seen.at = now;
+    const auto verdict = judge.judge({*way,
+                                      x,
+                                      in_use.empty() ? nullptr : &in_use,
+                                      {now, {s_m, d_m}, 0, speed_mps, 0, 0},
+                                      s_m,
+                                      seen,
+                                      granted,
+                                      now,
+                                      fingerprint});
+    return verdict;
+  }
+
+  /// Drives along a plan for a while.
+  void follow(const trajectory& x, duration d = 50ms) {
+    in_use = x;
+    const auto p = x.at(now + d);
+    now += d;
+    s_m = p.s_m;
+    d_m = p.at.y_m;
+    speed_mps = p.speed_mps;
+  }
+
+  /// Sends such plans until one is refused, for at most so long.
+  /// @returns the check; empty for none.
+  template <class Make>
+  std::string refused_of(Make make, duration d) {
+    const auto end = now + d;
+    while (now < end) {
+      const auto x = make();
+      const auto verdict = ask(x);
+      if (verdict.refused)
+        return std::string{verdict.refused->check};
+      if (verdict.usable)
+        follow(x);
+      else
+        now += 50ms;
+    }
+    return {};
+  }
+  std::string refused_within(duration d, double accel_mps2, double slope = 0) {
+    return refused_of([&] { return plan(accel_mps2, slope); }, d);
+  }
+
+  void see_car(double s, double d, double heading_rad, double speed,
+               double accel = 0) {
+    seen.objects.push_back({{s, d}, heading_rad, speed, accel, 4.5, 1.8});
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(judged_drive, "a plan along the lane at the limit is used") {
+  CHECK(refused_within(60s, 0).empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan that comes to rest where the street "
+                                "ends is used, and goes on being used") {
+  s_m = 1900;
+  CHECK(refused_of(
+            [&] {
+              const auto room_m = way->length_m() - s_m - 4.1;
+              return plan(room_m < 30 && speed_mps > 0
+                              ? -speed_mps * speed_mps
+                                    / (2 * std::max(room_m, 0.3))
+                              : 0);
+            },
+            60s)
+            .empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive,
+                  "a plan that begins elsewhere is not used, and the second of "
+                  "three is refused") {
+  auto x = plan(0);
+  for (auto& p : x.points)
+    p.at.y_m += 3;
+  const auto first = ask(x);
+  CHECK(!first.usable);
+  CHECK(!first.refused);
+  const auto second = ask(x);
+  REQUIRE(second.refused);
+  CHECK(second.refused->check == "place");
+  CHECK(second.refused->value == doctest::Approx(3));
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan of another speed is refused") {
+  auto x = plan(0);
+  for (auto& p : x.points)
+    p.speed_mps = 6;
+  ask(x);
+  REQUIRE(ask(x).refused);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "an old plan is refused") {
+  const auto x = plan(0);
+  now += 250ms;
+  s_m += 2.5;
+  CHECK(!ask(x).refused);
+  REQUIRE(ask(x).refused);
+  CHECK(ask(x).refused->check == "age");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan that was sent before is refused while "
+                                "the car moves, and used while it stands") {
+  fingerprint = 7;
+  CHECK(ask(plan(0)).usable);
+  CHECK(!ask(plan(0)).usable);
+  REQUIRE(ask(plan(0)).refused);
+  CHECK(ask(plan(0)).refused->check == "repetition");
+  speed_mps = 0;
+  CHECK(ask(plan(0)).usable);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan off the lane is refused long before "
+                                "the car is there") {
+  CHECK(refused_within(5s, 0, -0.06) == "road");
+  CHECK(std::abs(d_m) + 1.89 / 2 < 1.75);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan that stays a little beyond the lane is "
+                                "refused at the second result") {
+  d_m = -0.9; // 9.5 cm beyond
+  CHECK(!ask(plan(0)).refused);
+  REQUIRE(ask(plan(0)).refused);
+  CHECK(ask(plan(0)).refused->check == "road");
+}
+
+TEST_CASE_FIXTURE(judged_drive,
+                  "a plan that leads back into the lane is used") {
+  d_m = -1.2;
+  CHECK(ask(plan(0, 0.05)).usable);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan faster than the limit is refused") {
+  CHECK(refused_within(5s, 1.5) == "speed");
+  CHECK(speed_mps < 1.1 * 10 + 0.8);
+}
+
+TEST_CASE_FIXTURE(
+    judged_drive,
+    "a plan that speeds up or turns as no car should is refused") {
+  speed_mps = 5;
+  CHECK(ask(plan(4)).refused->check == "along");
+  speed_mps = 10;
+  auto x = plan(0);
+  for (auto& p : x.points)
+    p.curvature_1pm = 0.05; // 5 m/s²
+  CHECK(ask(x).refused->check == "across");
+}
+
+TEST_CASE_FIXTURE(
+    judged_drive,
+    "a plan over the stop line is refused while the car can stop") {
+  seen.stop_at_m = 260;
+  CHECK(refused_within(10s, 0) == "stop_line");
+  const auto front_m = s_m + vehicle_params{}.front_m;
+  CHECK(*seen.stop_at_m - front_m > speed_mps * speed_mps / (2 * 4.5));
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan that stops at the line is used") {
+  seen.stop_at_m = 260;
+  CHECK(refused_of(
+            [&] {
+              const auto room_m = 260 - s_m - vehicle_params{}.front_m;
+              const auto needed =
+                  speed_mps * speed_mps / (2 * std::max(room_m, 0.1));
+              const auto brakes = needed > 1.9 || room_m < 1;
+              return plan(brakes ? -std::max(needed, 1.9) : 0);
+            },
+            20s)
+            .empty());
+  CHECK(speed_mps < 0.5);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a line that cannot be kept any more is no "
+                                "reason to refuse a plan") {
+  seen.stop_at_m = s_m + vehicle_params{}.front_m + 5;
+  CHECK(ask(plan(0)).usable);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan into a standing car is refused while "
+                                "firm braking can still avoid it") {
+  see_car(280, 0, 0, 0);
+  CHECK(refused_within(10s, 0) == "others");
+  const auto room_m = 280 - 2.25 - s_m - vehicle_params{}.front_m;
+  CHECK(room_m > speed_mps * speed_mps / (2 * 6) + 0.3 * speed_mps);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "who comes the other way, in its own lane, is "
+                                "no reason to refuse a plan") {
+  see_car(260, 3.5, std::numbers::pi, 14);
+  CHECK(refused_within(2s, 0).empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive, "who crosses and can stop before the lane is "
+                                "no reason to refuse a plan; who cannot is") {
+  see_car(222, -20, std::numbers::pi / 2, 8);
+  CHECK(refused_within(200ms, 0).empty());
+  seen.objects.clear();
+  see_car(222, -20, std::numbers::pi / 2, 12);
+  CHECK(refused_within(200ms, 0) == "others");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "where braking hits as well, a plan is used") {
+  see_car(s_m + vehicle_params{}.front_m + 2.25 + 4, 0, 0, 0);
+  CHECK(refused_within(200ms, -8).empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive, "braking for nothing is obeyed at first, and "
+                                "refused within half a second") {
+  const auto begin = now;
+  CHECK(refused_within(2s, -8) == "braking");
+  CHECK(now - begin >= 400ms);
+  CHECK(now - begin <= 500ms);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "braking for what the car sees 0.4 s later is "
+                                "no lie") {
+  const auto begin = now;
+  CHECK(refused_of(
+            [&] {
+              if (now - begin >= 400ms && seen.objects.empty())
+                see_car(s_m + 12, 0, 0, 0);
+              return plan(-7);
+            },
+            1s)
+            .empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive, "standing for nothing is refused after 3 s") {
+  const auto begin = now;
+  CHECK(refused_within(10s, -3) == "standing");
+  CHECK(now - begin < 7s);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "standing behind a car, or before a line, is "
+                                "used for as long as it takes") {
+  speed_mps = 0;
+  SUBCASE("a car") {
+    see_car(s_m + 9, 0, 0, 0);
+  }
+  SUBCASE("a line") {
+    seen.stop_at_m = s_m + 6;
+  }
+  SUBCASE("who comes to cross where nobody is granted anything") {
+    granted = false;
+    see_car(s_m + 12, 8, 1.5, 0);
+  }
+  CHECK(refused_within(60s, 0).empty());
+}
+
+TEST_CASE("what is no plan is refused at the second of three") {
+  plan_judge judge;
+  CHECK(!judge.judge_unreadable().refused);
+  REQUIRE(judge.judge_unreadable().refused);
+  CHECK(judge.judge_unreadable().refused->check == "readable");
+}
