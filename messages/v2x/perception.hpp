@@ -38,8 +38,9 @@ etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
 /// @param now  The message tells its time modulo 65.536 s: the nearest to now
 ///             is meant.
 /// @returns all objects of known size, moved on at constant speed to the time
-/// at which the last of them was seen; nullopt if the sender does not say where
-/// it is or which way it is heading.
+/// at which the last of them was seen, and how the sender's sensor looks, if it
+/// tells of one; nullopt if the sender does not say where it is or which way it
+/// is heading.
 std::optional<sighting> read_cpm(const etsi::tr103562::cpm& message,
                                  const datum& where, time_point now);
 

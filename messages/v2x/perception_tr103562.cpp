@@ -85,6 +85,20 @@ tr::sensor_information describe(const sensor_params& can,
   return told;
 }
 
+/// Only what looks ahead as far to the left as to the right is understood.
+void look_through(const tr::sensor_information& told, viewpoint& eye) {
+  const auto* mounted =
+      std::get_if<tr::vehicle_sensor>(&told.detection_area.value);
+  if (!mounted || mounted->properties.size() != 1)
+    return;
+  const auto& view = mounted->properties[0];
+  const int from = view.horizontal_start, to = view.horizontal_end;
+  if ((from + to) % whole_circle != 0)
+    return;
+  eye.range_m = 0.1 * view.range;
+  eye.field_of_view_deg = 0.2 * to;
+}
+
 std::optional<timed_object> understand(const tr::perceived_object& told,
                                        const sender_frame& from,
                                        time_point generated) {
@@ -113,7 +127,7 @@ std::optional<timed_object> understand(const tr::perceived_object& told,
       what.accel_mps2 = dot(axis, point{*ax, *ay});
   }
   return timed_object{generated - milliseconds{told.time_of_measurement.value},
-                      what};
+                      what, told.id};
 }
 
 } // namespace
@@ -173,7 +187,12 @@ std::optional<sighting> read_cpm(const tr::cpm& message, const datum& where,
     for (const auto& told : *body.objects)
       if (const auto x = understand(told, from, generated))
         objects.push_back(*x);
-  return brought_together(message.header.station, generated, objects);
+  auto seen = brought_together(message.header.station, generated, objects);
+  seen.perceived = body.number_of_objects;
+  auto& eye = seen.eye.emplace(*at, *heading);
+  if (body.sensors && body.sensors->size() == 1)
+    look_through(body.sensors->front(), eye);
+  return seen;
 }
 
 } // namespace sofof

@@ -95,6 +95,17 @@ ts::sensor_information describe(const sensor_params& can) {
   return told;
 }
 
+/// Only what looks ahead as far to the left as to the right is understood.
+void look_through(const ts::sensor_information& told, viewpoint& eye) {
+  const auto* view = told.shape
+                         ? std::get_if<etsi::radial_shape>(&told.shape->value)
+                         : nullptr;
+  if (!view || (view->horizontal_start + view->horizontal_end) % full_turn != 0)
+    return;
+  eye.range_m = 0.1 * view->range;
+  eye.field_of_view_deg = 0.2 * view->horizontal_end;
+}
+
 std::optional<timed_object> understand(const ts::perceived_object& told,
                                        const frame& from,
                                        time_point reference) {
@@ -126,7 +137,8 @@ std::optional<timed_object> understand(const ts::perceived_object& told,
                           : nullptr)
     if (const auto accel = vector_of(etsi::accel_mps2, x->x, x->y))
       what.accel_mps2 = dot(axis, *accel);
-  return timed_object{reference + milliseconds{told.measured_at.value}, what};
+  return timed_object{reference + milliseconds{told.measured_at.value}, what,
+                      told.id.value_or(0)};
 }
 
 } // namespace
@@ -178,13 +190,34 @@ std::optional<sighting> read_cpm(const ts::cpm& message, const datum& where) {
       static_cast<std::int64_t>(management.reference_time.value));
   const frame from{where.frame, *at};
   std::vector<timed_object> objects;
-  for (const auto& container : message.body.containers)
+  std::size_t perceived = 0;
+  viewpoint eye{.at = *at};
+  auto is_heading_known = false;
+  for (const auto& container : message.body.containers) {
     if (const auto* seen =
-            std::get_if<ts::perceived_object_container>(&container.value))
+            std::get_if<ts::perceived_object_container>(&container.value)) {
+      perceived += seen->number_of_objects.value;
       for (const auto& told : seen->objects)
         if (const auto x = understand(told, from, reference))
           objects.push_back(*x);
-  return brought_together(message.header.station, reference, objects);
+    } else if (const auto* sender =
+                   std::get_if<ts::originating_vehicle>(&container.value)) {
+      const auto heading =
+          where.frame.to_map_heading(sender->orientation.value, *at);
+      is_heading_known = heading.has_value();
+      eye.heading_rad = heading.value_or(0);
+    } else if (const auto* sensors =
+                   std::get_if<ts::sensor_information_container>(
+                       &container.value)) {
+      if (sensors->size() == 1)
+        look_through(sensors->front(), eye);
+    }
+  }
+  auto seen = brought_together(message.header.station, reference, objects);
+  seen.perceived = perceived;
+  if (is_heading_known)
+    seen.eye = eye;
+  return seen;
 }
 
 } // namespace sofof

@@ -7,14 +7,16 @@ namespace sofof {
 
 sighting brought_together(station_id from, time_point generated,
                           std::span<const timed_object> objects) {
-  sighting seen{from, generated, {}};
+  sighting seen{.from = from, .at = generated, .objects = {}};
+  seen.generated = generated;
   if (objects.empty())
     return seen;
   seen.at = std::ranges::max(objects, {}, &timed_object::at).at;
-  for (auto [at, what] : objects) {
+  for (auto [at, what, id] : objects) {
     const auto moved_m = what.speed_mps * to_seconds(seen.at - at);
     what.centre = what.centre + moved_m * unit_vector(what.heading_rad);
     seen.objects.push_back(what);
+    seen.ids.push_back(id);
   }
   return seen;
 }

@@ -5,9 +5,11 @@
 #include "world/ids.hpp"
 #include "world/perception.hpp"
 #include "world/time.hpp"
+#include "world/viewpoint.hpp"
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,12 +20,20 @@ struct sighting {
   station_id from = 0;
   time_point at;
   std::vector<perceived_object> objects;
+  /// Of each object: its number, the same as long as the station knows it.
+  std::vector<std::uint32_t> ids{};
+  std::size_t perceived = 0; ///< All objects, those that it does not tell too.
+  time_point generated{};    ///< When the station was where it says it is.
+  /// From the middle of its front; range 0: it does not tell of its sensors,
+  /// or of more than one. None: it does not say which way it heads.
+  std::optional<viewpoint> eye{};
 };
 
 /// A body as it was at a time of its own.
 struct timed_object {
   time_point at;
   perceived_object what;
+  std::uint32_t id = 0;
 };
 
 /// @returns all objects, moved on at constant speed to the time of the last

@@ -224,6 +224,46 @@ TEST_CASE("sensors are told of when asked, where they are and how far they "
   CHECK(mounted.properties[0].horizontal_end == 600);
 }
 
+TEST_CASE("who reads a CPM of either release knows who looked, how far, and at "
+          "how many") {
+  const cam own{101, start, {50, 20}, 0.7, 10};
+  const std::vector<known_object> seen{{7, stander_at({30, 0})},
+                                       {300, stander_at({60, 0})}};
+  sensor_params can;
+  can.range_m = 80;
+  can.field_of_view_deg = 120;
+  const perceived_scene scene{own, start, seen, 5, &can};
+  const auto check = [&](const std::optional<sighting>& got,
+                         std::uint32_t last_id) {
+    REQUIRE(got);
+    CHECK(got->perceived == 5);
+    CHECK(got->ids == std::vector<std::uint32_t>{7, last_id});
+    CHECK(got->generated == start);
+    REQUIRE(got->eye);
+    CHECK(distance_m(got->eye->at, front_of(own, car)) < 0.02);
+    CHECK(got->eye->heading_rad == near(0.7, 0.01));
+    CHECK(got->eye->range_m == near(80, 1e-6));
+    CHECK(got->eye->field_of_view_deg == near(120, 1e-6));
+  };
+  check(retold(scene), 300 % 256);
+  check(read_cpm(make_cpm_ts103324(scene, car, *in_ulm()), *in_ulm()), 300);
+}
+
+TEST_CASE("a CPM without its sensors, or with several, tells of no range") {
+  const cam own{101, start, {}, 0, 10};
+  const auto silent = retold({own, start, {}, 0});
+  REQUIRE(silent);
+  REQUIRE(silent->eye);
+  CHECK(silent->eye->range_m == 0);
+  const sensor_params can;
+  auto message = release_1::make({own, start, {}, 0, &can});
+  auto& sensors = *message.body.parameters.sensors;
+  sensors.push_back(sensors.front());
+  const auto several = release_1::read(message, start);
+  REQUIRE(several);
+  CHECK(several->eye->range_m == 0);
+}
+
 TEST_CASE("who does not say where it is or which way it heads has seen "
           "nothing") {
   const cam own{101, start, {}, 0, 10};
