@@ -8,6 +8,10 @@ namespace sofof {
 /// A connected vehicle, as in ETSI ITS (StationID).
 using station_id = std::uint32_t;
 
+/// Whose certificate a message came by: all stations of one certificate have
+/// one sender.
+using sender_id = std::uint64_t;
+
 /// @returns the number of the k-th obstacle, counting from 0. They count down
 /// from the highest there is.
 constexpr station_id obstacle_id(std::uint32_t k) {

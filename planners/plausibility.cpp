@@ -1,0 +1,307 @@
+// Which bodies that stations tell of are not there.
+#include "planners/plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Who has been silent for longer is forgotten, ...
+constexpr duration forgotten_after = 10s;
+/// ... and a station is believed again, of which nothing was doubted so long.
+constexpr duration cleared_after = 10s;
+constexpr duration tidy_period = 1s;
+
+/// Nobody has more round him; more are made up.
+constexpr std::size_t most_stations = 10'000;
+/// Objects of one station; as many as a CPM can number.
+constexpr std::size_t most_words = 256;
+
+/// Objects of CPMs are seen with noise: a jump is farther than that.
+constexpr auto seen_jump_m = 5.0;
+
+/// A body has to be told of at least so often to be denied.
+constexpr duration told_of = 1250ms;
+/// It is told of again when its message was made after that of who denies it.
+constexpr duration retold_after = 50ms;
+/// So long a body must have been told of before it is denied.
+constexpr duration open_for = 300ms;
+
+/// What is so deep in another body, so long, is not beside it.
+constexpr auto depth_m = 1.0;
+constexpr duration overlaps_for = 500ms;
+
+std::uint64_t key_of(const road_observer& who) {
+  return std::uint64_t{who.is_ours} << 32 | who.number;
+}
+
+oriented_box shrunk(oriented_box x) {
+  x.length_m = std::max(x.length_m - depth_m, 0.1);
+  x.width_m = std::max(x.width_m - depth_m, 0.1);
+  return x;
+}
+
+} // namespace
+
+plausibility::plausibility(std::span<const building> houses)
+    : houses_{houses} {}
+
+bool plausibility::hear(station_id who, sender_id from,
+                        const timed_body& self) {
+  if (stations_.size() >= most_stations && !stations_.contains(who))
+    return true;
+  auto& x = stations_[who];
+  x.sender = from;
+  x.heard = self.at;
+  const auto off_m = x.word.check(self);
+  x.jumps = off_m > 0;
+  if (x.jumps)
+    note(who, self.at, doubt_check::jump, off_m, 0);
+  return !x.jumps;
+}
+
+void plausibility::sift(station_id who, time_point at,
+                        std::vector<std::uint32_t>& ids,
+                        std::vector<perceived_object>& bodies) {
+  const auto known = witnesses_.find(key_of({who}));
+  if (known == witnesses_.end())
+    return; // its first look is about to make it known
+  auto& words = known->second.words;
+  if (words.size() > most_words)
+    words.clear();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto off_m =
+        i < ids.size() ? words[ids[i]].check({at, bodies[i]}) : 0;
+    if (off_m > seen_jump_m) {
+      note(who, at, doubt_check::jump, off_m, seen_jump_m);
+      continue;
+    }
+    bodies[kept] = bodies[i];
+    if (i < ids.size())
+      ids[kept] = ids[i];
+    ++kept;
+  }
+  bodies.resize(kept);
+  ids.resize(std::min(ids.size(), kept));
+}
+
+void plausibility::judge(const road_observer& who, const road_look& look,
+                         std::span<const track> tracks) {
+  if (witnesses_.size() >= most_stations && !witnesses_.contains(key_of(who)))
+    return;
+  auto& w = witnesses_[key_of(who)];
+  if (look.at < w.is.at())
+    return; // overtaken on its way
+  w.who = who;
+  w.heard = look.at;
+  w.is.look(look);
+  follow(w, tracks);
+  has_suspects_ = false;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    auto& r = bodies_[i];
+    judge(w, tracks[i], r);
+    if (r.is_named && !r.said.is_confirmed(look.at))
+      check_overlap(tracks[i], r, look.at, tracks);
+    r.is_out_for_all = is_doubted(tracks[i], r, look.at, std::nullopt);
+    has_suspects_ = has_suspects_ || r.said.is_denied() || r.overlaps;
+  }
+  tidy(look.at);
+}
+
+/// Keeps a record of each track, and of no other.
+void plausibility::follow(const witness_record& w,
+                          std::span<const track> tracks) {
+  std::swap(bodies_, before_);
+  bodies_.clear();
+  auto old = before_.begin();
+  for (const auto& x : tracks) {
+    while (old != before_.end() && old->id < x.id)
+      ++old;
+    if (old != before_.end() && old->id == x.id) {
+      bodies_.push_back(std::move(*old++));
+    } else {
+      bodies_.push_back({.id = x.id, .born = x.seen});
+      auto& r = bodies_.back();
+      if (!w.who.is_ours) {
+        r.station = w.who.number;
+        r.said.teller(w.who.sender);
+      }
+    }
+    auto& r = bodies_.back();
+    r.is_named = x.station.has_value();
+    if (!r.is_named)
+      continue;
+    r.station = *x.station;
+    const auto known = stations_.find(*x.station);
+    if (known != stations_.end())
+      r.said.teller(known->second.sender);
+  }
+}
+
+void plausibility::judge(const witness_record& w, const track& x,
+                         body_record& r) {
+  const auto at = w.is.at();
+  if (!w.who.is_ours
+      && (r.is_named ? *x.station == w.who.number : w.is.stands_in(x)))
+    return; // itself
+  const auto seen = w.is.look_at(x);
+  if (seen == witness::sight::same)
+    r.said.confirm(w.who, at);
+  if (seen != witness::sight::nothing)
+    return;
+  if (at - x.seen > told_of || at - r.born < open_for
+      || !w.is.overlooks(x, houses_))
+    return;
+  r.said.deny(w.who, at, w.is.is_sure(houses_));
+  const auto by = w.who.is_ours ? reputation::everybody : w.who.number;
+  if (is_doubted(x, r, at, by))
+    note(r, at, doubt_check::sight, to_seconds(at - r.born),
+         to_seconds(open_for),
+         r.said.is_denied_for_all() ? reputation::everybody : by);
+}
+
+void plausibility::check_overlap(const track& x, body_record& r, time_point now,
+                                 std::span<const track> tracks) {
+  const auto mine = shrunk(predict(x, now).body());
+  const auto is_in = [&](std::size_t i) {
+    const auto& other = tracks[i];
+    return other.id != x.id && distance_m(other.centre(), x.centre()) < 30
+           && i < bodies_.size() && bodies_[i].said.is_confirmed(now)
+           && overlap(mine, shrunk(predict(other, now).body()));
+  };
+  auto overlaps = false;
+  for (std::size_t i = 0; i < tracks.size() && !overlaps; ++i)
+    overlaps = is_in(i);
+  if (!overlaps) {
+    r.overlaps_since.reset();
+    r.overlaps = false;
+    return;
+  }
+  if (!r.overlaps_since)
+    r.overlaps_since = now;
+  r.overlaps =
+      now - *r.overlaps_since >= overlaps_for && x.seen > *r.overlaps_since;
+  if (r.overlaps)
+    note(r, now, doubt_check::overlap, to_seconds(now - *r.overlaps_since),
+         to_seconds(overlaps_for), reputation::everybody);
+}
+
+bool plausibility::is_doubted(const track& x, const body_record& r,
+                              time_point now,
+                              std::optional<station_id> planned) const {
+  if (r.said.is_confirmed(now))
+    return false;
+  if (r.overlaps)
+    return true;
+  if (r.said.was_ever_confirmed()
+      && x.seen < r.said.first_denied() + retold_after)
+    return false; // it may just have gone
+  return r.said.is_denied_for_all()
+         || (planned && r.said.is_denied_by(*planned));
+}
+
+bool plausibility::comes_from_liar(const track& x, const body_record& r,
+                                   time_point now,
+                                   std::optional<station_id> planned) const {
+  const auto sender = r.said.teller();
+  if (!sender || r.said.is_confirmed(now))
+    return false;
+  const auto by = planned.value_or(reputation::everybody);
+  if (!senders_.is_distrusted(*sender, by, now))
+    return false;
+  return std::ranges::any_of(witnesses_, [&](const auto& entry) {
+    const auto& w = entry.second;
+    return (w.who.is_ours || (planned && w.who.number == *planned))
+           && w.is.look_at(x) == witness::sight::nothing
+           && w.is.would_see(x, houses_, now);
+  });
+}
+
+void plausibility::believed(time_point now, std::optional<station_id> planned,
+                            std::span<const track> tracks,
+                            std::vector<track>& out) {
+  out.clear();
+  if (!has_suspects_ && !senders_.has_liars(now)) {
+    out.assign(tracks.begin(), tracks.end());
+    return;
+  }
+  auto r = bodies_.begin();
+  for (const auto& x : tracks) {
+    while (r != bodies_.end() && r->id < x.id)
+      ++r;
+    body_record fresh{.id = x.id};
+    auto* known = r != bodies_.end() && r->id == x.id ? &*r : &fresh;
+    if (x.station && known == &fresh)
+      if (const auto s = stations_.find(*x.station); s != stations_.end()) {
+        fresh.station = *x.station;
+        fresh.said.teller(s->second.sender);
+      }
+    const auto is_own = planned && x.station == planned;
+    if (is_own) {
+      out.push_back(x);
+    } else if (is_doubted(x, *known, now, planned)) {
+      continue;
+    } else if (comes_from_liar(x, *known, now, planned)) {
+      note(known->station, now, doubt_check::sender, 0, 0);
+    } else {
+      out.push_back(x);
+    }
+  }
+}
+
+bool plausibility::doubts(station_id who) const {
+  const auto x = stations_.find(who);
+  if (x != stations_.end() && x->second.jumps)
+    return true;
+  return std::ranges::any_of(bodies_, [&](const body_record& r) {
+    return r.is_named && r.station == who && r.is_out_for_all;
+  });
+}
+
+void plausibility::note(const body_record& r, time_point at, doubt_check check,
+                        double value, double limit, station_id by) {
+  if (const auto sender = r.said.teller())
+    senders_.blame(*sender, by, at);
+  note(r.station, at, check, value, limit);
+}
+
+void plausibility::note(station_id who, time_point at, doubt_check check,
+                        double value, double limit) {
+  if (stations_.size() >= most_stations && !stations_.contains(who))
+    return;
+  auto& x = stations_[who];
+  if (!x.doubted)
+    news_.push_back({at, who, true, check, value, limit});
+  x.doubted = at;
+}
+
+std::vector<station_doubt> plausibility::news(time_point now) {
+  tidy(now);
+  return std::exchange(news_, {});
+}
+
+void plausibility::tidy(time_point now) {
+  if (now - tidied_ < tidy_period)
+    return;
+  tidied_ = now;
+  for (auto& [who, x] : stations_)
+    if (x.doubted && now - *x.doubted > cleared_after) {
+      x.doubted.reset();
+      news_.push_back({now, who, false});
+    }
+  std::erase_if(stations_, [&](const auto& x) {
+    return now - x.second.heard > forgotten_after && !x.second.doubted;
+  });
+  std::erase_if(witnesses_, [&](const auto& x) {
+    return now - x.second.heard > forgotten_after;
+  });
+  senders_.tidy(now);
+}
+
+} // namespace sofof
