@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -88,8 +89,10 @@ struct road_state {
     users->update(t);
     visible.place(users->bodies());
     show_vehicles(t);
-    for (const auto& s : setup.beside)
-      self->send(s.provider, site_view{t, visible.seen_by(s.is, t)});
+    for (std::uint32_t k = 0; k < setup.beside.size(); ++k) {
+      const auto& [provider, is] = setup.beside[k];
+      self->send(provider, site_view{t, visible.seen_by(is, t), k, is.view()});
+    }
     record_collisions(t);
     record_near_misses(t);
   }

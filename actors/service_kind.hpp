@@ -4,6 +4,8 @@
 
 #include "messages/interfaces.hpp"
 #include "messages/v2x/datum.hpp"
+#include "messages/v2x/sighting.hpp"
+#include "planners/station_doubt.hpp"
 #include "world/cycle_cost.hpp"
 #include "world/random.hpp"
 #include "world/settings.hpp"
@@ -73,13 +75,17 @@ public:
 
   /// A CAM has come, from anybody near enough to be heard: in the area or not,
   /// perhaps with no service, perhaps overtaken by a later one on its way.
-  virtual void hear(const cam& c) = 0;
+  virtual void hear(const cam& c, sender_id from) = 0;
+
+  /// A CPM has come, likewise.
+  virtual void hear(const sighting& told, sender_id from) = 0;
 
   /// One of the provider's sensors at the roadside has looked at the road.
-  /// @param at       When.
-  /// @param objects  Each body at most once.
-  virtual void see(time_point at,
-                   std::span<const perceived_object> objects) = 0;
+  virtual void see(const site_view& view) = 0;
+
+  /// @returns which stations have come to be doubted or believed again since
+  /// the last call, the oldest first.
+  virtual std::vector<station_doubt> news() { return {}; }
 };
 
 /// Whose functions run at a provider, as ITS messages name it.

@@ -5,11 +5,13 @@
 #include "actors/service_manager.hpp"
 #include "actors/time.hpp"
 #include "messages/v2x/reception.hpp"
+#include "policies/rate_limit.hpp"
 #include "world/drawn_phase.hpp"
 #include "world/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -26,6 +28,10 @@ using provider_impl = roadside_provider_actor::extend<
     takes<tick_atom, station_id, std::uint64_t>,
     // An epoch of the policy is over.
     takes<tick_atom>>;
+
+/// Records of doubted stations.
+constexpr double doubts_per_s = 5;
+constexpr double doubts_at_once = 50;
 
 // One running service.
 struct service_session {
@@ -75,6 +81,7 @@ struct provider_state {
   duration epoch{};                  // of the policy; 0: none
   bool in_epoch = false;             // one has begun
   std::vector<open_request> waiting; // for its end
+  rate_limit doubts{doubts_per_s, doubts_at_once};
 
   // -- what is known beyond a vehicle's input -----------------------------
 
@@ -101,8 +108,24 @@ struct provider_state {
   template <class Function>
   void tell_sites(Function tell) {
     for (const auto& site : sites)
-      if (site)
+      if (site) {
         tell(*site);
+        for (const auto& x : site->news())
+          record(x);
+      }
+  }
+
+  // What is said of stations has a limit, however many are made up.
+  void record(const station_doubt& x) {
+    if (!doubts.take(now(self)))
+      return;
+    self->send(
+        setup.recorder,
+        event_record{x.at, x.begins ? "doubted" : "believed", x.station,
+                     setup.boot, service_name{}, 0,
+                     x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
+                                            name_of(x.check), x.value, x.limit)
+                              : ""});
   }
 
   // -- CAM, CPM, offer, CAM check -----------------------------------------
@@ -110,20 +133,30 @@ struct provider_state {
   void take(const its_pdu& message, const requester_actor& requester) {
     const auto heard = understand(message, *setup.where, now(self));
     if (const auto* c = std::get_if<cam>(&heard))
-      take(*c, requester);
+      take(*c, message.sender, requester);
     else if (const auto* seen = std::get_if<sighting>(&heard))
-      take(*seen, requester);
+      take(*seen, message.sender, requester);
   }
 
-  void take(const sighting& seen, const requester_actor& requester) {
-    tell_sites([&](service_site& site) { site.see(seen.at, seen.objects); });
+  // Who is alone in its process stands for itself.
+  static sender_id sender_of(sender_id told, station_id station) {
+    return told == 0 ? station : told;
+  }
+
+  void take(const sighting& seen, sender_id sender,
+            const requester_actor& requester) {
+    tell_sites([&](service_site& site) {
+      site.hear(seen, sender_of(sender, seen.from));
+    });
     const auto known = stations.find(seen.from);
     if (known != stations.end() && known->second.requester == requester)
       known->second.heard = now(self); // it lives
   }
 
-  void take(const cam& c, const requester_actor& requester) {
-    tell_sites([&](service_site& site) { site.hear(c); });
+  void take(const cam& c, sender_id sender, const requester_actor& requester) {
+    tell_sites([&](service_site& site) {
+      site.hear(c, sender_of(sender, c.station));
+    });
     const auto known = stations.find(c.station);
     if (known != stations.end() && c.at < known->second.latest.at)
       return; // overtaken on its way
@@ -520,8 +553,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
       },
       [self](const service_end& e) { self->state.take(e); },
       [self](const site_view& view) {
-        self->state.tell_sites(
-            [&](service_site& site) { site.see(view.at, view.objects); });
+        self->state.tell_sites([&](service_site& site) { site.see(view); });
       },
       [self](tick_atom, station_id station, std::uint64_t number) {
         self->state.check(station, number);

@@ -5,7 +5,9 @@
 #include "messages/service.hpp"
 #include "world/perception.hpp"
 #include "world/vehicle.hpp"
+#include "world/viewpoint.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace sofof {
@@ -27,6 +29,8 @@ struct ego_state {
 struct site_view {
   time_point at;
   std::vector<perceived_object> objects; ///< As `scene::seen_by` gives them.
+  std::uint32_t sensor = 0;              ///< Which of its sensors it is.
+  viewpoint from{};
 };
 
 /// Which source the results of a service come from, from now on.
@@ -76,8 +80,18 @@ bool inspect(Inspector& f, perception& x) {
 }
 
 template <class Inspector>
+bool inspect(Inspector& f, viewpoint& x) {
+  return f.object(x).fields(f.field("at", x.at),
+                            f.field("heading_rad", x.heading_rad),
+                            f.field("range_m", x.range_m),
+                            f.field("field_of_view_deg", x.field_of_view_deg));
+}
+
+template <class Inspector>
 bool inspect(Inspector& f, site_view& x) {
-  return f.object(x).fields(f.field("at", x.at), f.field("objects", x.objects));
+  return f.object(x).fields(f.field("at", x.at), f.field("objects", x.objects),
+                            f.field("sensor", x.sensor),
+                            f.field("from", x.from));
 }
 
 } // namespace sofof

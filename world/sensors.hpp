@@ -9,6 +9,7 @@
 #include "world/road_map.hpp"
 #include "world/settings.hpp"
 #include "world/time.hpp"
+#include "world/viewpoint.hpp"
 
 #include <array>
 #include <optional>
@@ -37,6 +38,10 @@ struct sensor {
   point at;                          ///< m, east-north.
   double heading_rad = 0;            ///< Of the middle of its field of view.
   std::optional<station_id> carrier; ///< The body that it is mounted on.
+
+  viewpoint view() const {
+    return {at, heading_rad, can.range_m, can.field_of_view_deg};
+  }
 };
 
 /// All that can be seen and all that can hide it, at one moment.

@@ -38,7 +38,7 @@ public:
     if (!from)
       return {};
     from->others.stop_at_m = stop_at_m_;
-    site_->tracks(tracks_);
+    site_->tracks(tracks_, setup_.station);
     const auto report = cycle_->run(now, made_possible(*from), tracks_);
     ego_->follow(cycle_->plan());
     return said(report, input.running.counter);

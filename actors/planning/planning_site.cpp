@@ -27,15 +27,17 @@ perceived_object body_of(const cam& c) {
           c.width_m};
 }
 
-planning_site::planning_site(std::function<time_point()> clock)
-    : clock_{std::move(clock)} {}
+planning_site::planning_site(std::function<time_point()> clock,
+                             std::span<const building> houses)
+    : clock_{std::move(clock)}, doubts_{houses} {}
 
-void planning_site::hear(const cam& c) {
+void planning_site::hear(const cam& c, sender_id from) {
   const auto now = clock_();
   if (protocol::is_of_future(c.at, now))
     return;
   const std::lock_guard lock{mutex_};
-  model_.hear(c.at, c.station, body_of(c));
+  if (doubts_.hear(c.station, from, {c.at, body_of(c)}))
+    model_.hear(c.at, c.station, body_of(c));
   forget_silent(now);
   if (told_.size() >= most_stations && !told_.contains(c.station))
     return;
@@ -44,11 +46,46 @@ void planning_site::hear(const cam& c) {
     newest = c;
 }
 
-void planning_site::see(time_point at, std::span<const perceived_object> seen) {
-  if (protocol::is_of_future(at, clock_()))
+void planning_site::hear(const sighting& told, sender_id from) {
+  const auto now = clock_();
+  if (protocol::is_of_future(told.at, now)
+      || protocol::is_of_future(told.generated, now))
     return;
   const std::lock_guard lock{mutex_};
-  model_.update(at, seen);
+  auto steady = told;
+  doubts_.sift(told.from, told.at, steady.ids, steady.objects);
+  model_.update(told.at, steady.objects);
+  if (steady.eye)
+    doubts_.judge({told.from, false, from}, look_of(steady), model_.tracks());
+}
+
+void planning_site::see(const site_view& view) {
+  if (protocol::is_of_future(view.at, clock_()))
+    return;
+  const std::lock_guard lock{mutex_};
+  model_.update(view.at, view.objects);
+  doubts_.judge(
+      {view.sensor, true, 0},
+      {view.at, view.from, 0, view.at, view.objects, {}, view.objects.size()},
+      model_.tracks());
+}
+
+std::vector<station_doubt> planning_site::news() {
+  const std::lock_guard lock{mutex_};
+  return doubts_.news(clock_());
+}
+
+/// A vehicle's sensor is in the middle of its body, as far as CPMs tell; how
+/// long it is and how fast, its CAMs do.
+road_look planning_site::look_of(const sighting& told) const {
+  road_look look{told.generated, *told.eye,     0, told.at, told.objects,
+                 told.ids,       told.perceived};
+  const auto own = told_.find(told.from);
+  const auto self = own == told_.end() ? cam{} : own->second;
+  look.speed_mps = self.speed_mps;
+  look.from.at =
+      look.from.at + -0.5 * self.length_m * unit_vector(look.from.heading_rad);
+  return look;
 }
 
 std::optional<cam> planning_site::told_by(station_id who) const {
@@ -59,9 +96,9 @@ std::optional<cam> planning_site::told_by(station_id who) const {
   return x->second;
 }
 
-void planning_site::tracks(std::vector<track>& out) const {
+void planning_site::tracks(std::vector<track>& out, station_id station) {
   const std::lock_guard lock{mutex_};
-  out.assign(model_.tracks().begin(), model_.tracks().end());
+  doubts_.believed(clock_(), station, model_.tracks(), out);
 }
 
 void planning_site::forget_silent(time_point now) {

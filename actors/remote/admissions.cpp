@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -42,6 +43,12 @@ struct admitted_peer {
 
 bool share_one(const std::set<station_id>& a, const std::set<station_id>& b) {
   return std::ranges::any_of(a, [&b](auto x) { return b.contains(x); });
+}
+
+/// @returns a number for the owner of a certificate: not 0, and no station's.
+sender_id sender_of(const std::string& name) {
+  constexpr auto no_station = sender_id{1} << 63;
+  return std::hash<std::string>{}(name) | no_station;
 }
 
 using admissions_impl =
@@ -87,9 +94,9 @@ struct admissions_state {
       return caf::make_error(caf::sec::runtime_error, why);
     }
     const auto session = spawn_session(
-        self->system(),
-        {setup->provider, who->peer, stations, setup->clock,
-         etsi::its_clock{who->hello.epoch_unix_ms}, setup->recorder});
+        self->system(), {setup->provider, who->peer, stations, setup->clock,
+                         etsi::its_clock{who->hello.epoch_unix_ms},
+                         setup->recorder, sender_of(who->name)});
     self->monitor(session);
     peers.push_back({session, who->name, stations});
     tell(stations, true);

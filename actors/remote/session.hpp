@@ -19,6 +19,7 @@ struct session_setup {
   etsi::its_clock clock;         ///< Ours.
   etsi::its_clock peer_clock;    ///< As the peer has told it.
   recorder_actor recorder;
+  sender_id sender = 0; ///< Of its certificate; 0: none.
 };
 
 /// Stands for all vehicles of one peer: gives each a requester of its own that

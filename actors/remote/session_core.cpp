@@ -149,9 +149,10 @@ struct session_state {
       return;
     }
     if (const auto clock = life->clock(now(self)))
-      self->send(setup.provider,
-                 its_pdu{message.octets, life->time_of_day(*clock)},
-                 voice_of(station));
+      self->send(
+          setup.provider,
+          its_pdu{message.octets, life->time_of_day(*clock), setup.sender},
+          voice_of(station));
   }
 
   void take(const service_request& request) {

@@ -107,7 +107,8 @@ public:
 
   std::shared_ptr<service_site>
   make_site(const service_setup& setup) const override {
-    return std::make_shared<planning_site>(setup.clock);
+    return std::make_shared<planning_site>(setup.clock,
+                                           setup.world->map.buildings());
   }
 
   client_actor spawn_client(caf::actor_system&, const service_setup&,

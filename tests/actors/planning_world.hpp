@@ -68,9 +68,9 @@ public:
   void hear(const its_pdu& message) {
     const auto heard = understand(message, *setup.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
-      setup.site->hear(*own);
+      setup.site->hear(*own, own->station);
     if (const auto* seen = std::get_if<sighting>(&heard))
-      setup.site->see(seen->at, seen->objects);
+      setup.site->hear(*seen, seen->from);
   }
 
   /// @returns the vehicle's word to who plans for it, or takes over.

@@ -2,6 +2,7 @@
 #include "tests/actors/provider_world.hpp"
 #include "tests/actors/requester_world.hpp"
 
+#include <utility>
 #include <vector>
 
 using namespace sofof;
@@ -13,10 +14,20 @@ namespace {
 struct notebook final : service_site {
   std::vector<cam> heard;
   std::vector<site_view> seen;
+  std::vector<sender_id> senders; // of CAMs and CPMs
+  std::vector<station_doubt> doubts;
 
-  void hear(const cam& c) override { heard.push_back(c); }
-  void see(time_point at, std::span<const perceived_object> objects) override {
-    seen.push_back({at, {objects.begin(), objects.end()}});
+  void hear(const cam& c, sender_id from) override {
+    heard.push_back(c);
+    senders.push_back(from);
+  }
+  void hear(const sighting& told, sender_id from) override {
+    seen.push_back({told.at, told.objects});
+    senders.push_back(from);
+  }
+  void see(const site_view& view) override { seen.push_back(view); }
+  std::vector<station_doubt> news() override {
+    return std::exchange(doubts, {});
   }
 };
 
@@ -72,10 +83,11 @@ struct site_world : provider_world {
     s.kinds = {first, std::make_shared<echo_service>("two"), third};
     return s;
   }
-  const notebook& site() const {
+  notebook& first_site() const {
     REQUIRE(first->sites->size() == 1);
     return *first->sites->front();
   }
+  const notebook& site() const { return first_site(); }
 };
 
 } // namespace
@@ -123,6 +135,43 @@ TEST_CASE_FIXTURE(site_world, "sites see what vehicles tell in CPMs, who they "
   REQUIRE(site().seen[0].objects.size() == 1);
   CHECK(distance_m(site().seen[0].objects[0].centre, {30, 20}) < 0.02);
   CHECK(site().heard.empty());
+}
+
+TEST_CASE_FIXTURE(site_world, "sites know whose certificate a message came by, "
+                              "or that a station stands for itself") {
+  hear(inside, neighbour, 102);
+  auto message = pdu_of(cam{103, now(), inside, 0, 10, 0});
+  message.sender = 77;
+  tell(provider, message, neighbour.handle);
+  see(102);
+  CHECK(site().senders == std::vector<sender_id>{102, 77, 102});
+}
+
+TEST_CASE_FIXTURE(site_world, "what a site doubts is recorded, five stations a "
+                              "second after the first fifty") {
+  const auto doubts = [&](station_id first, station_id count) {
+    for (station_id k = 0; k < count; ++k)
+      first_site().doubts.push_back(
+          {now(), first + k, true, doubt_check::sight, 0.35, 0.3});
+    hear(inside);
+  };
+  const auto recorded = [&] {
+    std::vector<event_record> all;
+    for (const auto& e : recorder->all<event_record>())
+      if (e.what == "doubted")
+        all.push_back(e);
+    return all;
+  };
+  doubts(201, 1);
+  REQUIRE(recorded().size() == 1);
+  CHECK(recorded()[0].station == 201);
+  CHECK(recorded()[0].provider == boot);
+  CHECK(recorded()[0].detail == "sight value=0.350 limit=0.300");
+  doubts(300, 100);
+  CHECK(recorded().size() == 50);
+  run_for(1s);
+  doubts(500, 100);
+  CHECK(recorded().size() == 55);
 }
 
 TEST_CASE_FIXTURE(site_world, "all functions of a kind at a provider share "

@@ -494,6 +494,14 @@ TEST_CASE_FIXTURE(session_world, "times of a peer whose clock is off are "
   }
 }
 
+TEST_CASE_FIXTURE(session_world, "with CAMs and CPMs goes whose certificate "
+                                 "they came by") {
+  live(1s);
+  say_cam();
+  REQUIRE(provider->count<its_pdu>() == 1);
+  CHECK(provider->all<its_pdu>().front().sender == certificate);
+}
+
 TEST_CASE_FIXTURE(session_world, "with ITS messages goes how far their "
                                  "sender's time of day is ahead") {
   ahead = 300ms; // its clock, which began 200 ms later

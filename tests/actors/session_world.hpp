@@ -15,6 +15,7 @@
 namespace sofof::test {
 
 struct session_world : virtual_world {
+  static constexpr sender_id certificate = 77;
   static constexpr boot_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102, foreign = 999;
   /// How much later the peer's clock stood at 0, by its time of day.
@@ -45,7 +46,7 @@ struct session_world : virtual_world {
         + std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()};
     return own(spawn_session(system(),
                              {provider.handle, with.handle, std::move(stations),
-                              ours, theirs, recorder.handle}));
+                              ours, theirs, recorder.handle, certificate}));
   }
 
   void forget() {

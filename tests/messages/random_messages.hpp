@@ -60,7 +60,9 @@ inline constexpr std::size_t arity<perceived_object> = 6;
 template <>
 inline constexpr std::size_t arity<perception> = 3;
 template <>
-inline constexpr std::size_t arity<site_view> = 2;
+inline constexpr std::size_t arity<site_view> = 4;
+template <>
+inline constexpr std::size_t arity<viewpoint> = 4;
 template <>
 inline constexpr std::size_t arity<event_record> = 7;
 template <>

@@ -31,13 +31,19 @@ public:
     std::size_t heard = 0, seen = 0;
     std::vector<point> where;
     std::shared_ptr<service_site> real;
-    void hear(const cam& c) override {
+    void hear(const cam& c, sender_id from) override {
       ++heard;
-      real->hear(c);
+      real->hear(c, from);
     }
-    void see(time_point at,
-             std::span<const perceived_object> objects) override {
-      real->see(at, objects);
+    void hear(const sighting& told, sender_id from) override {
+      real->hear(told, from);
+      note(told.objects);
+    }
+    void see(const site_view& view) override {
+      real->see(view);
+      note(view.objects);
+    }
+    void note(const std::vector<perceived_object>& objects) {
       ++seen;
       for (const auto& o : objects)
         where.push_back(o.centre);
