@@ -5,6 +5,7 @@
 #include "world/geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -76,8 +77,12 @@ public:
   }
 
 private:
+  // What is too far away for a key, or is no number, lies in one cell far off.
   std::int64_t index(double x_m) const {
+    constexpr std::int64_t farthest = 1 << 30;
     const auto cell = x_m / cell_m_;
+    if (!(std::abs(cell) < farthest))
+      return -farthest;
     const auto whole = static_cast<std::int64_t>(cell); // towards 0
     return whole - (cell < static_cast<double>(whole) ? 1 : 0);
   }
