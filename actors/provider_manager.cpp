@@ -12,13 +12,13 @@ namespace sofof {
 
 namespace {
 
-using manager_impl = provider_manager_actor::extend<
+using provider_manager_impl = provider_manager_actor::extend<
     // Has the first input come by now?
     takes<tick_atom>>;
 
 struct manager_state {
   static inline const char* name = "provider_manager";
-  manager_impl::stateful_pointer<manager_state> self = nullptr;
+  provider_manager_impl::stateful_pointer<manager_state> self = nullptr;
   caf::actor_addr provider;
   instance_actor instance;
   requester_actor requester;
@@ -50,8 +50,8 @@ struct manager_state {
   }
 };
 
-manager_impl::behavior_type
-manager(manager_impl::stateful_pointer<manager_state> self,
+provider_manager_impl::behavior_type
+manager(provider_manager_impl::stateful_pointer<manager_state> self,
         provider_manager_setup setup) {
   auto& state = self->state;
   state.self = self;
