@@ -77,6 +77,10 @@ bool point_result::safe() const {
          && safety.at("off_road_s") == 0.0 && safety.at("collisions") == 0;
 }
 
+void run_counts::add(const point_result& result) {
+  ++(result.failed() ? failed : result.safe() ? good : unsafe);
+}
+
 std::string point_table(const sweep_plan& plan,
                         const std::vector<point_result>& results) {
   const auto without = left_out(plan);

@@ -19,6 +19,18 @@ struct point_result {
   bool safe() const;
 };
 
+/// How many runs ended how.
+struct run_counts {
+  std::size_t good = 0;
+  std::size_t unsafe = 0; ///< Their own safety checks failed.
+  std::size_t failed = 0; ///< There is no result.
+  bool interrupted = false;
+
+  void add(const point_result& result);
+  std::size_t all() const { return good + unsafe + failed; }
+  bool all_good() const { return unsafe + failed == 0; }
+};
+
 /// @param results  One for each of `points_of(plan)`.
 /// @returns a CSV file: one line for each point, with the values of the axes,
 /// and every figure of its summary that does not depend on the wall's clock,

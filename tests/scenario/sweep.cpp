@@ -2,97 +2,12 @@
 #include "scenario/sweep/sweep.hpp"
 
 #include "scenario/input_error.hpp"
-#include "scenario/sweep/run_store.hpp"
-#include "scenario/toml_file.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/scenario/made_up_sweep.hpp"
 
 #include <doctest/doctest.h>
 
-#include <fstream>
-#include <mutex>
-#include <set>
-#include <sstream>
-
 using namespace sofof;
-namespace fs = std::filesystem;
-
-namespace {
-
-const std::string base = R"(name = "base"
-duration = "1s"
-[street_grid]
-columns = 2
-rows = 2
-[[fleet]]
-routes = ["block *"]
-[[service]]
-name = "trajectory_planning"
-)";
-
-const std::string four_seeds = R"(name = "four"
-scenario = "base.toml"
-seeds = 4
-)";
-
-/// Writes summaries instead of driving.
-class made_up_runs {
-public:
-  void make(const scenario& s, const fs::path& folder) {
-    const std::lock_guard lock{mutex_};
-    seeds.insert(s.seed);
-    if (s.seed == failing)
-      throw std::runtime_error{"it must not be."};
-    fs::create_directories(folder);
-    std::ofstream{folder / "summary.json"} << summary(s);
-  }
-
-  std::multiset<std::int64_t> seeds; ///< Of all runs that were asked for.
-  std::int64_t failing = 0;          ///< The run of this seed fails.
-  double collisions = 0;             ///< Of each run.
-
-private:
-  std::string summary(const scenario& s) const {
-    std::ostringstream text;
-    text << R"({"scenario":"base","interrupted":false,"seed":)" << s.seed
-         << R"(,"t_off_s":{"mean":)" << 1.5 * static_cast<double>(s.seed)
-         << R"(},"safety":{"without_fresh_plan_s":0,"collisions":)"
-         << collisions << R"(,"off_road_s":0},"wall_s":7})";
-    return text.str();
-  }
-
-  std::mutex mutex_;
-};
-
-/// A folder with a sweep of four seeds.
-struct sweep_of_four {
-  test::scratch at;
-  made_up_runs made;
-  std::ostringstream console;
-  std::atomic<bool> interrupted = false;
-
-  sweep_of_four() {
-    std::ofstream{at / "base.toml"} << base;
-    std::ofstream{at / "four.toml"} << four_seeds;
-  }
-
-  sweep_options options() {
-    sweep_options all;
-    all.out = at / "out";
-    all.program = "this";
-    all.make = [this](const scenario& s, const fs::path& folder,
-                      const std::atomic<bool>&) { made.make(s, folder); };
-    return all;
-  }
-
-  sweep_outcome run(const sweep_options& with) {
-    return sweep(load_sweep(at / "four.toml"), with, interrupted, console);
-  }
-  sweep_outcome run() { return run(options()); }
-
-  std::string table() const { return read_text(at / "out/four.csv").value(); }
-};
-
-} // namespace
+using namespace sofof::test;
 
 TEST_CASE("every point is run once and becomes a line") {
   sweep_of_four four;
@@ -133,7 +48,7 @@ TEST_CASE("an interrupted or torn run is run again") {
   const auto before = four.table();
   auto torn = 0;
   for (const auto& run : fs::directory_iterator{four.at / "out/runs"})
-    if (run.is_directory() && torn++ < 2) {
+    if (fs::exists(run.path() / "summary.json") && torn++ < 2) {
       const auto whole = read_text(run.path() / "summary.json").value();
       auto other = whole.substr(0, whole.size() / 2);
       if (torn == 2)
@@ -212,7 +127,8 @@ TEST_CASE("an interrupted sweep writes no table") {
 
 TEST_CASE("two sweeps do not share a folder at the same time") {
   sweep_of_four four;
-  const run_store store{four.at / "out"};
+  fs::create_directories(four.at / "out/runs");
+  const file_lock held{four.at / "out/runs/.lock"};
   CHECK_THROWS_WITH_AS(four.run(),
                        doctest::Contains("another sweep is at work there"),
                        input_error);
