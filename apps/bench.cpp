@@ -42,6 +42,14 @@ struct bench_arguments {
     return all;
   }
 
+  /// Decisions are timed by one shard: times of several machines say nothing.
+  static int make_part(bench::bench_options what, const shard& which) {
+    const auto measures = which.number == measuring_shard;
+    what.runs.make = virtual_runs(SOFOF_VERSION, measures);
+    return tell_shard(bench::bench_shard(what, which, interrupted, std::cout),
+                      which, (what.runs.out / "report.html").string());
+  }
+
   int obey() const {
     bench::bench_options what;
     what.scenarios.assign(files.begin(), files.end());
@@ -50,6 +58,14 @@ struct bench_arguments {
     what.seeds = seeds;
     what.runs = runs.given("bench");
     what.colour = isatty(STDOUT_FILENO) != 0;
+    const auto part = runs.part();
+    if (runs.count) {
+      std::cout << count_runs(plans_of(what), what.runs.program, interrupted)
+                << '\n';
+      return static_cast<int>(run_outcome::good);
+    }
+    if (part)
+      return make_part(what, *part);
     const auto outcome = bench::bench(what, interrupted, std::cout);
     if (outcome.interrupted) {
       std::cout << "interrupted; the same command goes on from here\n";

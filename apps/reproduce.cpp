@@ -18,15 +18,24 @@ struct reproduce_arguments {
   sweep_arguments runs;
 
   int obey() const {
-    const auto how = runs.given("paper");
-    const study::reproduction_options all{folder,        how.out,  how.program,
-                                          SOFOF_VERSION, how.show, how.make,
-                                          how.jobs};
+    const study::reproduction_options all{folder, SOFOF_VERSION,
+                                          runs.given("paper")};
+    const auto page = (all.runs.out / "report.html").string();
+    const auto part = runs.part();
+    if (runs.count) {
+      std::cout << count_runs(plans_of(all), all.runs.program, interrupted)
+                << '\n';
+      return static_cast<int>(run_outcome::good);
+    }
+    if (part)
+      return tell_shard(
+          study::reproduce_shard(all, *part, interrupted, std::cout), *part,
+          page);
     if (!study::reproduce(all, interrupted, std::cout)) {
       std::cout << "interrupted; the same command goes on from here\n";
       return static_cast<int>(run_outcome::interrupted);
     }
-    std::cout << "report in " << (how.out / "report.html").string() << '\n';
+    std::cout << "report in " << page << '\n';
     return static_cast<int>(run_outcome::good);
   }
 };

@@ -1,6 +1,4 @@
 // sofof sweep: many runs of one scenario.
-#include "scenario/sweep/sweep.hpp"
-
 #include "apps/command.hpp"
 #include "apps/signals.hpp"
 #include "apps/sweep_arguments.hpp"
@@ -34,6 +32,20 @@ int tell_outcome(const sweep_outcome& outcome) {
                                              : run_outcome::failed);
 }
 
+int obey(const sweep_command& args) {
+  const auto plan = load_sweep(args.file, args.set);
+  const auto part = args.runs.part();
+  const auto how = args.runs.given(plan.name);
+  if (args.runs.count) {
+    std::cout << count_runs({&plan, 1}, how.program, interrupted) << '\n';
+    return static_cast<int>(run_outcome::good);
+  }
+  if (!part)
+    return tell_outcome(sweep(plan, how, interrupted, std::cout));
+  return tell_shard(make_shard({&plan, 1}, how, *part, interrupted, std::cout),
+                    *part, (how.out / (plan.name + ".csv")).string());
+}
+
 } // namespace
 
 void add_sweep(CLI::App& app, int& exit_code) {
@@ -53,10 +65,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
   command->footer("Example:\n  sofof sweep config/paper/latency_plot.toml -j 2 "
                   "--out results/paper");
   command->callback([args, &exit_code] {
-    const auto plan = load_sweep(args->file, args->set);
     catch_signals();
-    const auto how = args->runs.given(plan.name);
-    exit_code = tell_outcome(sweep(plan, how, interrupted, std::cout));
+    exit_code = obey(*args);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include "actors/cpu_accounts.hpp"
 #include "scenario/build.hpp"
+#include "scenario/cpu_table.hpp"
 #include "scenario/decision_timer.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/pcap_file.hpp"
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <ostream>
 #include <system_error>
 #include <utility>
@@ -244,7 +246,9 @@ run_outcome run_part(const scenario& s, const run_options& options,
   progress shown{console, options.show};
   const stopwatch watch;
   auto timed = s;
-  const auto deciding = add_timers(timed.policies);
+  std::optional<deciding_times> deciding;
+  if (options.time_decisions)
+    deciding = add_timers(timed.policies);
   const auto actors = build(
       time.system(), timed, keeper, time.clock(), !options.realtime,
       [keeper = keeper](const auto& why) { keeper->fail(why); }, here);
@@ -276,13 +280,12 @@ run_outcome run_part(const scenario& s, const run_options& options,
     throw;
   }
   dismiss(actors, time);
-  if (computed && options.on_cpu)
-    options.on_cpu(*computed);
   const auto last = keeper->with([&](results& r) {
     if (computed)
       r.take(*computed);
-    for (const auto& [name, value] : deciding.figures())
-      r.take_timing(name, value);
+    if (deciding)
+      for (const auto& [name, value] : deciding->figures())
+        r.take_timing(name, value);
     return r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
   });
   losses.look_at(*keeper, shown, console);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "scenario/build.hpp"
-#include "scenario/cpu_table.hpp"
 #include "scenario/input_error.hpp"
 #include "scenario/progress.hpp"
 #include "scenario/runtime.hpp"
@@ -30,8 +29,7 @@ struct run_options {
   bool realtime = false; ///< On the wall clock instead of in virtual time.
   /// Keep accounts of computing time, for cpu.csv; on the wall clock only.
   bool cpu = false;
-  /// Gets them at the end, if they are kept.
-  std::function<void(const cpu_table&)> on_cpu;
+  bool time_decisions = true; ///< For timing.csv, by the wall's clock.
   progress::output show = progress::output::quiet;
   bool colour = false;  ///< The console is a terminal.
   bool endless = false; ///< Until it is interrupted, which is a good end.

@@ -21,6 +21,7 @@
 #include <ostream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace sofof::bench {
 
@@ -56,13 +57,41 @@ void refuse_policies(const std::vector<std::string>& set) {
           one)};
 }
 
+sweep_plan plan_of(const bench_options& options, std::string name,
+                   const fs::path& scenario) {
+  sweep_plan plan;
+  plan.name = std::move(name);
+  plan.scenario = scenario;
+  // The figures that count are in the summary.
+  plan.given = {"record.cycles=false", "record.tracks=false"};
+  std::ranges::copy(options.set, std::back_inserter(plan.given));
+  auto& axis = plan.axes.emplace_back();
+  axis.name = "entrant";
+  for (const auto& one : options.entrants)
+    axis.values.push_back(one.as_value());
+  plan.seeds.resize(options.seeds);
+  std::iota(plan.seeds.begin(), plan.seeds.end(), 1);
+  plan.measures = true; // decision times
+  return plan;
+}
+
+/// A bench goes on where one was; it overwrites nothing else.
+void refuse_foreign(const fs::path& out) {
+  if (fs::exists(out) && !fs::is_empty(out) && !fs::exists(out / "runs"))
+    throw input_error{fmt::format(
+        "{}: this folder holds something else than a bench; choose another "
+        "one with --out.",
+        out.string())};
+}
+
 class bench_at_work {
 public:
   bench_at_work(const bench_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console)
-      : options_{options}, interrupted_{interrupted}, console_{console} {
-    refuse_policies(options.set);
-    expected_.scenarios = names_of(options.scenarios);
+      : options_{options}, interrupted_{interrupted}, console_{console},
+        plans_{plans_of(options)} {
+    for (const auto& plan : plans_)
+      expected_.scenarios.push_back(plan.name);
     expected_.seeds = options.seeds;
     for (const auto& one : options.entrants)
       expected_.entrants.push_back(one.name);
@@ -71,7 +100,7 @@ public:
   }
 
   bench_outcome carry_out() {
-    refuse_foreign();
+    refuse_foreign(options_.runs.out);
     remove_old();
     for (std::size_t i = 0; i < options_.scenarios.size(); ++i)
       if (!drive(i))
@@ -95,16 +124,6 @@ private:
   }
   fs::path page() const { return options_.runs.out / "report.html"; }
 
-  /// A bench goes on where one was; it overwrites nothing else.
-  void refuse_foreign() const {
-    const auto& out = options_.runs.out;
-    if (fs::exists(out) && !fs::is_empty(out) && !fs::exists(out / "runs"))
-      throw input_error{fmt::format(
-          "{}: this folder holds something else than a bench; choose another "
-          "one with --out.",
-          out.string())};
-  }
-
   /// An old ranking may be of others.
   void remove_old() const {
     std::error_code ignored;
@@ -112,26 +131,10 @@ private:
       fs::remove(file, ignored);
   }
 
-  sweep_plan plan_of(std::size_t number) const {
-    sweep_plan plan;
-    plan.name = expected_.scenarios[number];
-    plan.scenario = options_.scenarios[number];
-    // The figures that count are in the summary.
-    plan.given = {"record.cycles=false", "record.tracks=false"};
-    std::ranges::copy(options_.set, std::back_inserter(plan.given));
-    auto& axis = plan.axes.emplace_back();
-    axis.name = "entrant";
-    for (const auto& one : options_.entrants)
-      axis.values.push_back(one.as_value());
-    plan.seeds.resize(options_.seeds);
-    std::iota(plan.seeds.begin(), plan.seeds.end(), 1);
-    return plan;
-  }
-
   /// @returns whether it came to its end.
   bool drive(std::size_t number) {
     const stopwatch watch;
-    const auto plan = plan_of(number);
+    const auto& plan = plans_[number];
     auto how = options_.runs;
     how.title = fmt::format("{} ({} of {})  ", plan.name, number + 1,
                             options_.scenarios.size());
@@ -169,6 +172,7 @@ private:
   const bench_options& options_;
   const std::atomic<bool>& interrupted_;
   std::ostream& console_;
+  std::vector<sweep_plan> plans_; ///< One for each scenario.
   expected_runs expected_;
   std::vector<yardstick> yardsticks_; ///< One for each scenario.
   std::vector<judged_run> judged_;
@@ -177,6 +181,23 @@ private:
 };
 
 } // namespace
+
+std::vector<sweep_plan> plans_of(const bench_options& options) {
+  refuse_policies(options.set);
+  const auto names = names_of(options.scenarios);
+  std::vector<sweep_plan> plans;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    plans.push_back(plan_of(options, names[i], options.scenarios[i]));
+  return plans;
+}
+
+shard_outcome bench_shard(const bench_options& options, const shard& which,
+                          const std::atomic<bool>& interrupted,
+                          std::ostream& console) {
+  const auto plans = plans_of(options);
+  refuse_foreign(options.runs.out);
+  return make_shard(plans, options.runs, which, interrupted, console);
+}
 
 bench_outcome bench(const bench_options& options,
                     const std::atomic<bool>& interrupted,

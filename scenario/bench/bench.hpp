@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/bench/entrants.hpp"
-#include "scenario/sweep/sweep.hpp"
+#include "scenario/sweep/sharded_sweep.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -27,6 +27,18 @@ struct bench_outcome {
   bool interrupted = false;
   bool all_good = false; ///< All runs have a result, and were safe.
 };
+
+/// @returns a sweep for each scenario: what `bench` runs. Its first seed is
+/// measured: decision times.
+/// @throws input_error when options cannot be ranked.
+std::vector<sweep_plan> plans_of(const bench_options& options);
+
+/// Makes the runs of one shard, for `bench` to find. Decision times count of
+/// those that `options.runs.make` times.
+/// @throws input_error as `make_shard`, and for a folder of something else.
+shard_outcome bench_shard(const bench_options& options, const shard& which,
+                          const std::atomic<bool>& interrupted,
+                          std::ostream& console);
 
 /// Makes all runs that have not been made before, and writes leaderboard.csv,
 /// timing.csv, report.html and a table of runs for each scenario. Killed at any

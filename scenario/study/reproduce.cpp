@@ -1,118 +1,142 @@
 // Sweeps, wall-clock runs, a report.
 #include "scenario/study/reproduce.hpp"
 
-#include "scenario/load.hpp"
 #include "scenario/output_file.hpp"
 #include "scenario/report/html.hpp"
 #include "scenario/report/markdown.hpp"
-#include "scenario/run.hpp"
 #include "scenario/stopwatch.hpp"
+#include "scenario/study/cpu_run.hpp"
 #include "scenario/study/sections.hpp"
 #include "scenario/study/swept.hpp"
-#include "scenario/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 
 #include <ostream>
 #include <stdexcept>
+#include <string_view>
 
 namespace sofof::study {
 
 namespace {
 
+constexpr std::string_view sweeps[] = {
+    "latency_plot", "delay_plot", "in_area", "apart",
+    "stalls",       "real_world", "quality"};
+
 /// Thrown to get out of the middle of a reproduction.
 struct interruption {};
+
+std::vector<cpu_run> cpu_runs(const reproduction_options& options) {
+  const auto file = options.sweeps / "cpu.toml";
+  const auto& program = options.runs.program;
+  return {{"cpu_20_hz", file, {}, program, options.version},
+          {"cpu_100_hz",
+           file,
+           {"service.0.period=10ms"},
+           program,
+           options.version}};
+}
+
+void say(const reproduction_options& options, std::ostream& console,
+         const std::string& line) {
+  if (options.runs.show != progress::output::quiet)
+    console << line << std::endl;
+}
+
+/// @returns their folders.
+/// @throws interruption.
+std::vector<std::filesystem::path>
+make_cpu_runs(const reproduction_options& options,
+              const std::atomic<bool>& interrupted, std::ostream& console) {
+  const run_store store{options.runs.out};
+  std::vector<std::filesystem::path> folders;
+  for (const auto& which : cpu_runs(options)) {
+    const stopwatch watch;
+    folders.push_back(make_cpu_run(which, store, interrupted));
+    if (interrupted)
+      throw interruption{};
+    say(options, console,
+        fmt::format("{}: {} on the wall's clock", which.name,
+                    for_people(watch.elapsed_s())));
+  }
+  return folders;
+}
 
 class reproduction {
 public:
   reproduction(const reproduction_options& options,
                const std::atomic<bool>& interrupted, std::ostream& console)
-      : options_{options}, interrupted_{interrupted}, console_{console} {}
+      : options_{options}, interrupted_{interrupted}, console_{console},
+        plans_{plans_of(options)} {}
 
   evidence gather() {
     evidence e;
-    e.latency_plot = runs_of("latency_plot");
-    e.delay_plot = runs_of("delay_plot");
-    e.in_area = runs_of("in_area");
-    e.apart = runs_of("apart");
-    e.stalls = runs_of("stalls");
-    e.real_world = runs_of("real_world");
-    e.quality = runs_of("quality");
-    // Nobody else computes meanwhile.
-    e.cpu_20_hz = computing_time("cpu_20_hz", {});
-    e.cpu_100_hz = computing_time("cpu_100_hz", {"service.0.period=10ms"});
+    e.latency_plot = next_runs();
+    e.delay_plot = next_runs();
+    e.in_area = next_runs();
+    e.apart = next_runs();
+    e.stalls = next_runs();
+    e.real_world = next_runs();
+    e.quality = next_runs();
+    // Nothing else computes meanwhile.
+    const auto folders = make_cpu_runs(options_, interrupted_, console_);
+    e.cpu_20_hz = read_cpu_run(folders[0]);
+    e.cpu_100_hz = read_cpu_run(folders[1]);
     return e;
   }
 
 private:
-  void say(const std::string& line) {
-    if (options_.show != progress::output::quiet)
-      console_ << line << std::endl;
-  }
-
-  std::vector<measured_run> runs_of(const std::string& name) {
+  /// The runs of the next plan.
+  std::vector<measured_run> next_runs() {
     const stopwatch watch;
-    const auto plan = load_sweep(options_.sweeps / (name + ".toml"));
-    sweep_options how;
-    how.out = options_.out;
-    how.program = options_.program;
-    how.show = options_.show;
-    how.title = fmt::format("{} ({} of {})  ", name, ++begun_, sweeps);
-    how.make = options_.make;
-    how.jobs = options_.jobs;
+    const auto& plan = plans_.at(begun_++);
+    auto how = options_.runs;
+    how.title =
+        fmt::format("{} ({} of {})  ", plan.name, begun_, plans_.size());
     const auto outcome = sweep(plan, how, interrupted_, console_);
     if (outcome.interrupted)
       throw interruption{};
     if (!outcome.all_good())
       throw std::runtime_error{fmt::format(
           "{} runs of {} failed and {} were unsafe: {} says which.",
-          outcome.failed, name, outcome.unsafe, outcome.table.string())};
+          outcome.failed, plan.name, outcome.unsafe, outcome.table.string())};
     auto runs = study::runs_of(plan, outcome);
-    say(fmt::format("{}: {} runs, {}", name, runs.size(),
+    say(options_, console_,
+        fmt::format("{}: {} runs, {}", plan.name, runs.size(),
                     for_people(watch.elapsed_s())));
     return runs;
-  }
-
-  measured_cpu computing_time(const std::string& name,
-                              const std::vector<std::string>& given) {
-    const auto s = load_scenario(options_.sweeps / "cpu.toml", given);
-    std::optional<cpu_table> measured;
-    run_options how;
-    how.out = options_.out / name;
-    how.force = true;
-    how.realtime = true;
-    how.cpu = true;
-    how.on_cpu = [&measured](const cpu_table& x) { measured = x; };
-    how.version = options_.version;
-    std::ostream nowhere{nullptr};
-    const auto outcome = run(s, how, interrupted_, nowhere);
-    if (outcome == run_outcome::interrupted)
-      throw interruption{};
-    if (outcome == run_outcome::failed)
-      throw std::runtime_error{fmt::format(
-          "the run in {} was unsafe, summary.json says how; it needs an idle "
-          "machine, its clock is the wall's.",
-          how.out->string())};
-    say(fmt::format("{}: {:.0f} s on the wall's clock", name,
-                    to_seconds(s.length)));
-    const auto figures =
-        measured ? figures_of(*measured, planning) : std::nullopt;
-    if (!figures)
-      throw std::runtime_error{fmt::format(
-          "no vehicle in {} was both local and offloaded.", how.out->string())};
-    const auto drove = read_run({}, *how.out);
-    return {*figures, drove.figure("driving.distance_m")
-                          / drove.figure("safety.driven_s")};
   }
 
   const reproduction_options& options_;
   const std::atomic<bool>& interrupted_;
   std::ostream& console_;
-  static constexpr int sweeps = 7;
-  int begun_ = 0;
+  std::vector<sweep_plan> plans_;
+  std::size_t begun_ = 0;
 };
 
 } // namespace
+
+std::vector<sweep_plan> plans_of(const reproduction_options& options) {
+  std::vector<sweep_plan> plans;
+  for (const auto name : sweeps)
+    plans.push_back(load_sweep(options.sweeps / fmt::format("{}.toml", name)));
+  return plans;
+}
+
+shard_outcome reproduce_shard(const reproduction_options& options,
+                              const shard& which,
+                              const std::atomic<bool>& interrupted,
+                              std::ostream& console) {
+  auto outcome =
+      make_shard(plans_of(options), options.runs, which, interrupted, console);
+  if (which.number == measuring_shard && !outcome.interrupted)
+    try {
+      make_cpu_runs(options, interrupted, console);
+    } catch (const interruption&) {
+      outcome.interrupted = true;
+    }
+  return outcome;
+}
 
 bool reproduce(const reproduction_options& options,
                const std::atomic<bool>& interrupted, std::ostream& console) {
@@ -128,8 +152,8 @@ bool reproduce(const reproduction_options& options,
         options.version);
     all.sections = {latency_plot(e), delay_plot(e), real_world(e), cpu_cost(e),
                     quality(e)};
-    write_file(options.out / "reproduction.md", report::markdown(all));
-    report::write_html(all, options.out / "report.html");
+    write_file(options.runs.out / "reproduction.md", report::markdown(all));
+    report::write_html(all, options.runs.out / "report.html");
   } catch (const interruption&) {
     return false;
   }

@@ -1,25 +1,34 @@
 // The paper's evaluation from beginning to end.
 #pragma once
 
-#include "scenario/progress.hpp"
-#include "scenario/sweep/run_maker.hpp"
+#include "scenario/sweep/sharded_sweep.hpp"
 
 #include <atomic>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace sofof::study {
 
 struct reproduction_options {
   std::filesystem::path sweeps; ///< The folder of the paper's sweep files.
-  std::filesystem::path out;    ///< Gets everything.
-  std::string program;          ///< See `run_store`.
   std::string version;
-  progress::output show = progress::output::quiet;
-  run_maker make;
-  unsigned jobs = 1; ///< Runs at the same time, >= 1.
+  /// How and where; `out` gets everything, `title` is ours.
+  sweep_options runs;
 };
+
+/// @returns the paper's sweeps: what `reproduce` runs.
+/// @throws input_error when a file is missing or wrong.
+std::vector<sweep_plan> plans_of(const reproduction_options& options);
+
+/// Makes the runs of one shard, for `reproduce` to find. The measuring shard
+/// makes those on the wall's clock as well, after all others.
+/// @throws as `reproduce`, and as `make_shard`.
+shard_outcome reproduce_shard(const reproduction_options& options,
+                              const shard& which,
+                              const std::atomic<bool>& interrupted,
+                              std::ostream& console);
 
 /// Makes all runs that have not been made before, and writes report.html and
 /// reproduction.md. Killed at any moment, the same call goes on.

@@ -29,6 +29,9 @@ struct sweep_plan {
   std::vector<std::string> given; ///< In all runs, "KEY=VALUE".
   std::vector<sweep_axis> axes;
   std::vector<std::int64_t> seeds{1};
+  /// The runs of its first seed are measured by the wall's clock too, all of
+  /// them on one machine.
+  bool measures = false;
 
   /// The product of all sizes.
   std::size_t size() const;

@@ -8,15 +8,15 @@
 
 namespace sofof {
 
-run_maker virtual_runs(std::string version) {
-  run_options options;
-  options.force = true;
-  options.version = std::move(version);
-  return [options](const scenario& s, const std::filesystem::path& folder,
-                   const std::atomic<bool>& interrupted) {
-    auto here = options;
-    here.out = folder;
+run_maker virtual_runs(std::string version, bool time_decisions) {
+  run_options how;
+  how.version = std::move(version);
+  how.time_decisions = time_decisions;
+  return [how](const scenario& s, const std::filesystem::path& folder,
+               const std::atomic<bool>& interrupted) {
     std::ostream nowhere{nullptr};
+    auto here = how;
+    here.out = folder;
     run(s, here, interrupted, nowhere);
   };
 }

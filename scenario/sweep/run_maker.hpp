@@ -10,16 +10,17 @@
 
 namespace sofof {
 
-/// Makes one run, on the thread that calls. Its results are in the folder when
-/// it returns; whatever was there of a run is replaced. What it throws says why
-/// there is no result. Several threads call it at the same time.
+/// Makes one run, on the thread that calls. Its results are in the folder, a
+/// new one, when it returns; what it throws says why there are none. Several
+/// threads call it at the same time.
 /// @param interrupted  Once true, it returns soon, with what there is.
 using run_maker =
     std::function<void(const scenario& s, const std::filesystem::path& folder,
                        const std::atomic<bool>& interrupted)>;
 
-/// @param version  Of this program, for the summaries.
+/// @param version         Of this program, for the summaries.
+/// @param time_decisions  As `run_options` has it.
 /// @returns what makes runs in virtual time.
-run_maker virtual_runs(std::string version);
+run_maker virtual_runs(std::string version, bool time_decisions = true);
 
 } // namespace sofof

@@ -1,9 +1,10 @@
 // Loading all points, so that all mistakes are known before anything runs.
+#include "scenario/sweep/wanted_runs.hpp"
+
 #include "scenario/input_error.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/sweep/run_store.hpp"
-#include "scenario/sweep/wanted_runs.hpp"
 #include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,8 @@ wanted_runs runs_wanted_by(const sweep_plan& plan, std::string_view program,
       if (met.insert(name).second)
         all.runs.push_back({name, plan.scenario, point.given,
                             fmt::format("point {} ({})", i + 1, described),
-                            cost_of(s)});
+                            cost_of(s),
+                            plan.measures && point.seed == plan.seeds.front()});
     } catch (const std::exception& problem) {
       if (first_problem.empty())
         first_problem =

@@ -19,6 +19,7 @@ struct wanted_run {
   std::vector<std::string> given; ///< What changes the scenario.
   std::string point;              ///< The first that wants it, for people.
   double cost = 0;          ///< About proportional to its computing time, > 0.
+  bool is_measured = false; ///< Its plan wants it from one machine.
 };
 
 /// What became of the points of a sweep.
