@@ -20,7 +20,7 @@ bool plan_judge::history::add(bool failed) {
 }
 
 plan_verdict plan_judge::judge_unreadable() {
-  if (unreadable_.add(true))
+  if (unusable_.add(true))
     return {false, objection{"readable", 0, 1}};
   return {false, {}};
 }
@@ -30,10 +30,14 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
                                               limits.longest_pause_s)
                                    : 0;
   judged_at_ = x.now;
-  unreadable_.add(false);
   if (to_seconds(x.now - x.own.at) > limits.own_age_s)
     return {false, {}};
 
+  bodies_.look(x.way, x.s_m, x.seen.objects, car_);
+  const auto found = follow(x);
+  // Before the place: a car that cannot brake so hard is soon elsewhere.
+  if (const auto fault = brake(x, found.brakes_hard, passed_s))
+    return {false, fault};
   const auto t = std::max(x.own.at, x.plan.start);
   const auto first = x.plan.at(t);
   const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
@@ -43,21 +47,22 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
   const auto misplaced =
       away_m > limits.same_place_m || faster_mps > limits.same_speed_mps;
-  if (misplaced_.add(misplaced))
-    return {false, away_m > limits.same_place_m
-                       ? objection{"place", away_m, limits.same_place_m}
-                       : objection{"place", faster_mps, limits.same_speed_mps}};
   const auto age_s = to_seconds(x.now - x.plan.start);
   const auto is_old = age_s > limits.most_age_s;
-  if (old_.add(is_old))
-    return {false, objection{"age", age_s, limits.most_age_s}};
   const auto repeats = is_repeated(x);
-  if (repeated_.add(repeats))
+  const auto unusable = misplaced || is_old || repeats;
+  if (unusable_.add(unusable)) {
+    if (away_m > limits.same_place_m)
+      return {false, objection{"place", away_m, limits.same_place_m}};
+    if (misplaced)
+      return {false, objection{"place", faster_mps, limits.same_speed_mps}};
+    if (is_old)
+      return {false, objection{"age", age_s, limits.most_age_s}};
     return {false, objection{"repetition", 1, 0}};
-  if (misplaced || is_old || repeats)
+  }
+  if (unusable)
     return {false, {}};
 
-  const auto found = follow(x);
   if (found.fault)
     return {false, found.fault};
   if (beside_.add(found.leaves_lane))
@@ -65,12 +70,9 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
             objection{"road", found.beyond_m, limits.most_beyond_soon_m}};
   if (const auto fault = pass_line(x))
     return {false, fault};
-  bodies_.look(x.way, x.s_m, x.seen.objects, car_);
   const auto touched = touch(x);
   if (near_.add(touched.has_value()))
     return {false, touched};
-  if (const auto fault = brake(x, found.brakes_hard, passed_s))
-    return {false, fault};
   if (const auto fault = stand(x, passed_s))
     return {false, fault};
   return {};

@@ -108,8 +108,9 @@ struct plan_limits {
 ///   the provider may see a body that the vehicle cannot.
 /// * `standing`: slow for long, with nothing ahead, and not speeding up.
 ///
-/// `place`, `age`, `repetition`, `others` and the little of `road` are refused
-/// when two of three results in a row are so. Limits: `plan_limits`.
+/// `place`, `age`, `repetition` and what cannot be read are refused when two of
+/// three results in a row are any of these; `others` and the little of `road`
+/// when two of three are so. Limits: `plan_limits`.
 ///
 /// No heap after the first results.
 class plan_judge {
@@ -156,7 +157,7 @@ private:
   std::vector<std::uint64_t> said_;   // fingerprints, round and round
   std::size_t next_said_ = 0;
   std::optional<time_point> judged_at_; // the last plan
-  history misplaced_, old_, repeated_, beside_, near_, unreadable_;
+  history unusable_, beside_, near_;
   double braking_s_ = 0;  // without a reason
   double standing_s_ = 0; // likewise
 };

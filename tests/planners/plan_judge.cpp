@@ -311,3 +311,25 @@ TEST_CASE("what is no plan is refused at the second of three") {
   REQUIRE(judge.judge_unreadable().refused);
   CHECK(judge.judge_unreadable().refused->check == "readable");
 }
+
+TEST_CASE_FIXTURE(judged_drive, "plans that cannot be used for one reason and "
+                                "then for another are refused") {
+  auto elsewhere = plan(0);
+  for (auto& p : elsewhere.points)
+    p.at.y_m += 3;
+  CHECK(!ask(elsewhere).refused);
+  CHECK(judge.judge_unreadable().refused);
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a car that cannot brake as hard as its plans "
+                                "for nothing say is told of the braking") {
+  const auto check = refused_of(
+      [&] {
+        auto x = plan(-9);
+        for (auto& p : x.points)
+          p.speed_mps += 1.4; // it is still so fast
+        return x;
+      },
+      2s);
+  CHECK(check == "braking");
+}
