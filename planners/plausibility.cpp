@@ -243,15 +243,15 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
         fresh.said.teller(s->second.sender);
       }
     const auto is_own = planned && x.station == planned;
-    if (is_own) {
-      out.push_back(x);
-    } else if (is_doubted(x, *known, now, planned)) {
-      continue;
-    } else if (comes_from_liar(x, *known, now, planned)) {
-      note(known->station, now, doubt_check::sender, 0, 0);
-    } else {
-      out.push_back(x);
+    if (!is_own) {
+      if (is_doubted(x, *known, now, planned))
+        continue;
+      if (comes_from_liar(x, *known, now, planned)) {
+        note(known->station, now, doubt_check::sender, 0, 0);
+        continue;
+      }
     }
+    out.push_back(x);
   }
 }
 
