@@ -115,7 +115,8 @@ private:
   bool rests_elsewhere(const velocity_problem&) const noexcept;
   double misses_s() const noexcept;
 
-  ocp::velocity_model::workspace w_{};
+  // Clang 16 makes wrong code of {} here when its sanitizer is on.
+  ocp::velocity_model::workspace w_ = ocp::velocity_model::workspace();
   ocp::velocity_reference reference_{};
   double ds_m_ = 1;      ///< Of the plan.
   bool started_ = false; ///< There is a plan in the workspace.
