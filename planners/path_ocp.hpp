@@ -103,7 +103,8 @@ private:
   void set_up(const path_problem&, const path_options&, ocp::start) noexcept;
   void guess(const path_problem&) noexcept;
 
-  ocp::path_model::workspace w_{};
+  // Clang 16 makes wrong code of {} here when its sanitizer is on.
+  ocp::path_model::workspace w_ = ocp::path_model::workspace();
   ocp::path_reference reference_{};
   double ds_m_ = 1;      ///< Of the plan.
   bool started_ = false; ///< There is a plan in the workspace.

@@ -31,7 +31,10 @@ reference_line::place reference_line::find(double s_m) const {
   if (way_->closed())
     s_m -= std::floor(s_m * laps_per_m_) * length_m;
   const auto steps = std::clamp(s_m, 0.0, length_m) * steps_per_m_;
-  const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
+  // What is no number stays none, in the share.
+  const auto i =
+      steps >= 0 ? std::min(static_cast<std::size_t>(steps), table_.size() - 2)
+                 : 0;
   return {table_[i], table_[i + 1], steps - static_cast<double>(i)};
 }
 
