@@ -55,7 +55,8 @@ std::filesystem::path cleared(std::filesystem::path folder) {
 
 result_files::result_files(std::filesystem::path folder, const run_info& run)
     : pcap_{capture_of(run)}, folder_{cleared(std::move(folder))},
-      start_{run.start}, names_{run.provider_names},
+      start_{run.start},
+      names_(run.provider_names.begin(), run.provider_names.end()),
       episodes_{folder_ / "episodes.csv", episodes_header},
       events_{folder_ / "events.jsonl"} {
   if (run.cycles)
@@ -161,7 +162,10 @@ void result_files::finish(const metrics& all, const run_info& run,
 }
 
 std::string_view result_files::name_of(boot_id provider) const {
-  return sofof::name_of(provider, names_);
+  auto found = names_.find(provider);
+  if (found == names_.end()) // of a process of its own
+    found = names_.find(place_of(provider));
+  return found != names_.end() ? std::string_view{found->second} : "";
 }
 
 void result_files::write_vehicles(const metrics& all) const {

@@ -4,7 +4,6 @@
 #include "actors/service_kind.hpp"
 #include "messages/payload.hpp"
 
-#include <memory>
 #include <string>
 
 namespace sofof::test {
@@ -15,8 +14,6 @@ struct echo {
 
   /// What continues nothing.
   static constexpr std::uint64_t jump = 999;
-  /// What no vehicle believes.
-  static constexpr std::uint64_t lie = 666;
 };
 
 void archive(auto& bytes, echo& x) {
@@ -64,20 +61,6 @@ public:
                  time_point) const override {
     const auto said = offered.as<echo>();
     return !said || said->number != echo::jump;
-  }
-
-  std::unique_ptr<result_judge>
-  make_judge(const service_setup&) const override {
-    struct sceptic final : result_judge {
-      judged_result judge(const payload& result, const service_input&,
-                          time_point) override {
-        const auto said = result.as<echo>();
-        if (said && said->number == echo::lie)
-          return {{}, objection{"number", 666, 665}};
-        return {result};
-      }
-    };
-    return std::make_unique<sceptic>();
   }
 
 private:
