@@ -309,7 +309,8 @@ void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
   latest_.assign(knots, never);
   for (const auto& window : task.windows) {
     // The knot before the place opens late, the knot behind it closes early.
-    const auto steps = std::max(0.0, (window.at_m - from.s_m) / ds_m);
+    const auto steps = std::clamp((window.at_m - from.s_m) / ds_m, 0.0,
+                                  static_cast<double>(knots));
     const auto before = static_cast<std::size_t>(steps);
     const auto behind = static_cast<std::size_t>(std::ceil(steps));
     for (auto k = before; k < knots; ++k)
