@@ -103,7 +103,7 @@ private:
   void set_up(const path_problem&, const path_options&, ocp::start) noexcept;
   void guess(const path_problem&) noexcept;
 
-  // Clang 16 makes wrong code of {} here when its sanitizer is on.
+  // By value, as in velocity_ocp.hpp, where Clang 16 needs it.
   ocp::path_model::workspace w_ = ocp::path_model::workspace();
   ocp::path_reference reference_{};
   double ds_m_ = 1;      ///< Of the plan.
