@@ -63,10 +63,7 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
        [kind, here](service_input input, bool takes_over) {
          return kind->on_air(here, std::move(input), takes_over);
        },
-       [kind, here](const payload& result, const service_input& latest,
-                    time_point now) {
-         return kind->off_air(here, result, latest, now);
-       },
+       [kind, here] { return kind->make_judge(here); },
        [kind](const payload& in_use, const payload& offered, time_point now) {
          return kind->continues(in_use, offered, now);
        },

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +27,7 @@ namespace {
 struct remote_source {
   running_service running;
   provider_manager_actor manager;
+  std::unique_ptr<result_judge> judge;
   bool in_use = false;
   bool in_doubt = false; // latencies cannot be judged
   bool given_up = false;
@@ -128,6 +130,7 @@ struct offloaded_state {
     auto& remote = remotes.emplace_back();
     remote.running = running;
     remote.manager = manager;
+    remote.judge = setup.make_judge();
     feed_remote(remotes.back());
   }
 
@@ -141,19 +144,38 @@ struct offloaded_state {
         std::ranges::find(remotes, result.running, &remote_source::running);
     if (remote == remotes.end() || !(result.cycle > remote->last_cycle))
       return;
-    auto meant = setup.off_air(
+    const auto in_limits =
+        can_judge(*remote, result)
+        && in_time(result.created, now(self), setup.options.limits.max_latency);
+    if (!in_limits) {
+      take_remote(*remote, result, false);
+      return;
+    }
+    auto judged = remote->judge->judge(
         result.what, {remote->running, newest.at, newest.what, in_use},
         now(self));
-    if (!meant.type().empty())
-      take_remote(*remote, {result.running, result.cycle, result.created,
-                            std::move(meant), result.about, result.doubt});
+    if (judged.refused)
+      refuse(result.running, *judged.refused);
+    else if (!judged.what.type().empty())
+      take_remote(*remote,
+                  {result.running, result.cycle, result.created,
+                   std::move(judged.what), result.about, result.doubt},
+                  true);
   }
 
-  void take_remote(remote_source& remote, const service_result& result) {
+  // Who sends what is implausible is left in the same turn.
+  void refuse(const running_service& running, const objection& why) {
+    end({running, end_reason::implausible, side::requester});
+    self->send(setup.requester,
+               qos_violation{running, qos_breach::implausible, now(self), true,
+                             fmt::format("{} value={:.3f} limit={:.3f}",
+                                         why.check, why.value, why.limit)});
+  }
+
+  // @param in_limits  It came in time.
+  void take_remote(remote_source& remote, const service_result& result,
+                   bool in_limits) {
     const auto t = now(self);
-    const auto in_limits =
-        can_judge(remote, result)
-        && in_time(result.created, t, setup.options.limits.max_latency);
     if (in_limits && !is_on_call(remote) && result.created > began)
       await_next(result.created);
     const auto alone = !is_remote() || (remote.in_use && sources() == 1);

@@ -33,6 +33,17 @@ service_options on(const computer_options& computer, service_options options) {
   return options;
 }
 
+std::unique_ptr<result_judge>
+service_kind::make_judge(const service_setup&) const {
+  struct believer final : result_judge {
+    judged_result judge(const payload& result, const service_input&,
+                        time_point) override {
+      return {result};
+    }
+  };
+  return std::make_unique<believer>();
+}
+
 service_kind_ptr make_service_kind(std::string_view name) {
   for (const auto& [known, make] : service_table)
     if (known == name)

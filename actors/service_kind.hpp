@@ -7,6 +7,7 @@
 #include "messages/v2x/sighting.hpp"
 #include "planners/station_doubt.hpp"
 #include "world/cycle_cost.hpp"
+#include "world/objection.hpp"
 #include "world/random.hpp"
 #include "world/settings.hpp"
 #include "world/streets.hpp"
@@ -16,6 +17,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -94,6 +96,26 @@ struct roadside_station {
   point position; ///< m, east-north.
 };
 
+/// What a result that came over the air is to the vehicle.
+struct judged_result {
+  payload what; ///< Empty: it is not used.
+  /// Present: it is implausible, and its provider is not believed any more.
+  std::optional<objection> refused{};
+};
+
+/// Reads the results of one running service in a vehicle and judges each
+/// before it is used. No actor, no clock of its own.
+class result_judge {
+public:
+  virtual ~result_judge() = default;
+
+  /// @param result  As it came.
+  /// @param latest  The vehicle's newest input; `in_use` is the result in use.
+  /// @param now     When the result came.
+  virtual judged_result judge(const payload& result,
+                              const service_input& latest, time_point now) = 0;
+};
+
 /// For whom a function, a client or a site is made.
 struct service_setup {
   streets_ptr world;
@@ -162,19 +184,11 @@ public:
     return true;
   }
 
-  /// What a result that came over the air is to the vehicle; as it is, unless
-  /// a kind gets it in messages of its own.
-  /// @param setup   The vehicle's.
-  /// @param latest  Its newest input; `in_use` is the result in use.
-  /// @param now     When the result came.
-  /// @returns nothing for what is not understood or must not be used: it is as
-  /// if it had not come, so that who sends no others is left.
-  virtual payload off_air(const service_setup& setup, const payload& result,
-                          const service_input& latest, time_point now) const {
-    static_cast<void>(setup), static_cast<void>(latest);
-    static_cast<void>(now);
-    return result;
-  }
+  /// @param setup  The vehicle's.
+  /// @returns what reads and judges the results of one running service; by
+  /// default results are used as they are.
+  virtual std::unique_ptr<result_judge>
+  make_judge(const service_setup& setup) const;
 
   /// What says in the terms of the service that it has ended; nothing, unless
   /// a kind has such a message.

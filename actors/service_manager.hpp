@@ -7,6 +7,7 @@
 #include <caf/actor_system.hpp>
 
 #include <functional>
+#include <memory>
 
 namespace sofof {
 
@@ -17,10 +18,8 @@ struct requester_manager_setup {
   service_options options;
   /// `service_kind::on_air` of this vehicle.
   std::function<service_input(service_input, bool takes_over)> on_air;
-  /// `service_kind::off_air` of this vehicle.
-  std::function<payload(const payload& result, const service_input& latest,
-                        time_point now)>
-      off_air;
+  /// `service_kind::make_judge` of this vehicle.
+  std::function<std::unique_ptr<result_judge>()> make_judge;
   /// `service_kind::continues`.
   std::function<bool(const payload& in_use, const payload& offered,
                      time_point now)>
@@ -37,10 +36,11 @@ struct requester_manager_setup {
 /// one that comes in time on: then the local instance is deactivated in the
 /// same turn, the watchdog armed and the requester told. Results that come
 /// too late, twice or out of order are not used; those that are not understood
-/// are as if they had not come. While several providers run the service, the
-/// first result of each planning cycle is used, if the plan in use may be
-/// followed by it; a provider that has not been in time for a second is given
-/// up (`qos_violation::others_hold`).
+/// are as if they had not come; one that is implausible ends its episode in the
+/// turn in which it comes (`qos_breach::implausible`). While several providers
+/// run the service, the first result of each planning cycle is used, if the
+/// plan in use may be followed by it; a provider that has not been in time for
+/// a second is given up (`qos_violation::others_hold`).
 requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
                                                 requester_manager_setup setup);
 

@@ -177,8 +177,12 @@ struct requester_state {
     const auto is_same = [&from](const auto& known) {
       return known.second.handle == from;
     };
-    if (std::ranges::none_of(providers, is_same))
+    const auto before = std::ranges::find_if(providers, is_same);
+    if (before == providers.end())
       self->monitor(from);
+    // A liar that has booted again is no other one.
+    const auto doubted =
+        before != providers.end() ? before->second.doubted : distrust{};
     std::erase_if(providers, [&](const auto& known) {
       return is_same(known) && !is_in_use(known.first);
     });
@@ -186,7 +190,7 @@ struct requester_state {
       std::erase_if(slot.links, [&](const auto& link) {
         return !providers.contains(link.first);
       });
-    return providers.emplace(id, known_provider{from, {}, {}, {}, {}})
+    return providers.emplace(id, known_provider{from, {}, {}, {}, {}, doubted})
         .first->second;
   }
 
@@ -461,13 +465,17 @@ struct requester_state {
     const auto at = find(violation.running);
     if (!at)
       return;
-    const auto reason = violation.breach == qos_breach::latency
-                            ? end_reason::qos_latency
-                            : end_reason::qos_gap;
     const auto& running = violation.running;
-    note("violation", running.provider, running.kind, running.counter,
-         name_of(reason));
-    if (violation.breach == qos_breach::gap)
+    const auto reason = reason_of(violation.breach);
+    if (violation.breach == qos_breach::implausible) {
+      note("implausible", running.provider, running.kind, running.counter,
+           violation.why);
+      distrust_it(running.provider);
+    } else {
+      note("violation", running.provider, running.kind, running.counter,
+           name_of(reason));
+    }
+    if (violation.breach != qos_breach::latency)
       setup.lodm->observe(cycle_outcome{now(self), running.kind.view(),
                                         running.provider,
                                         std::numeric_limits<double>::infinity(),
@@ -475,6 +483,28 @@ struct requester_state {
     if (!violation.others_hold && at.at->at == phase::remote)
       leave_beside(*at.slot, running.provider);
     end(*at.slot, running.provider, reason, true);
+  }
+
+  static end_reason reason_of(qos_breach breach) {
+    switch (breach) {
+      case qos_breach::latency:
+        return end_reason::qos_latency;
+      case qos_breach::gap:
+        return end_reason::qos_gap;
+      case qos_breach::implausible:
+        break;
+    }
+    return end_reason::implausible;
+  }
+
+  // For all services: they come from one computer, under one key.
+  void distrust_it(boot_id provider) {
+    const auto liar = providers.find(provider);
+    if (liar == providers.end())
+      return;
+    for (auto& [id, known] : providers)
+      if (known.handle == liar->second.handle)
+        known.doubted.add(now(self));
   }
 
   // Nothing usable has come from the others either; but it is one violation.

@@ -73,7 +73,7 @@ bool service_slot::may_ask(const known_provider& provider,
   const auto cools = cool != cool_until.end() && now < cool->second;
   const auto is_old = now - provider.offered_at > protocol::offer_validity;
   return provider.offers(kind->name()) && !is_old && !cools
-         && !provider.open_request;
+         && !provider.open_request && !provider.doubted.holds(now);
 }
 
 provider_view service_slot::view_of(const known_provider& provider,

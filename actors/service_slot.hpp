@@ -4,6 +4,7 @@
 #include "actors/service_kind.hpp"
 #include "messages/type_ids.hpp"
 #include "policies/context.hpp"
+#include "policies/distrust.hpp"
 #include "policies/link/link_estimator.hpp"
 #include "world/cycle_cost.hpp"
 
@@ -23,6 +24,7 @@ struct known_provider {
       last_complaint;  ///< About results of unknown running services.
   service_offer offer; ///< The latest, without what was asked for since.
   time_point offered_at;
+  distrust doubted; ///< Since its results were implausible.
 
   bool offers(std::string_view kind) const;
 };

@@ -89,7 +89,7 @@ using onboard_requester_actor = requester_actor::extend<
     takes<ego_state>,
     // The first result of a running service is in use.
     takes<running_service>,
-    // The watchdog has barked.
+    // The watchdog has barked, or a result was implausible.
     takes<qos_violation>>;
 
 /// SP, the edge server's side of offloading, as requesters see it.

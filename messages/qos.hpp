@@ -3,6 +3,8 @@
 
 #include "messages/service.hpp"
 
+#include <string>
+
 namespace sofof {
 
 /// What a requester expects of a remote service; both ends are allowed.
@@ -18,7 +20,7 @@ struct arrival {
   time_point received;
 };
 
-enum class qos_breach : std::uint8_t { latency, gap };
+enum class qos_breach : std::uint8_t { latency, gap, implausible };
 
 /// A running service broke its limits.
 struct qos_violation {
@@ -26,6 +28,7 @@ struct qos_violation {
   qos_breach breach = qos_breach::gap;
   time_point at;
   bool others_hold = false; ///< Another provider runs the service as it should.
+  std::string why{}; ///< Of an implausible result: check, value and limit.
 };
 
 template <class Inspector>
@@ -43,14 +46,15 @@ bool inspect(Inspector& f, arrival& x) {
 
 template <class Inspector>
 bool inspect(Inspector& f, qos_breach& x) {
-  return inspect_enum(f, x, qos_breach::gap);
+  return inspect_enum(f, x, qos_breach::implausible);
 }
 
 template <class Inspector>
 bool inspect(Inspector& f, qos_violation& x) {
   return f.object(x).fields(f.field("running", x.running),
                             f.field("breach", x.breach), f.field("at", x.at),
-                            f.field("others_hold", x.others_hold));
+                            f.field("others_hold", x.others_hold),
+                            f.field("why", x.why));
 }
 
 } // namespace sofof

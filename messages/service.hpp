@@ -117,6 +117,7 @@ enum class end_reason : std::uint8_t {
   handed_over, ///< The service goes on at another provider.
   released,    ///< The vehicle took it back, for no fault.
   revoked,     ///< The provider wants its room for others.
+  implausible, ///< The vehicle did not believe a result.
   shutdown,
 };
 
@@ -124,7 +125,7 @@ inline constexpr std::string_view name_of(end_reason reason) {
   constexpr std::string_view names[] = {
       "left_area", "cam_timeout", "qos_latency", "qos_gap",
       "no_data",   "refused",     "peer_lost",   "handed_over",
-      "released",  "revoked",     "shutdown"};
+      "released",  "revoked",     "implausible", "shutdown"};
   return names[static_cast<std::size_t>(reason)];
 }
 

@@ -58,8 +58,8 @@ void safety_metrics::add(const safety_record& x) {
 }
 
 metrics::metrics(const run_info& run)
-    : headline_{run.headline_kind}, costs_{run.energy}, obstacles_{
-                                                            run.obstacles} {
+    : headline_{run.headline_kind}, names_{run.provider_names},
+      costs_{run.energy}, obstacles_{run.obstacles} {
   for (const auto& kind : run.kinds)
     of(service_name{kind});
 }
@@ -69,6 +69,9 @@ void metrics::take(const event_record& x) {
     ++offers_;
   } else if (x.what == "near_miss") {
     ++together_.safety.near_misses;
+  } else if (x.what == "implausible") {
+    const auto check = x.detail.substr(0, x.detail.find(' '));
+    ++of(x.kind).implausible[std::string{name_of(x.provider, names_)}][check];
   } else if (x.what == "switch") {
     source_changed(x);
   }

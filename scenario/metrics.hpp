@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,10 @@ inline constexpr duration ping_pong_limit = std::chrono::seconds{5};
 
 /// How often something ended why.
 using end_counts = std::array<std::uint64_t, end_reason_count>;
+
+/// How often vehicles refused a result, by the provider's name and the check.
+using refusal_counts =
+    std::map<std::string, std::map<std::string, std::uint64_t>>;
 
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
@@ -42,6 +47,7 @@ struct service_metrics {
   std::uint64_t ping_pongs = 0;
   /// Reasons of all that ended, with data or without.
   end_counts ended_by{};
+  refusal_counts implausible; ///< Results that vehicles refused.
   statistics t_off_s; ///< Switch to remote → switch back, of each episode.
   /// Of each vehicle, the time that it was not local, at one provider or at
   /// several at once.
@@ -203,6 +209,7 @@ private:
   void source_changed(const event_record& x);
 
   service_name headline_;
+  provider_names names_;
   std::map<station_id, cycle_energy> costs_;
   std::map<station_id, cycle_counts> cycles_;
   std::uint32_t obstacles_;

@@ -55,8 +55,7 @@ std::filesystem::path cleared(std::filesystem::path folder) {
 
 result_files::result_files(std::filesystem::path folder, const run_info& run)
     : pcap_{capture_of(run)}, folder_{cleared(std::move(folder))},
-      start_{run.start},
-      names_(run.provider_names.begin(), run.provider_names.end()),
+      start_{run.start}, names_{run.provider_names},
       episodes_{folder_ / "episodes.csv", episodes_header},
       events_{folder_ / "events.jsonl"} {
   if (run.cycles)
@@ -162,10 +161,7 @@ void result_files::finish(const metrics& all, const run_info& run,
 }
 
 std::string_view result_files::name_of(boot_id provider) const {
-  auto found = names_.find(provider);
-  if (found == names_.end()) // of a process of its own
-    found = names_.find(place_of(provider));
-  return found != names_.end() ? std::string_view{found->second} : "";
+  return sofof::name_of(provider, names_);
 }
 
 void result_files::write_vehicles(const metrics& all) const {

@@ -60,7 +60,7 @@ private:
   std::optional<pcap_file> pcap_; // before results are replaced
   std::filesystem::path folder_;
   time_point start_;
-  std::map<boot_id, std::string> names_;
+  provider_names names_;
   csv_file episodes_;
   std::optional<csv_file> cycles_;
   std::optional<csv_file> tracks_;

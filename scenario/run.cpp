@@ -73,7 +73,7 @@ run_info describe(const scenario& s, const run_options& options,
         info.provider = s.providers[k].name;
   info.obstacles = static_cast<std::uint32_t>(s.obstacles.size());
   for (std::size_t k = 0; k < s.providers.size(); ++k)
-    info.provider_names.emplace_back(k + 1, s.providers[k].name);
+    info.provider_names.emplace(k + 1, s.providers[k].name);
   for (const auto& kind : s.services)
     info.kinds.emplace_back(kind->name());
   info.pcap = options.pcap;

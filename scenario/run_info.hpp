@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace sofof {
@@ -20,6 +20,17 @@ struct cycle_energy {
   double on_board_j = 0;
   double offloaded_j = 0;
 };
+
+/// Providers by boot id; one that has booted again has the name of its place.
+using provider_names = std::map<boot_id, std::string>;
+
+/// @returns a provider's name; empty for one of no configuration.
+inline std::string_view name_of(boot_id provider, const provider_names& names) {
+  auto found = names.find(provider);
+  if (found == names.end()) // of a process of its own
+    found = names.find(place_of(provider));
+  return found != names.end() ? std::string_view{found->second} : "";
+}
 
 /// Known before the first record.
 struct run_info {
@@ -36,7 +47,7 @@ struct run_info {
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
-  std::vector<std::pair<boot_id, std::string>> provider_names;
+  sofof::provider_names provider_names;
   std::vector<std::string> kinds; ///< Of services, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";

@@ -65,6 +65,18 @@ void endings(json_object& to, const end_counts& counts) {
     object.member(name_of(static_cast<end_reason>(i)), counts[i]);
 }
 
+/// Whose results were refused, by check.
+void refusals(json_object& to, const refusal_counts& counts) {
+  if (counts.empty())
+    return;
+  auto object = to.object("implausible");
+  for (const auto& [provider, checks] : counts) {
+    auto of = object.object(provider);
+    for (const auto& [check, count] : checks)
+      of.member(check, count);
+  }
+}
+
 /// The provider's view.
 void served(json_object& to, const service_metrics& service) {
   auto object = to.object("served");
@@ -206,6 +218,7 @@ std::string summary_json(const metrics& m, const run_info& run,
         auto object = services.object(service.kind.view());
         counts_and_times(object, service, run, end);
         endings(object, service.ended_by);
+        refusals(object, service.implausible);
         served(object, service);
       }
     }

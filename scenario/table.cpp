@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -71,6 +72,24 @@ public:
       if (std::ranges::any_of(services_, count))
         row(fmt::format("  {}", name_of(static_cast<end_reason>(i))), count);
     }
+  }
+
+  /// Whose results were refused, by check.
+  void refusals() {
+    std::set<std::pair<std::string, std::string>> all;
+    for (const auto& service : services_)
+      for (const auto& [provider, checks] : service.implausible)
+        for (const auto& [check, count] : checks)
+          all.emplace(provider, check);
+    for (const auto& [provider, check] : all)
+      row(fmt::format("    {}: {}", provider, check),
+          [&](const service_metrics& x) -> std::uint64_t {
+            const auto of = x.implausible.find(provider);
+            if (of == x.implausible.end())
+              return 0;
+            const auto count = of->second.find(check);
+            return count == of->second.end() ? 0 : count->second;
+          });
   }
 
   void running() {
@@ -139,6 +158,7 @@ void offloading(block& to, const run_info& run, const run_end& end) {
   to.row("no data", &service::no_data);
   to.row("episodes", &service::episodes);
   to.endings(&service::ended_by);
+  to.refusals();
   to.running();
   to.row("fallbacks", &service::fallbacks);
   to.row("t_off mean", [](const service& x) { return in_s(x.t_off_s.mean()); });

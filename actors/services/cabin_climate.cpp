@@ -3,6 +3,7 @@
 #include "actors/service_kind.hpp"
 #include "actors/time.hpp"
 #include "messages/type_ids.hpp"
+#include "planners/climate_judge.hpp"
 #include "world/cabin.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -70,6 +71,30 @@ public:
     return payload::of(climate_power{
         climate_power_w({ask->air_c, ask->mass_c}, ask->outside_c,
                         ask->set_point_c, options_.horizon_s, options_.cabin)});
+  }
+
+private:
+  climate_options options_;
+};
+
+/// Compares a power with what the own function would do now.
+class power_judge final : public result_judge {
+public:
+  explicit power_judge(const climate_options& options) : options_{options} {}
+
+  judged_result judge(const payload& result, const service_input& latest,
+                      time_point) override {
+    const auto ask = latest.what.as<climate_request>();
+    const auto answer = result.as<climate_power>();
+    if (!ask || !answer)
+      return {};
+    const auto refused = judge_climate(answer->power_w,
+                                       {{ask->air_c, ask->mass_c},
+                                        ask->outside_c,
+                                        ask->set_point_c,
+                                        options_.horizon_s},
+                                       options_.cabin);
+    return {refused ? payload{} : result, refused};
   }
 
 private:
@@ -161,6 +186,11 @@ public:
   client_actor spawn_client(caf::actor_system& sys, const service_setup&,
                             const vehicle_actor&) const override {
     return sys.spawn(cabin, options_, common.period);
+  }
+
+  std::unique_ptr<result_judge>
+  make_judge(const service_setup&) const override {
+    return std::make_unique<power_judge>(options_);
   }
 
 private:

@@ -6,16 +6,17 @@
 #include "actors/service_kind.hpp"
 #include "messages/v2x/coordination.hpp"
 #include "messages/v2x/encoded.hpp"
+#include "planners/plan_judge.hpp"
 #include "policies/link/continuity.hpp"
 #include "world/protocol.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace sofof {
 
@@ -34,19 +35,50 @@ std::vector<point> authority(const route& way, double s_m,
   return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
 }
 
-/// @returns whether a plan begins where the vehicle is, as fast as it is.
-bool begins_at(const trajectory& plan, const cam& own) {
-  constexpr double same_place_m = 1.0;
-  constexpr double same_speed_mps = 1.5;
-  const auto t = std::max(own.at, plan.start);
-  const auto moved_m = own.speed_mps * to_seconds(t - own.at);
-  const auto p = plan.at(t);
-  const auto here =
-      own.position
-      + moved_m * point{std::cos(own.heading_rad), std::sin(own.heading_rad)};
-  return distance_m(p.at, here) <= same_place_m
-         && std::abs(p.speed_mps - own.speed_mps) <= same_speed_mps;
-}
+/// Makes a trajectory along the vehicle's way of what a provider suggests, and
+/// judges it by what the vehicle itself sees.
+class suggestion_judge final : public result_judge {
+public:
+  explicit suggestion_judge(service_setup setup)
+      : setup_{std::move(setup)}, judge_{setup_.car} {}
+
+  judged_result judge(const payload& result, const service_input& latest,
+                      time_point now) override {
+    const auto request = latest.what.as<plan_request>();
+    const auto way = request ? setup_.world->find(request->way) : nullptr;
+    if (!way)
+      return {};
+    const auto before = latest.in_use.as<trajectory>();
+    trajectory plan;
+    const auto message = result.as<its_pdu>();
+    if (!message || !etsi::decode(message->view(), word_)
+        || read_suggestion(word_, setup_.station, *way, request->from.s_m,
+                           setup_.where->ahead_by(message->ahead), now,
+                           before.get(), plan)
+               != maneuver_fault::none)
+      return {{}, judge_.judge_unreadable().refused};
+    const auto& own = request->own;
+    const auto verdict =
+        judge_.judge({.way = *way,
+                      .plan = plan,
+                      .in_use = before.get(),
+                      .own = {own.at, own.position, own.heading_rad,
+                              own.speed_mps, own.accel_mps2, own.curvature_1pm},
+                      .s_m = request->from.s_m,
+                      .seen = request->seen,
+                      .crossings_granted = setup_.crossings_granted,
+                      .now = now,
+                      .fingerprint = fingerprint_of_plan(word_)});
+    if (!verdict.usable)
+      return {{}, verdict.refused};
+    return {payload::of(std::move(plan))};
+  }
+
+private:
+  service_setup setup_;
+  plan_judge judge_;
+  etsi::mcm word_; // room that is used again
+};
 
 etsi::termination_status status_of(end_reason why) {
   using enum etsi::termination_status;
@@ -64,6 +96,7 @@ etsi::termination_status status_of(end_reason why) {
       return abort_by_constraint_violation;
     case end_reason::refused:
     case end_reason::revoked:
+    case end_reason::implausible:
       return abort_by_reject;
     case end_reason::peer_lost:
       break;
@@ -140,23 +173,9 @@ public:
     return input;
   }
 
-  /// A trajectory along the vehicle's way, from where it is.
-  payload off_air(const service_setup& setup, const payload& result,
-                  const service_input& latest, time_point now) const override {
-    const auto request = latest.what.as<plan_request>();
-    const auto way = request ? setup.world->find(request->way) : nullptr;
-    const auto message = result.as<its_pdu>();
-    etsi::mcm suggestion;
-    if (!way || !message || !etsi::decode(message->view(), suggestion))
-      return {};
-    const auto before = latest.in_use.as<trajectory>();
-    trajectory plan;
-    const auto fault = read_suggestion(
-        suggestion, setup.station, *way, request->from.s_m,
-        setup.where->ahead_by(message->ahead), now, before.get(), plan);
-    if (fault != maneuver_fault::none || !begins_at(plan, request->own))
-      return {};
-    return payload::of(std::move(plan));
+  std::unique_ptr<result_judge>
+  make_judge(const service_setup& setup) const override {
+    return std::make_unique<suggestion_judge>(setup);
   }
 
   bool continues(const payload& in_use, const payload& offered,

@@ -201,14 +201,23 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
 
 namespace {
 
+const etsi::suggested_maneuver_container*
+suggestion_in(const etsi::mcm& message) {
+  return std::get_if<etsi::suggested_maneuver_container>(
+      &message.body.parameters.maneuver.value);
+}
+
+const etsi::maneuver_constraints*
+plan_in(const etsi::suggested_maneuver_container* to) {
+  return to && to->maneuver ? std::get_if<etsi::maneuver_constraints>(
+             &to->maneuver->parameters.value)
+                            : nullptr;
+}
+
 const etsi::maneuver_constraints* suggested_to(station_id me,
                                                const etsi::mcm& message) {
-  const auto* to = std::get_if<etsi::suggested_maneuver_container>(
-      &message.body.parameters.maneuver.value);
-  return to && to->target == me && to->maneuver
-             ? std::get_if<etsi::maneuver_constraints>(
-                 &to->maneuver->parameters.value)
-             : nullptr;
+  const auto* to = suggestion_in(message);
+  return to && to->target == me ? plan_in(to) : nullptr;
 }
 
 } // namespace
@@ -234,6 +243,24 @@ read_suggestion(const etsi::mcm& message, station_id me, const route& way,
                          x.min_velocity->value});
   }
   return to_trajectory(waypoints, *frame, way, s_guess_m, before, out);
+}
+
+std::uint64_t fingerprint_of_plan(const etsi::mcm& message) {
+  const auto* plan = plan_in(suggestion_in(message));
+  if (!plan)
+    return 0;
+  std::uint64_t h = 1;
+  const auto add = [&h](std::int32_t x) {
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15; // 2^64 / golden ratio
+    h = (h ^ static_cast<std::uint32_t>(x)) * odd;
+    h ^= h >> 32;
+  };
+  for (const auto& x : plan->waypoints) {
+    add(x.waypoint.x.value);
+    add(x.waypoint.y.value);
+    add(x.min_velocity ? x.min_velocity->value : -1);
+  }
+  return h;
 }
 
 } // namespace sofof

@@ -8,6 +8,7 @@
 #include "world/route.hpp"
 #include "world/vehicle.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -88,5 +89,9 @@ std::optional<maneuver_fault>
 read_suggestion(const etsi::mcm& message, station_id me, const route& way,
                 double s_guess_m, const datum& where, time_point now,
                 const trajectory* before, trajectory& out);
+
+/// @returns a number of the suggested places and speeds, whatever their times:
+/// a plan that is sent again has the same. 0 if the message suggests none.
+std::uint64_t fingerprint_of_plan(const etsi::mcm& message);
 
 } // namespace sofof

@@ -163,6 +163,23 @@ void add_endings(figure_table& to, std::span<const recorded_run> runs,
     to.add(member, "ended by " + member.substr(prefix.size()));
 }
 
+/// Adds whose results were refused, by check: PROVIDER.CHECK.
+void add_refusals(figure_table& to, std::span<const recorded_run> runs,
+                  const std::string& prefix) {
+  std::set<std::string> members;
+  for (const auto& run : runs)
+    if (run.figures)
+      for (const auto& [member, count] : *run.figures)
+        if (member.starts_with(prefix))
+          members.insert(member);
+  for (const auto& member : members) {
+    const auto name = member.substr(prefix.size());
+    const auto dot = name.rfind('.');
+    to.add(member, fmt::format("implausible results of {}: {}",
+                               name.substr(0, dot), name.substr(dot + 1)));
+  }
+}
+
 } // namespace
 
 std::vector<table> key_figures(std::span<const recorded_run> runs) {
@@ -174,6 +191,7 @@ std::vector<table> key_figures(std::span<const recorded_run> runs) {
     for (const auto& figure : of_service)
       shown.add(figure, prefix);
     add_endings(shown, runs, prefix + "ended_by.");
+    add_refusals(shown, runs, prefix + "implausible.");
     std::move(shown).finish(all);
   }
   add_table(all, runs, "Safety and comfort", of_safety);

@@ -235,7 +235,7 @@ TEST_CASE("whatever a provider's planner is told, it gives a sound plan or "
       take(planner.run(payload::of(garble(word, who))), truth);
       take(planner.run(payload::of(noise(who))), truth);
     }
-    CHECK(plans > rounds);
+    CHECK(plans > rounds / 2); // the others begin where the vehicle is not
     *planner.now += 1500ms; // the lies were of the near future at most
     const auto truth = planner.at("3-4-5", 20, 8);
     planner.hear(pdu_of(truth.own));

@@ -93,11 +93,12 @@ public:
       return own;
     auto vehicle = setup;
     vehicle.remote = false;
-    const auto plan = kind->off_air(vehicle, result.what,
-                                    {running, of.from.at, payload::of(of),
-                                     before ? payload::of(*before) : payload{}},
-                                    *now)
-                          .as<trajectory>();
+    const auto plan = kind->make_judge(vehicle)
+                          ->judge(result.what,
+                                  {running, of.from.at, payload::of(of),
+                                   before ? payload::of(*before) : payload{}},
+                                  *now)
+                          .what.as<trajectory>();
     REQUIRE((!plan || plan->is_sound()));
     return plan;
   }

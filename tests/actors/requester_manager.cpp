@@ -15,6 +15,18 @@ using namespace sofof::test;
 
 namespace {
 
+/// Understands echoes alone, and believes as they do.
+struct echo_judge final : result_judge {
+  std::unique_ptr<result_judge> believes = echo_service{"echo"}.make_judge({});
+
+  judged_result judge(const payload& result, const service_input& latest,
+                      time_point now) override {
+    if (!result.as<echo>())
+      return {};
+    return believes->judge(result, latest, now);
+  }
+};
+
 /// A manager whose local service runs every 50 ms and takes 5 ms; its clients
 /// and peers are probes.
 struct managed_world : virtual_world {
@@ -38,10 +50,7 @@ struct managed_world : virtual_world {
     setup.on_air = [this](service_input input, bool takes_over) {
       return (speak ? *speak : kind).on_air({}, std::move(input), takes_over);
     };
-    setup.off_air = [](const payload& result, const service_input&,
-                       time_point) {
-      return result.as<echo>() ? result : payload{};
-    };
+    setup.make_judge = [] { return std::make_unique<echo_judge>(); };
     setup.local.function = kind.make_function({});
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {
@@ -533,4 +542,68 @@ TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
   CHECK(recorder->all<event_record>().back().what == "clock_known");
   uncertain_result(++cycle, 30ms);
   CHECK(recorder->all<event_record>().back().what == "clock_in_doubt");
+}
+
+TEST_CASE_FIXTURE(managed_world,
+                  "an implausible result is not used; the local service plans "
+                  "in the same instant, and the requester hears why") {
+  go_remote();
+  run_for(20ms);
+  client->clear();
+  requester->clear();
+  const auto t = now();
+  tell(manager,
+       service_result{running, 2, now(), payload::of(echo{echo::lie})});
+  CHECK(results(true) == 0);
+  CHECK(source() == false);
+  REQUIRE(requester->count<qos_violation>() == 1);
+  const auto violation = requester->all<qos_violation>().front();
+  CHECK(violation.running == running);
+  CHECK(violation.breach == qos_breach::implausible);
+  CHECK(violation.at == t);
+  CHECK(violation.why == "number value=2.000 limit=1.000");
+  run_for(10ms);
+  CHECK(results(false) == 1);
+}
+
+TEST_CASE_FIXTURE(managed_world,
+                  "an implausible first result leaves the local service in "
+                  "use") {
+  feed(1);
+  run_for(1s);
+  accept(running);
+  tell(manager,
+       service_result{running, 1, now(), payload::of(echo{echo::lie})});
+  CHECK(!source());
+  CHECK(requester->count<qos_violation>() == 1);
+  result(2); // it is not heard any more
+  CHECK(!source());
+}
+
+TEST_CASE_FIXTURE(managed_world, "a late result is not judged") {
+  go_remote();
+  run_for(20ms);
+  tell(manager,
+       service_result{running, 2, now() - 51ms, payload::of(echo{echo::lie})});
+  CHECK(source() == true);
+  REQUIRE(requester->count<qos_violation>() == 1);
+  CHECK(requester->all<qos_violation>().front().breach == qos_breach::latency);
+}
+
+TEST_CASE_FIXTURE(managed_world,
+                  "of two providers, the one whose result is implausible is "
+                  "left, and the other one is used") {
+  go_remote();
+  accept(next_running);
+  run_for(20ms);
+  result_of(next_running, 2);
+  tell(manager,
+       service_result{running, 3, now(), payload::of(echo{echo::lie})});
+  CHECK(source() == true);
+  CHECK(requester->count<qos_violation>() == 1);
+  client->clear();
+  run_for(50ms);
+  result_of(next_running, 4);
+  CHECK(results(true) == 1);
+  CHECK(results(false) == 0);
 }

@@ -231,10 +231,9 @@ TEST_CASE(
   ask.from.s_m = 100;
   ask.own = {101, time_point{3s}, {100, 0}, 0, 8};
   const auto means = [&](const payload& result) {
-    return kind
-        ->off_air(setup, result, {{}, ask.own.at, payload::of(ask)},
-                  time_point{3020ms})
-        .as<trajectory>();
+    return kind->make_judge(setup)
+        ->judge(result, {{}, ask.own.at, payload::of(ask)}, time_point{3020ms})
+        .what.as<trajectory>();
   };
   CHECK(means(payload::of(suggested_to(101))));
   CHECK(!means(payload::of(suggested_to(102))));

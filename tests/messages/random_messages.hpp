@@ -46,7 +46,7 @@ inline constexpr std::size_t arity<qos_limits> = 2;
 template <>
 inline constexpr std::size_t arity<arrival> = 3;
 template <>
-inline constexpr std::size_t arity<qos_violation> = 4;
+inline constexpr std::size_t arity<qos_violation> = 5;
 template <>
 inline constexpr std::size_t arity<vehicle_state> = 5;
 template <>
@@ -212,9 +212,9 @@ public:
 
 private:
   void fill_enum(std::byte& x) { x = static_cast<std::byte>(below(256)); }
-  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(11)); }
+  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(12)); }
   void fill_enum(side& x) { x = static_cast<side>(below(2)); }
-  void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(2)); }
+  void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(3)); }
   void fill_enum(lifecycle_step& x) {
     x = static_cast<lifecycle_step>(below(4));
   }

@@ -131,7 +131,8 @@ TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
       CHECK(value == known);
       ++known;
     }
-  const auto expected = std::is_same_v<T, end_reason>        ? 11
+  const auto expected = std::is_same_v<T, end_reason>        ? 12
+                        : std::is_same_v<T, qos_breach>      ? 3
                         : std::is_same_v<T, lifecycle_step>  ? 4
                         : std::is_same_v<T, stream_id::what> ? 4
                                                              : 2;

@@ -51,6 +51,23 @@ TEST_CASE("a run is counted as the protocol says") {
   CHECK(m.services()[1].episodes == 0);
 }
 
+TEST_CASE("implausible results are counted by the provider's name and the "
+          "check") {
+  metrics m{run()};
+  const auto refuse = [&m](std::string detail) {
+    m.take(event_record{at(1s), "implausible", 101, provider, planning, 1,
+                        std::move(detail)});
+  };
+  refuse("road value=0.312 limit=0.250");
+  refuse("road value=0.400 limit=0.250");
+  refuse("others value=1.200 limit=2.500");
+  const auto& counts = m.headline().implausible;
+  REQUIRE(counts.size() == 1);
+  CHECK(counts.at("mec").at("road") == 2);
+  CHECK(counts.at("mec").at("others") == 1);
+  CHECK(m.services()[1].implausible.empty());
+}
+
 TEST_CASE("an episode that still runs at the end counts up to the end") {
   metrics m{run()};
   m.take(switched(running(), true, 90s));

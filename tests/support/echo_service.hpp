@@ -4,6 +4,7 @@
 #include "actors/service_kind.hpp"
 #include "messages/payload.hpp"
 
+#include <memory>
 #include <string>
 
 namespace sofof::test {
@@ -12,8 +13,10 @@ namespace sofof::test {
 struct echo {
   std::uint64_t number = 0;
 
-  /// What continues nothing.
-  static constexpr std::uint64_t jump = 999;
+  /// What continues nothing; no vehicle counts as far.
+  static constexpr std::uint64_t jump = ~std::uint64_t{0};
+  /// What no vehicle believes.
+  static constexpr std::uint64_t lie = jump - 1;
 };
 
 void archive(auto& bytes, echo& x) {
@@ -61,6 +64,20 @@ public:
                  time_point) const override {
     const auto said = offered.as<echo>();
     return !said || said->number != echo::jump;
+  }
+
+  std::unique_ptr<result_judge>
+  make_judge(const service_setup&) const override {
+    struct sceptic final : result_judge {
+      judged_result judge(const payload& result, const service_input&,
+                          time_point) override {
+        const auto said = result.as<echo>();
+        if (said && said->number == echo::lie)
+          return {{}, objection{"number", 2, 1}};
+        return {result};
+      }
+    };
+    return std::make_unique<sceptic>();
   }
 
 private:

@@ -1,0 +1,370 @@
+// Drives vehicles whose provider lies, for tests/acceptance/trust.
+//
+//   lies drive LIE SEED yes|no SECONDS   in virtual time, with or without
+//                                        other traffic; prints a line of
+//                                        figures: NAME=VALUE ...
+//   lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT
+//                                        as `sofof provide`, over TLS
+//   lies time SCENARIO SECONDS           judges honest plans, in virtual time;
+//                                        prints what a plan takes, µs
+#include "actors/planning/plan_request.hpp"
+#include "network/network_address.hpp"
+#include "planners/plan_judge.hpp"
+#include "scenario/hosts.hpp"
+#include "scenario/load.hpp"
+#include "scenario/placement.hpp"
+#include "tests/scenario/whole_run.hpp"
+#include "tests/support/lying_planning.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+using namespace sofof;
+using namespace sofof::test;
+
+namespace {
+
+constexpr auto planning = "trajectory_planning";
+
+/// Three connected cars in a row on the round trip through Ulm-Lehr, a pair
+/// that comes towards them, and, if wanted, twelve more that do not talk.
+scenario scene(std::uint64_t seed, bool traffic, int seconds,
+               std::string_view lodm) {
+  const auto start_m = 30 + static_cast<int>(seed * 37 % 400);
+  auto text = fmt::format(R"(
+name = "lies"
+duration = "{}s"
+seed = {}
+map = "maps/ulm_lehr.toml"
+[[fleet]]
+count = 3
+first_station = 101
+routes = ["round_trip"]
+placement = "convoy"
+spacing_m = 28.0
+start_m = {}.0
+[[fleet]]
+count = 2
+first_station = 104
+routes = ["round_trip_opposite"]
+placement = "convoy"
+spacing_m = 28.0
+start_m = {}.0
+[[provider]]
+name = "mec"
+position_m = [0.0, 0.0]
+area_radius_m = 3000.0
+range_m = 5000.0
+[[service]]
+name = "trajectory_planning"
+[policies]
+lodm = "{}"
+codm = "always"
+[record]
+tracks_period = "50ms"
+)",
+                          seconds, seed, start_m + 100, start_m + 40, lodm);
+  constexpr auto file = SOFOF_SOURCE_DIR "/config/lies.toml";
+  if (!traffic)
+    return parse_scenario(text, file);
+  // Where they do not stand on others.
+  for (int shift_m = 0;; shift_m += 20)
+    try {
+      const auto others = fmt::format(R"(
+[[fleet]]
+count = 12
+first_station = 201
+routes = ["round_trip", "round_trip_opposite"]
+start_m = {}.0
+connected = false
+)",
+                                      (start_m + 160 + shift_m) % 400);
+      return parse_scenario(text + others, file);
+    } catch (const input_error&) {
+      if (shift_m > 400)
+        throw;
+    }
+}
+
+/// A stretch of time in which something goes on, and the longest so far.
+struct stretch {
+  double now_s = 0, longest_s = 0;
+  void add(bool goes_on, double dt_s) {
+    now_s = goes_on ? now_s + dt_s : 0;
+    longest_s = std::max(longest_s, now_s);
+  }
+};
+
+struct figures {
+  double beyond_m = -1e9; ///< The farthest out of the lane.
+  double outside_s = 0;   ///< The longest time in a row.
+  double braking_s = 0;   ///< Below -4.5 m/s² with no body ahead, in a row.
+  double least_accel_mps2 = 0;
+  double over_mps = -1e9;   ///< Over 1.1 limit + 0.8 m/s.
+  double late_s = 0;        ///< Of the latest car against driving alone.
+  double back_ms = 0;       ///< From a refused result to the own plan.
+  std::size_t requests = 0; ///< The most of any vehicle.
+  std::size_t refused = 0;
+  std::size_t collisions = 0;
+  std::map<std::string, std::size_t> checks;
+};
+
+constexpr vehicle_params body_size;
+
+/// @returns whether a body is before a car, on its lane or next to it, or
+/// where its way is crossed.
+bool any_ahead(const track_record& me, const route& way,
+               const std::map<station_id, const track_record*>& others) {
+  for (const auto& [station, other] : others) {
+    if (station == me.ego.own.station)
+      continue;
+    const auto to = other->ego.own.position - me.ego.own.position;
+    if (dot(to, to) > 60.0 * 60.0)
+      continue;
+    const auto foot =
+        way.path().project(other->ego.own.position, me.ego.s_m + 20, 60);
+    const auto turned = std::cos(other->ego.own.heading_rad
+                                 - way.path().at(foot.s_m).heading_rad);
+    const auto beside_m = std::abs(turned) > 0.8 ? 2.9 : 12.0;
+    if (foot.s_m > me.ego.s_m && std::abs(foot.d_m) < beside_m)
+      return true;
+  }
+  return false;
+}
+
+figures measure(const scenario& s, const memory_sink& lied,
+                const memory_sink& alone) {
+  figures out;
+  std::map<station_id, route_ptr> ways;
+  for (const auto& v : place_vehicles(s))
+    ways[v.station] = v.way;
+  const auto dt_s = to_seconds(s.record.tracks_period);
+
+  std::map<station_id, std::vector<const track_record*>> tracks, usual;
+  for (const auto& t : lied.tracks)
+    tracks[t.ego.own.station].push_back(&t);
+  for (const auto& t : alone.tracks)
+    usual[t.ego.own.station].push_back(&t);
+  std::map<time_point, std::map<station_id, const track_record*>> moments;
+  const auto moment = [&](time_point t) {
+    const auto n = t.time_since_epoch() / s.record.tracks_period;
+    return time_point{n * s.record.tracks_period};
+  };
+  for (const auto& t : lied.tracks)
+    moments[moment(t.at)][t.ego.own.station] = &t;
+
+  for (const auto& [station, all] : tracks) {
+    if (station >= 200)
+      continue;
+    const auto& way = *ways.at(station);
+    stretch outside, braking;
+    for (const auto* t : all) {
+      const auto& own = t->ego.own;
+      const point axis{std::cos(own.heading_rad), std::sin(own.heading_rad)};
+      const auto front =
+          way.path().project(own.position + body_size.wheelbase_m * axis,
+                             t->ego.s_m + body_size.wheelbase_m, 2);
+      const auto beyond_m =
+          std::max(std::abs(t->lateral_m), std::abs(front.d_m))
+          + body_size.width_m / 2 - way.half_width_m(t->ego.s_m);
+      out.beyond_m = std::max(out.beyond_m, beyond_m);
+      outside.add(beyond_m > 0, dt_s);
+      out.over_mps =
+          std::max(out.over_mps,
+                   own.speed_mps - (1.1 * way.limit_mps(t->ego.s_m) + 0.8));
+      out.least_accel_mps2 = std::min(out.least_accel_mps2, own.accel_mps2);
+      braking.add(own.accel_mps2 < -4.5
+                      && !any_ahead(*t, way, moments[moment(t->at)]),
+                  dt_s);
+    }
+    out.outside_s = std::max(out.outside_s, outside.longest_s);
+    out.braking_s = std::max(out.braking_s, braking.longest_s);
+    const auto reached_m = all.back()->ego.s_m;
+    const auto& before = usual[station];
+    const auto there = std::ranges::find_if(
+        before, [&](const auto* t) { return t->ego.s_m >= reached_m; });
+    if (there != before.end())
+      out.late_s =
+          std::max(out.late_s, to_seconds(all.back()->at - (*there)->at));
+  }
+
+  std::map<station_id, std::size_t> requests;
+  for (const auto& e : lied.events) {
+    if (e.what == "request" && e.kind == service_name{planning})
+      out.requests = std::max(out.requests, ++requests[e.station]);
+    if (e.what != "implausible")
+      continue;
+    ++out.refused;
+    ++out.checks[e.detail.substr(0, e.detail.find(' '))];
+    const auto was_remote =
+        std::ranges::any_of(lied.episodes, [&](const episode_record& x) {
+          return x.of == side::requester && x.got_data
+                 && x.running.station == e.station && x.ended == e.at;
+        });
+    const auto own = std::ranges::find_if(
+        lied.plan_switches, [&](const plan_switch_record& x) {
+          return x.running.station == e.station && !x.remote && x.at >= e.at;
+        });
+    if (was_remote && own != lied.plan_switches.end())
+      out.back_ms = std::max(out.back_ms, 1e3 * to_seconds(own->at - e.at));
+  }
+  out.collisions = lied.collisions.size();
+  return out;
+}
+
+int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
+  const auto alone = play(scene(seed, traffic, seconds, "never"));
+  auto s = scene(seed, traffic, seconds, "always");
+  for (auto& kind : s.services)
+    if (kind->name() == planning)
+      kind = std::make_shared<lying_kind>(kind, what);
+  const auto lied = play(s);
+  const auto x = measure(s, lied, alone);
+  std::string checks;
+  for (const auto& [check, count] : x.checks)
+    checks += fmt::format("{}{}:{}", checks.empty() ? "" : ",", check, count);
+  fmt::print(
+      "lie={} seed={} traffic={} seconds={} collisions={} beyond_m={:.2f} "
+      "outside_s={:.2f} braking_s={:.2f} least_accel_mps2={:.2f} "
+      "over_mps={:.2f} late_s={:.2f} back_ms={:.1f} requests={} "
+      "refused={} checks={}\n",
+      lie_names[static_cast<std::size_t>(what)], seed, traffic ? "yes" : "no",
+      seconds, x.collisions, x.beyond_m, x.outside_s, x.braking_s,
+      x.least_accel_mps2, x.over_mps, x.late_s, x.back_ms, x.requests,
+      x.refused, checks.empty() ? "none" : checks);
+  return 0;
+}
+
+int provide_lies(lie what, const char* file, const char* listen,
+                 const char* keys, const char* seconds, const char* out) {
+  auto s = load_scenario(
+      file, std::vector<std::string>{fmt::format("duration={}s", seconds)});
+  for (auto& kind : s.services)
+    if (kind->name() == planning)
+      kind = std::make_shared<lying_kind>(kind, what);
+  provide_options options;
+  const auto at = parse_address(listen);
+  if (!at)
+    return 2;
+  options.listen = *at;
+  options.keys = keys;
+  run_options run;
+  run.realtime = true;
+  run.whose = "liar";
+  run.force = true;
+  run.out = out;
+  const std::atomic<bool> interrupted{false};
+  return static_cast<int>(provide(s, options, run, interrupted, std::cout));
+}
+
+/// Judges what another judge does, beside it, and takes the time.
+class timed_judge final : public result_judge {
+public:
+  timed_judge(std::unique_ptr<result_judge> real, service_setup setup,
+              std::vector<double>& times_us)
+      : real_{std::move(real)}, setup_{std::move(setup)}, times_us_{times_us} {}
+
+  judged_result judge(const payload& result, const service_input& latest,
+                      time_point now) override {
+    const auto request = latest.what.as<plan_request>();
+    const auto way = request ? setup_.world->find(request->way) : nullptr;
+    const auto message = result.as<its_pdu>();
+    const auto before = latest.in_use.as<trajectory>();
+    trajectory plan;
+    if (way && message && etsi::decode(message->view(), word_)
+        && read_suggestion(word_, setup_.station, *way, request->from.s_m,
+                           setup_.where->ahead_by(message->ahead), now,
+                           before.get(), plan)
+               == maneuver_fault::none) {
+      const auto& own = request->own;
+      const auto begin = std::chrono::steady_clock::now();
+      judge_.judge({*way,
+                    plan,
+                    before.get(),
+                    {own.at, own.position, own.heading_rad, own.speed_mps,
+                     own.accel_mps2, own.curvature_1pm},
+                    request->from.s_m,
+                    request->seen,
+                    setup_.crossings_granted,
+                    now,
+                    fingerprint_of_plan(word_)});
+      times_us_.push_back(std::chrono::duration<double, std::micro>(
+                              std::chrono::steady_clock::now() - begin)
+                              .count());
+    }
+    return real_->judge(result, latest, now);
+  }
+
+private:
+  std::unique_ptr<result_judge> real_;
+  service_setup setup_;
+  std::vector<double>& times_us_;
+  plan_judge judge_;
+  etsi::mcm word_;
+};
+
+class timed_kind final : public lying_kind {
+public:
+  using lying_kind::lying_kind;
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    return make_service_kind(planning)->make_function(setup);
+  }
+  std::unique_ptr<result_judge>
+  make_judge(const service_setup& setup) const override {
+    return std::make_unique<timed_judge>(lying_kind::make_judge(setup), setup,
+                                         times_us);
+  }
+  mutable std::vector<double> times_us;
+};
+
+int time_judging(const char* file, const char* seconds) {
+  auto s = load_scenario(
+      file, std::vector<std::string>{fmt::format("duration={}s", seconds)});
+  std::shared_ptr<timed_kind> timed;
+  for (auto& kind : s.services)
+    if (kind->name() == planning)
+      kind = timed = std::make_shared<timed_kind>(kind, lie::jump);
+  play(s);
+  auto& all = timed->times_us;
+  std::ranges::sort(all);
+  const auto at = [&](double share) {
+    return all.at(
+        static_cast<std::size_t>(share * static_cast<double>(all.size() - 1)));
+  };
+  fmt::print("plans={} p50_us={:.2f} p99_us={:.2f}\n", all.size(), at(0.5),
+             at(0.99));
+  return 0;
+}
+
+} // namespace
+
+int main(int count, char** words) {
+  init_messages();
+  const auto what = count > 2 ? lie_of(words[2]) : std::nullopt;
+  const std::string_view mode = count > 1 ? words[1] : "";
+  try {
+    if (what && mode == "drive" && count == 6)
+      return drive(*what, std::strtoull(words[3], nullptr, 10),
+                   std::string_view{words[4]} == "yes", std::atoi(words[5]));
+    if (what && mode == "provide" && count == 8)
+      return provide_lies(*what, words[3], words[4], words[5], words[6],
+                          words[7]);
+    if (mode == "time" && count == 4)
+      return time_judging(words[2], words[3]);
+  } catch (const std::exception& e) {
+    std::cerr << "lies: " << e.what() << "\n";
+    return 2;
+  }
+  std::cerr << "usage: lies drive LIE SEED yes|no SECONDS\n"
+               "       lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT\n"
+               "       lies time SCENARIO SECONDS\n";
+  return 2;
+}

@@ -1,0 +1,315 @@
+// Trajectory planning at a provider that lies: what vehicles must survive.
+#pragma once
+
+#include "actors/service_kind.hpp"
+#include "messages/v2x/coordination.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "world/route_finder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sofof::test {
+
+using namespace std::chrono_literals;
+
+/// What a provider may say instead of its plan.
+enum class lie {
+  jump,       ///< It begins 3 m to the left.
+  g100,       ///< It drives 160 m/s.
+  stale,      ///< It is the first one, for ever.
+  ram,        ///< It speeds up by 3.4 m/s² without end.
+  mix,        ///< Even stations brake by 6, odd ones speed up by 3.4 m/s².
+  offroad,    ///< It leaves the lane to the right.
+  oncoming,   ///< It goes over to the opposite lane.
+  brake,      ///< It brakes by 9 m/s² for nothing.
+  stands,     ///< It stops where lanes cross, and stays there.
+  drifts,     ///< It goes to the right by 0.2 m/s, plan by plan.
+  swaps,      ///< It is another vehicle's.
+  oscillates, ///< It speeds up and brakes in turns.
+  replays,    ///< It is an earlier one, with new times.
+};
+
+inline constexpr std::array<std::string_view, 13> lie_names{
+    "jump",  "g100",   "stale",  "ram",   "mix",        "offroad", "oncoming",
+    "brake", "stands", "drifts", "swaps", "oscillates", "replays"};
+
+inline std::optional<lie> lie_of(std::string_view name) {
+  const auto found = std::ranges::find(lie_names, name);
+  if (found == lie_names.end())
+    return std::nullopt;
+  return static_cast<lie>(found - lie_names.begin());
+}
+
+/// What the lying functions of one provider know of each other.
+struct liars {
+  lie what = lie::jump;
+  duration after = 8s; ///< The first results are honest.
+  std::mutex mutex;
+  std::map<station_id, trajectory> plans; ///< Honest ones, the newest.
+};
+
+/// An honest function whose results are changed on their way out.
+class lying_function final : public service_function {
+public:
+  lying_function(std::shared_ptr<service_function> honest, service_setup setup,
+                 std::shared_ptr<liars> all)
+      : honest_{std::move(honest)}, setup_{std::move(setup)}, all_{std::move(
+                                                                  all)} {}
+
+  service_output run(time_point now, const service_input& input) override {
+    auto out = honest_->run(now, input);
+    hear(input, now);
+    const auto message = out.what.as<its_pdu>();
+    if (!message || !way_ || !etsi::decode(message->view(), word_))
+      return out;
+    trajectory plan;
+    const auto guess_m = said_.empty() ? from_m_ : said_.at(now).s_m;
+    if (read_suggestion(word_, setup_.station, *way_, guess_m, *setup_.where,
+                        now, nullptr, plan)
+        != maneuver_fault::none)
+      return out;
+    remember(plan);
+    if (!began_)
+      began_ = now;
+    if (now - *began_ < all_->after) {
+      said_ = plan;
+      return out;
+    }
+    const auto told = instead_of(plan, now);
+    said_ = told;
+    const suggestion what{
+        setup_.provider.station,
+        setup_.provider.position,
+        setup_.station,
+        {static_cast<std::uint16_t>(input.running.counter), ++update_}};
+    if (!make_suggestion(what, told, *setup_.where, room_, word_))
+      return {};
+    return {payload::of(encoded(word_)), out.about};
+  }
+
+private:
+  void hear(const service_input& input, time_point now) {
+    const auto message = input.what.as<its_pdu>();
+    etsi::mcm mcm;
+    if (!message || !etsi::decode(message->view(), mcm))
+      return;
+    const auto word = read_word(mcm, *setup_.where, now);
+    if (!word)
+      return;
+    if (const auto found = find_route(setup_.world->routes, word->way)) {
+      way_ = found->way;
+      from_m_ = found->ahead.from_m;
+    }
+  }
+
+  void remember(const trajectory& plan) {
+    const std::lock_guard lock{all_->mutex};
+    all_->plans[setup_.station] = plan;
+    past_.push_back(plan);
+    if (past_.size() > 100) // 5 s
+      past_.pop_front();
+  }
+
+  // From a point on, by an acceleration, to one side.
+  // @param accel   Of time from now on, m/s².
+  // @param aside_m Of the same: how far to the left of where it is.
+  template <class Accel, class Aside>
+  trajectory made(const trajectory_point& from, time_point now, Accel accel,
+                  Aside aside_m) const {
+    constexpr double step_s = 0.1;
+    constexpr int steps = 60;
+    const auto& path = way_->path();
+    const auto begin = path.frame(from.s_m);
+    const auto d0_m = cross(begin.tangent, from.at - begin.at);
+    trajectory out;
+    out.start = now;
+    auto s_m = from.s_m, v = from.speed_mps;
+    for (int k = 0; k <= steps; ++k) {
+      const auto t = k * step_s;
+      const auto lane = path.frame(s_m);
+      const point left{-lane.tangent.y_m, lane.tangent.x_m};
+      const auto d_m = d0_m + aside_m(t);
+      const auto slope = (aside_m(t + 0.01) - aside_m(t)) / 0.01;
+      const auto a = v > 0 || accel(t) > 0 ? accel(t) : 0.0;
+      out.points.push_back(
+          {t, s_m, lane.at + d_m * left,
+           lane.heading_rad + (v > 1 ? std::atan(slope / v) : 0.0),
+           lane.curvature_1pm, v, a});
+      const auto next = std::max(0.0, v + a * step_s);
+      s_m += step_s * (v + next) / 2;
+      v = next;
+    }
+    return out;
+  }
+
+  trajectory instead_of(const trajectory& honest, time_point now) {
+    const auto from =
+        !said_.empty() && now < said_.end() ? said_.at(now) : honest.at(now);
+    const auto lied_s = to_seconds(now - *began_ - all_->after);
+    const auto straight = [](double) { return 0.0; };
+    const auto by = [](double a) { return [a](double) { return a; }; };
+    switch (all_->what) {
+      case lie::jump: {
+        auto plan = honest;
+        for (auto& p : plan.points)
+          p.at =
+              p.at
+              + 3.0 * point{-std::sin(p.heading_rad), std::cos(p.heading_rad)};
+        return plan;
+      }
+      case lie::g100: {
+        auto start = from;
+        start.speed_mps = 160;
+        return made(start, now, by(0), straight);
+      }
+      case lie::stale:
+        if (first_.empty())
+          first_ = honest;
+        return first_;
+      case lie::ram:
+        return made(from, now, by(3.4), straight);
+      case lie::mix:
+        return made(from, now, by(setup_.station % 2 == 0 ? -6 : 3.4),
+                    straight);
+      case lie::offroad:
+        return made(from, now, by(0), [](double t) { return -0.8 * t; });
+      case lie::oncoming:
+        return made(from, now, by(0),
+                    [](double t) { return std::min(3.5, 1.0 * t); });
+      case lie::brake:
+        return made(from, now, by(-9), straight);
+      case lie::stands:
+        return made(from, now, by(stop_on_crossing(from)), straight);
+      case lie::drifts:
+        return moved_right(honest, 0.2 * lied_s);
+      case lie::swaps: {
+        const std::lock_guard lock{all_->mutex};
+        auto other = all_->plans.upper_bound(setup_.station);
+        if (other == all_->plans.end())
+          other = all_->plans.begin();
+        auto plan = other->second;
+        plan.start = honest.start;
+        return plan;
+      }
+      case lie::oscillates:
+        return made(from, now, by(++turns_ % 2 == 0 ? 3.0 : -3.5), straight);
+      case lie::replays: {
+        const auto n = past_.size();
+        auto plan = past_[std::min(turns_++ % 40, n - 1)];
+        plan.start = honest.start;
+        return plan;
+      }
+    }
+    return honest;
+  }
+
+  static trajectory moved_right(trajectory plan, double by_m) {
+    for (auto& p : plan.points)
+      p.at = p.at
+             + by_m * point{std::sin(p.heading_rad), -std::cos(p.heading_rad)};
+    return plan;
+  }
+
+  // The braking that ends where the way meets another lane.
+  double stop_on_crossing(const trajectory_point& from) const {
+    const auto& map = setup_.world->map;
+    const auto front_m = vehicle_params{}.front_m;
+    auto nearest_m = 1e9;
+    const auto sequence = way_->sequence();
+    for (std::size_t i = 0; i < sequence.size(); ++i)
+      for (const auto& meeting : map.conflicts())
+        for (const auto& [lane, from_m, to_m] :
+             {std::tuple{meeting.lane_a, meeting.from_a_m, meeting.to_a_m},
+              std::tuple{meeting.lane_b, meeting.from_b_m, meeting.to_b_m}})
+          if (lane == sequence[i] && meeting.how == conflict::kind::crossing) {
+            auto ahead_m = way_->start_of_m(i) + (from_m + to_m) / 2 - front_m
+                           - std::fmod(from.s_m, way_->length_m());
+            if (way_->closed() && ahead_m < -1)
+              ahead_m += way_->length_m();
+            if (ahead_m > -1)
+              nearest_m = std::min(nearest_m, ahead_m);
+          }
+    const auto v = from.speed_mps;
+    if (nearest_m <= 1)
+      return -3;
+    const auto needed = v * v / (2 * nearest_m);
+    if (needed > 1)
+      return -std::min(needed, 3.5);
+    return v < 8 ? 1.0 : 0.0;
+  }
+
+  std::shared_ptr<service_function> honest_;
+  service_setup setup_;
+  std::shared_ptr<liars> all_;
+  route_ptr way_;
+  double from_m_ = 0;
+  std::optional<time_point> began_;
+  trajectory said_, first_;
+  std::deque<trajectory> past_;
+  std::size_t turns_ = 0;
+  std::uint16_t update_ = 0;
+  etsi::mcm word_;
+  std::vector<maneuver_waypoint> room_;
+};
+
+/// Another kind of service, whose functions at providers lie.
+class lying_kind : public service_kind {
+public:
+  lying_kind(service_kind_ptr honest, lie what)
+      : honest_{std::move(honest)}, all_{std::make_shared<liars>()} {
+    common = honest_->common;
+    all_->what = what;
+  }
+
+  std::string_view name() const override { return honest_->name(); }
+  void fields(settings& s) override { honest_->fields(s); }
+
+  std::shared_ptr<service_function>
+  make_function(const service_setup& setup) const override {
+    auto made = honest_->make_function(setup);
+    if (!setup.remote)
+      return made;
+    return std::make_shared<lying_function>(std::move(made), setup, all_);
+  }
+  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
+                            const vehicle_actor& vehicle) const override {
+    return honest_->spawn_client(sys, setup, vehicle);
+  }
+  std::shared_ptr<service_site>
+  make_site(const service_setup& setup) const override {
+    return honest_->make_site(setup);
+  }
+  service_input on_air(const service_setup& setup, service_input input,
+                       bool takes_over) const override {
+    return honest_->on_air(setup, std::move(input), takes_over);
+  }
+  bool continues(const payload& in_use, const payload& offered,
+                 time_point now) const override {
+    return honest_->continues(in_use, offered, now);
+  }
+  std::unique_ptr<result_judge>
+  make_judge(const service_setup& setup) const override {
+    return honest_->make_judge(setup);
+  }
+  payload farewell(const service_setup& setup, const service_end& end,
+                   time_point now, const cam* own) const override {
+    return honest_->farewell(setup, end, now, own);
+  }
+
+private:
+  service_kind_ptr honest_;
+  std::shared_ptr<liars> all_;
+};
+
+} // namespace sofof::test
