@@ -8,6 +8,8 @@
 #include <caf/typed_event_based_actor.hpp>
 
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace sofof {
 
@@ -23,12 +25,14 @@ struct watchdog_state {
   onboard_requester_actor requester;
   std::optional<running_service> watched;
   gap_monitor gaps{duration{0}};
+  std::string useless;     // why the results since the last arrival are so
   std::uint64_t epoch = 0; // of the one timer that counts
 
   void arm(const running_service& running, time_point first) {
     watched = running;
     gaps = gap_monitor{limits.max_interarrival};
     gaps.arrived(first);
+    useless.clear();
     ++epoch;
     set_timer();
   }
@@ -37,8 +41,14 @@ struct watchdog_state {
     if (watched != a.running)
       return;
     gaps.arrived(a.received);
+    useless.clear();
     if (!in_time(a.created, a.received, limits.max_latency))
       bark(qos_breach::latency);
+  }
+
+  void take_useless(const running_service& running, std::string why) {
+    if (watched == running)
+      useless = std::move(why);
   }
 
   void disarm(const running_service& running) {
@@ -62,7 +72,12 @@ struct watchdog_state {
   void set_timer() { send_at(self, self, gaps.deadline(), tick_atom_v, epoch); }
 
   void bark(qos_breach breach) {
-    self->send(requester, qos_violation{*watched, breach, now(self)});
+    qos_violation found{*watched, breach, now(self)};
+    if (breach == qos_breach::gap && !useless.empty()) {
+      found.breach = qos_breach::implausible;
+      found.why = std::move(useless);
+    }
+    self->send(requester, std::move(found));
     watched.reset();
     ++epoch;
   }
@@ -79,6 +94,9 @@ watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
         self->state.arm(running, first);
       },
       [self](const arrival& a) { self->state.take(a); },
+      [self](const running_service& running, std::string& why) {
+        self->state.take_useless(running, std::move(why));
+      },
       [self](const service_end& end) { self->state.disarm(end.running); },
       [self](tick_atom, std::uint64_t epoch) { self->state.tick(epoch); },
   };

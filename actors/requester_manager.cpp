@@ -35,6 +35,7 @@ struct remote_source {
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
   std::optional<time_point> last_in_time;
+  std::string useless;       // why the results since then are so
   bool told_on_call = false; // by the last input
   int calls_in_vain = 0;
 };
@@ -46,6 +47,11 @@ using manager_impl =
 
 std::string in_ms(duration d) {
   return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
+}
+
+std::string in_words(const objection& why) {
+  return fmt::format("{} value={:.3f} limit={:.3f}", why.check, why.value,
+                     why.limit);
 }
 
 struct offloaded_state {
@@ -156,6 +162,8 @@ struct offloaded_state {
         now(self));
     if (judged.refused)
       refuse(result.running, *judged.refused);
+    else if (judged.useless)
+      leave_out(*remote, *judged.useless);
     else if (!judged.what.type().empty())
       take_remote(*remote,
                   {result.running, result.cycle, result.created,
@@ -166,10 +174,13 @@ struct offloaded_state {
   // Who sends what is implausible is left in the same turn.
   void refuse(const running_service& running, const objection& why) {
     end({running, end_reason::implausible, side::requester});
-    self->send(setup.requester,
-               qos_violation{running, qos_breach::implausible, now(self), true,
-                             fmt::format("{} value={:.3f} limit={:.3f}",
-                                         why.check, why.value, why.limit)});
+    self->send(setup.requester, qos_violation{running, qos_breach::implausible,
+                                              now(self), true, in_words(why)});
+  }
+
+  void leave_out(remote_source& remote, const objection& why) {
+    remote.useless = in_words(why);
+    self->send(watchdog, remote.running, remote.useless);
   }
 
   // @param in_limits  It came in time.
@@ -197,6 +208,7 @@ struct offloaded_state {
       remote.last_received = t;
     if (in_limits) {
       remote.last_in_time = t;
+      remote.useless.clear();
       remote.calls_in_vain = 0;
     }
     if (remote.in_use && alone && !remote.in_doubt)
@@ -280,8 +292,10 @@ struct offloaded_state {
       if (remote.in_use && !remote.given_up
           && silent > protocol::start_timeout) {
         remote.given_up = true;
-        self->send(setup.requester,
-                   qos_violation{remote.running, qos_breach::gap, t, true});
+        const auto breach =
+            remote.useless.empty() ? qos_breach::gap : qos_breach::implausible;
+        self->send(setup.requester, qos_violation{remote.running, breach, t,
+                                                  true, remote.useless});
       }
     }
   }
@@ -344,6 +358,8 @@ struct offloaded_state {
       return;
     if (!is_remote()) {
       self->send(watchdog, e);
+      if (e.reason == end_reason::implausible)
+        in_use = {}; // nobody goes on with that
       be_local();
       return;
     }

@@ -101,6 +101,9 @@ struct judged_result {
   payload what; ///< Empty: it is not used.
   /// Present: it is implausible, and its provider is not believed any more.
   std::optional<objection> refused{};
+  /// Present: why it is of no use. Who sends nothing better in time is not
+  /// believed any more either.
+  std::optional<objection> useless{};
 };
 
 /// Reads the results of one running service in a vehicle and judges each

@@ -69,6 +69,8 @@ using watchdog_actor = caf::typed_actor<
     takes<running_service, time_point>,
     // Another result has come.
     takes<arrival>,
+    // One has come that is of no use, for this reason.
+    takes<running_service, std::string>,
     // Watch no longer.
     takes<service_end>>;
 

@@ -12,6 +12,7 @@ void foreseen_bodies::look(const route& way, double s_m,
                            const vehicle_params& car) {
   boxes_.clear();
   front_m_ = s_m + car.front_m;
+  rear_m_ = s_m - car.rear_m;
   half_corridor_m_ = car.width_m / 2;
   const auto& path = way.path();
   const auto here = path.frame(s_m);
@@ -60,6 +61,18 @@ double foreseen_bodies::along_m(const box& x, double t_s) {
     return x.s_m + x.along_mps * t_s;
   const auto t = std::min(t_s, x.along_mps / x.brakes_mps2);
   return x.s_m + t * (x.along_mps - 0.5 * x.brakes_mps2 * t);
+}
+
+bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
+                                   double until_s) const {
+  return std::ranges::any_of(boxes_, [&](const box& x) {
+    const auto moves_m = std::abs(x.along_mps) * until_s;
+    const auto comes_m = std::abs(x.across_mps) * until_s;
+    return x.counts && x.s_m - x.half_length_m - moves_m < front_m_ + ahead_m
+           && x.s_m + x.half_length_m + moves_m > rear_m_
+           && std::abs(x.d_m) - x.half_width_m - comes_m
+                  < beside_m + half_corridor_m_;
+  });
 }
 
 std::optional<double>

@@ -36,7 +36,11 @@ public:
   void look(const route& way, double s_m,
             std::span<const perceived_object> seen, const vehicle_params& car);
 
-  bool empty() const { return boxes_.empty(); }
+  /// @returns whether any could be touched within so long by a vehicle that
+  /// goes no farther than that; cheap.
+  /// @param ahead_m   Of the place given to `look`.
+  /// @param beside_m  The own middle to the left or right of the way.
+  bool any_in_reach(double ahead_m, double beside_m, double until_s) const;
 
   /// @returns when a vehicle that moves touches one of them; nullopt: never.
   /// Whoever stands is touched by others, and touches nobody.
@@ -84,6 +88,7 @@ private:
 
   std::vector<box> boxes_; // the room is used again
   double front_m_ = 0;     // of the vehicle, arc length
+  double rear_m_ = 0;      // likewise
   double half_corridor_m_ = 0;
 };
 

@@ -12,6 +12,18 @@ namespace {
 
 constexpr auto boundless = std::numeric_limits<double>::infinity();
 
+/// @returns the unit vector of a heading; cheap where the heading is the lane's
+/// but for half a radian, as it mostly is.
+point axis_of(double heading_rad, const path_frame& lane) {
+  const auto e = heading_rad - lane.heading_rad;
+  if (std::abs(e) > 0.5)
+    return {std::cos(heading_rad), std::sin(heading_rad)};
+  const auto sine = e * (1 - e * e / 6 * (1 - e * e / 20));
+  const auto cosine = 1 - e * e / 2 * (1 - e * e / 12);
+  const point left{-lane.tangent.y_m, lane.tangent.x_m};
+  return cosine * lane.tangent + sine * left;
+}
+
 } // namespace
 
 bool plan_judge::history::add(bool failed) {
@@ -20,9 +32,10 @@ bool plan_judge::history::add(bool failed) {
 }
 
 plan_verdict plan_judge::judge_unreadable() {
+  const objection why{"readable", 0, 1};
   if (unusable_.add(true))
-    return {false, objection{"readable", 0, 1}};
-  return {false, {}};
+    return {false, why};
+  return {false, {}, why};
 }
 
 plan_verdict plan_judge::judge(const judged_plan& x) {
@@ -45,23 +58,21 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
       x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
   const auto away_m = distance_m(first.at, here);
   const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
-  const auto misplaced =
-      away_m > limits.same_place_m || faster_mps > limits.same_speed_mps;
   const auto age_s = to_seconds(x.now - x.plan.start);
-  const auto is_old = age_s > limits.most_age_s;
   const auto repeats = is_repeated(x);
-  const auto unusable = misplaced || is_old || repeats;
-  if (unusable_.add(unusable)) {
-    if (away_m > limits.same_place_m)
-      return {false, objection{"place", away_m, limits.same_place_m}};
-    if (misplaced)
-      return {false, objection{"place", faster_mps, limits.same_speed_mps}};
-    if (is_old)
-      return {false, objection{"age", age_s, limits.most_age_s}};
-    return {false, objection{"repetition", 1, 0}};
-  }
-  if (unusable)
-    return {false, {}};
+  std::optional<objection> useless;
+  if (away_m > limits.same_place_m)
+    useless = {"place", away_m, limits.same_place_m};
+  else if (faster_mps > limits.same_speed_mps)
+    useless = {"place", faster_mps, limits.same_speed_mps};
+  else if (age_s > limits.most_age_s)
+    useless = {"age", age_s, limits.most_age_s};
+  else if (repeats)
+    useless = {"repetition", 1, 0};
+  if (unusable_.add(useless.has_value()))
+    return {false, useless};
+  if (useless)
+    return {false, {}, useless};
 
   if (found.fault)
     return {false, found.fault};
@@ -70,10 +81,10 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
             objection{"road", found.beyond_m, limits.most_beyond_soon_m}};
   if (const auto fault = pass_line(x))
     return {false, fault};
-  const auto touched = touch(x);
+  const auto touched = touch(x, found.beside_m);
   if (near_.add(touched.has_value()))
     return {false, touched};
-  if (const auto fault = stand(x, passed_s))
+  if (const auto fault = fall_behind(x, passed_s))
     return {false, fault};
   return {};
 }
@@ -87,20 +98,24 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   auto worst_m = -boundless, soon_m = -boundless;
   auto at_first_m = boundless, after_a_second_m = boundless;
   double first_mps = 0, first_s_m = 0;
+  auto next_s = -limits.step_s;
   for (const auto& p : x.plan.points) {
     const auto ahead_s = p.t_s - late_s;
-    if (ahead_s < -limits.step_s)
+    if (ahead_s < next_s)
       continue;
     if (ahead_s > limits.horizon_s)
       break;
+    if (ahead_s > limits.soon_s)
+      next_s = ahead_s + limits.later_step_s; // the rest comes to be soon
     const auto lane = path.frame(p.s_m);
+    const auto bounds = x.way.bounds_at(p.s_m);
     const auto d_m = cross(lane.tangent, p.at - lane.at);
-    const point axis{std::cos(p.heading_rad), std::sin(p.heading_rad)};
-    const auto front = p.at + car_.wheelbase_m * axis;
+    const auto front = p.at + car_.wheelbase_m * axis_of(p.heading_rad, lane);
     const auto under = path.frame(p.s_m + car_.wheelbase_m);
     const auto front_d_m = cross(under.tangent, front - under.at);
     const auto beyond_m = std::max(std::abs(d_m), std::abs(front_d_m))
-                          + car_.width_m / 2 - x.way.half_width_m(p.s_m);
+                          + car_.width_m / 2 - bounds.half_width_m;
+    found.beside_m = std::max(found.beside_m, std::abs(d_m));
     if (at_first_m == boundless) {
       at_first_m = beyond_m;
       first_mps = p.speed_mps;
@@ -115,7 +130,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
       found.brakes_hard = true;
 
     const auto limit_mps =
-        limits.limit_factor * x.way.limit_mps(p.s_m) + limits.above_limit_mps;
+        limits.limit_factor * bounds.limit_mps + limits.above_limit_mps;
     const auto must_slow_by_mps2 =
         (first_mps * first_mps - limit_mps * limit_mps)
         / (2 * std::max(p.s_m - first_s_m, 0.1));
@@ -162,13 +177,14 @@ std::optional<objection> plan_judge::pass_line(const judged_plan& x) const {
 bool plan_judge::is_repeated(const judged_plan& x) {
   if (x.fingerprint == 0)
     return false;
-  const auto known = std::ranges::find(said_, x.fingerprint) != said_.end();
+  const auto fingerprint = static_cast<std::uint32_t>(x.fingerprint);
+  const auto known = std::ranges::find(said_, fingerprint) != said_.end();
   if (!known) {
     if (said_.size() < limits.remembered) {
       said_.reserve(limits.remembered);
-      said_.push_back(x.fingerprint);
+      said_.push_back(fingerprint);
     } else {
-      said_[next_said_] = x.fingerprint;
+      said_[next_said_] = fingerprint;
     }
     next_said_ = (next_said_ + 1) % limits.remembered;
   }
@@ -206,8 +222,14 @@ std::optional<double> plan_judge::first_touch_s(const judged_plan& x,
   return bodies_.first_touch_s(motion_, car_);
 }
 
-std::optional<objection> plan_judge::touch(const judged_plan& x) {
-  if (bodies_.empty())
+std::optional<objection> plan_judge::touch(const judged_plan& x,
+                                           double beside_m) {
+  constexpr double margin_m = 0.5; // between the points that were looked at
+  const auto until_s = limits.horizon_s + to_seconds(x.now - x.seen.at);
+  const auto end_m =
+      x.plan.at(to_seconds(x.now - x.plan.start) + limits.horizon_s).s_m;
+  if (!bodies_.any_in_reach(end_m - x.s_m + margin_m, beside_m + margin_m,
+                            until_s))
     return std::nullopt;
   const auto touched_s = first_touch_s(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
@@ -270,27 +292,44 @@ double plan_judge::free_speed_mps(const judged_plan& x) const {
   return free;
 }
 
-std::optional<objection> plan_judge::stand(const judged_plan& x,
-                                           double passed_s) {
+bool plan_judge::is_slow(const judged_plan& x) const {
   const auto late_s = to_seconds(x.now - x.plan.start);
-  const auto v = x.own.speed_mps;
   const auto soon = x.plan.at(late_s + limits.soon_s).speed_mps;
   const auto later = x.plan.at(late_s + 2 * limits.soon_s).speed_mps;
-  const auto free = free_speed_mps(x);
-  const auto front_m = x.s_m + car_.front_m;
-  const auto near_m =
-      v * v / (2 * limits.slows_by_mps2) + limits.waits_before_m;
-  const auto waits =
-      soon >= limits.slow_share * free || later > v + limits.speeding_up_mps
-      || (x.seen.stop_at_m && *x.seen.stop_at_m - front_m < near_m)
-      || (!x.way.closed() && x.way.length_m() - front_m < near_m)
-      || bodies_.any_ahead(near_m)
-      || (!x.crossings_granted
-          && bodies_.any_near(near_m, limits.waits_beside_m));
-  standing_s_ = waits ? 0 : standing_s_ + passed_s;
-  if (standing_s_ < limits.longest_standing_s)
+  return later <= x.own.speed_mps + limits.speeding_up_mps
+         && soon < limits.slow_share * free_speed_mps(x);
+}
+
+bool plan_judge::wants_own_plan(const judged_plan& x) const {
+  const auto due =
+      !compared_at_
+      || to_seconds(x.now - *compared_at_) >= limits.compared_every_s;
+  return due && !x.plan.empty() && is_slow(x);
+}
+
+std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
+                                                 double passed_s) {
+  lost_s_ = std::max(0.0, lost_s_ - limits.forgiven_share * passed_s);
+  if (!x.own_plan)
     return std::nullopt;
-  return objection{"standing", standing_s_, limits.longest_standing_s};
+  const auto since_s = compared_at_
+                           ? std::min(to_seconds(x.now - *compared_at_),
+                                      2 * limits.compared_every_s)
+                           : limits.compared_every_s;
+  compared_at_ = x.now;
+  if (x.own_plan->empty()
+      || (!x.crossings_granted
+          && bodies_.any_near(limits.waits_beside_m, limits.waits_beside_m)))
+    return std::nullopt;
+  const auto then = x.now + from_seconds(limits.compared_over_s);
+  const auto from_m = x.plan.at(x.now).s_m;
+  const auto way_m = x.plan.at(then).s_m - from_m;
+  const auto own_way_m = x.own_plan->at(then).s_m - from_m;
+  if (own_way_m > limits.least_way_m)
+    lost_s_ += since_s * std::clamp(1 - way_m / own_way_m, 0.0, 1.0);
+  if (lost_s_ < limits.most_lost_s)
+    return std::nullopt;
+  return objection{"standing", lost_s_, limits.most_lost_s};
 }
 
 } // namespace sofof

@@ -30,6 +30,9 @@ struct judged_plan {
   time_point now;
   /// Of what was received, times left out; 0: none.
   std::uint64_t fingerprint = 0;
+  /// What the vehicle's own planner would do from the same state, if it was
+  /// asked (`wants_own_plan`); null: it was not, or has none.
+  const trajectory* own_plan = nullptr;
 };
 
 /// What a judge says of one plan.
@@ -37,6 +40,8 @@ struct plan_verdict {
   bool usable = true; ///< Else the vehicle stays with the plan in use.
   /// Present: the source of the plan is not to be believed any more.
   std::optional<objection> refused{};
+  /// Present: why it is of no use, but perhaps no lie.
+  std::optional<objection> useless{};
 };
 
 /// The limits of `plan_judge`.
@@ -46,9 +51,10 @@ struct plan_limits {
   double most_age_s = 0.2;
   double own_age_s = 0.2; ///< Who does not know itself better cannot judge.
 
-  double horizon_s = 2.5; ///< Plans are looked at so far ahead,
-  double step_s = 0.1;    ///< in such steps.
-  double soon_s = 1.0;    ///< The nearer part of it.
+  double horizon_s = 2.5;     ///< Plans are looked at so far ahead,
+  double step_s = 0.1;        ///< in such steps.
+  double soon_s = 1.0;        ///< The nearer part of it.
+  double later_step_s = 0.25; ///< At least so much apart after that.
 
   double most_beyond_m = 0.25; ///< The body beyond the lane's edge.
   double most_beyond_soon_m = 0.05;
@@ -77,13 +83,16 @@ struct plan_limits {
 
   double brake_beside_m = 40; ///< Where drivers judge crossings: beside, too.
 
-  double longest_standing_s = 3.0;      ///< Slow for nothing.
-  double slow_share = 0.5;              ///< Of what the way allows.
+  double slow_share = 0.8;              ///< Of what the way allows.
   double speeding_up_mps = 0.3;         ///< Who does so is not slow.
   double comfortable_across_mps2 = 1.8; ///< The way allows so much in bends.
-  double waits_before_m = 25; ///< A body or line is a reason so near ahead.
-  double waits_beside_m = 60; ///< Where drivers judge crossings: beside, too.
-  double slows_by_mps2 = 1.5; ///< On the way to where it waits.
+  double waits_beside_m = 60; ///< Where drivers judge crossings, who does not
+                              ///< drive may wait for a body so near.
+  double compared_every_s = 0.25; ///< With the own plan, while it is slow,
+  double compared_over_s = 5.0;   ///< by the way until then,
+  double least_way_m = 2.0;       ///< if the own one goes so far.
+  double most_lost_s = 1.2;       ///< As if waiting while the own plans drive.
+  double forgiven_share = 0.05;   ///< Of the time that passes meanwhile.
 
   double longest_pause_s = 0.2;  ///< Between two results in a row.
   std::size_t remembered = 1200; ///< Results; a minute, at 20 a second.
@@ -106,7 +115,8 @@ struct plan_limits {
 ///   while braking now, or the plan in use, would not.
 /// * `braking`: hard, for a while, with nothing ahead. It is obeyed until then:
 ///   the provider may see a body that the vehicle cannot.
-/// * `standing`: slow for long, with nothing ahead, and not speeding up.
+/// * `standing`: slow, and so far behind what the vehicle's own planner would
+///   do that the time lost adds up.
 ///
 /// `place`, `age`, `repetition` and what cannot be read are refused when two of
 /// three results in a row are any of these; `others` and the little of `road`
@@ -118,6 +128,10 @@ public:
   explicit plan_judge(const vehicle_params& car = {}) : car_{car} {}
 
   plan_verdict judge(const judged_plan& x);
+
+  /// @returns whether the plan is slow, and `judge` would have to know what the
+  /// own planner would do. For plans that are due to be judged now.
+  bool wants_own_plan(const judged_plan& x) const;
 
   /// A result came that is no plan at all.
   plan_verdict judge_unreadable();
@@ -135,31 +149,34 @@ private:
     std::optional<objection> fault; // the first one
     bool leaves_lane = false;       // a little, and soon
     double beyond_m = 0;
+    double beside_m = 0; // the lane's middle, at most
     bool brakes_hard = false;
   };
 
   walk follow(const judged_plan& x) const;
   std::optional<objection> pass_line(const judged_plan& x) const;
-  std::optional<objection> touch(const judged_plan& x);
+  std::optional<objection> touch(const judged_plan& x, double beside_m);
   std::optional<double> first_touch_s(const judged_plan& x,
                                       const trajectory& plan, double until_s,
                                       double decel_mps2);
   bool has_reason_to_brake(const judged_plan& x) const;
   std::optional<objection> brake(const judged_plan& x, bool brakes_hard,
                                  double passed_s);
-  std::optional<objection> stand(const judged_plan& x, double passed_s);
+  std::optional<objection> fall_behind(const judged_plan& x, double passed_s);
+  bool is_slow(const judged_plan& x) const;
   bool is_repeated(const judged_plan& x);
   double free_speed_mps(const judged_plan& x) const;
 
   vehicle_params car_;
   foreseen_bodies bodies_;
   std::vector<place_in_time> motion_; // room that is used again
-  std::vector<std::uint64_t> said_;   // fingerprints, round and round
+  std::vector<std::uint32_t> said_;   // fingerprints, round and round
   std::size_t next_said_ = 0;
   std::optional<time_point> judged_at_; // the last plan
   history unusable_, beside_, near_;
-  double braking_s_ = 0;  // without a reason
-  double standing_s_ = 0; // likewise
+  double braking_s_ = 0; // without a reason
+  double lost_s_ = 0;    // against the own plans
+  std::optional<time_point> compared_at_;
 };
 
 } // namespace sofof

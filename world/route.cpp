@@ -66,11 +66,16 @@ route::place route::at_lane(double s_m) const {
 }
 
 double route::limit_mps(double s_m) const {
+  return bounds_at(s_m).limit_mps;
+}
+
+route::bounds route::bounds_at(double s_m) const {
   const auto [i, on_lane_m] = find_leg(s_m);
   const auto after =
       std::ranges::upper_bound(limits_[i], on_lane_m, {}, &speed_zone::from_m);
-  return after == limits_[i].begin() ? limits_[i].front().limit_mps
-                                     : std::prev(after)->limit_mps;
+  return {half_widths_m_[i], after == limits_[i].begin()
+                                 ? limits_[i].front().limit_mps
+                                 : std::prev(after)->limit_mps};
 }
 
 double route::half_width_m(double s_m) const {

@@ -47,6 +47,12 @@ public:
   double limit_mps(double s_m) const;
   double half_width_m(double s_m) const;
 
+  /// Both at once, for who asks often.
+  struct bounds {
+    double half_width_m, limit_mps;
+  };
+  bounds bounds_at(double s_m) const;
+
   /// Waypoints ahead: from `s_m` on, `spacing_m` apart, and last the point
   /// `ahead_m` away or an open route's end, whichever comes first.
   std::vector<point> waypoints(double s_m, double ahead_m,

@@ -6,6 +6,7 @@
 #include "planners/environment_model.hpp"
 #include "world/protocol.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -30,6 +31,10 @@ public:
     if (in_use && in_use->is_sound()
         && (own.empty() || in_use->start > own.start))
       cycle_->take_over(*in_use);
+    else if (own.empty() || now > own.end())
+      from.accel_mps2 =
+          std::clamp(from.accel_mps2, -options_.style.comfort_decel_mps2,
+                     options_.style.max_accel_mps2); // none of its own so far
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;
     const auto report = cycle_->run(now, std::move(from), model_.tracks());

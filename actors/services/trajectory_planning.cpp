@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -39,8 +40,11 @@ std::vector<point> authority(const route& way, double s_m,
 /// judges it by what the vehicle itself sees.
 class suggestion_judge final : public result_judge {
 public:
-  explicit suggestion_judge(service_setup setup)
-      : setup_{std::move(setup)}, judge_{setup_.car} {}
+  /// @param make_own  The vehicle's own planner, to compare with.
+  suggestion_judge(service_setup setup,
+                   std::function<std::shared_ptr<service_function>()> make_own)
+      : setup_{std::move(setup)}, make_own_{std::move(make_own)},
+        judge_{setup_.car} {}
 
   judged_result judge(const payload& result, const service_input& latest,
                       time_point now) override {
@@ -56,26 +60,43 @@ public:
                            setup_.where->ahead_by(message->ahead), now,
                            before.get(), plan)
                != maneuver_fault::none)
-      return {{}, judge_.judge_unreadable().refused};
+      return not_used(judge_.judge_unreadable());
     const auto& own = request->own;
-    const auto verdict =
-        judge_.judge({.way = *way,
-                      .plan = plan,
-                      .in_use = before.get(),
-                      .own = {own.at, own.position, own.heading_rad,
-                              own.speed_mps, own.accel_mps2, own.curvature_1pm},
-                      .s_m = request->from.s_m,
-                      .seen = request->seen,
-                      .crossings_granted = setup_.crossings_granted,
-                      .now = now,
-                      .fingerprint = fingerprint_of_plan(word_)});
+    judged_plan x{.way = *way,
+                  .plan = plan,
+                  .in_use = before.get(),
+                  .own = {own.at, own.position, own.heading_rad, own.speed_mps,
+                          own.accel_mps2, own.curvature_1pm},
+                  .s_m = request->from.s_m,
+                  .seen = request->seen,
+                  .crossings_granted = setup_.crossings_granted,
+                  .now = now,
+                  .fingerprint = fingerprint_of_plan(word_)};
+    const auto alone =
+        judge_.wants_own_plan(x) ? own_plan(latest, now) : nullptr;
+    x.own_plan = alone.get();
+    const auto verdict = judge_.judge(x);
     if (!verdict.usable)
-      return {{}, verdict.refused};
+      return not_used(verdict);
     return {payload::of(std::move(plan))};
   }
 
 private:
+  std::shared_ptr<const trajectory> own_plan(const service_input& latest,
+                                             time_point now) {
+    if (!own_)
+      own_ = make_own_();
+    auto plan = own_->run(now, latest).what.as<trajectory>();
+    return plan ? plan : std::make_shared<const trajectory>();
+  }
+
+  static judged_result not_used(const plan_verdict& verdict) {
+    return {{}, verdict.refused, verdict.useless};
+  }
+
   service_setup setup_;
+  std::function<std::shared_ptr<service_function>()> make_own_;
+  std::shared_ptr<service_function> own_; // from when it is needed on
   plan_judge judge_;
   etsi::mcm word_; // room that is used again
 };
@@ -175,7 +196,8 @@ public:
 
   std::unique_ptr<result_judge>
   make_judge(const service_setup& setup) const override {
-    return std::make_unique<suggestion_judge>(setup);
+    return std::make_unique<suggestion_judge>(
+        setup, [this, setup] { return make_function(setup); });
   }
 
   bool continues(const payload& in_use, const payload& offered,

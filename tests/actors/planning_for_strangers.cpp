@@ -236,7 +236,7 @@ TEST_CASE("whatever a provider's planner is told, it gives a sound plan or "
       take(planner.run(payload::of(noise(who))), truth);
     }
     CHECK(plans > rounds / 2); // the others begin where the vehicle is not
-    *planner.now += 1500ms; // the lies were of the near future at most
+    *planner.now += 1500ms;    // the lies were of the near future at most
     const auto truth = planner.at("3-4-5", 20, 8);
     planner.hear(pdu_of(truth.own));
     const auto made =
@@ -256,6 +256,16 @@ TEST_CASE("for one who is nowhere there is a plan on a round with crossings") {
     REQUIRE(made);
     CHECK(made->is_sound());
   }
+}
+
+TEST_CASE("a vehicle that plans anew does not go on braking for nothing") {
+  planning planner{false};
+  auto ask = planner.at("3-4-5", 20, 8);
+  ask.from.accel_mps2 = ask.own.accel_mps2 = -6.5;
+  const auto made = planner.ask(ask);
+  REQUIRE(made);
+  CHECK(made->points.front().accel_mps2 == doctest::Approx(-2));
+  CHECK(made->points.back().speed_mps > 5);
 }
 
 TEST_CASE("what nobody can have seen yet blinds no vehicle's planner") {

@@ -44,6 +44,29 @@ TEST_CASE_FIXTURE(
 }
 
 TEST_CASE_FIXTURE(watchdog_world,
+                  "a gap in which results of no use came is implausible; one "
+                  "after a good result is a gap") {
+  tell(dog, running, now());
+  run_for(50ms);
+  tell(dog, running, std::string{"place"});
+  SUBCASE("of no use until the end") {
+    run_for(51ms);
+    REQUIRE(requester->count<qos_violation>() == 1);
+    const auto violation = requester->all<qos_violation>().front();
+    CHECK(violation.breach == qos_breach::implausible);
+    CHECK(violation.why == "place");
+  }
+  SUBCASE("good in the end") {
+    arrive();
+    run_for(101ms);
+    REQUIRE(requester->count<qos_violation>() == 1);
+    const auto violation = requester->all<qos_violation>().front();
+    CHECK(violation.breach == qos_breach::gap);
+    CHECK(violation.why.empty());
+  }
+}
+
+TEST_CASE_FIXTURE(watchdog_world,
                   "results at exactly the longest gap keep the watchdog calm") {
   tell(dog, running, now());
   for (int k = 0; k < 50; ++k) {

@@ -567,6 +567,55 @@ TEST_CASE_FIXTURE(managed_world,
 }
 
 TEST_CASE_FIXTURE(managed_world,
+                  "results of no use are left out; when nothing better comes "
+                  "in time, that is implausible") {
+  go_remote();
+  run_for(20ms);
+  client->clear();
+  const auto tell_useless = [&](std::uint64_t cycle) {
+    tell(manager, service_result{running, cycle, now(),
+                                 payload::of(echo{echo::useless})});
+  };
+  SUBCASE("something better comes") {
+    tell_useless(2);
+    run_for(50ms);
+    CHECK(results(true) == 0);
+    result(3);
+    CHECK(results(true) == 1);
+    run_for(101ms);
+    REQUIRE(requester->count<qos_violation>() == 1);
+    CHECK(requester->all<qos_violation>().front().breach == qos_breach::gap);
+  }
+  SUBCASE("nothing better comes") {
+    tell_useless(2);
+    run_for(81ms);
+    REQUIRE(requester->count<qos_violation>() == 1);
+    const auto violation = requester->all<qos_violation>().front();
+    CHECK(violation.breach == qos_breach::implausible);
+    CHECK(violation.why == "use value=0.000 limit=1.000");
+  }
+}
+
+TEST_CASE_FIXTURE(managed_world,
+                  "one of several that sends nothing of use for a second is "
+                  "left as a liar") {
+  go_remote();
+  accept(next_running);
+  run_for(20ms);
+  result_of(next_running, 2);
+  for (std::uint64_t cycle = 3; cycle < 30; ++cycle) {
+    run_for(50ms);
+    result_of(next_running, cycle);
+    tell(manager, service_result{running, cycle, now(),
+                                 payload::of(echo{echo::useless})});
+  }
+  REQUIRE(requester->count<qos_violation>() == 1);
+  const auto violation = requester->all<qos_violation>().front();
+  CHECK(violation.running == running);
+  CHECK(violation.breach == qos_breach::implausible);
+}
+
+TEST_CASE_FIXTURE(managed_world,
                   "an implausible first result leaves the local service in "
                   "use") {
   feed(1);

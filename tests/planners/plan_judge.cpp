@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct judged_drive {
   bool granted = true;
   std::uint64_t fingerprint = 0;
   trajectory in_use;
+  /// Of the own planner's plans, up to 10 m/s; it has none without.
+  std::optional<double> own_accel_mps2;
   plan_judge judge;
 
   static route_ptr street(bool closed = false) {
@@ -37,12 +40,15 @@ struct judged_drive {
 
   /// From where the car is.
   /// @param slope  How far it goes to the left for each metre.
-  trajectory plan(double accel_mps2, double slope = 0) const {
+  /// @param most_mps  It drives no faster.
+  trajectory plan(double accel_mps2, double slope = 0,
+                  double most_mps = 100) const {
     trajectory x;
     x.start = now;
     auto s = s_m, v = speed_mps;
     for (int k = 0; k <= 60; ++k) {
-      const auto a = v > 0 || accel_mps2 > 0 ? accel_mps2 : 0;
+      const auto stays = accel_mps2 < 0 ? v <= 0 : v >= most_mps;
+      const auto a = stays ? 0 : accel_mps2;
       x.points.push_back(
           {0.1 * k, s, {s, d_m + slope * (s - s_m)}, slope, 0, v, a});
       const auto next = std::max(0.0, v + 0.1 * a);
@@ -54,16 +60,20 @@ struct judged_drive {
 
   plan_verdict ask(const trajectory& x) {
     seen.at = now;
-    const auto verdict = judge.judge({*way,
-                                      x,
-                                      in_use.empty() ? nullptr : &in_use,
-                                      {now, {s_m, d_m}, 0, speed_mps, 0, 0},
-                                      s_m,
-                                      seen,
-                                      granted,
-                                      now,
-                                      fingerprint});
-    return verdict;
+    judged_plan asked{*way,
+                      x,
+                      in_use.empty() ? nullptr : &in_use,
+                      {now, {s_m, d_m}, 0, speed_mps, 0, 0},
+                      s_m,
+                      seen,
+                      granted,
+                      now,
+                      fingerprint};
+    const auto own =
+        own_accel_mps2 ? plan(*own_accel_mps2, 0, 10) : trajectory{};
+    if (judge.wants_own_plan(asked))
+      asked.own_plan = &own;
+    return judge.judge(asked);
   }
 
   /// Drives along a plan for a while.
@@ -283,22 +293,42 @@ TEST_CASE_FIXTURE(judged_drive, "braking for what the car sees 0.4 s later is "
             .empty());
 }
 
-TEST_CASE_FIXTURE(judged_drive, "standing for nothing is refused after 3 s") {
+TEST_CASE_FIXTURE(judged_drive, "stopping where the own planner would go on is "
+                                "refused soon") {
+  own_accel_mps2 = 1;
   const auto begin = now;
   CHECK(refused_within(10s, -3) == "standing");
-  CHECK(now - begin < 7s);
+  CHECK(now - begin > 1s);
+  CHECK(now - begin < 4s);
 }
 
-TEST_CASE_FIXTURE(judged_drive, "standing behind a car, or before a line, is "
-                                "used for as long as it takes") {
+TEST_CASE_FIXTURE(judged_drive,
+                  "driving at half the speed that the own planner "
+                  "would reach is refused within 10 s") {
+  own_accel_mps2 = 1;
+  speed_mps = 5;
+  CHECK(refused_within(10s, 0) == "standing");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a little slower than alone is good for ever") {
+  own_accel_mps2 = 0;
+  speed_mps = 7.5;
+  const auto slower = [&] {
+    auto x = plan(0);
+    for (auto& p : x.points)
+      p.s_m = s_m + 0.96 * (p.s_m - s_m);
+    return x;
+  };
+  CHECK(refused_of(slower, 120s).empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive, "standing is used for as long as it takes") {
   speed_mps = 0;
-  SUBCASE("a car") {
-    see_car(s_m + 9, 0, 0, 0);
+  SUBCASE("where the own planner would stand, too") {
+    own_accel_mps2 = 0;
   }
-  SUBCASE("a line") {
-    seen.stop_at_m = s_m + 6;
-  }
-  SUBCASE("who comes to cross where nobody is granted anything") {
+  SUBCASE("for who comes to cross where nobody is granted anything") {
+    own_accel_mps2 = 1;
     granted = false;
     see_car(s_m + 12, 8, 1.5, 0);
   }

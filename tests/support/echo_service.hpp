@@ -17,6 +17,8 @@ struct echo {
   static constexpr std::uint64_t jump = ~std::uint64_t{0};
   /// What no vehicle believes.
   static constexpr std::uint64_t lie = jump - 1;
+  /// What is of no use, and perhaps no lie.
+  static constexpr std::uint64_t useless = jump - 2;
 };
 
 void archive(auto& bytes, echo& x) {
@@ -74,6 +76,8 @@ public:
         const auto said = result.as<echo>();
         if (said && said->number == echo::lie)
           return {{}, objection{"number", 2, 1}};
+        if (said && said->number == echo::useless)
+          return {{}, {}, objection{"use", 0, 1}};
         return {result};
       }
     };
