@@ -67,7 +67,8 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
        [kind](const payload& in_use, const payload& offered, time_point now) {
          return kind->continues(in_use, offered, now);
        },
-       std::move(local), client, std::move(requester), vehicle.recorder});
+       std::move(local), client, std::move(requester), vehicle.recorder,
+       vehicle.record_margins});
   return {std::move(client), std::move(manager)};
 }
 

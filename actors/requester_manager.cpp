@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -154,7 +155,7 @@ struct offloaded_state {
         can_judge(*remote, result)
         && in_time(result.created, now(self), setup.options.limits.max_latency);
     if (!in_limits) {
-      take_remote(*remote, result, false);
+      take_remote(*remote, result, false, {});
       return;
     }
     auto judged = remote->judge->judge(
@@ -168,7 +169,7 @@ struct offloaded_state {
       take_remote(*remote,
                   {result.running, result.cycle, result.created,
                    std::move(judged.what), result.about, result.doubt},
-                  true);
+                  true, judged.margins);
   }
 
   // Who sends what is implausible is left in the same turn.
@@ -185,7 +186,7 @@ struct offloaded_state {
 
   // @param in_limits  It came in time.
   void take_remote(remote_source& remote, const service_result& result,
-                   bool in_limits) {
+                   bool in_limits, std::span<const margin> margins) {
     const auto t = now(self);
     if (in_limits && !is_on_call(remote) && result.created > began)
       await_next(result.created);
@@ -198,9 +199,12 @@ struct offloaded_state {
     std::optional<duration> gap; // only while in use every period
     if (remote.last_received)
       gap = t - *remote.last_received;
-    self->send(setup.recorder,
-               cycle_record{result.running, result.cycle, result.created, t,
-                            gap, usable, result.doubt});
+    cycle_record record{result.running, result.cycle, result.created, t, gap,
+                        usable,         result.doubt};
+    if (usable && setup.record_margins)
+      for (const auto& x : margins)
+        record.margins.push_back({std::string{x.name}, x.left});
+    self->send(setup.recorder, std::move(record));
     remote.last_cycle = result.cycle;
     if (is_on_call(remote))
       remote.last_received.reset();

@@ -104,6 +104,8 @@ struct judged_result {
   /// Present: why it is of no use. Who sends nothing better in time is not
   /// believed any more either.
   std::optional<objection> useless{};
+  /// How far one that is used stays within limits; until the next call.
+  std::span<const margin> margins{};
 };
 
 /// Reads the results of one running service in a vehicle and judges each

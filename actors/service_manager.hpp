@@ -29,6 +29,7 @@ struct requester_manager_setup {
   client_actor client;
   onboard_requester_actor requester;
   recorder_actor recorder;
+  bool record_margins = false; ///< With the cycles, those of used results.
 };
 
 /// Owns the local instance, activates it, and feeds it always, so that it can

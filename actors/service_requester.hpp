@@ -29,6 +29,7 @@ struct requester_setup {
   computer_options computer = {};
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const foresight> future{};
+  bool record_margins = false; ///< Of results that are used.
 };
 
 /// Weighs offers, requests services, and owns the states of all services of

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sofof {
 
@@ -34,13 +35,20 @@ struct decision_record {
 
 /// One received result of a remote service.
 struct cycle_record {
+  /// How far a result stayed within a limit of the vehicle's judge.
+  struct margin {
+    std::string name; ///< Of the check, with its unit.
+    double left = 0;
+  };
+
   running_service running;
   std::uint64_t cycle = 0;
   time_point created;
   time_point received;
   std::optional<duration> interarrival; ///< None for the first in use.
   bool used = false;
-  duration doubt{}; ///< `created` may be off by this.
+  duration doubt{};              ///< `created` may be off by this.
+  std::vector<margin> margins{}; ///< If they are recorded.
 };
 
 /// One side has closed a running service.
@@ -117,12 +125,17 @@ bool inspect(Inspector& f, decision_record& x) {
 }
 
 template <class Inspector>
+bool inspect(Inspector& f, cycle_record::margin& x) {
+  return f.object(x).fields(f.field("name", x.name), f.field("left", x.left));
+}
+
+template <class Inspector>
 bool inspect(Inspector& f, cycle_record& x) {
   return f.object(x).fields(
       f.field("running", x.running), f.field("cycle", x.cycle),
       f.field("created", x.created), f.field("received", x.received),
       f.field("interarrival", x.interarrival), f.field("used", x.used),
-      f.field("doubt", x.doubt));
+      f.field("doubt", x.doubt), f.field("margins", x.margins));
 }
 
 template <class Inspector>

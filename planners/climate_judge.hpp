@@ -24,4 +24,9 @@ struct judged_climate {
 std::optional<objection> judge_climate(double power_w, const judged_climate& x,
                                        const cabin_params& params);
 
+/// @returns how much farther from the own power it might be, W: the margin of
+/// `comfort`.
+double climate_margin_w(double power_w, const judged_climate& x,
+                        const cabin_params& params);
+
 } // namespace sofof

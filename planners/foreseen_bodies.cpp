@@ -4,8 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sofof {
+
+namespace {
+
+constexpr auto boundless = std::numeric_limits<double>::infinity();
+
+} // namespace
 
 void foreseen_bodies::look(const route& way, double s_m,
                            std::span<const perceived_object> seen,
@@ -36,7 +43,9 @@ void foreseen_bodies::look(const route& way, double s_m,
           o.speed_mps * c,
           o.speed_mps * s,
           0,
-          true};
+          boundless,
+          true,
+          false};
     if (x.s_m + x.half_length_m < s_m - car.rear_m)
       continue;
     if (std::abs(c) > along_cosine) {
@@ -51,6 +60,8 @@ void foreseen_bodies::look(const route& way, double s_m,
       const auto way_to_stop_m =
           x.across_mps * x.across_mps / (2 * expected_decel_mps2);
       x.counts = apart_m <= 0 || (comes && apart_m < way_to_stop_m);
+      x.core_m = o.width_m / 2 - uncertain_m;
+      x.crosses = true;
     }
     boxes_.push_back(x);
   }
@@ -75,9 +86,9 @@ bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
   });
 }
 
-std::optional<double>
-foreseen_bodies::first_touch_s(std::span<const place_in_time> motion,
-                               const vehicle_params& car) const {
+std::optional<foreseen_bodies::touch>
+foreseen_bodies::first_touch(std::span<const place_in_time> motion,
+                             const vehicle_params& car) const {
   const auto middle_m = (car.front_m - car.rear_m) / 2;
   const auto half_length_m = (car.front_m + car.rear_m) / 2;
   for (const auto& p : motion) {
@@ -86,10 +97,10 @@ foreseen_bodies::first_touch_s(std::span<const place_in_time> motion,
     for (const auto& x : boxes_)
       if (x.counts
           && std::abs(along_m(x, p.t_s) - p.s_m - middle_m)
-                 < half_length_m + x.half_length_m
+                 < half_length_m + std::min(x.half_length_m, x.core_m)
           && std::abs(x.d_m + x.across_mps * p.t_s - p.d_m)
-                 < half_corridor_m_ + x.half_width_m)
-        return p.t_s;
+                 < half_corridor_m_ + std::min(x.half_width_m, x.core_m))
+        return touch{p.t_s, x.crosses};
   }
   return std::nullopt;
 }

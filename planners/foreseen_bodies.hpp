@@ -42,10 +42,17 @@ public:
   /// @param beside_m  The own middle to the left or right of the way.
   bool any_in_reach(double ahead_m, double beside_m, double until_s) const;
 
+  /// When a vehicle touches which kind of body.
+  struct touch {
+    double t_s;
+    bool crosses; ///< The body does not drive along the way.
+  };
+
   /// @returns when a vehicle that moves touches one of them; nullopt: never.
-  /// Whoever stands is touched by others, and touches nobody.
-  std::optional<double> first_touch_s(std::span<const place_in_time> motion,
-                                      const vehicle_params& car) const;
+  /// Whoever stands is touched by others, and touches nobody. Of who crosses
+  /// only the core is touched: it may be turning.
+  std::optional<touch> first_touch(std::span<const place_in_time> motion,
+                                   const vehicle_params& car) const;
 
   /// @returns whether one of them is, or soon comes, so near before the
   /// vehicle that it has a reason to brake.
@@ -82,7 +89,9 @@ private:
     double half_length_m, half_width_m; // along and across the way
     double along_mps, across_mps;
     double brakes_mps2; // along the way, >= 0
+    double core_m;      // for touching, no more than this of both halves
     bool counts;        // for touching
+    bool crosses;
   };
   static double along_m(const box& x, double t_s);
 

@@ -79,13 +79,33 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   if (beside_.add(found.leaves_lane))
     return {false,
             objection{"road", found.beyond_m, limits.most_beyond_soon_m}};
-  if (const auto fault = pass_line(x))
-    return {false, fault};
+  const auto beyond_m = beyond_line_m(x);
+  if (beyond_m > 0.0)
+    return {false, objection{"stop_line", *beyond_m, 0}};
   const auto touched = touch(x, found.beside_m);
-  if (near_.add(touched.has_value()))
-    return {false, touched};
+  const auto crosses = touched && touched->crosses;
+  crossing_.add(crosses);
+  const auto crashes = crossing_.all() && !own_plan_touches(x);
+  if (near_.add(touched && !crosses) || crashes)
+    return {false, objection{"others", touched->t_s, limits.horizon_s}};
   if (const auto fault = fall_behind(x, passed_s))
     return {false, fault};
+
+  std::size_t n = 0;
+  for (const auto& left : {
+           margin{"place_m", limits.same_place_m - away_m},
+           margin{"speed_off_mps", limits.same_speed_mps - faster_mps},
+           margin{"age_s", limits.most_age_s - age_s},
+           margin{"road_m", limits.most_beyond_m - found.worst_m},
+           margin{"speed_mps", -found.over_mps},
+           margin{"along_mps2", limits.most_along_mps2 - found.along_mps2},
+           margin{"across_mps2", limits.most_across_mps2 - found.across_mps2},
+           margin{"standing_s", limits.most_lost_s - lost_s_},
+       })
+    room_[n++] = left;
+  if (beyond_m)
+    room_[n++] = {"stop_line_m", -*beyond_m};
+  margins_ = {room_.data(), n};
   return {};
 }
 
@@ -136,6 +156,9 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
         / (2 * std::max(p.s_m - first_s_m, 0.1));
     const auto across_mps2 =
         p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm);
+    found.along_mps2 = std::max(found.along_mps2, p.accel_mps2);
+    found.across_mps2 = std::max(found.across_mps2, across_mps2);
+    found.over_mps = std::max(found.over_mps, p.speed_mps - limit_mps);
     if (found.fault)
       continue;
     if (p.speed_mps > limit_mps
@@ -148,6 +171,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
       found.fault = {"across", across_mps2, limits.most_across_mps2};
   }
   const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
+  found.worst_m = worst_m;
   found.beyond_m = soon_m;
   found.leaves_lane = soon_m > limits.most_beyond_soon_m && !leads_back;
   if (worst_m > limits.most_beyond_m && !found.fault
@@ -156,7 +180,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   return found;
 }
 
-std::optional<objection> plan_judge::pass_line(const judged_plan& x) const {
+std::optional<double> plan_judge::beyond_line_m(const judged_plan& x) const {
   if (!x.seen.stop_at_m)
     return std::nullopt;
   const auto line_m = *x.seen.stop_at_m + limits.beyond_line_m;
@@ -169,23 +193,28 @@ std::optional<objection> plan_judge::pass_line(const judged_plan& x) const {
   const auto stops_at_m =
       then.s_m + car_.front_m
       + then.speed_mps * then.speed_mps / (2 * limits.line_decel_mps2);
-  if (stops_at_m <= line_m)
-    return std::nullopt;
-  return objection{"stop_line", stops_at_m - line_m, 0};
+  return stops_at_m - line_m;
 }
 
 bool plan_judge::is_repeated(const judged_plan& x) {
-  if (x.fingerprint == 0)
-    return false;
   const auto fingerprint = static_cast<std::uint32_t>(x.fingerprint);
-  const auto known = std::ranges::find(said_, fingerprint) != said_.end();
+  if (fingerprint == 0)
+    return false;
+  const auto before = std::ranges::find(said_, fingerprint);
+  const auto known = before != said_.end();
+  if (known) {
+    const auto at = static_cast<std::size_t>(before - said_.begin());
+    const auto apart_s = to_seconds(x.plan.start - begins_[at]);
+    if (std::abs(apart_s) <= limits.same_time_s)
+      return false; // it has come twice
+  }
   if (!known) {
     if (said_.size() < limits.remembered) {
-      said_.reserve(limits.remembered);
-      said_.push_back(fingerprint);
-    } else {
-      said_[next_said_] = fingerprint;
+      said_.resize(limits.remembered);
+      begins_.resize(limits.remembered);
     }
+    said_[next_said_] = fingerprint;
+    begins_[next_said_] = x.plan.start;
     next_said_ = (next_said_ + 1) % limits.remembered;
   }
   return known && x.own.speed_mps > limits.moves_mps
@@ -195,10 +224,9 @@ bool plan_judge::is_repeated(const judged_plan& x) {
 // -- others ---------------------------------------------------------------
 
 // Along the plan for so long, then braking on its line.
-std::optional<double> plan_judge::first_touch_s(const judged_plan& x,
-                                                const trajectory& plan,
-                                                double until_s,
-                                                double decel_mps2) {
+std::optional<foreseen_bodies::touch>
+plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
+                        double until_s, double decel_mps2) {
   motion_.clear();
   const auto late_s = to_seconds(x.now - plan.start);
   // What was seen was seen a little earlier.
@@ -219,11 +247,11 @@ std::optional<double> plan_judge::first_touch_s(const judged_plan& x,
     }
     motion_.push_back({t + seen_s, s_m, d_m, v});
   }
-  return bodies_.first_touch_s(motion_, car_);
+  return bodies_.first_touch(motion_, car_);
 }
 
-std::optional<objection> plan_judge::touch(const judged_plan& x,
-                                           double beside_m) {
+std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
+                                                        double beside_m) {
   constexpr double margin_m = 0.5; // between the points that were looked at
   const auto until_s = limits.horizon_s + to_seconds(x.now - x.seen.at);
   const auto end_m =
@@ -231,21 +259,25 @@ std::optional<objection> plan_judge::touch(const judged_plan& x,
   if (!bodies_.any_in_reach(end_m - x.s_m + margin_m, beside_m + margin_m,
                             until_s))
     return std::nullopt;
-  const auto touched_s = first_touch_s(x, x.plan, limits.horizon_s, 0);
+  const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
   const auto soon =
-      touched_s
-      && first_touch_s(x, x.plan, limits.reaction_s, limits.avoiding_mps2);
+      touched
+      && first_touch(x, x.plan, limits.reaction_s, limits.avoiding_mps2);
   if (!soon)
     return std::nullopt;
-  const auto braking_avoids =
-      !first_touch_s(x, x.plan, 0, limits.avoiding_mps2);
+  const auto braking_avoids = !first_touch(x, x.plan, 0, limits.avoiding_mps2);
   const auto going_on_avoids =
       x.in_use && x.in_use->is_sound() && x.in_use->end() > x.now
-      && !first_touch_s(x, *x.in_use, limits.horizon_s, 0);
+      && !first_touch(x, *x.in_use, limits.horizon_s, 0);
   if (!braking_avoids && !going_on_avoids)
     return std::nullopt;
-  return objection{"others", *touched_s, limits.horizon_s};
+  return touched;
+}
+
+bool plan_judge::own_plan_touches(const judged_plan& x) {
+  return x.own_plan && x.own_plan->is_sound()
+         && first_touch(x, *x.own_plan, limits.horizon_s, 0);
 }
 
 // -- braking and standing -------------------------------------------------
@@ -304,7 +336,7 @@ bool plan_judge::wants_own_plan(const judged_plan& x) const {
   const auto due =
       !compared_at_
       || to_seconds(x.now - *compared_at_) >= limits.compared_every_s;
-  return due && !x.plan.empty() && is_slow(x);
+  return !x.plan.empty() && ((due && is_slow(x)) || crossing_.was_twice());
 }
 
 std::optional<objection> plan_judge::fall_behind(const judged_plan& x,

@@ -13,7 +13,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sofof {
@@ -57,7 +59,7 @@ struct plan_limits {
   double later_step_s = 0.25; ///< At least so much apart after that.
 
   double most_beyond_m = 0.25; ///< The body beyond the lane's edge.
-  double most_beyond_soon_m = 0.05;
+  double most_beyond_soon_m = 0.0;
   double way_back_m = 0.03; ///< A plan that leads back by so much is good.
 
   double limit_factor = 1.1;    ///< Of the speed limit,
@@ -77,7 +79,7 @@ struct plan_limits {
 
   double hard_mps2 = -4.5;      ///< Braking that needs a reason,
   double hard_soon_s = 0.15;    ///< if it is planned for so soon,
-  double longest_hard_s = 0.45; ///< and goes on for so long.
+  double longest_hard_s = 0.6;  ///< and goes on for so long.
   double brake_reason_s = 3.0;  ///< A body or line is a reason so near ahead,
   double brake_reason_m = 15.0; ///< and so much nearer or farther.
 
@@ -96,6 +98,7 @@ struct plan_limits {
 
   double longest_pause_s = 0.2;  ///< Between two results in a row.
   std::size_t remembered = 1200; ///< Results; a minute, at 20 a second.
+  double same_time_s = 0.002;    ///< What begins then is the same plan.
   double moves_mps = 1.0;        ///< Who is slower may be sent a plan again.
 };
 
@@ -120,7 +123,9 @@ struct plan_limits {
 ///
 /// `place`, `age`, `repetition` and what cannot be read are refused when two of
 /// three results in a row are any of these; `others` and the little of `road`
-/// when two of three are so. Limits: `plan_limits`.
+/// when two of three are so; `others` for a body that crosses, and may yet
+/// turn, when three are and the own planner would not touch it. Limits:
+/// `plan_limits`.
 ///
 /// No heap after the first results.
 class plan_judge {
@@ -129,36 +134,54 @@ public:
 
   plan_verdict judge(const judged_plan& x);
 
-  /// @returns whether the plan is slow, and `judge` would have to know what the
-  /// own planner would do. For plans that are due to be judged now.
+  /// @returns whether `judge` has to know what the own planner would do: the
+  /// plan is slow, or the last ones have touched who crosses. For plans that
+  /// are due to be judged now.
   bool wants_own_plan(const judged_plan& x) const;
+
+  /// @returns how far the plan that was judged last, if it is used, stays
+  /// within the limits; valid until the next one. Time that is lost or hard
+  /// braking without a reason counts up to now.
+  std::span<const margin> margins() const { return margins_; }
 
   /// A result came that is no plan at all.
   plan_verdict judge_unreadable();
 
 private:
   static constexpr plan_limits limits{};
+  static constexpr auto boundless_below =
+      -std::numeric_limits<double>::infinity();
 
   /// Of the latest results, whether they failed a check: the newest first.
   struct history {
     unsigned bits = 0;
     bool add(bool failed); // @returns whether two of three have failed
+    bool was_twice() const { return (bits & 0b11) == 0b11; } // just now
+    bool all() const { return bits == 0b111; }
   };
   /// What a walk along the plan finds.
   struct walk {
     std::optional<objection> fault; // the first one
     bool leaves_lane = false;       // a little, and soon
-    double beyond_m = 0;
-    double beside_m = 0; // the lane's middle, at most
+    double worst_m = 0;             // beyond the lane, at most
+    double beyond_m = 0;            // likewise, soon
+    double beside_m = 0;            // the lane's middle, at most
+    double over_mps = boundless_below, along_mps2 = boundless_below,
+           across_mps2 = boundless_below; // the most
     bool brakes_hard = false;
   };
 
   walk follow(const judged_plan& x) const;
-  std::optional<objection> pass_line(const judged_plan& x) const;
-  std::optional<objection> touch(const judged_plan& x, double beside_m);
-  std::optional<double> first_touch_s(const judged_plan& x,
-                                      const trajectory& plan, double until_s,
-                                      double decel_mps2);
+  /// How far beyond a line the vehicle could stop; nothing without one, or if
+  /// it cannot stop there whatever the plan.
+  std::optional<double> beyond_line_m(const judged_plan& x) const;
+  std::optional<foreseen_bodies::touch> touch(const judged_plan& x,
+                                              double beside_m);
+  std::optional<foreseen_bodies::touch> first_touch(const judged_plan& x,
+                                                    const trajectory& plan,
+                                                    double until_s,
+                                                    double decel_mps2);
+  bool own_plan_touches(const judged_plan& x);
   bool has_reason_to_brake(const judged_plan& x) const;
   std::optional<objection> brake(const judged_plan& x, bool brakes_hard,
                                  double passed_s);
@@ -170,13 +193,17 @@ private:
   vehicle_params car_;
   foreseen_bodies bodies_;
   std::vector<place_in_time> motion_; // room that is used again
-  std::vector<std::uint32_t> said_;   // fingerprints, round and round
+  std::vector<std::uint32_t> said_;   // fingerprints, round and round; 0: none
+  std::vector<time_point> begins_;    // of the same plans
   std::size_t next_said_ = 0;
   std::optional<time_point> judged_at_; // the last plan
-  history unusable_, beside_, near_;
+  history unusable_, beside_, near_, crossing_;
   double braking_s_ = 0; // without a reason
   double lost_s_ = 0;    // against the own plans
   std::optional<time_point> compared_at_;
+  static constexpr std::size_t most_margins = 9;
+  std::array<margin, most_margins> room_;
+  std::span<const margin> margins_;
 };
 
 } // namespace sofof

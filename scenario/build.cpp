@@ -141,12 +141,12 @@ auto requester_maker(caf::actor_system& sys, const scenario& s,
           kinds = s.services, lodm = s.policies.lodm,
           noise = noise_of(s, "vehicle").part(v.station),
           granted = s.traffic.grants_crossings(),
-          computer = s.fleets[v.fleet].computer,
+          computer = s.fleets[v.fleet].computer, margins = s.record.margins,
           future](const vehicle_actor& vehicle) {
-    return spawn_service_requester(sys, {v.station, v.way, world, where, kinds,
-                                         lodm->clone(), vehicle, recorder,
-                                         noise, virtual_time, granted, computer,
-                                         future ? future(v.station) : nullptr});
+    return spawn_service_requester(
+        sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
+              recorder, noise, virtual_time, granted, computer,
+              future ? future(v.station) : nullptr, margins});
   };
 }
 

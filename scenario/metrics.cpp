@@ -109,6 +109,12 @@ void metrics::take(const cycle_record& x) {
   auto& service = of(x.running.kind);
   service.latency.add(x.received - x.created);
   service.results_used += x.used;
+  for (const auto& margin : x.margins) {
+    const auto [least, is_first] =
+        service.margins.emplace(margin.name, margin.left);
+    if (!is_first)
+      least->second = std::min(least->second, margin.left);
+  }
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
   if (x.running.kind != headline_)

@@ -48,6 +48,8 @@ struct service_metrics {
   /// Reasons of all that ended, with data or without.
   end_counts ended_by{};
   refusal_counts implausible; ///< Results that vehicles refused.
+  /// Of those that were used, the least by check; empty unless recorded.
+  std::map<std::string, double> margins;
   statistics t_off_s; ///< Switch to remote → switch back, of each episode.
   /// Of each vehicle, the time that it was not local, at one provider or at
   /// several at once.

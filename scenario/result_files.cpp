@@ -23,6 +23,8 @@ constexpr std::string_view cycles_header =
 constexpr std::string_view tracks_header =
     "t_s,station,x_m,y_m,heading_rad,speed_mps,accel_mps2,s_m,lateral_m,"
     "plan_age_ms,source";
+constexpr std::string_view margins_header =
+    "station,provider,provider_id,service,counter,cycle,received_s,margin,left";
 constexpr std::string_view vehicles_header =
     "station,driven_s,distance_m,without_fresh_plan_s,off_road_s,collisions,"
     "max_plan_age_ms,plans,emergency_plans,kept_plans,stop_plans,"
@@ -36,6 +38,7 @@ constexpr duration distribution_width = std::chrono::microseconds{100};
 constexpr int length_places = 3;
 constexpr int angle_places = 6;
 constexpr int comfort_places = 6;
+constexpr int margin_places = 4;
 constexpr int timing_places = 6;
 constexpr int places_of_energy = 6;
 
@@ -62,6 +65,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     cycles_.emplace(folder_ / "cycles.csv", cycles_header);
   if (run.tracks)
     tracks_.emplace(folder_ / "tracks.csv", tracks_header);
+  if (run.margins)
+    margins_.emplace(folder_ / "margins.csv", margins_header);
   if (!run.map_toml.empty())
     write_file(folder_ / "map.toml", run.map_toml);
   if (!run.trace_text.empty())
@@ -87,9 +92,15 @@ void result_files::write(const event_record& x) {
 }
 
 void result_files::write(const cycle_record& x) {
+  const auto& id = x.running;
+  if (margins_)
+    for (const auto& margin : x.margins)
+      margins_->row(id.station, name_of(id.provider), id.provider,
+                    id.kind.view(), id.counter, x.cycle,
+                    seconds(x.received - start_), margin.name,
+                    rounded(margin.left, margin_places));
   if (!cycles_)
     return;
-  const auto& id = x.running;
   cycles_->row(
       id.station, name_of(id.provider), id.provider, id.kind.view(), id.counter,
       x.cycle, seconds(x.created - start_), seconds(x.received - start_),
@@ -137,6 +148,8 @@ void result_files::flush() {
     cycles_->flush();
   if (tracks_)
     tracks_->flush();
+  if (margins_)
+    margins_->flush();
   events_.flush();
   if (pcap_)
     pcap_->flush();
@@ -149,6 +162,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     cycles_->close();
   if (tracks_)
     tracks_->close();
+  if (margins_)
+    margins_->close();
   events_.close();
   if (pcap_)
     pcap_->close();

@@ -64,6 +64,7 @@ private:
   csv_file episodes_;
   std::optional<csv_file> cycles_;
   std::optional<csv_file> tracks_;
+  std::optional<csv_file> margins_;
   output_file events_;
 };
 

@@ -23,7 +23,7 @@ constexpr std::string_view files_of_a_run[] = {
     "episodes.csv", "cycles.csv",       "tracks.csv",   "events.jsonl",
     "timing.csv",   "timing.csv.tmp",   "map.toml",     "map.toml.tmp",
     "trace.txt",    "trace.txt.tmp",    "vehicles.csv", "distributions.csv",
-    "cpu.csv",      "cpu.csv.tmp"};
+    "cpu.csv",      "cpu.csv.tmp",      "margins.csv"};
 
 [[noreturn]] void refused(const fs::path& folder, const std::string& why,
                           int error = 0) {

@@ -79,6 +79,7 @@ run_info describe(const scenario& s, const run_options& options,
   info.pcap = options.pcap;
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;
+  info.margins = s.record.margins;
   return info;
 }
 

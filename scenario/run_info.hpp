@@ -53,9 +53,10 @@ struct run_info {
   std::string headline_kind = "trajectory_planning";
   /// Of each vehicle that is driven here.
   std::map<station_id, cycle_energy> energy;
-  bool cycles = true; ///< Write cycles.csv.
-  bool tracks = true; ///< Write tracks.csv.
-  std::string pcap;   ///< Where to capture all ITS messages; empty: nowhere.
+  bool cycles = true;   ///< Write cycles.csv.
+  bool tracks = true;   ///< Write tracks.csv.
+  bool margins = false; ///< Write margins.csv.
+  std::string pcap;     ///< Where to capture all ITS messages; empty: nowhere.
   etsi::its_clock time_of_day;
   time_point start; ///< Second 0 of all files.
 };

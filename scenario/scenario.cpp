@@ -188,6 +188,7 @@ void record_options::fields(settings& s) {
     s.refuse("tracks_period", "must be a multiple of \"10ms\", a vehicle's "
                               "step.");
   s.field("cycles", cycles);
+  s.field("margins", margins);
   s.field("tracks", tracks);
 }
 

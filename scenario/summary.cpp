@@ -11,6 +11,7 @@ namespace {
 constexpr int second_places = 6;
 constexpr int millisecond_places = 6;
 constexpr int share_places = 6;
+constexpr int margin_places = 4;
 constexpr int motion_places = 6;
 constexpr int octet_places = 3;
 constexpr int energy_places = 6;
@@ -75,6 +76,15 @@ void refusals(json_object& to, const refusal_counts& counts) {
     for (const auto& [check, count] : checks)
       of.member(check, count);
   }
+}
+
+/// How near to a refusal the used results came.
+void margins_of(json_object& to, const std::map<std::string, double>& least) {
+  if (least.empty())
+    return;
+  auto object = to.object("margin");
+  for (const auto& [name, left] : least)
+    object.member(name, rounded(left, margin_places));
 }
 
 /// The provider's view.
@@ -219,6 +229,7 @@ std::string summary_json(const metrics& m, const run_info& run,
         counts_and_times(object, service, run, end);
         endings(object, service.ended_by);
         refusals(object, service.implausible);
+        margins_of(object, service.margins);
         served(object, service);
       }
     }

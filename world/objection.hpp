@@ -12,4 +12,10 @@ struct objection {
   double limit = 0;       ///< What would have been accepted.
 };
 
+/// How far a result that is used stays within a limit.
+struct margin {
+  std::string_view name; ///< Of the check, with its unit; a literal.
+  double left = 0;       ///< Negative: beyond, and excused.
+};
+
 } // namespace sofof

@@ -88,17 +88,19 @@ public:
     const auto answer = result.as<climate_power>();
     if (!ask || !answer)
       return {};
-    const auto refused = judge_climate(answer->power_w,
-                                       {{ask->air_c, ask->mass_c},
-                                        ask->outside_c,
-                                        ask->set_point_c,
-                                        options_.horizon_s},
-                                       options_.cabin);
-    return {refused ? payload{} : result, refused};
+    const judged_climate x{{ask->air_c, ask->mass_c},
+                           ask->outside_c,
+                           ask->set_point_c,
+                           options_.horizon_s};
+    if (const auto why = judge_climate(answer->power_w, x, options_.cabin))
+      return {{}, why};
+    left_ = {"comfort_w", climate_margin_w(answer->power_w, x, options_.cabin)};
+    return {result, {}, {}, {&left_, 1}};
   }
 
 private:
   climate_options options_;
+  margin left_;
 };
 
 // The air in the car, warmed with whatever power came last.

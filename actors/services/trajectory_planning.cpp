@@ -78,7 +78,7 @@ public:
     const auto verdict = judge_.judge(x);
     if (!verdict.usable)
       return not_used(verdict);
-    return {payload::of(std::move(plan))};
+    return {payload::of(std::move(plan)), {}, {}, judge_.margins()};
   }
 
 private:

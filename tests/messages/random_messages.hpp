@@ -68,7 +68,9 @@ inline constexpr std::size_t arity<event_record> = 7;
 template <>
 inline constexpr std::size_t arity<decision_record> = 4;
 template <>
-inline constexpr std::size_t arity<cycle_record> = 7;
+inline constexpr std::size_t arity<cycle_record::margin> = 2;
+template <>
+inline constexpr std::size_t arity<cycle_record> = 8;
 template <>
 inline constexpr std::size_t arity<episode_record> = 8;
 template <>

@@ -102,6 +102,32 @@ TEST_CASE("cycles and tracks are written only when wanted") {
   CHECK(summary_in(dir.path())["latency_ms"]["count"] == 401);
 }
 
+TEST_CASE("margins are written when wanted, the least ones in the summary") {
+  const scratch dir;
+  auto info = run();
+  info.margins = true;
+  results r{dir.path(), info};
+  auto one = result(running(), 3, 60s, 10ms, std::nullopt);
+  one.margins = {{"road_m", 0.75}, {"standing_s", 1.2}};
+  r.take(one);
+  one.cycle = 4;
+  one.margins = {{"road_m", -0.0125}};
+  r.take(one);
+  r.finish(at(100s), 2, false);
+  const auto all = lines(dir / "margins.csv");
+  REQUIRE(all.size() == 4);
+  CHECK(all[0]
+        == "station,provider,provider_id,service,counter,cycle,received_s,"
+           "margin,left");
+  CHECK(all[3]
+        == "101,mec,18000000000000000000,trajectory_planning,1,4,"
+           "60.010000000,road_m,-0.0125");
+  const auto margin =
+      summary_in(dir.path())["services"]["trajectory_planning"]["margin"];
+  CHECK(margin["road_m"] == -0.0125);
+  CHECK(margin["standing_s"] == 1.2);
+}
+
 TEST_CASE("the summary says what happened") {
   const scratch dir;
   results r{dir.path(), run()};
