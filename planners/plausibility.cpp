@@ -31,6 +31,8 @@ constexpr duration told_of = 1250ms;
 constexpr duration retold_after = 50ms;
 /// So long a body must have been told of before it is denied.
 constexpr duration open_for = 300ms;
+/// Who has looked longer ago does not know where it came from.
+constexpr duration known_for = 1250ms;
 
 /// What is so deep in another body, so long, is not beside it.
 constexpr auto depth_m = 1.0;
@@ -95,11 +97,16 @@ void plausibility::judge(const road_observer& who, const road_look& look,
                          std::span<const track> tracks) {
   if (witnesses_.size() >= most_stations && !witnesses_.contains(key_of(who)))
     return;
-  auto& w = witnesses_[key_of(who)];
+  auto& w = witnesses_.try_emplace(key_of(who), witness_record{.since = look.at})
+                .first->second;
   if (look.at < w.is.at())
     return; // overtaken on its way
   w.who = who;
   w.heard = look.at;
+  from_nowhere_.clear();
+  for (const auto& x : tracks)
+    if (comes_from_nowhere(w, x))
+      from_nowhere_.push_back(x.id);
   w.is.look(look);
   follow(w, tracks);
   has_suspects_ = false;
@@ -112,6 +119,23 @@ void plausibility::judge(const road_observer& who, const road_look& look,
     has_suspects_ = has_suspects_ || r.said.is_denied() || r.overlaps;
   }
   tidy(look.at);
+}
+
+const plausibility::body_record*
+plausibility::find_body(std::uint32_t id) const {
+  const auto r = std::ranges::lower_bound(bodies_, id, {}, &body_record::id);
+  return r != bodies_.end() && r->id == id ? &*r : nullptr;
+}
+
+/// Whether it was not there when the witness looked last, before anybody told
+/// of it.
+bool plausibility::comes_from_nowhere(const witness_record& w,
+                                      const track& x) const {
+  const auto knows_the_place = w.is.at() - w.since >= known_for;
+  if (!knows_the_place || x.seen < w.is.at() || x.station == w.who.number)
+    return false;
+  const auto* known = find_body(x.id);
+  return (!known || known->born > w.is.at()) && w.is.overlooked(x, houses_);
 }
 
 /// Keeps a record of each track, and of no other.
@@ -127,6 +151,7 @@ void plausibility::follow(const witness_record& w,
       bodies_.push_back(std::move(*old++));
     } else {
       bodies_.push_back({.id = x.id, .born = x.seen});
+      newest_ = std::max(newest_, x.seen);
       auto& r = bodies_.back();
       if (!w.who.is_ours) {
         r.station = w.who.number;
@@ -155,8 +180,10 @@ void plausibility::judge(const witness_record& w, const track& x,
     r.said.confirm(w.who, at);
   if (seen != witness::sight::nothing)
     return;
-  if (at - x.seen > told_of || at - r.born < open_for
-      || !w.is.overlooks(x, houses_))
+  const auto is_new = at - r.born < open_for
+                      && std::ranges::find(from_nowhere_, x.id)
+                             == from_nowhere_.end();
+  if (at - x.seen > told_of || is_new || !w.is.overlooks(x, houses_))
     return;
   r.said.deny(w.who, at, w.is.is_sure(houses_));
   const auto by = w.who.is_ours ? reputation::everybody : w.who.number;
@@ -227,10 +254,14 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
                             std::span<const track> tracks,
                             std::vector<track>& out) {
   out.clear();
-  if (!has_suspects_ && !senders_.has_liars(now)) {
+  const auto has_new = !tracks.empty()
+                       && (bodies_.empty() || now - newest_ <= known_for
+                           || tracks.back().id > bodies_.back().id);
+  if (!has_suspects_ && !has_new && !senders_.has_liars(now)) {
     out.assign(tracks.begin(), tracks.end());
     return;
   }
+  const auto* own = planned ? find_witness(*planned) : nullptr;
   auto r = bodies_.begin();
   for (const auto& x : tracks) {
     while (r != bodies_.end() && r->id < x.id)
@@ -250,9 +281,21 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
         note(known->station, now, doubt_check::sender, 0, 0);
         continue;
       }
+      if (own && has_new && now - own->is.at() <= known_for
+          && !known->said.is_confirmed(now) && comes_from_nowhere(*own, x)) {
+        note(*known, now, doubt_check::sight, to_seconds(now - own->is.at()), 0,
+             *planned);
+        continue;
+      }
     }
     out.push_back(x);
   }
+}
+
+const plausibility::witness_record*
+plausibility::find_witness(station_id vehicle) const {
+  const auto found = witnesses_.find(key_of({vehicle}));
+  return found != witnesses_.end() ? &found->second : nullptr;
 }
 
 bool plausibility::doubts(station_id who) const {

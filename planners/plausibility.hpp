@@ -27,7 +27,9 @@ namespace sofof {
 /// * A witness is a sensor of the provider or a vehicle that sends CPMs. It
 ///   confirms a body that it tells of, unless that is known from the same
 ///   sender only. It denies a body that it does not tell of though it would
-///   have seen it (`witness::overlooks`).
+///   have seen it (`witness::overlooks`). A vehicle that is planned for denies
+///   at once what it would have seen before anybody told of it: bodies do not
+///   come from nowhere.
 /// * A body is doubted for all vehicles, or for the one that denies it itself,
 ///   as `testimony` says: a vehicle that lies about what it sees harms but
 ///   itself. A vanished body, which is not told of any more, is not doubted
@@ -74,6 +76,7 @@ private:
     witness is;
     std::map<std::uint32_t, steady_word> words; // of CPMs, by object
     time_point heard;
+    time_point since; // of its first look
   };
   struct station_record {
     sender_id sender = 0;
@@ -95,6 +98,8 @@ private:
 
   void follow(const witness_record& w, std::span<const track> tracks);
   void judge(const witness_record& w, const track& x, body_record& r);
+  const body_record* find_body(std::uint32_t id) const;
+  bool comes_from_nowhere(const witness_record& w, const track& x) const;
   void check_overlap(const track& x, body_record& r, time_point now,
                      std::span<const track> tracks);
   bool is_doubted(const track& x, const body_record& r, time_point now,
@@ -106,7 +111,7 @@ private:
   void note(station_id who, time_point at, doubt_check check, double value,
             double limit);
   void tidy(time_point now);
-  const witness_record* find_witness(station_id who) const;
+  const witness_record* find_witness(station_id vehicle) const;
 
   line_of_sight houses_;
   std::map<std::uint64_t, witness_record> witnesses_;
@@ -115,6 +120,8 @@ private:
   reputation senders_;
   std::vector<station_doubt> news_;
   time_point tidied_;
+  std::vector<std::uint32_t> from_nowhere_; // for who looks just now
+  time_point newest_;                       // when the newest body was born
   bool has_suspects_ = false; // a body that is denied or overlaps
 };
 

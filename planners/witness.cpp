@@ -130,6 +130,20 @@ bool witness::is_sure(const line_of_sight& houses) const {
   });
 }
 
+bool witness::overlooked(const track& x, const line_of_sight& houses) const {
+  const auto since_s = to_seconds(x.at - at_);
+  if (since_s < 0 || since_s > to_seconds(due_again) || !is_sure(houses)
+      || look_at(x) != sight::nothing)
+    return false;
+  const auto off_m = drift_m(since_s);
+  const Eigen::Vector2d ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
+  return std::ranges::all_of(std::array{-off_m, 0.0, off_m}, [&](double by_m) {
+    auto moved = x;
+    moved.motion.mean.col(0) += by_m * ahead;
+    return overlooks(moved, houses);
+  });
+}
+
 bool witness::would_see(const track& x, const line_of_sight& houses,
                         time_point now) const {
   return is_complete_ && now - at_ <= due_again

@@ -58,6 +58,11 @@ public:
   /// one counts in its place of which no message has come yet.
   bool is_sure(const line_of_sight& houses) const;
 
+  /// @returns whether the last look, made before anybody told of the body,
+  /// would have shown it where it must have been then: it lay open, however it
+  /// has sped up or slowed down since.
+  bool overlooked(const track& x, const line_of_sight& houses) const;
+
   /// @returns whether it would see this body at `now`; late by 0.1 s.
   bool would_see(const track& x, const line_of_sight& houses,
                  time_point now) const;
