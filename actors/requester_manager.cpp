@@ -36,7 +36,8 @@ struct remote_source {
   std::optional<time_point> last_sent;
   std::optional<time_point> last_received;
   std::optional<time_point> last_in_time;
-  std::string useless;       // why the results since then are so
+  std::string useless; // why the results since then are so
+  time_point useless_at;
   bool told_on_call = false; // by the last input
   int calls_in_vain = 0;
 };
@@ -151,6 +152,7 @@ struct offloaded_state {
         std::ranges::find(remotes, result.running, &remote_source::running);
     if (remote == remotes.end() || !(result.cycle > remote->last_cycle))
       return;
+    remote->last_cycle = result.cycle;
     const auto in_limits =
         can_judge(*remote, result)
         && in_time(result.created, now(self), setup.options.limits.max_latency);
@@ -181,6 +183,7 @@ struct offloaded_state {
 
   void leave_out(remote_source& remote, const objection& why) {
     remote.useless = in_words(why);
+    remote.useless_at = now(self);
     self->send(watchdog, remote.running, remote.useless);
   }
 
@@ -205,7 +208,6 @@ struct offloaded_state {
       for (const auto& x : margins)
         record.margins.push_back({std::string{x.name}, x.left});
     self->send(setup.recorder, std::move(record));
-    remote.last_cycle = result.cycle;
     if (is_on_call(remote))
       remote.last_received.reset();
     else if (remote.in_use || in_limits)
@@ -296,8 +298,9 @@ struct offloaded_state {
       if (remote.in_use && !remote.given_up
           && silent > protocol::start_timeout) {
         remote.given_up = true;
-        const auto breach =
-            remote.useless.empty() ? qos_breach::gap : qos_breach::implausible;
+        const auto lies = !remote.useless.empty()
+                          && t - remote.useless_at <= 2 * setup.options.period;
+        const auto breach = lies ? qos_breach::implausible : qos_breach::gap;
         self->send(setup.requester, qos_violation{remote.running, breach, t,
                                                   true, remote.useless});
       }

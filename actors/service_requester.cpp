@@ -462,16 +462,18 @@ struct requester_state {
   // -- the end of an offloading -------------------------------------------
 
   void take(const qos_violation& violation) {
-    const auto at = find(violation.running);
-    if (!at)
-      return;
     const auto& running = violation.running;
     const auto reason = reason_of(violation.breach);
     if (violation.breach == qos_breach::implausible) {
+      // Also if it has ended the service in the same instant.
       note("implausible", running.provider, running.kind, running.counter,
            violation.why);
       distrust_it(running.provider);
-    } else {
+    }
+    const auto at = find(running);
+    if (!at)
+      return;
+    if (violation.breach != qos_breach::implausible) {
       note("violation", running.provider, running.kind, running.counter,
            name_of(reason));
     }

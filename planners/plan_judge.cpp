@@ -65,8 +65,10 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
     useless = {"place", away_m, limits.same_place_m};
   else if (faster_mps > limits.same_speed_mps)
     useless = {"place", faster_mps, limits.same_speed_mps};
-  else if (age_s > limits.most_age_s)
+  else if (age_s > limits.most_age_s || age_s < -limits.same_time_s)
     useless = {"age", age_s, limits.most_age_s};
+  else if (ends_too_soon(x))
+    useless = {"length", to_seconds(x.plan.end() - x.now), limits.horizon_s};
   else if (repeats)
     useless = {"repetition", 1, 0};
   if (unusable_.add(useless.has_value()))
@@ -100,16 +102,24 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
            margin{"speed_mps", -found.over_mps},
            margin{"along_mps2", limits.most_along_mps2 - found.along_mps2},
            margin{"across_mps2", limits.most_across_mps2 - found.across_mps2},
-           margin{"standing_s", limits.most_lost_s - lost_s_},
+           margin{"standing_s",
+                  limits.most_lost_s - std::max(lost_s_, driven_lost_s_)},
+           margin{"braking_s", limits.longest_hard_s - braking_s_},
        })
     room_[n++] = left;
   if (beyond_m)
     room_[n++] = {"stop_line_m", -*beyond_m};
-  margins_ = {room_.data(), n};
+  margin_count_ = n;
   return {};
 }
 
 // -- the plan alone -------------------------------------------------------
+
+// The vehicle would stop safely soon, and nobody sees where it leads.
+bool plan_judge::ends_too_soon(const judged_plan& x) {
+  return to_seconds(x.plan.end() - x.now) < limits.horizon_s
+         && x.plan.points.back().speed_mps > limits.moves_mps;
+}
 
 plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   walk found;
@@ -146,9 +156,6 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
       soon_m = std::max(soon_m, beyond_m);
       after_a_second_m = beyond_m;
     }
-    if (ahead_s <= limits.hard_soon_s && p.accel_mps2 < limits.hard_mps2)
-      found.brakes_hard = true;
-
     const auto limit_mps =
         limits.limit_factor * bounds.limit_mps + limits.above_limit_mps;
     const auto must_slow_by_mps2 =
@@ -170,6 +177,9 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     else if (across_mps2 > limits.most_across_mps2)
       found.fault = {"across", across_mps2, limits.most_across_mps2};
   }
+  for (const auto t : {late_s, late_s + limits.hard_soon_s})
+    if (x.plan.at(t).accel_mps2 < limits.hard_mps2)
+      found.brakes_hard = true;
   const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
   found.worst_m = worst_m;
   found.beyond_m = soon_m;
@@ -324,44 +334,75 @@ double plan_judge::free_speed_mps(const judged_plan& x) const {
   return free;
 }
 
+// As it drives, and not as plans promise.
 bool plan_judge::is_slow(const judged_plan& x) const {
-  const auto late_s = to_seconds(x.now - x.plan.start);
-  const auto soon = x.plan.at(late_s + limits.soon_s).speed_mps;
-  const auto later = x.plan.at(late_s + 2 * limits.soon_s).speed_mps;
-  return later <= x.own.speed_mps + limits.speeding_up_mps
-         && soon < limits.slow_share * free_speed_mps(x);
+  return x.own.accel_mps2 < limits.speeding_up_mps2
+         && x.own.speed_mps < limits.slow_share * free_speed_mps(x);
 }
 
 bool plan_judge::wants_own_plan(const judged_plan& x) const {
   const auto due =
       !compared_at_
       || to_seconds(x.now - *compared_at_) >= limits.compared_every_s;
-  return !x.plan.empty() && ((due && is_slow(x)) || crossing_.was_twice());
+  return (due && is_slow(x)) || crossing_.was_twice();
 }
 
 std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
                                                  double passed_s) {
-  lost_s_ = std::max(0.0, lost_s_ - limits.forgiven_share * passed_s);
-  if (!x.own_plan)
+  const auto forgiven_s = limits.forgiven_share * passed_s;
+  lost_s_ = std::max(0.0, lost_s_ - forgiven_s);
+  driven_lost_s_ = std::max(0.0, driven_lost_s_ - forgiven_s);
+  settle(x);
+  if (x.own_plan && is_slow(x))
+    compare(x);
+  const auto lost_s = std::max(lost_s_, driven_lost_s_);
+  if (lost_s < limits.most_lost_s)
     return std::nullopt;
-  const auto since_s = compared_at_
-                           ? std::min(to_seconds(x.now - *compared_at_),
-                                      2 * limits.compared_every_s)
-                           : limits.compared_every_s;
+  return objection{"standing", lost_s, limits.most_lost_s};
+}
+
+// What a plan promises, and from where to look at what is driven.
+void plan_judge::compare(const judged_plan& x) {
+  const auto since_s =
+      compared_at_
+          ? std::min(to_seconds(x.now - *compared_at_), limits.compared_every_s)
+          : limits.compared_every_s;
   compared_at_ = x.now;
-  if (x.own_plan->empty()
-      || (!x.crossings_granted
-          && bodies_.any_near(limits.waits_beside_m, limits.waits_beside_m)))
-    return std::nullopt;
+  if (x.own_plan->empty() || may_wait_beside(x))
+    return;
   const auto then = x.now + from_seconds(limits.compared_over_s);
   const auto from_m = x.plan.at(x.now).s_m;
   const auto way_m = x.plan.at(then).s_m - from_m;
   const auto own_way_m = x.own_plan->at(then).s_m - from_m;
   if (own_way_m > limits.least_way_m)
     lost_s_ += since_s * std::clamp(1 - way_m / own_way_m, 0.0, 1.0);
-  if (lost_s_ < limits.most_lost_s)
-    return std::nullopt;
-  return objection{"standing", lost_s_, limits.most_lost_s};
+  if (!reference_at_) {
+    reference_at_ = x.own.at;
+    reference_from_m_ = x.s_m;
+    reference_ = *x.own_plan;
+  }
+}
+
+// How far it has come since, against the own plan of then.
+void plan_judge::settle(const judged_plan& x) {
+  if (!reference_at_)
+    return;
+  const auto passed_s = to_seconds(x.own.at - *reference_at_);
+  if (passed_s < limits.driven_for_s)
+    return;
+  const auto begun = reference_.at(*reference_at_).s_m;
+  const auto own_way_m = reference_.at(x.own.at).s_m - begun;
+  const auto way_m = x.s_m - reference_from_m_;
+  reference_at_.reset();
+  if (passed_s > 2 * limits.driven_for_s || may_wait_beside(x)
+      || own_way_m < limits.least_driven_m)
+    return;
+  driven_lost_s_ += passed_s * std::clamp(1 - way_m / own_way_m, 0.0, 1.0);
+}
+
+bool plan_judge::may_wait_beside(const judged_plan& x) const {
+  return !x.crossings_granted
+         && bodies_.any_near(limits.waits_beside_m, limits.waits_beside_m);
 }
 
 } // namespace sofof

@@ -33,7 +33,7 @@ struct judged_plan {
   /// Of what was received, times left out; 0: none.
   std::uint64_t fingerprint = 0;
   /// What the vehicle's own planner would do from the same state, if it was
-  /// asked (`wants_own_plan`); null: it was not, or has none.
+  /// asked (`wants_own_plan`), empty if it has none; null: it was not asked.
   const trajectory* own_plan = nullptr;
 };
 
@@ -85,14 +85,17 @@ struct plan_limits {
 
   double brake_beside_m = 40; ///< Where drivers judge crossings: beside, too.
 
-  double slow_share = 0.8;              ///< Of what the way allows.
-  double speeding_up_mps = 0.3;         ///< Who does so is not slow.
+  double slow_share = 0.9; ///< Of what the way allows.
+  double speeding_up_mps = 0.3;
+  double speeding_up_mps2 = 0.3;        ///< A vehicle that does so is not slow.
   double comfortable_across_mps2 = 1.8; ///< The way allows so much in bends.
   double waits_beside_m = 60; ///< Where drivers judge crossings, who does not
                               ///< drive may wait for a body so near.
   double compared_every_s = 0.25; ///< With the own plan, while it is slow,
   double compared_over_s = 5.0;   ///< by the way until then,
   double least_way_m = 2.0;       ///< if the own one goes so far.
+  double driven_for_s = 1.0;      ///< The same of what is driven meanwhile,
+  double least_driven_m = 0.2;    ///< if the own plan went so far.
   double most_lost_s = 1.2;       ///< As if waiting while the own plans drive.
   double forgiven_share = 0.05;   ///< Of the time that passes meanwhile.
 
@@ -109,7 +112,9 @@ struct plan_limits {
 /// vehicle could do instead.
 ///
 /// * `place`: it begins elsewhere than the vehicle is, or at another speed.
-/// * `age`, `repetition`: it is old, or was sent before with other times.
+/// * `age`, `length`, `repetition`: it is old or of the future, ends within 2.5
+/// s
+///   while it drives, or was sent before with other times.
 /// * `road`: the body leaves the lane by much, or a little within a second.
 /// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
 /// * `stop_line`: soon the vehicle could not stop before the line any more.
@@ -118,13 +123,14 @@ struct plan_limits {
 ///   while braking now, or the plan in use, would not.
 /// * `braking`: hard, for a while, with nothing ahead. It is obeyed until then:
 ///   the provider may see a body that the vehicle cannot.
-/// * `standing`: slow, and so far behind what the vehicle's own planner would
-///   do that the time lost adds up.
+/// * `standing`: while the vehicle is slow, plans stay so far behind what its
+/// own
+///   planner would do, or lead so much slower, that the time lost adds up.
 ///
-/// `place`, `age`, `repetition` and what cannot be read are refused when two of
-/// three results in a row are any of these; `others` and the little of `road`
-/// when two of three are so; `others` for a body that crosses, and may yet
-/// turn, when three are and the own planner would not touch it. Limits:
+/// `place`, `age`, `length`, `repetition` and what cannot be read are refused
+/// when two of three results in a row are any of these; `others` and the little
+/// of `road` when two of three are so; `others` for a body that crosses, and
+/// may yet turn, when three are and the own planner would not touch it. Limits:
 /// `plan_limits`.
 ///
 /// No heap after the first results.
@@ -142,7 +148,9 @@ public:
   /// @returns how far the plan that was judged last, if it is used, stays
   /// within the limits; valid until the next one. Time that is lost or hard
   /// braking without a reason counts up to now.
-  std::span<const margin> margins() const { return margins_; }
+  std::span<const margin> margins() const {
+    return {room_.data(), margin_count_};
+  }
 
   /// A result came that is no plan at all.
   plan_verdict judge_unreadable();
@@ -187,6 +195,10 @@ private:
                                  double passed_s);
   std::optional<objection> fall_behind(const judged_plan& x, double passed_s);
   bool is_slow(const judged_plan& x) const;
+  void compare(const judged_plan& x);
+  void settle(const judged_plan& x);
+  bool may_wait_beside(const judged_plan& x) const;
+  static bool ends_too_soon(const judged_plan& x);
   bool is_repeated(const judged_plan& x);
   double free_speed_mps(const judged_plan& x) const;
 
@@ -201,9 +213,13 @@ private:
   double braking_s_ = 0; // without a reason
   double lost_s_ = 0;    // against the own plans
   std::optional<time_point> compared_at_;
-  static constexpr std::size_t most_margins = 9;
+  double driven_lost_s_ = 0; // likewise, by what is driven
+  std::optional<time_point> reference_at_;
+  double reference_from_m_ = 0;
+  trajectory reference_; // the own plan of then; room that is used again
+  static constexpr std::size_t most_margins = 10;
   std::array<margin, most_margins> room_;
-  std::span<const margin> margins_;
+  std::size_t margin_count_ = 0;
 };
 
 } // namespace sofof

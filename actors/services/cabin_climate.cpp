@@ -86,8 +86,10 @@ public:
                       time_point) override {
     const auto ask = latest.what.as<climate_request>();
     const auto answer = result.as<climate_power>();
-    if (!ask || !answer)
+    if (!ask)
       return {};
+    if (!answer)
+      return {{}, objection{"readable", 0, 1}};
     const judged_climate x{{ask->air_c, ask->mass_c},
                            ask->outside_c,
                            ask->set_point_c,

@@ -86,8 +86,12 @@ private:
                                              time_point now) {
     if (!own_)
       own_ = make_own_();
-    auto plan = own_->run(now, latest).what.as<trajectory>();
-    return plan ? plan : std::make_shared<const trajectory>();
+    const auto made = own_->run(now, latest);
+    auto plan = made.what.as<trajectory>();
+    const auto about = made.about.as<plan_report>();
+    // One that is kept is the provider's.
+    const auto is_own = about && about->origin == plan_origin::planned;
+    return plan && is_own ? plan : std::make_shared<const trajectory>();
   }
 
   static judged_result not_used(const plan_verdict& verdict) {

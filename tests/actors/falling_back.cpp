@@ -480,6 +480,23 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(found->detail == "number value=2.000 limit=1.000");
 }
 
+TEST_CASE_FIXTURE(requester_world,
+                  "who ends the service in the instant of its lie has lied") {
+  start_remote({one});
+  run_for(50ms);
+  caf::anon_send(requester, service_result{at_here(one, 7), 2, now(),
+                                           payload::of(echo{echo::lie})});
+  caf::anon_send(requester, service_end{at_here(one, 7), end_reason::left_area,
+                                        side::provider});
+  settle();
+  const auto events = recorder->all<event_record>();
+  CHECK(std::ranges::count(events, "implausible", &event_record::what) == 1);
+  const auto asked = requests();
+  run_for(30s);
+  offer({one});
+  CHECK(requests() == asked);
+}
+
 TEST_CASE_FIXTURE(requester_world, "an implausible result is a bad outcome to "
                                    "the policy") {
   start_remote({one});

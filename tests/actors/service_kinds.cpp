@@ -218,7 +218,7 @@ TEST_CASE(
   const auto setup = on(one_street());
   const trajectory plan{
       time_point{3s},
-      {{0, 100, {100, 0}, 0, 0, 8, 0}, {1, 108, {108, 0}, 0, 0, 8, 0}}};
+      {{0, 100, {100, 0}, 0, 0, 8, 0}, {3, 124, {124, 0}, 0, 0, 8, 0}}};
   const auto suggested_to = [&](station_id whom) {
     std::vector<maneuver_waypoint> room;
     etsi::mcm message;

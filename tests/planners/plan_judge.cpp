@@ -314,6 +314,63 @@ TEST_CASE_FIXTURE(judged_drive,
   CHECK(refused_within(10s, 0) == "standing");
 }
 
+TEST_CASE_FIXTURE(judged_drive, "plans that always drive soon, and never do, "
+                                "are refused within 5 s") {
+  own_accel_mps2 = 1;
+  speed_mps = 0;
+  const auto soon = [&] {
+    auto x = plan(1);
+    for (auto& p : x.points) { // stands for 1.8 s
+      const auto t = std::max(0.0, p.t_s - 1.8);
+      p.speed_mps = t;
+      p.accel_mps2 = t > 0 ? 1 : 0;
+      p.s_m = s_m + t * t / 2;
+      p.at = {p.s_m, d_m};
+    }
+    return x;
+  };
+  CHECK(refused_of(soon, 5s) == "standing");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "plans that always brake now and speed up "
+                                "later are refused before the car stands for "
+                                "long") {
+  own_accel_mps2 = 1;
+  const auto later = [&] {
+    auto x = plan(1, 0, 10);
+    auto s = s_m, v = speed_mps;
+    for (auto& p : x.points) {
+      p.s_m = s;
+      p.at = {s, d_m};
+      p.speed_mps = v;
+      p.accel_mps2 = p.t_s < 0.45 ? -4 : 1;
+      s += 0.1 * v;
+      v = std::max(0.0, v + 0.1 * p.accel_mps2);
+    }
+    return x;
+  };
+  CHECK(refused_of(later, 5s) == "standing");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a plan of the future, or one that is over "
+                                "soon, is of no use") {
+  auto x = plan(0);
+  SUBCASE("of the future") {
+    x.start += 10ms;
+    const auto verdict = ask(x);
+    CHECK(!verdict.usable);
+    REQUIRE(verdict.useless);
+    CHECK(verdict.useless->check == "age");
+  }
+  SUBCASE("over soon") {
+    x.points.resize(21); // 2 s
+    const auto verdict = ask(x);
+    CHECK(!verdict.usable);
+    REQUIRE(verdict.useless);
+    CHECK(verdict.useless->check == "length");
+  }
+}
+
 TEST_CASE_FIXTURE(judged_drive, "a little slower than alone is good for ever") {
   own_accel_mps2 = 0;
   speed_mps = 7.5;
@@ -360,7 +417,7 @@ TEST_CASE_FIXTURE(judged_drive, "how far a plan stays within each limit is "
   CHECK(left("stop_line_m") > 0);
   seen.stop_at_m.reset();
   REQUIRE(ask(plan(-1)).usable);
-  CHECK(judge.margins().size() == 8);
+  CHECK(judge.margins().size() == 9);
 }
 
 TEST_CASE("what is no plan is refused at the second of three") {
