@@ -163,6 +163,14 @@ struct offloaded_state {
     auto judged = remote->judge->judge(
         result.what, {remote->running, newest.at, newest.what, in_use},
         now(self));
+    if (judged.refused || judged.useless)
+      self->send(setup.recorder, cycle_record{result.running,
+                                              result.cycle,
+                                              result.created,
+                                              now(self),
+                                              {},
+                                              false,
+                                              result.doubt});
     if (judged.refused)
       refuse(result.running, *judged.refused);
     else if (judged.useless)

@@ -27,7 +27,9 @@ struct qos_violation {
   running_service running;
   qos_breach breach = qos_breach::gap;
   time_point at;
-  bool others_hold = false; ///< Another provider runs the service as it should.
+  /// Another provider runs the service as it should, or the manager has left
+  /// the one that broke them already.
+  bool others_hold = false;
   std::string why{}; ///< Of an implausible result: check, value and limit.
 };
 

@@ -112,20 +112,17 @@ struct plan_limits {
 /// vehicle could do instead.
 ///
 /// * `place`: it begins elsewhere than the vehicle is, or at another speed.
-/// * `age`, `length`, `repetition`: it is old or of the future, ends within 2.5
-/// s
-///   while it drives, or was sent before with other times.
+/// * `age`, `length`, `repetition`: it is old or of the future, ends within
+///   2.5 s while it drives, or was sent before with other times.
 /// * `road`: the body leaves the lane by much, or a little within a second.
 /// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
 /// * `stop_line`: soon the vehicle could not stop before the line any more.
 /// * `others`: it touches a body, also if the vehicle leaves it soon and
-/// brakes,
-///   while braking now, or the plan in use, would not.
+///   brakes, while braking now, or the plan in use, would not.
 /// * `braking`: hard, for a while, with nothing ahead. It is obeyed until then:
 ///   the provider may see a body that the vehicle cannot.
 /// * `standing`: while the vehicle is slow, plans stay so far behind what its
-/// own
-///   planner would do, or lead so much slower, that the time lost adds up.
+///   own planner would do, or lead so much slower, that lost time adds up.
 ///
 /// `place`, `age`, `length`, `repetition` and what cannot be read are refused
 /// when two of three results in a row are any of these; `others` and the little

@@ -64,7 +64,8 @@ public:
     return must("vehicles") * must("virtual_s") / hour_s;
   }
   double violations() const {
-    return must("ended_by.qos_latency") + must("ended_by.qos_gap");
+    return must("ended_by.qos_latency") + must("ended_by.qos_gap")
+           + may("ended_by.implausible").value_or(0);
   }
   double offloaded_share() const { return may("offloaded_share").value_or(0); }
   double energy_saved() const { return may("energy.saved_share").value_or(0); }

@@ -562,6 +562,9 @@ TEST_CASE_FIXTURE(managed_world,
   CHECK(violation.breach == qos_breach::implausible);
   CHECK(violation.at == t);
   CHECK(violation.why == "number value=2.000 limit=1.000");
+  REQUIRE(recorder->count<cycle_record>() > 0);
+  CHECK(recorder->all<cycle_record>().back().cycle == 2);
+  CHECK(!recorder->all<cycle_record>().back().used);
   run_for(10ms);
   CHECK(results(false) == 1);
 }
