@@ -10,7 +10,7 @@ namespace sofof {
 
 namespace {
 
-constexpr auto boundless = std::numeric_limits<double>::infinity();
+constexpr auto no_limit = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -43,7 +43,7 @@ void foreseen_bodies::look(const route& way, double s_m,
           o.speed_mps * c,
           o.speed_mps * s,
           0,
-          boundless,
+          no_limit,
           true,
           false};
     if (x.s_m + x.half_length_m < s_m - car.rear_m)

@@ -11,7 +11,7 @@ namespace {
 constexpr int second_places = 6;
 constexpr int millisecond_places = 6;
 constexpr int share_places = 6;
-constexpr int margin_places = 4;
+constexpr int places_of_margin = 4;
 constexpr int motion_places = 6;
 constexpr int octet_places = 3;
 constexpr int energy_places = 6;
@@ -84,7 +84,7 @@ void margins_of(json_object& to, const std::map<std::string, double>& least) {
     return;
   auto object = to.object("margin");
   for (const auto& [name, left] : least)
-    object.member(name, rounded(left, margin_places));
+    object.member(name, rounded(left, places_of_margin));
 }
 
 /// The provider's view.
