@@ -97,8 +97,9 @@ void plausibility::judge(const road_observer& who, const road_look& look,
                          std::span<const track> tracks) {
   if (witnesses_.size() >= most_stations && !witnesses_.contains(key_of(who)))
     return;
-  auto& w = witnesses_.try_emplace(key_of(who), witness_record{.since = look.at})
-                .first->second;
+  auto& w =
+      witnesses_.try_emplace(key_of(who), witness_record{.since = look.at})
+          .first->second;
   if (look.at < w.is.at())
     return; // overtaken on its way
   w.who = who;
@@ -180,9 +181,9 @@ void plausibility::judge(const witness_record& w, const track& x,
     r.said.confirm(w.who, at);
   if (seen != witness::sight::nothing)
     return;
-  const auto is_new = at - r.born < open_for
-                      && std::ranges::find(from_nowhere_, x.id)
-                             == from_nowhere_.end();
+  const auto is_new =
+      at - r.born < open_for
+      && std::ranges::find(from_nowhere_, x.id) == from_nowhere_.end();
   if (at - x.seen > told_of || is_new || !w.is.overlooks(x, houses_))
     return;
   r.said.deny(w.who, at, w.is.is_sure(houses_));

@@ -122,7 +122,7 @@ private:
   time_point tidied_;
   std::vector<std::uint32_t> from_nowhere_; // for who looks just now
   time_point newest_;                       // when the newest body was born
-  bool has_suspects_ = false; // a body that is denied or overlaps
+  bool has_suspects_ = false;               // a body that is denied or overlaps
 };
 
 } // namespace sofof
