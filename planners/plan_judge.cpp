@@ -59,13 +59,15 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   const auto away_m = distance_m(first.at, here);
   const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
   const auto age_s = to_seconds(x.now - x.plan.start);
+  if (age_s < -limits.same_time_s)
+    return {false, {}}; // clocks differ
   const auto repeats = is_repeated(x);
   std::optional<objection> useless;
   if (away_m > limits.same_place_m)
     useless = {"place", away_m, limits.same_place_m};
   else if (faster_mps > limits.same_speed_mps)
     useless = {"place", faster_mps, limits.same_speed_mps};
-  else if (age_s > limits.most_age_s || age_s < -limits.same_time_s)
+  else if (age_s > limits.most_age_s)
     useless = {"age", age_s, limits.most_age_s};
   else if (ends_too_soon(x))
     useless = {"length", to_seconds(x.plan.end() - x.now), limits.horizon_s};

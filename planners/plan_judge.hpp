@@ -112,8 +112,8 @@ struct plan_limits {
 /// vehicle could do instead.
 ///
 /// * `place`: it begins elsewhere than the vehicle is, or at another speed.
-/// * `age`, `length`, `repetition`: it is old or of the future, ends within
-///   2.5 s while it drives, or was sent before with other times.
+/// * `age`, `length`, `repetition`: it is old, ends within 2.5 s while it
+///   drives, or was sent before with other times.
 /// * `road`: the body leaves the lane by much, or a little within a second.
 /// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
 /// * `stop_line`: soon the vehicle could not stop before the line any more.

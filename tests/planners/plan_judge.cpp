@@ -359,8 +359,7 @@ TEST_CASE_FIXTURE(judged_drive, "a plan of the future, or one that is over "
     x.start += 10ms;
     const auto verdict = ask(x);
     CHECK(!verdict.usable);
-    REQUIRE(verdict.useless);
-    CHECK(verdict.useless->check == "age");
+    CHECK(!verdict.useless); // clocks of two hosts differ
   }
   SUBCASE("over soon") {
     x.points.resize(21); // 2 s
