@@ -153,21 +153,21 @@ struct offloaded_state {
     if (remote == remotes.end() || !(result.cycle > remote->last_cycle))
       return;
     remote->last_cycle = result.cycle;
+    const auto t = now(self); // judging takes time of its own
     const auto in_limits =
         can_judge(*remote, result)
-        && in_time(result.created, now(self), setup.options.limits.max_latency);
+        && in_time(result.created, t, setup.options.limits.max_latency);
     if (!in_limits) {
-      take_remote(*remote, result, false, {});
+      take_remote(*remote, result, t, false, {});
       return;
     }
     auto judged = remote->judge->judge(
-        result.what, {remote->running, newest.at, newest.what, in_use},
-        now(self));
+        result.what, {remote->running, newest.at, newest.what, in_use}, t);
     if (judged.refused || judged.useless)
       self->send(setup.recorder, cycle_record{result.running,
                                               result.cycle,
                                               result.created,
-                                              now(self),
+                                              t,
                                               {},
                                               false,
                                               result.doubt});
@@ -179,7 +179,7 @@ struct offloaded_state {
       take_remote(*remote,
                   {result.running, result.cycle, result.created,
                    std::move(judged.what), result.about, result.doubt},
-                  true, judged.margins);
+                  t, true, judged.margins);
   }
 
   // Who sends what is implausible is left in the same turn.
@@ -195,10 +195,11 @@ struct offloaded_state {
     self->send(watchdog, remote.running, remote.useless);
   }
 
+  // @param t          When it came.
   // @param in_limits  It came in time.
   void take_remote(remote_source& remote, const service_result& result,
-                   bool in_limits, std::span<const margin> margins) {
-    const auto t = now(self);
+                   time_point t, bool in_limits,
+                   std::span<const margin> margins) {
     if (in_limits && !is_on_call(remote) && result.created > began)
       await_next(result.created);
     const auto alone = !is_remote() || (remote.in_use && sources() == 1);
