@@ -1,6 +1,7 @@
 // Judges what comes by the connections of a process, in CAF's middleman.
 #include "actors/remote/connection_filter.hpp"
 
+#include "actors/remote/frame_allowance.hpp"
 #include "actors/remote/public_messages.hpp"
 #include "actors/time.hpp"
 #include "policies/rate_limit.hpp"
@@ -25,6 +26,7 @@ constexpr double reports_at_once = 5;
 struct shared_setup {
   filter_setup given;
   std::shared_ptr<peer_nodes> nodes;
+  frame_allowances allowances{};
   rate_limit reports{reports_s, reports_at_once};
   std::uint64_t left_out = 0;
 
@@ -53,9 +55,7 @@ public:
                     std::optional<peer_identity> peer)
       : setup_{std::move(setup)}, peer_{std::move(peer)},
         check_{is_accepted,
-               is_accepted ? messages_to_provider() : messages_to_vehicles(),
-               bounds_for(peer_ ? peer_->stations.size()
-                                : setup_->given.stations)} {}
+               is_accepted ? messages_to_provider() : messages_to_vehicles()} {}
 
   ~connection_filter() override {
     if (is_known_)
@@ -73,11 +73,13 @@ public:
               caf::span<const caf::byte> payload,
               caf::actor_clock::time_point now) override {
     now_ = time_point{now.time_since_epoch()};
+    why_ = allowance().objection(frame_header_size + payload.size(), now_);
+    if (!why_.empty())
+      return false;
     const auto was_new = check_.node().empty();
     why_ = check_.objection(
         translated(header),
-        {reinterpret_cast<const std::byte*>(payload.data()), payload.size()},
-        now_);
+        {reinterpret_cast<const std::byte*>(payload.data()), payload.size()});
     if (peer_ && was_new && !check_.node().empty())
       is_known_ = setup_->nodes->add(check_.node(), *peer_);
     return why_.empty();
@@ -92,6 +94,14 @@ public:
   }
 
 private:
+  frame_allowance& allowance() {
+    if (!allowance_)
+      allowance_ = peer_ ? setup_->allowances.of(*peer_, now_)
+                         : std::make_shared<frame_allowance>(
+                             bounds_for(setup_->given.stations));
+    return *allowance_;
+  }
+
   static frame_header translated(const caf::io::basp::header& h) {
     return {static_cast<std::uint8_t>(h.operation),
             h.flags,
@@ -103,6 +113,7 @@ private:
 
   std::shared_ptr<shared_setup> setup_;
   std::optional<peer_identity> peer_;
+  std::shared_ptr<frame_allowance> allowance_; // from the first frame on
   frame_check check_;
   bool is_known_ = false; // to the others, by its node
   std::string_view why_;

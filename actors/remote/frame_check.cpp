@@ -30,13 +30,8 @@ constexpr std::uint64_t number_bits = 0x0fff'ffff'ffff'ffff;
 constexpr std::size_t node_size = 1 + 4 + 20;
 constexpr std::byte hashed_node{1};
 
-constexpr std::size_t header_size = 32;
 constexpr std::size_t longest_server_handshake = 4096;
 constexpr std::size_t longest_error = 4096;
-
-constexpr double frames_per_station_s = 400;
-constexpr double octets_per_station_s = 512 * 1024;
-constexpr double backlog_s = 2;
 
 /// Reads numbers as CAF's binary serializer writes them; nothing past the end.
 class frame_reader {
@@ -134,17 +129,9 @@ std::size_t longest_of(const message_forms& forms) {
 
 } // namespace
 
-frame_bounds bounds_for(std::size_t stations) {
-  const auto shares = 1 + static_cast<double>(stations);
-  return {shares * frames_per_station_s, shares * octets_per_station_s};
-}
-
-frame_check::frame_check(bool is_accepted, const message_forms& forms,
-                         frame_bounds bounds)
-    : is_accepted_{is_accepted}, forms_{forms},
-      longest_message_{longest_of(forms)}, frames_{bounds.frames_s,
-                                                   backlog_s * bounds.frames_s},
-      octets_{bounds.octets_s, backlog_s * bounds.octets_s} {}
+frame_check::frame_check(bool is_accepted, const message_forms& forms)
+    : is_accepted_{is_accepted}, forms_{forms}, longest_message_{
+                                                    longest_of(forms)} {}
 
 std::string_view frame_check::objection(const frame_header& header) const {
   const auto handshake = is_accepted_ ? client_handshake : server_handshake;
@@ -178,12 +165,7 @@ std::string_view frame_check::objection(const frame_header& header) const {
 }
 
 std::string_view frame_check::objection(const frame_header& header,
-                                        std::span<const std::byte> payload,
-                                        time_point now) {
-  if (!frames_.take(now))
-    return "it sends too many messages";
-  if (!octets_.take(now, static_cast<double>(header_size + payload.size())))
-    return "it sends too many octets";
+                                        std::span<const std::byte> payload) {
   switch (header.operation) {
     case client_handshake:
     case server_handshake:

@@ -2,9 +2,6 @@
 // anything of it is deserialised.
 #pragma once
 
-#include "policies/rate_limit.hpp"
-#include "world/time.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,17 +38,8 @@ struct message_forms {
   std::vector<std::uint16_t> error_categories;
 };
 
-/// What is bounded for one connection, per second. Twice as much may come at
-/// once: a process that stood still is heard afterwards.
-struct frame_bounds {
-  double frames_s = 0;
-  double octets_s = 0;
-};
-
-/// @returns what a peer may send that speaks for so many stations: several
-/// times what CAMs, CPMs, inputs or results, their acknowledgements and the
-/// protocol need.
-frame_bounds bounds_for(std::size_t stations);
+/// Octets of a frame before its payload.
+inline constexpr std::size_t frame_header_size = 32;
 
 /// Judges the frames of one connection, in the order they come: a handshake
 /// first, and no second one; then messages of the given forms, with no actor to
@@ -61,8 +49,7 @@ class frame_check {
 public:
   /// @param is_accepted  Whether the peer has called us, or we the peer.
   /// @param forms        Outlive this.
-  frame_check(bool is_accepted, const message_forms& forms,
-              frame_bounds bounds);
+  frame_check(bool is_accepted, const message_forms& forms);
 
   /// @returns why the payload that this header announces must not be read;
   /// empty: it may.
@@ -71,8 +58,7 @@ public:
   /// @returns why this frame must not be handled; empty: it may. Call it after
   /// the former.
   std::string_view objection(const frame_header& header,
-                             std::span<const std::byte> payload,
-                             time_point now);
+                             std::span<const std::byte> payload);
 
   /// @returns the peer's node id as it was serialised; empty before the
   /// handshake.
@@ -85,8 +71,6 @@ private:
   bool is_accepted_;
   const message_forms& forms_;
   std::size_t longest_message_;
-  rate_limit frames_;
-  rate_limit octets_;
   std::string node_;
 };
 

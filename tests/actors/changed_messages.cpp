@@ -80,7 +80,7 @@ std::size_t send_changed(World& world, const std::vector<octets>& honest,
                          const caf::strong_actor_ptr& from, const To& to,
                          Look look) {
   changer change;
-  frame_check check{is_accepted, forms, {1e12, 1e15}};
+  frame_check check{is_accepted, forms};
   octets node(is_accepted ? 25 : 60, std::byte{1});
   const frame_header handshake{static_cast<std::uint8_t>(is_accepted),
                                0,
@@ -89,7 +89,7 @@ std::size_t send_changed(World& world, const std::vector<octets>& honest,
                                0,
                                0};
   REQUIRE(check.objection(handshake).empty());
-  REQUIRE(check.objection(handshake, node, {}).empty());
+  REQUIRE(check.objection(handshake, node).empty());
   std::size_t read = 0;
   for (std::size_t n = wanted(); n > 0; --n) {
     const auto payload = change(honest[change.draw(honest.size() - 1)]);
@@ -97,7 +97,7 @@ std::size_t send_changed(World& world, const std::vector<octets>& honest,
         direct_message, 0, static_cast<std::uint32_t>(payload.size()),
         told_id,        5, 9};
     if (!check.objection(header).empty()
-        || !check.objection(header, payload, {}).empty())
+        || !check.objection(header, payload).empty())
       continue;
     caf::binary_deserializer source{
         world.system(),

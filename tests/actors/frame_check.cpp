@@ -66,11 +66,9 @@ octets node(std::uint8_t filled_with = 7) {
 
 struct connection {
   frame_check check;
-  time_point now{};
 
-  connection(bool is_accepted, const message_forms& forms,
-             frame_bounds bounds = {1e6, 1e12})
-      : check{is_accepted, forms, bounds} {}
+  connection(bool is_accepted, const message_forms& forms)
+      : check{is_accepted, forms} {}
 
   std::string take(std::uint8_t operation, const octets& payload,
                    std::uint64_t data = 0, std::uint8_t flags = 0) {
@@ -82,15 +80,13 @@ struct connection {
         5,
         operation == direct || operation == monitor ? 9u : 0u};
     const auto why = check.objection(header);
-    return std::string{why.empty() ? check.objection(header, payload, now)
-                                   : why};
+    return std::string{why.empty() ? check.objection(header, payload) : why};
   }
 };
 
 /// What a provider hears of a peer that has introduced its node.
 struct at_provider : connection {
-  explicit at_provider(frame_bounds bounds = {1e6, 1e12})
-      : connection{true, messages_to_provider(), bounds} {
+  at_provider() : connection{true, messages_to_provider()} {
     REQUIRE(take(client_hello, node()).empty());
   }
 };
@@ -292,36 +288,6 @@ TEST_CASE("frames of no known operation, with flags or of odd sizes are "
   CHECK(at.take(down, octets(9000)) == none);
   CHECK(at.take(direct, {}, told) == none);
   CHECK(at.take(direct, message_of(life_sign{}), told, 1) == none);
-}
-
-TEST_CASE("a peer that sends more than its share is refused, and one that was "
-          "held up for two seconds is not") {
-  at_provider by_frames{{100, 1e9}};
-  const auto sign = message_of(life_sign{});
-  int admitted = 0;
-  while (by_frames.take(direct, sign, told).empty())
-    ++admitted;
-  CHECK(admitted == 199); // and the handshake
-  CHECK(by_frames.take(heartbeat, {}) == "it sends too many messages");
-  by_frames.now += std::chrono::seconds{1};
-  for (int k = 0; k < 100; ++k)
-    CHECK(by_frames.take(direct, sign, told) == "");
-  CHECK(by_frames.take(direct, sign, told) == "it sends too many messages");
-
-  at_provider by_octets{{1e9, 10'000}};
-  const auto cam = message_of(station_id{1}, its_pdu{octets(4900), {}});
-  for (int k = 0; k < 4; ++k)
-    CHECK(by_octets.take(direct, cam, told) == "");
-  CHECK(by_octets.take(direct, cam, told) == "it sends too many octets");
-}
-
-TEST_CASE("bounds grow with the stations of a peer") {
-  const auto one = bounds_for(1), twenty = bounds_for(20);
-  // 10 CAMs, 10 CPMs, 2 services of 20 inputs and 20 acknowledgements, and
-  // 20 life signs, asked and answered.
-  CHECK(one.frames_s > 2 * (10 + 10 + 2 * 40 + 40));
-  CHECK(twenty.frames_s > 19 * (one.frames_s - bounds_for(0).frames_s));
-  CHECK(twenty.octets_s > one.octets_s);
 }
 
 TEST_CASE("whatever part of a frame comes, nothing past its end is read") {

@@ -1,4 +1,5 @@
 // Octets as what comes by a connection: a header, its payload, and so on.
+#include "actors/remote/frame_allowance.hpp"
 #include "actors/remote/frame_check.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
@@ -82,7 +83,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     return 0;
   auto in = fuzz::octets_of(data, size).subspan(1);
   const auto is_accepted = data[0] % 2 == 0;
-  frame_check check{is_accepted, forms, {100, 10'000}};
+  frame_check check{is_accepted, forms};
+  frame_allowance allowance{{100, 10'000}};
   time_point now{};
   double octets = 0;
   while (in.size() >= header_size) {
@@ -90,7 +92,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     const auto f = next(in);
     now += f.passed;
     if (!check.objection(f.header).empty()
-        || !check.objection(f.header, f.payload, now).empty())
+        || !allowance.objection(f.payload.size(), now).empty()
+        || !check.objection(f.header, f.payload).empty())
       return 0; // the connection is closed
     // One handshake, and before anything else.
     fuzz::require(before.empty() == is_handshake(f.header));

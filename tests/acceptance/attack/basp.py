@@ -7,6 +7,7 @@ forwarded to, then come the ids of its elements' types, then the elements.
 """
 import os
 import re
+import select
 import socket
 import ssl
 import struct
@@ -118,10 +119,13 @@ class Reader:
 
 
 class Line:
-    """A connection, by TLS with a folder of keys, or plain."""
+    """A connection, by TLS with a folder of keys, or plain. One thread may read
+    while another one writes."""
 
     def __init__(self, link):
-        self.link, self.lock = link, threading.Lock()
+        self.link, self.lock = link, threading.Lock()  # TLS serves one thread
+        self.link.setblocking(False)
+        self.ended = self.lives = False
 
     @classmethod
     def to(cls, port, keys=None):
@@ -135,14 +139,45 @@ class Line:
             link = context.wrap_socket(link)
         return cls(link)
 
+    def when_ready(self, act, for_writing, timeout_s=5):
+        """What act gives, once the socket lets it."""
+        until = time.monotonic() + timeout_s
+        while True:
+            try:
+                with self.lock:
+                    return act()
+            except ssl.SSLWantReadError:
+                writes = False
+            except ssl.SSLWantWriteError:
+                writes = True
+            except BlockingIOError:
+                writes = for_writing
+            if time.monotonic() >= until:
+                raise TimeoutError
+            select.select([] if writes else [self.link],
+                          [self.link] if writes else [], [],
+                          max(0, until - time.monotonic()))
+
     def send(self, octets):
-        with self.lock:
-            self.link.sendall(octets)
+        left = memoryview(octets)
+        while left:
+            left = left[self.when_ready(lambda: self.link.send(left), True):]
+
+    def some(self, n, timeout_s=5):
+        """What has come, at most n octets; none at the end."""
+        try:
+            part = self.when_ready(lambda: self.link.recv(n), False, timeout_s)
+        except TimeoutError:
+            raise
+        except OSError:
+            part = b""
+        self.ended = not part
+        return part
 
     def take(self, n):
         out = b""
         while len(out) < n:
-            part = self.link.recv(n - len(out))
+            part = self.some(n - len(out))
             if not part:
                 raise EOFError
             out += part
@@ -158,15 +193,16 @@ class Line:
             self.send(frame(HEARTBEAT))
             time.sleep(0.2)
             self.send(frame(HEARTBEAT))
-            self.link.settimeout(0.05)
-            try:
-                while True:
-                    if not self.link.recv(65536):
-                        return False
-            except TimeoutError:
-                return True
+            if self.lives:
+                time.sleep(0.05)
+            else:
+                while not self.ended:
+                    self.some(65536, 0.05)
+        except TimeoutError:
+            return True
         except OSError:
             return False
+        return not self.ended
 
     def close(self):
         self.link.close()
@@ -246,8 +282,11 @@ class Peer(Line):
                         now = i64(time.monotonic_ns())
                         self.tell(self.session, ["life_echo"],
                                   read.take(16) + now + now)
+            except TimeoutError:
+                self.lives = False
             except (OSError, EOFError, ValueError):
-                pass
+                self.ended = True
+        self.lives = True
         threading.Thread(target=answer, daemon=True).start()
 
 
