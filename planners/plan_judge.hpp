@@ -138,8 +138,8 @@ public:
   plan_verdict judge(const judged_plan& x);
 
   /// @returns whether `judge` has to know what the own planner would do: the
-  /// plan is slow, or the last ones have touched who crosses. For plans that
-  /// are due to be judged now.
+  /// vehicle is slow, or the last plans have touched a body that crosses. For
+  /// plans that are due to be judged now.
   bool wants_own_plan(const judged_plan& x) const;
 
   /// @returns how far the plan that was judged last, if it is used, stays

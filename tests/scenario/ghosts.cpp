@@ -281,7 +281,7 @@ TEST_CASE("a ghost that talks for a minute delays a planned car by 2 s at most "
 
 TEST_CASE("a ghost that appears within braking distance is believed in until "
           "the next CPM, or for 0.4 s where a sensor looks") {
-  delays({nobody(), appears_at(20)}, {"provider.0.sensor.0.range_m=1"}, 4);
+  delays({nobody(), appears_at(20)}, {"provider.0.sensor.0.range_m=1"}, 2);
   delays({nobody(), appears_at(20)},
          {"provider.0.sensor.0.range_m=1000", "v2x.cpm=off"}, 2);
 }
