@@ -72,10 +72,10 @@ public:
 
 private:
   struct witness_record {
-    road_observer who;
-    witness is;
-    std::map<std::uint32_t, steady_word> words; // of CPMs, by object
-    time_point heard;
+    road_observer who{};
+    witness is{};
+    std::map<std::uint32_t, steady_word> words{}; // of CPMs, by object
+    time_point heard{};
     time_point since; // of its first look
   };
   struct station_record {

@@ -95,10 +95,12 @@ public:
 
 private:
   frame_allowance& allowance() {
-    if (!allowance_)
-      allowance_ = peer_ ? setup_->allowances.of(*peer_, now_)
-                         : std::make_shared<frame_allowance>(
-                             bounds_for(setup_->given.stations));
+    if (!allowance_) {
+      const auto bounds =
+          bounds_for(peer_ ? peer_->stations.size() : setup_->given.stations);
+      allowance_ = peer_ ? setup_->allowances.of(describe(*peer_), bounds, now_)
+                         : std::make_shared<frame_allowance>(bounds);
+    }
     return *allowance_;
   }
 

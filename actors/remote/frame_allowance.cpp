@@ -40,15 +40,15 @@ bool frame_allowance::is_whole(time_point now) const {
   return last_ == time_point::min() || now - last_ >= backlog;
 }
 
-std::shared_ptr<frame_allowance> frame_allowances::of(const peer_identity& who,
+std::shared_ptr<frame_allowance> frame_allowances::of(const std::string& peer,
+                                                      frame_bounds bounds,
                                                       time_point now) {
-  std::erase_if(by_peer_, [now](const auto& peer) {
-    return peer.second.use_count() == 1 && peer.second->is_whole(now);
+  std::erase_if(by_peer_, [now](const auto& known) {
+    return known.second.use_count() == 1 && known.second->is_whole(now);
   });
-  auto& allowance = by_peer_[describe(who)];
+  auto& allowance = by_peer_[peer];
   if (!allowance)
-    allowance =
-        std::make_shared<frame_allowance>(bounds_for(who.stations.size()));
+    allowance = std::make_shared<frame_allowance>(bounds);
   return allowance;
 }
 

@@ -1,7 +1,6 @@
 // How much a peer may send, by all its connections together.
 #pragma once
 
-#include "network/identity.hpp"
 #include "policies/rate_limit.hpp"
 #include "world/time.hpp"
 
@@ -43,12 +42,14 @@ private:
   time_point last_ = time_point::min();
 };
 
-/// The allowances of peers that are known by their certificates. A peer gets no
-/// more by connecting again, nor by several connections.
+/// The allowances of peers that are known by name. A peer gets no more by
+/// connecting again, nor by several connections.
 class frame_allowances {
 public:
+  /// @param bounds  The same at each call for a peer.
   /// @returns what is left to this peer.
-  std::shared_ptr<frame_allowance> of(const peer_identity& who, time_point now);
+  std::shared_ptr<frame_allowance> of(const std::string& peer,
+                                      frame_bounds bounds, time_point now);
 
   /// @returns for how many peers one is remembered: those with a connection,
   /// and those that have sent something in the last two seconds.

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <string>
 
 namespace sofof::test::allowances {
 
@@ -18,8 +19,8 @@ int frames_until_refused(frame_allowance& allowance, time_point now) {
   return frames;
 }
 
-const peer_identity car{{101}, {}};
-const auto at_once = static_cast<int>(2 * bounds_for(1).frames_s);
+constexpr frame_bounds bounds{100, 1e9};
+constexpr auto at_once = 200;
 
 } // namespace
 
@@ -49,28 +50,29 @@ TEST_CASE("bounds grow with the stations of a peer") {
 TEST_CASE("a peer that connects again, or twice, may send no more for it") {
   frame_allowances all;
   const time_point now{};
-  CHECK(frames_until_refused(*all.of(car, now), now) == at_once);
-  CHECK(frames_until_refused(*all.of(car, now), now) == 0);
-  CHECK(frames_until_refused(*all.of(car, now + 1s), now + 1s) == at_once / 2);
-  const auto open = all.of(car, now + 9s);
-  CHECK(all.of(car, now + 9s) == open);
+  CHECK(frames_until_refused(*all.of("car", bounds, now), now) == at_once);
+  CHECK(frames_until_refused(*all.of("car", bounds, now), now) == 0);
+  CHECK(frames_until_refused(*all.of("car", bounds, now + 1s), now + 1s)
+        == at_once / 2);
+  const auto open = all.of("car", bounds, now + 9s);
+  CHECK(all.of("car", bounds, now + 9s) == open);
 }
 
 TEST_CASE("what another peer sends is not charged") {
   frame_allowances all;
   const time_point now{};
-  CHECK(frames_until_refused(*all.of(car, now), now) == at_once);
-  CHECK(frames_until_refused(*all.of({{102}, {}}, now), now) == at_once);
+  CHECK(frames_until_refused(*all.of("car", bounds, now), now) == at_once);
+  CHECK(frames_until_refused(*all.of("other", bounds, now), now) == at_once);
 }
 
 TEST_CASE("peers that are gone are forgotten once they may send all again") {
   frame_allowances all;
   time_point now{};
-  for (station_id station = 1; station <= 100; ++station)
-    CHECK(all.of({{station}, {}}, now)->objection(10, now).empty());
+  for (int k = 0; k < 100; ++k)
+    CHECK(all.of(std::to_string(k), bounds, now)->objection(10, now).empty());
   CHECK(all.size() == 100);
-  const auto connected = all.of({{7}, {}}, now);
-  all.of(car, now + 2s);
+  const auto connected = all.of("7", bounds, now);
+  all.of("car", bounds, now + 2s);
   CHECK(all.size() == 2);
 }
 

@@ -1,0 +1,156 @@
+// Both ends of a connection, each of which hears octets: what the frame check
+// admits of them reaches its actor, as if it had come by the connection.
+#pragma once
+
+#include "actors/remote/public_messages.hpp"
+#include "tests/actors/session_world.hpp"
+#include "tests/actors/uplink_world.hpp"
+
+#include <caf/binary_deserializer.hpp>
+#include <caf/binary_serializer.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof::test {
+
+using octets = std::vector<std::byte>;
+
+/// A message's payload in BASP: no stages, then its elements.
+template <class... Ts>
+octets payload_of(const Ts&... xs) {
+  caf::byte_buffer buffer;
+  caf::binary_serializer sink{nullptr, buffer};
+  REQUIRE(sink.apply(std::vector<std::uint16_t>{}));
+  REQUIRE(sink.apply(caf::make_message(xs...)));
+  const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());
+  return {begin, begin + buffer.size()};
+}
+
+/// What comes by a connection after its handshake.
+class opened_connection {
+public:
+  opened_connection(bool is_accepted, const message_forms& forms)
+      : check_{is_accepted, forms} {
+    const octets node(is_accepted ? 25 : 60, std::byte{1});
+    const auto handshake = header_of(is_accepted, node, 0);
+    REQUIRE(check_.objection(handshake).empty());
+    REQUIRE(check_.objection(handshake, node).empty());
+  }
+
+  /// @returns the message that a payload is, if it is admitted and can be read.
+  std::optional<caf::message> read(caf::actor_system& sys,
+                                   std::span<const std::byte> payload) {
+    constexpr std::uint64_t told_id = 0x1000'0000'0000'0000;
+    constexpr std::uint8_t direct_message = 2;
+    const auto header = header_of(direct_message, payload, told_id);
+    if (!check_.objection(header).empty()
+        || !check_.objection(header, payload).empty())
+      return std::nullopt;
+    caf::binary_deserializer source{
+        sys, caf::make_span(reinterpret_cast<const caf::byte*>(payload.data()),
+                            payload.size())};
+    std::vector<caf::strong_actor_ptr> stages;
+    caf::message message;
+    if (!source.apply(stages) || !source.apply(message))
+      return std::nullopt;
+    REQUIRE(stages.empty());
+    return message;
+  }
+
+private:
+  static frame_header header_of(std::uint8_t operation,
+                                std::span<const std::byte> payload,
+                                std::uint64_t id) {
+    const auto size = static_cast<std::uint32_t>(payload.size());
+    return {operation, 0, size, id, 5, 9};
+  }
+
+  frame_check check_;
+};
+
+/// A provider's session, in which one service runs.
+struct hearing_session : session_world {
+  opened_connection connection{true, messages_to_provider()};
+
+  hearing_session() { accept(one); }
+
+  std::vector<octets> honest() {
+    auto request = request_of(station, 20);
+    request.candidates.resize(3);
+    return {payload_of(station, cam_of(station)),
+            payload_of(request),
+            payload_of(service_input{one, now(), payload::of(echo{1})}),
+            payload_of(service_end{one}),
+            payload_of(life_sign{1, now()}),
+            payload_of(life_echo{{1, now()}, now(), now()}),
+            payload_of(stream_id{station})};
+  }
+
+  /// @returns whether it was admitted and could be read.
+  bool hear(std::span<const std::byte> payload) {
+    auto message = connection.read(system(), payload);
+    if (message)
+      caf::actor_cast<caf::abstract_actor*>(session)->enqueue(
+          caf::actor_cast<caf::strong_actor_ptr>(peer.handle),
+          caf::make_message_id(), std::move(*message), nullptr);
+    return message.has_value();
+  }
+
+  /// @returns whether it lives, and has spoken for its stations alone since
+  /// the last `forget`.
+  bool is_unharmed() const {
+    const auto is_own = [](station_id who) {
+      return who == station || who == neighbour;
+    };
+    const auto asked = provider->all<service_request>();
+    const auto ended = provider->all<service_end>();
+    return !is_gone(session)
+           && std::ranges::all_of(asked, is_own, &service_request::station)
+           && std::ranges::all_of(ended, is_own, [](const service_end& end) {
+                return end.running.station;
+              });
+  }
+};
+
+/// A vehicle process's uplink, by which one service runs.
+struct hearing_uplink : uplink_world {
+  opened_connection connection{false, messages_to_vehicles()};
+
+  hearing_uplink() {
+    connect();
+    accept(one);
+  }
+
+  std::vector<octets> honest() {
+    return {payload_of(station, service_offer{boot, {1, 2}, {"one"}}),
+            payload_of(service_response{boot, station, 1, {{one, true, ""}}}),
+            payload_of(service_result{one, 1, now(), payload::of(echo{1})}),
+            payload_of(service_end{one, end_reason::left_area, side::provider}),
+            payload_of(life_sign{1, now()}),
+            payload_of(life_echo{{1, now()}, now(), now()}),
+            payload_of(stream_id{station})};
+  }
+
+  /// @returns whether it was admitted and could be read.
+  bool hear(std::span<const std::byte> payload) {
+    auto message = connection.read(system(), payload);
+    if (message)
+      caf::actor_cast<caf::abstract_actor*>(host->peer)
+          ->enqueue(caf::actor_cast<caf::strong_actor_ptr>(session.handle),
+                    caf::make_message_id(), std::move(*message), nullptr);
+    return message.has_value();
+  }
+
+  /// @returns whether it lives, and has kept its provider since the last
+  /// `forget`.
+  bool is_unharmed() const {
+    return notes("provider_lost") == 0 && !is_gone(uplink) && !is_gone(far);
+  }
+};
+
+} // namespace sofof::test
