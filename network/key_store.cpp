@@ -260,7 +260,7 @@ std::vector<issued_certificate> chosen(const authority& ca,
                     which.serial)};
   std::erase_if(all, [&](const auto& x) { return x.serial != serial; });
   if (all.empty())
-    all.push_back({serial, "no name in the register"});
+    all.push_back({serial, "a certificate that `issued` does not list"});
   return all;
 }
 

@@ -148,8 +148,10 @@ private:
       if (next_context_)
         context_ = *std::exchange(next_context_, std::nullopt);
     }
-    for (const auto& sentence : distrusted)
-      log_.add(sentence, now_);
+    // Each of these: they were let in, and strangers must not hide them.
+    if (options_.on_refusal)
+      for (const auto& sentence : distrusted)
+        options_.on_refusal(sentence);
   }
 
   void accept_new_ones() {

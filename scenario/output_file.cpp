@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -15,13 +16,25 @@ namespace sofof {
 namespace {
 
 [[noreturn]] void refused(const std::filesystem::path& path, int error,
-                          std::string_view choose) {
-  refuse_to_write(fmt::format("cannot write {}: {}; choose {}{}", path.string(),
-                              std::generic_category().message(error), choose,
-                              error == ENOSPC || error == EDQUOT
-                                  ? " or free some space"
-                                  : ""),
-                  error);
+                          std::string_view choose, std::string_view why = {}) {
+  refuse_to_write(
+      fmt::format(
+          "cannot write {}: {}; choose {}{}", path.string(),
+          why.empty() ? std::generic_category().message(error) : why, choose,
+          error == ENOSPC || error == EDQUOT ? " or free some space" : ""),
+      error);
+}
+
+/// Opens for writing, and does not wait for somebody to read a pipe.
+std::FILE* open_file(const std::filesystem::path& path) {
+  constexpr auto for_all = 0666;
+  const auto file =
+      open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC,
+           for_all);
+  if (file < 0)
+    return nullptr;
+  fcntl(file, F_SETFL, 0); // writing may wait
+  return fdopen(file, "wb");
 }
 
 } // namespace
@@ -50,8 +63,9 @@ void output_file::check(const std::filesystem::path& path,
 }
 
 output_file::output_file(std::filesystem::path path, std::string_view choose)
-    : path_{std::move(path)}, choose_{choose}, file_{std::fopen(path_.c_str(),
-                                                                "wb")} {
+    : path_{std::move(path)}, choose_{choose}, file_{open_file(path_)} {
+  if (!file_ && errno == ENXIO)
+    refused(path_, errno, choose_, "nobody reads from this pipe yet");
   if (!file_)
     refuse(errno);
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
@@ -83,21 +97,30 @@ void output_file::refuse(int error) const {
 
 void write_file(const std::filesystem::path& path, std::string_view text,
                 std::string_view choose) {
-  auto temporary = path;
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const auto target = fs::is_symlink(path, none) && fs::exists(path, none)
+                          ? fs::canonical(path, none)
+                          : path;
+  if (fs::exists(target, none) && !fs::is_regular_file(target, none))
+    refused(path, fs::is_directory(target, none) ? EISDIR : EINVAL, choose,
+            fs::is_directory(target, none) ? "" : "it is no regular file");
+  auto temporary = target;
   temporary += ".tmp";
   try {
     output_file out{temporary, choose};
     out.text() = text;
     out.close();
   } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+    fs::remove(temporary, none);
     throw;
   }
   std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error)
+  fs::rename(temporary, target, error);
+  if (error) {
+    fs::remove(temporary, none);
     refused(path, error.value(), choose);
+  }
 }
 
 } // namespace sofof

@@ -28,7 +28,8 @@ public:
 
   /// Creates the file, or empties it.
   /// @param choose  Ends the sentence that refuses it; outlives it.
-  /// @throws input_error when it cannot be opened.
+  /// @throws input_error when it cannot be opened, or is a pipe that nobody
+  /// reads.
   explicit output_file(std::filesystem::path path,
                        std::string_view choose = other_folder);
 
@@ -70,9 +71,10 @@ private:
 };
 
 /// Writes a whole file at once, under a temporary name first: whoever sees
-/// it sees all of it.
+/// it sees all of it. Where a symbolic link stands, its file is written.
 /// @param choose  As for `output_file`.
-/// @throws input_error when it cannot be written.
+/// @throws input_error when it cannot be written, or something else than a
+/// regular file is there.
 void write_file(const std::filesystem::path& path, std::string_view text,
                 std::string_view choose = output_file::other_folder);
 

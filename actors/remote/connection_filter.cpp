@@ -65,6 +65,7 @@ public:
   bool expects(const caf::io::basp::header& header,
                caf::actor_clock::time_point now) override {
     now_ = time_point{now.time_since_epoch()};
+    operation_ = header.operation;
     why_ = check_.objection(translated(header));
     return why_.empty();
   }
@@ -86,10 +87,17 @@ public:
   }
 
   void refused() override {
+    using caf::io::basp::message_type;
+    // CAF gives up a second connection with a process that it still knows, be
+    // it one that has just ended or was cut: whoever has called it knows.
+    if (why_.empty() && operation_ == message_type::server_handshake)
+      return;
+    if (why_.empty() && operation_ == message_type::client_handshake)
+      why_ = "its process is connected already";
     setup_->report(
         fmt::format("{} was disconnected: {}",
                     peer_ ? describe(*peer_) : "a peer",
-                    why_.empty() ? "its frame is none of BASP" : why_),
+                    why_.empty() ? "its frame cannot be read" : why_),
         now_);
   }
 
@@ -117,7 +125,8 @@ private:
   std::optional<peer_identity> peer_;
   std::shared_ptr<frame_allowance> allowance_; // from the first frame on
   frame_check check_;
-  bool is_known_ = false; // to the others, by its node
+  bool is_known_ = false;                   // to the others, by its node
+  caf::io::basp::message_type operation_{}; // of the latest frame
   std::string_view why_;
   time_point now_;
 };

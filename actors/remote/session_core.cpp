@@ -4,6 +4,7 @@
 #include "actors/remote/far_requester.hpp"
 #include "actors/remote/pulse.hpp"
 #include "actors/time.hpp"
+#include "network/identity.hpp"
 #include "policies/latest_value.hpp"
 #include "policies/rate_limit.hpp"
 
@@ -73,8 +74,7 @@ struct session_state {
                     protocol::silence_limit);
     self->monitor(setup.peer);
     self->monitor(setup.provider);
-    note("peer_connected", 0,
-         fmt::format("{} stations", setup.stations.size()));
+    note("peer_connected", 0, stations());
     tick();
   }
 
@@ -245,8 +245,13 @@ struct session_state {
   }
 
   void leave(std::string_view why) {
-    note("peer_lost", 0, why);
+    note("peer_lost", 0, fmt::format("{}: {}", stations(), why));
     self->quit(caf::exit_reason::remote_link_unreachable);
+  }
+
+  /// @returns e.g. "stations 101-106".
+  std::string stations() const {
+    return describe({{setup.stations.begin(), setup.stations.end()}, {}});
   }
 
   void note(std::string what, station_id station, std::string_view detail) {

@@ -62,6 +62,7 @@ struct uplink_state {
   uplink_actor connection; // while we introduce ourselves, and afterwards
   // -- while connected
   session_actor session;
+  boot_id boot = 0; // of the provider, the last one
   std::optional<pulse> life;
   bool is_heard = false;                  // it has asked for our clock
   std::map<station_id, time_point> turns; // those that have not come
@@ -173,7 +174,8 @@ struct uplink_state {
                                               - setup->clock.epoch_unix_ms()});
     self->monitor(session);
     tell_session(life->beat(t));
-    note("provider_connected", welcome.boot, setup->address);
+    boot = welcome.boot;
+    note("provider_connected", setup->address);
     tell(fmt::format("connected to provider {} at {}", setup->provider,
                      setup->address));
   }
@@ -192,7 +194,7 @@ struct uplink_state {
     for (const auto& x : running)
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
     running.clear();
-    note("provider_lost", 0, why);
+    note("provider_lost", why);
     tell(fmt::format("lost provider {} at {}: {}; vehicles plan for themselves",
                      setup->provider, setup->address, why));
   }
@@ -358,7 +360,7 @@ struct uplink_state {
     setup->on_news(news);
   }
 
-  void note(std::string what, boot_id boot, std::string_view detail) {
+  void note(std::string what, std::string_view detail) {
     self->send(
         setup->recorder,
         event_record{

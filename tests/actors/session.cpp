@@ -271,7 +271,7 @@ TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
   CHECK(is_gone(first));
   CHECK(is_gone(second));
   REQUIRE(notes("peer_lost").size() == 1);
-  CHECK(notes("peer_lost").front().detail == "silent");
+  CHECK(notes("peer_lost").front().detail == "stations 101-102: silent");
 }
 
 TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
@@ -315,7 +315,7 @@ TEST_CASE_FIXTURE(session_world, "a session that is replaced says so, and all "
   settle();
   CHECK(is_gone(session));
   CHECK(is_gone(lost));
-  CHECK(notes("peer_lost").front().detail == "replaced");
+  CHECK(notes("peer_lost").front().detail == "stations 101-102: replaced");
 }
 
 TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
@@ -329,7 +329,7 @@ TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
     kill(provider.handle);
   }
   CHECK(is_gone(session));
-  CHECK(notes("peer_lost").front().detail == "gone");
+  CHECK(notes("peer_lost").front().detail == "stations 101-102: gone");
 }
 
 TEST_CASE_FIXTURE(session_world, "what a provider says last in good order is "
@@ -341,7 +341,8 @@ TEST_CASE_FIXTURE(session_world, "what a provider says last in good order is "
   CHECK(!is_gone(session));
   run_for(2 * protocol::life_sign_period);
   CHECK(is_gone(session));
-  CHECK(notes("peer_lost").front().detail == "the provider has ended");
+  CHECK(notes("peer_lost").front().detail
+        == "stations 101-102: the provider has ended");
 }
 
 TEST_CASE_FIXTURE(session_world,

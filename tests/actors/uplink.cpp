@@ -258,7 +258,8 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   CHECK(e.from == side::provider);
   REQUIRE(other->count<service_end>() == 1);
   CHECK(other->all<service_end>().front().running == two);
-  CHECK(notes("provider_lost") == 1);
+  REQUIRE(notes("provider_lost") == 1);
+  CHECK(recorder->all<event_record>().back().provider == boot);
 }
 
 TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "

@@ -67,6 +67,30 @@ TEST_CASE("a revoked peer's line is closed at once, and no other") {
   CHECK(echoes(plug_into(honest.dialer.port()), "and again"));
 }
 
+TEST_CASE("strangers that are refused do not hide who was revoked") {
+  const key_folder keys;
+  server inner{echo};
+  sentences heard;
+  const auto provider = keys.issue(mec);
+  const auto stolen = keys.issue(car);
+  tls_door door{credentials{provider}, door_to(inner.port(), &heard)};
+  const car_host thief{stolen, door.port()};
+  REQUIRE(echoes(thief.line, "thief"));
+  const auto knock = [&door] {
+    auto stranger = plug_into(door.port());
+    stranger.send("no TLS");
+    CHECK(stranger.is_closed());
+  };
+
+  knock();
+  write_text(provider / "revoked", serial_in(stolen) + "\n");
+  door.renew(credentials{provider});
+  CHECK(thief.line.is_closed());
+  knock();
+  CHECK(heard.heard("stations 101-102, was disconnected: its certificate has "
+                    "been revoked"));
+}
+
 TEST_CASE("vehicles leave a provider that is revoked") {
   const key_folder keys;
   server inner{echo};
