@@ -29,7 +29,7 @@ constexpr double arrivals_at_once = 32;
 constexpr std::size_t most_names = 1000;
 
 /// A peer that comes and goes all the time fills no journal.
-constexpr double news_per_second = 1;
+constexpr double news_per_second = 0.1;
 constexpr double news_at_once = 40;
 /// Between two notes of who was refused.
 constexpr duration refusal_note_period = std::chrono::seconds{1};

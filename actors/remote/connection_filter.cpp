@@ -19,7 +19,7 @@ namespace sofof {
 
 namespace {
 
-constexpr double reports_s = 1;
+constexpr double reports_s = 0.2;
 constexpr double reports_at_once = 5;
 
 /// What all connections of a process share, on the middleman's thread.

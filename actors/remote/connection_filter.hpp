@@ -46,7 +46,8 @@ struct filter_setup {
   /// Notes why connections were closed; may be none.
   recorder_actor recorder;
   /// Told the same, in a sentence without its full stop; by the thread of CAF's
-  /// middleman. Must not block. Both hear of one a second.
+  /// middleman. Must not block. Both hear of five at once, then of one in five
+  /// seconds.
   std::function<void(const std::string&)> on_refusal;
 };
 
