@@ -170,6 +170,13 @@ void plausibility::follow(const witness_record& w,
   }
 }
 
+/// Whether a witness would deny what nobody but its own sender tells of: that
+/// is no lie about others, but a gap in what it says of itself.
+bool plausibility::speaks_for_itself(const witness_record& w,
+                                     const body_record& r) {
+  return !w.who.is_ours && r.said.teller() == w.who.sender;
+}
+
 void plausibility::judge(const witness_record& w, const track& x,
                          body_record& r) {
   const auto at = w.is.at();
@@ -179,7 +186,7 @@ void plausibility::judge(const witness_record& w, const track& x,
   const auto seen = w.is.look_at(x);
   if (seen == witness::sight::same)
     r.said.confirm(w.who, at);
-  if (seen != witness::sight::nothing)
+  if (seen != witness::sight::nothing || speaks_for_itself(w, r))
     return;
   const auto is_new =
       at - r.born < open_for
@@ -246,6 +253,7 @@ bool plausibility::comes_from_liar(const track& x, const body_record& r,
   return std::ranges::any_of(witnesses_, [&](const auto& entry) {
     const auto& w = entry.second;
     return (w.who.is_ours || (planned && w.who.number == *planned))
+           && !speaks_for_itself(w, r)
            && w.is.look_at(x) == witness::sight::nothing
            && w.is.would_see(x, houses_, now);
   });
@@ -283,7 +291,8 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
         continue;
       }
       if (own && has_new && now - own->is.at() <= known_for
-          && !known->said.is_confirmed(now) && comes_from_nowhere(*own, x)) {
+          && !known->said.is_confirmed(now) && !speaks_for_itself(*own, *known)
+          && comes_from_nowhere(*own, x)) {
         note(*known, now, doubt_check::sight, to_seconds(now - own->is.at()), 0,
              *planned);
         continue;

@@ -29,7 +29,7 @@ namespace sofof {
 ///   sender only. It denies a body that it does not tell of though it would
 ///   have seen it (`witness::overlooks`). A vehicle that is planned for denies
 ///   at once what it would have seen before anybody told of it: bodies do not
-///   come from nowhere.
+///   come from nowhere. Nobody denies what its own sender alone tells of.
 /// * A body is doubted for all vehicles, or for the one that denies it itself,
 ///   as `testimony` says: a vehicle that lies about what it sees harms but
 ///   itself. A vanished body, which is not told of any more, is not doubted
@@ -102,6 +102,7 @@ private:
   bool comes_from_nowhere(const witness_record& w, const track& x) const;
   void check_overlap(const track& x, body_record& r, time_point now,
                      std::span<const track> tracks);
+  static bool speaks_for_itself(const witness_record& w, const body_record& r);
   bool is_doubted(const track& x, const body_record& r, time_point now,
                   std::optional<station_id> planned) const;
   bool comes_from_liar(const track& x, const body_record& r, time_point now,

@@ -92,8 +92,13 @@ roadside_provider_actor spawn_provider(caf::actor_system& sys,
   return spawn_service_provider(sys, std::move(setup));
 }
 
+/// @returns those of providers; none where the cars drive in other processes:
+/// they would tell of an empty road, and speak against every car.
 std::vector<roadside_sensor> sensors_beside(const scenario& s,
-                                            const std::vector<site>& sites) {
+                                            const std::vector<site>& sites,
+                                            const part& here) {
+  if (here.serves_others)
+    return {};
   const auto noise = noise_of(s, "roadside sensors");
   std::vector<roadside_sensor> beside;
   for (std::size_t p = 0; p < sites.size(); ++p) {
@@ -227,8 +232,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
   }
   world.road =
       spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
-                       sensors_beside(s, sites), obstacles(s), world.recorder,
-                       s.traffic.grants_crossings()});
+                       sensors_beside(s, sites, here), obstacles(s),
+                       world.recorder, s.traffic.grants_crossings()});
   name(watched, world.road, "the road");
   const auto future = virtual_time ? foresee(s) : nullptr;
   for (const auto& v : placed) {
