@@ -98,6 +98,20 @@ TEST_CASE("a vehicle that looks at the place does not believe in a ghost "
   }
 }
 
+TEST_CASE("what a vehicle's own sender tells of is not doubted because that "
+          "vehicle does not see it") {
+  watched_road road;
+  road.cars = {watcher(car_on_x(0), 7), ghost(car_on_x(40), 7)};
+  road.pass(2s);
+  CHECK(road.believes_in(road.cars[1].is, 1));
+  CHECK(road.news.empty());
+  SUBCASE("but because a vehicle of another sender does not") {
+    road.cars.push_back(watcher(car_on_x(80), 8));
+    road.pass(1s);
+    CHECK_FALSE(road.believes_in(road.cars[1].is, 3));
+  }
+}
+
 TEST_CASE("a car that one liar denies is believed in by all others") {
   watched_road road;
   road.cars = {watcher(car_on_x(0)), {.is = car_on_x(40)}};
