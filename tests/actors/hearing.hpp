@@ -62,6 +62,19 @@ public:
     return message;
   }
 
+  /// Puts a payload into an actor's mailbox as its peer's message.
+  /// @returns whether it was admitted and could be read.
+  template <class Peer, class Actor>
+  bool deliver(caf::actor_system& sys, std::span<const std::byte> payload,
+               const Peer& from, const Actor& to) {
+    auto message = read(sys, payload);
+    if (message)
+      caf::actor_cast<caf::abstract_actor*>(to)->enqueue(
+          caf::actor_cast<caf::strong_actor_ptr>(from), caf::make_message_id(),
+          std::move(*message), nullptr);
+    return message.has_value();
+  }
+
 private:
   static frame_header header_of(std::uint8_t operation,
                                 std::span<const std::byte> payload,
@@ -93,12 +106,7 @@ struct hearing_session : session_world {
 
   /// @returns whether it was admitted and could be read.
   bool hear(std::span<const std::byte> payload) {
-    auto message = connection.read(system(), payload);
-    if (message)
-      caf::actor_cast<caf::abstract_actor*>(session)->enqueue(
-          caf::actor_cast<caf::strong_actor_ptr>(peer.handle),
-          caf::make_message_id(), std::move(*message), nullptr);
-    return message.has_value();
+    return connection.deliver(system(), payload, peer.handle, session);
   }
 
   /// @returns whether it lives, and has spoken for its stations alone since
@@ -138,12 +146,7 @@ struct hearing_uplink : uplink_world {
 
   /// @returns whether it was admitted and could be read.
   bool hear(std::span<const std::byte> payload) {
-    auto message = connection.read(system(), payload);
-    if (message)
-      caf::actor_cast<caf::abstract_actor*>(host->peer)
-          ->enqueue(caf::actor_cast<caf::strong_actor_ptr>(session.handle),
-                    caf::make_message_id(), std::move(*message), nullptr);
-    return message.has_value();
+    return connection.deliver(system(), payload, session.handle, host->peer);
   }
 
   /// @returns whether it lives, and has kept its provider since the last

@@ -35,23 +35,33 @@ struct car_host {
   plug line;
 };
 
-} // namespace
+/// A provider's door with a thief inside, whose certificate it revokes.
+struct door_with_thief {
+  door_with_thief() { REQUIRE(echoes(thief.line, "thief")); }
 
-TEST_CASE("a revoked peer's line is closed at once, and no other") {
-  const key_folder keys;
+  void revoke() {
+    write_text(provider / "revoked", "# lost\n" + serial_in(stolen) + "\n");
+    door.renew(credentials{provider});
+  }
+
+  key_folder keys;
   server inner{echo};
   sentences heard;
-  const auto provider = keys.issue(mec);
-  const auto stolen = keys.issue(car);
+  fs::path provider = keys.issue(mec);
+  fs::path stolen = keys.issue(car);
   tls_door door{credentials{provider}, door_to(inner.port(), &heard)};
-  const car_host thief{stolen, door.port()};
+  car_host thief{stolen, door.port()};
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(door_with_thief,
+                  "a revoked peer's line is closed at once, and no other") {
   const car_host honest{keys.issue(car), door.port()};
-  REQUIRE(echoes(thief.line, "thief"));
   REQUIRE(echoes(honest.line, "honest"));
 
-  write_text(provider / "revoked", "# lost\n" + serial_in(stolen) + "\n");
   const auto begun = std::chrono::steady_clock::now();
-  door.renew(credentials{provider});
+  revoke();
   CHECK(thief.line.is_closed());
   CHECK(std::chrono::steady_clock::now() - begun < 1s);
   CHECK(heard.heard("stations 101-102, was disconnected: its certificate has "
@@ -67,24 +77,16 @@ TEST_CASE("a revoked peer's line is closed at once, and no other") {
   CHECK(echoes(plug_into(honest.dialer.port()), "and again"));
 }
 
-TEST_CASE("strangers that are refused do not hide who was revoked") {
-  const key_folder keys;
-  server inner{echo};
-  sentences heard;
-  const auto provider = keys.issue(mec);
-  const auto stolen = keys.issue(car);
-  tls_door door{credentials{provider}, door_to(inner.port(), &heard)};
-  const car_host thief{stolen, door.port()};
-  REQUIRE(echoes(thief.line, "thief"));
-  const auto knock = [&door] {
+TEST_CASE_FIXTURE(door_with_thief,
+                  "strangers that are refused do not hide who was revoked") {
+  const auto knock = [this] {
     auto stranger = plug_into(door.port());
     stranger.send("no TLS");
     CHECK(stranger.is_closed());
   };
 
   knock();
-  write_text(provider / "revoked", serial_in(stolen) + "\n");
-  door.renew(credentials{provider});
+  revoke();
   CHECK(thief.line.is_closed());
   knock();
   CHECK(heard.heard("stations 101-102, was disconnected: its certificate has "
