@@ -106,7 +106,7 @@ void plausibility::judge(const road_observer& who, const road_look& look,
   w.heard = look.at;
   from_nowhere_.clear();
   for (const auto& x : tracks)
-    if (comes_from_nowhere(w, x))
+    if (comes_from_nowhere(w, x, find_birth(x.id)))
       from_nowhere_.push_back(x.id);
   w.is.look(look);
   follow(w, tracks);
@@ -117,26 +117,24 @@ void plausibility::judge(const road_observer& who, const road_look& look,
     if (r.is_named && !r.said.is_confirmed(look.at))
       check_overlap(tracks[i], r, look.at, tracks);
     r.is_out_for_all = is_doubted(tracks[i], r, look.at, std::nullopt);
-    has_suspects_ = has_suspects_ || r.said.is_denied() || r.overlaps;
+    has_suspects_ = has_suspects_ || r.is_suspect();
   }
   tidy(look.at);
 }
 
-const plausibility::body_record*
-plausibility::find_body(std::uint32_t id) const {
+/// @returns when anybody told of a body first; one without a record: not yet.
+time_point plausibility::find_birth(std::uint32_t id) const {
   const auto r = std::ranges::lower_bound(bodies_, id, {}, &body_record::id);
-  return r != bodies_.end() && r->id == id ? &*r : nullptr;
+  return r != bodies_.end() && r->id == id ? r->born : time_point::max();
 }
 
 /// Whether it was not there when the witness looked last, before anybody told
 /// of it.
-bool plausibility::comes_from_nowhere(const witness_record& w,
-                                      const track& x) const {
-  const auto knows_the_place = w.is.at() - w.since >= known_for;
-  if (!knows_the_place || x.seen < w.is.at() || x.station == w.who.number)
-    return false;
-  const auto* known = find_body(x.id);
-  return (!known || known->born > w.is.at()) && w.is.overlooked(x, houses_);
+bool plausibility::comes_from_nowhere(const witness_record& w, const track& x,
+                                      time_point born) const {
+  const auto looked = w.is.at();
+  return born > looked && x.seen >= looked && looked - w.since >= known_for
+         && x.station != w.who.number && w.is.overlooked(x, houses_);
 }
 
 /// Keeps a record of each track, and of no other.
@@ -259,46 +257,54 @@ bool plausibility::comes_from_liar(const track& x, const body_record& r,
   });
 }
 
+/// What is known of a track that nobody has been asked about yet.
+plausibility::body_record plausibility::new_record(const track& x) const {
+  body_record r{.id = x.id, .born = time_point::max()};
+  if (!x.station)
+    return r;
+  if (const auto s = stations_.find(*x.station); s != stations_.end()) {
+    r.station = *x.station;
+    r.said.teller(s->second.sender);
+  }
+  return r;
+}
+
 void plausibility::believed(time_point now, std::optional<station_id> planned,
                             std::span<const track> tracks,
                             std::vector<track>& out) {
   out.clear();
-  const auto has_new = !tracks.empty()
-                       && (bodies_.empty() || now - newest_ <= known_for
+  const auto* own = planned ? find_witness(*planned) : nullptr;
+  const auto has_new = own && !tracks.empty() && now - own->is.at() <= known_for
+                       && (bodies_.empty() || newest_ > own->is.at()
                            || tracks.back().id > bodies_.back().id);
-  if (!has_suspects_ && !has_new && !senders_.has_liars(now)) {
+  const auto has_liars = senders_.has_liars(now);
+  if (!has_suspects_ && !has_new && !has_liars) {
     out.assign(tracks.begin(), tracks.end());
     return;
   }
-  const auto* own = planned ? find_witness(*planned) : nullptr;
+  const auto believes = [&](const track& x, const body_record& r) {
+    if (r.is_suspect() && is_doubted(x, r, now, planned))
+      return false;
+    if (has_liars && comes_from_liar(x, r, now, planned)) {
+      note(r.station, now, doubt_check::sender, 0, 0);
+      return false;
+    }
+    if (has_new && !speaks_for_itself(*own, r)
+        && comes_from_nowhere(*own, x, r.born) && !r.said.is_confirmed(now)) {
+      note(r, now, doubt_check::sight, to_seconds(now - own->is.at()), 0,
+           *planned);
+      return false;
+    }
+    return true;
+  };
   auto r = bodies_.begin();
   for (const auto& x : tracks) {
     while (r != bodies_.end() && r->id < x.id)
       ++r;
-    body_record fresh{.id = x.id};
-    auto* known = r != bodies_.end() && r->id == x.id ? &*r : &fresh;
-    if (x.station && known == &fresh)
-      if (const auto s = stations_.find(*x.station); s != stations_.end()) {
-        fresh.station = *x.station;
-        fresh.said.teller(s->second.sender);
-      }
+    const auto is_known = r != bodies_.end() && r->id == x.id;
     const auto is_own = planned && x.station == planned;
-    if (!is_own) {
-      if (is_doubted(x, *known, now, planned))
-        continue;
-      if (comes_from_liar(x, *known, now, planned)) {
-        note(known->station, now, doubt_check::sender, 0, 0);
-        continue;
-      }
-      if (own && has_new && now - own->is.at() <= known_for
-          && !known->said.is_confirmed(now) && !speaks_for_itself(*own, *known)
-          && comes_from_nowhere(*own, x)) {
-        note(*known, now, doubt_check::sight, to_seconds(now - own->is.at()), 0,
-             *planned);
-        continue;
-      }
-    }
-    out.push_back(x);
+    if (is_own || (is_known ? believes(x, *r) : believes(x, new_record(x))))
+      out.push_back(x);
   }
 }
 

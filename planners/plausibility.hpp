@@ -94,12 +94,16 @@ private:
     std::optional<time_point> overlaps_since{};
     bool overlaps = false;       // for long
     bool is_out_for_all = false; // doubted, as of the last look
+
+    /// @returns whether it may be doubted.
+    bool is_suspect() const { return said.is_denied() || overlaps; }
   };
 
   void follow(const witness_record& w, std::span<const track> tracks);
   void judge(const witness_record& w, const track& x, body_record& r);
-  const body_record* find_body(std::uint32_t id) const;
-  bool comes_from_nowhere(const witness_record& w, const track& x) const;
+  time_point find_birth(std::uint32_t id) const;
+  bool comes_from_nowhere(const witness_record& w, const track& x,
+                          time_point born) const;
   void check_overlap(const track& x, body_record& r, time_point now,
                      std::span<const track> tracks);
   static bool speaks_for_itself(const witness_record& w, const body_record& r);
@@ -112,6 +116,7 @@ private:
   void note(station_id who, time_point at, doubt_check check, double value,
             double limit);
   void tidy(time_point now);
+  body_record new_record(const track& x) const;
   const witness_record* find_witness(station_id vehicle) const;
 
   line_of_sight houses_;
