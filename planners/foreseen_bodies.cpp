@@ -12,6 +12,10 @@ namespace {
 
 constexpr auto no_limit = std::numeric_limits<double>::infinity();
 
+/// Where a body is along a way that bends is so far from where it would be
+/// along a straight one, at most.
+constexpr auto foot_within_m = 20.0;
+
 } // namespace
 
 void foreseen_bodies::look(const route& way, double s_m,
@@ -28,7 +32,9 @@ void foreseen_bodies::look(const route& way, double s_m,
     if (dot(to, to) > farthest_m * farthest_m)
       continue;
     const auto guess_m = s_m + dot(to, here.tangent);
-    const auto foot = path.project(o.centre, guess_m);
+    if (guess_m + foot_within_m + o.length_m / 2 < rear_m_)
+      continue; // far behind
+    const auto foot = path.project(o.centre, guess_m, foot_within_m);
     if (std::abs(foot.d_m) > farthest_beside_m
         || std::abs(foot.beyond_m) > farthest_beside_m)
       continue;
