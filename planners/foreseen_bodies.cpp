@@ -12,8 +12,8 @@ namespace {
 
 constexpr auto no_limit = std::numeric_limits<double>::infinity();
 
-/// Where a body is along a way that bends is so far from where it would be
-/// along a straight one, at most.
+/// A body's place along the way is looked for so far before and behind the
+/// place that it would have if the way were straight.
 constexpr auto foot_within_m = 20.0;
 
 } // namespace
@@ -33,7 +33,7 @@ void foreseen_bodies::look(const route& way, double s_m,
       continue;
     const auto guess_m = s_m + dot(to, here.tangent);
     if (guess_m + foot_within_m + o.length_m / 2 < rear_m_)
-      continue; // far behind
+      continue; // behind the car, wherever its foot is found
     const auto foot = path.project(o.centre, guess_m, foot_within_m);
     if (std::abs(foot.d_m) > farthest_beside_m
         || std::abs(foot.beyond_m) > farthest_beside_m)

@@ -212,7 +212,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
   const auto fingerprint = static_cast<std::uint32_t>(x.fingerprint);
   if (fingerprint == 0)
     return false;
-  // To count all takes no branches, and a third of the time.
+  // Counting all has no branches: half the time of a search in vain.
   const auto known = std::ranges::count(said_, fingerprint) > 0;
   if (known) {
     const auto before = std::ranges::find(said_, fingerprint);

@@ -72,7 +72,7 @@ TEST_CASE("two processes of vehicles share a provider") {
     CHECK(r.at("reason") == "shutdown");
   CHECK(events_of(provider.out(), "peer_connected").size() == 2);
   CHECK(events_of(provider.out(), "peer_lost").size() == 2);
-  // Its sensors, which see no road here, speak against nobody.
+  // Its sensors, which would see an empty road, are left out.
   CHECK(events_of(provider.out(), "doubted").empty());
 }
 
