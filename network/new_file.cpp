@@ -1,8 +1,8 @@
 // A temporary file beside it, then its name.
 #include "network/new_file.hpp"
 
+#include "network/descriptor.hpp"
 #include "network/network_error.hpp"
-#include "network/socket.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Open without waiting, look at what it is, then read.
 #include "network/regular_file.hpp"
 
-#include "network/socket.hpp"
+#include "network/descriptor.hpp"
 
 #include <fmt/format.h>
 

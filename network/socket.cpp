@@ -48,11 +48,6 @@ descriptor new_socket(int family) {
 
 } // namespace
 
-descriptor::~descriptor() {
-  if (fd_ != none)
-    close(fd_);
-}
-
 std::string print_address(const socket_address& address) {
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> port{};

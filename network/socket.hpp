@@ -1,6 +1,7 @@
 // TCP sockets that never block, and their owner.
 #pragma once
 
+#include "network/descriptor.hpp"
 #include "network/network_address.hpp"
 
 #include <chrono>
@@ -8,31 +9,9 @@
 #include <functional>
 #include <string>
 #include <sys/socket.h>
-#include <utility>
 #include <vector>
 
 namespace sofof {
-
-/// Owns a file descriptor.
-class descriptor {
-public:
-  descriptor() = default;
-  explicit descriptor(int fd) : fd_{fd} {}
-  descriptor(descriptor&& other) noexcept
-      : fd_{std::exchange(other.fd_, none)} {}
-  descriptor& operator=(descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~descriptor();
-
-  int get() const { return fd_; }
-  explicit operator bool() const { return fd_ != none; }
-
-private:
-  static constexpr int none = -1;
-  int fd_ = none;
-};
 
 /// An address as the system wants it.
 struct socket_address {

@@ -2,7 +2,6 @@
 #include "planners/ego_estimate.hpp"
 
 #include "planners/lane_motion.hpp"
-#include "planners/trajectory_planner.hpp"
 
 #include <algorithm>
 #include <cmath>

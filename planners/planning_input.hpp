@@ -21,4 +21,8 @@ struct planning_input {
   surroundings others;
 };
 
+/// @returns `x` with what no car's own motion can be cut off (10 000 km, 5 m
+/// off the lane, 1 rad, 1/m, 0 to 100 m/s, 20 m/s²); what is no number is 0.
+planning_input made_possible(planning_input x);
+
 } // namespace sofof

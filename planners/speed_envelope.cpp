@@ -2,8 +2,6 @@
 // the way is acceleration.
 #include "planners/speed_envelope.hpp"
 
-#include "planners/lane_follow.hpp"
-
 #include <algorithm>
 #include <cmath>
 

@@ -13,14 +13,6 @@ constexpr double same_drive_m = 1.0;
 constexpr double same_speed_mps = 1.0;
 constexpr double max_lead_age_s = 0.5;
 
-/// What is beyond is no car's motion.
-constexpr double longest_way_m = 1e7;
-constexpr double widest_off_m = 5;
-constexpr double most_turned_rad = 1;
-constexpr double most_curvature_1pm = 1;
-constexpr double fastest_mps = 100;
-constexpr double most_accel_mps2 = 20;
-
 /// @returns the own motion, without the others: they would take memory.
 planning_input own(const planning_input& x) {
   planning_input alone;
@@ -35,19 +27,6 @@ planning_input own(const planning_input& x) {
 }
 
 } // namespace
-
-planning_input made_possible(planning_input x) {
-  const auto cut = [](double& number, double least, double most) {
-    number = std::isnan(number) ? 0 : std::clamp(number, least, most);
-  };
-  cut(x.s_m, -longest_way_m, longest_way_m);
-  cut(x.d_m, -widest_off_m, widest_off_m);
-  cut(x.heading_error_rad, -most_turned_rad, most_turned_rad);
-  cut(x.curvature_1pm, -most_curvature_1pm, most_curvature_1pm);
-  cut(x.speed_mps, 0, fastest_mps);
-  cut(x.accel_mps2, -most_accel_mps2, most_accel_mps2);
-  return x;
-}
 
 planning_input joined(const route& way, time_point now,
                       const planning_input& input, const trajectory* previous) {

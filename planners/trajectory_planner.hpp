@@ -53,10 +53,6 @@ public:
                            const ocp::budget& go_on = {}) = 0;
 };
 
-/// @returns `x` with what no car's own motion can be cut off (10 000 km, 5 m
-/// off the lane, 1 rad, 1/m, 0 to 100 m/s, 20 m/s²); what is no number is 0.
-planning_input made_possible(planning_input x);
-
 /// Where a new plan begins: where `previous` covers `now` and agrees with the
 /// input within 1 m and 1 m/s, at its point for `now`, so that plans join
 /// without a jolt; else at the input, moved on at constant acceleration. Of an
