@@ -1,5 +1,5 @@
 // sofof bench: every policy in every scenario, ranked.
-#include "scenario/bench/bench.hpp"
+#include "experiments/benchmark/bench.hpp"
 
 #include "apps/command.hpp"
 #include "apps/signals.hpp"

@@ -1,8 +1,8 @@
 // Options as a scenario has them, with what they mean beside.
 #include "apps/documented.hpp"
 
-#include "scenario/settings_printer.hpp"
-#include "scenario/units.hpp"
+#include "base/options/settings_printer.hpp"
+#include "base/options/units.hpp"
 
 #include <fmt/format.h>
 

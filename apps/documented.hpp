@@ -1,8 +1,8 @@
 // Options as a scenario has them, with what they mean beside.
 #pragma once
 
-#include "policies/notes.hpp"
-#include "world/settings.hpp"
+#include "base/options/settings.hpp"
+#include "policies/api/notes.hpp"
 
 #include <functional>
 #include <string>

@@ -3,9 +3,9 @@
 #include "apps/host_arguments.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
-#include "network/station_list.hpp"
+#include "base/input_error.hpp"
+#include "network/keys/station_list.hpp"
 #include "scenario/hosts.hpp"
-#include "scenario/input_error.hpp"
 
 #include <fmt/format.h>
 

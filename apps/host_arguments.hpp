@@ -2,9 +2,9 @@
 #pragma once
 
 #include "apps/signals.hpp"
+#include "base/input_error.hpp"
+#include "base/options/units.hpp"
 #include "scenario/hosts.hpp"
-#include "scenario/input_error.hpp"
-#include "scenario/units.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // sofof keys: a private CA, and certificates for vehicles and providers.
 #include "apps/command.hpp"
-#include "network/key_store.hpp"
-#include "network/station_list.hpp"
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
+#include "network/keys/key_store.hpp"
+#include "network/keys/station_list.hpp"
 
 #include <fmt/format.h>
 

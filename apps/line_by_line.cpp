@@ -1,8 +1,8 @@
 // In, turned, out; the next.
 #include "apps/line_by_line.hpp"
 
-#include "scenario/input_error.hpp"
-#include "scenario/json.hpp"
+#include "base/input_error.hpp"
+#include "base/text/json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // sofof policies: what decides, and by what.
 #include "apps/command.hpp"
 #include "apps/documented.hpp"
-#include "policies/govern/governors.hpp"
+#include "base/input_error.hpp"
+#include "base/options/spelling.hpp"
+#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
-#include "scenario/input_error.hpp"
-#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 

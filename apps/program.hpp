@@ -1,8 +1,8 @@
 // Which program this is.
 #pragma once
 
-#include "scenario/toml_file.hpp"
-#include "world/fingerprint.hpp"
+#include "base/fingerprint.hpp"
+#include "base/options/toml_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // sofof report: shows results folders as one HTML file.
 #include "apps/command.hpp"
-#include "scenario/input_error.hpp"
-#include "scenario/report/describe.hpp"
-#include "scenario/report/html.hpp"
-#include "scenario/results_folder.hpp"
-#include "scenario/study/describe_sweep.hpp"
+#include "base/input_error.hpp"
+#include "experiments/dehler2025/describe_sweep.hpp"
+#include "experiments/report/describe.hpp"
+#include "experiments/report/html.hpp"
+#include "recording/results_folder.hpp"
 
 #include <filesystem>
 #include <iostream>

@@ -1,5 +1,5 @@
 // sofof reproduce: the paper's evaluation with one command.
-#include "scenario/study/reproduce.hpp"
+#include "experiments/dehler2025/reproduce.hpp"
 
 #include "apps/command.hpp"
 #include "apps/signals.hpp"

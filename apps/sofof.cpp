@@ -1,9 +1,9 @@
 // The `sofof` command.
 #include "apps/command.hpp"
+#include "base/input_error.hpp"
+#include "base/options/spelling.hpp"
 #include "network/network_error.hpp"
-#include "scenario/input_error.hpp"
 #include "scenario/runtime.hpp"
-#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <csignal>

@@ -1,8 +1,8 @@
 // sofof solve: solves the planning problems of a file.
-#include "scenario/solve.hpp"
+#include "experiments/solve/solve.hpp"
 
 #include "apps/command.hpp"
-#include "scenario/practice_file.hpp"
+#include "experiments/solve/practice_file.hpp"
 
 #include <iostream>
 #include <memory>

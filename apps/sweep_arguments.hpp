@@ -2,9 +2,9 @@
 #pragma once
 
 #include "apps/program.hpp"
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
+#include "experiments/sweep/sharded_sweep.hpp"
 #include "scenario/run.hpp"
-#include "scenario/sweep/sharded_sweep.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // sofof train: a policy learns by driving.
 #include "apps/command.hpp"
 #include "apps/signals.hpp"
-#include "scenario/bench/training.hpp"
+#include "experiments/benchmark/training.hpp"
 #include "scenario/run.hpp"
 
 #include <iostream>
@@ -66,9 +66,10 @@ void add_train(CLI::App& app, int& exit_code) {
                    "File that gets what it has learned (default NAME.txt)")
       ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No progress");
-  command->footer("Example:\n  sofof train config/bench/*.toml --policy dqn\n\n"
-                  "The snapshots in policies/learning/snapshots are built into "
-                  "the program.");
+  command->footer(
+      "Example:\n  sofof train config/bench/*.toml --policy dqn\n\n"
+      "The snapshots in policies/algorithms/learning/snapshots are built into "
+      "the program.");
   command->callback([args, &exit_code] {
     catch_signals();
     exit_code = args->obey();

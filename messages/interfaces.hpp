@@ -1,13 +1,13 @@
 // Every actor's interface, a sentence per message: the page to read first.
 #pragma once
 
-#include "messages/its_pdu.hpp"
-#include "messages/lifecycle.hpp"
-#include "messages/motion.hpp"
-#include "messages/qos.hpp"
-#include "messages/record.hpp"
-#include "messages/remote.hpp"
-#include "messages/service.hpp"
+#include "messages/protocol/its_pdu.hpp"
+#include "messages/protocol/lifecycle.hpp"
+#include "messages/protocol/motion.hpp"
+#include "messages/protocol/qos.hpp"
+#include "messages/protocol/record.hpp"
+#include "messages/protocol/remote.hpp"
+#include "messages/protocol/service.hpp"
 
 #include <caf/result.hpp>
 #include <caf/typed_actor.hpp>

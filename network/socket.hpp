@@ -1,7 +1,7 @@
 // TCP sockets that never block, and their owner.
 #pragma once
 
-#include "network/descriptor.hpp"
+#include "base/files/descriptor.hpp"
 #include "network/network_address.hpp"
 
 #include <chrono>

@@ -2,8 +2,8 @@
 // lodm_NAME(), a file policies/codm/NAME.cpp defines codm_NAME().
 #pragma once
 
-#include "policies/composition.hpp"
-#include "policies/notes.hpp"
+#include "policies/api/notes.hpp"
+#include "policies/filters/composition.hpp"
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 // policies/codm.
 #pragma once
 
+#include "policies/api/notes.hpp"
 #include "policies/entry.hpp"
-#include "policies/notes.hpp"
 
 #include <memory>
 #include <string_view>

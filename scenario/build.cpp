@@ -1,18 +1,18 @@
 // From a scenario to actors.
 #include "scenario/build.hpp"
 
-#include "actors/network_link.hpp"
-#include "actors/power_cut.hpp"
-#include "actors/recorder.hpp"
+#include "actors/offloading/service_provider.hpp"
+#include "actors/offloading/service_requester.hpp"
 #include "actors/remote/uplink.hpp"
-#include "actors/road.hpp"
-#include "actors/service_provider.hpp"
-#include "actors/service_requester.hpp"
-#include "actors/supervisor.hpp"
-#include "actors/vehicle.hpp"
+#include "actors/runtime/recorder.hpp"
+#include "actors/runtime/supervisor.hpp"
+#include "actors/simulation/network_link.hpp"
+#include "actors/simulation/power_cut.hpp"
+#include "actors/simulation/road.hpp"
+#include "actors/simulation/vehicle.hpp"
+#include "channel/silent.hpp"
 #include "scenario/foresight.hpp"
 #include "scenario/placement.hpp"
-#include "scenario/silent.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>

@@ -1,8 +1,8 @@
 // Checks what no single option of a scenario can tell.
 #include "scenario/checks.hpp"
 
+#include "base/options/spelling.hpp"
 #include "scenario/placement.hpp"
-#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Checks what no single option of a scenario can tell.
 #pragma once
 
+#include "base/options/toml_file.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/toml_file.hpp"
 
 namespace sofof {
 

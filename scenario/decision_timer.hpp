@@ -1,9 +1,9 @@
 // How long policies take to decide, on the wall's clock; none of them knows.
 #pragma once
 
+#include "base/statistics.hpp"
+#include "base/stopwatch.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/statistics.hpp"
-#include "scenario/stopwatch.hpp"
 
 #include <memory>
 #include <mutex>

@@ -1,9 +1,9 @@
 // What the channel holds in store, for a policy that is to know it.
 #include "scenario/foresight.hpp"
 
-#include "scenario/silent.hpp"
-#include "world/drawn_phase.hpp"
-#include "world/link_direction.hpp"
+#include "base/drawn_phase.hpp"
+#include "channel/link_direction.hpp"
+#include "channel/silent.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // What the channel holds in store, for a policy that is to know it.
 #pragma once
 
-#include "policies/context.hpp"
+#include "policies/api/context.hpp"
 #include "scenario/scenario.hpp"
 
 #include <functional>

@@ -1,9 +1,9 @@
 // Where others reach a process, and what it shows them.
 #include "scenario/front.hpp"
 
-#include "network/nonce.hpp"
-#include "scenario/input_error.hpp"
-#include "world/fingerprint.hpp"
+#include "base/fingerprint.hpp"
+#include "base/input_error.hpp"
+#include "network/keys/nonce.hpp"
 
 #include <fmt/format.h>
 

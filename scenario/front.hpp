@@ -1,9 +1,9 @@
 // Where others reach a process, and what it shows them.
 #pragma once
 
-#include "network/key_ring.hpp"
+#include "network/keys/key_ring.hpp"
 #include "network/network_address.hpp"
-#include "network/tls_door.hpp"
+#include "network/tls/tls_door.hpp"
 #include "scenario/runtime.hpp"
 
 #include <functional>

@@ -2,15 +2,15 @@
 #include "scenario/hosts.hpp"
 
 #include "actors/remote/gate.hpp"
-#include "actors/remote/printable.hpp"
 #include "actors/remote/uplink.hpp"
-#include "actors/supervisor.hpp"
-#include "network/key_ring.hpp"
-#include "network/nonce.hpp"
-#include "network/tls_dialer.hpp"
+#include "actors/runtime/supervisor.hpp"
+#include "base/fingerprint.hpp"
+#include "base/input_error.hpp"
+#include "base/text/printable.hpp"
+#include "network/keys/key_ring.hpp"
+#include "network/keys/nonce.hpp"
+#include "network/tls/tls_dialer.hpp"
 #include "scenario/front.hpp"
-#include "scenario/input_error.hpp"
-#include "world/fingerprint.hpp"
 
 #include <fmt/format.h>
 

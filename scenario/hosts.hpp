@@ -1,8 +1,8 @@
 // A scenario on several hosts: providers here, vehicles there.
 #pragma once
 
-#include "actors/time.hpp"
-#include "messages/remote.hpp"
+#include "actors/runtime/time.hpp"
+#include "messages/protocol/remote.hpp"
 #include "network/network_address.hpp"
 #include "scenario/run.hpp"
 

@@ -1,10 +1,10 @@
 // From a scenario file to a scenario that is ready to run.
 #include "scenario/load.hpp"
 
-#include "network/regular_file.hpp"
+#include "base/files/regular_file.hpp"
+#include "base/options/toml_file.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/map_file.hpp"
-#include "scenario/toml_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Reads a map: lanes, houses and named routes.
 #include "scenario/map_file.hpp"
 
-#include "scenario/toml_file.hpp"
-#include "world/listing.hpp"
+#include "base/options/listing.hpp"
+#include "base/options/toml_file.hpp"
 
 #include <fmt/format.h>
 

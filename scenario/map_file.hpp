@@ -1,7 +1,7 @@
 // Reads a map: lanes, houses and named routes.
 #pragma once
 
-#include "world/streets.hpp"
+#include "world/roads/streets.hpp"
 
 #include <filesystem>
 #include <string_view>

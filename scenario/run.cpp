@@ -1,18 +1,18 @@
 // Runs a scenario from its first moment to its last, and keeps the results.
 #include "scenario/run.hpp"
 
-#include "actors/cpu_accounts.hpp"
+#include "actors/runtime/cpu_accounts.hpp"
+#include "base/input_error.hpp"
+#include "base/stopwatch.hpp"
+#include "recording/cpu_table.hpp"
+#include "recording/pcap_file.hpp"
+#include "recording/record_keeper.hpp"
+#include "recording/results_folder.hpp"
+#include "recording/table.hpp"
 #include "scenario/build.hpp"
-#include "scenario/cpu_table.hpp"
 #include "scenario/decision_timer.hpp"
-#include "scenario/input_error.hpp"
-#include "scenario/pcap_file.hpp"
 #include "scenario/placement.hpp"
-#include "scenario/record_keeper.hpp"
-#include "scenario/results_folder.hpp"
 #include "scenario/runtime.hpp"
-#include "scenario/stopwatch.hpp"
-#include "scenario/table.hpp"
 
 #include <fmt/format.h>
 

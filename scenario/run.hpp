@@ -1,12 +1,12 @@
 // Runs a scenario from its first moment to its last, and keeps the results.
 #pragma once
 
+#include "base/input_error.hpp"
+#include "recording/progress.hpp"
+#include "recording/write_failure.hpp"
 #include "scenario/build.hpp"
-#include "scenario/input_error.hpp"
-#include "scenario/progress.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/write_failure.hpp"
 
 #include <atomic>
 #include <filesystem>

@@ -1,12 +1,12 @@
 // The time that a run lives in: virtual or wall clock, around one CAF system.
 #include "scenario/runtime.hpp"
 
-#include "actors/accounting_scheduler.hpp"
-#include "actors/des_scheduler.hpp"
-#include "actors/sharing_scheduler.hpp"
+#include "actors/runtime/accounting_scheduler.hpp"
+#include "actors/runtime/sharing_scheduler.hpp"
+#include "actors/simulation/des_scheduler.hpp"
+#include "base/input_error.hpp"
+#include "base/protocol.hpp"
 #include "messages/type_ids.hpp"
-#include "scenario/input_error.hpp"
-#include "world/protocol.hpp"
 
 #include <caf/actor_system_config.hpp>
 #include <caf/init_global_meta_objects.hpp>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "actors/remote/connection_filter.hpp"
-#include "actors/time.hpp"
+#include "actors/runtime/time.hpp"
+#include "base/time.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
-#include "world/time.hpp"
 
 #include <caf/actor.hpp>
 #include <caf/actor_system.hpp>

@@ -1,11 +1,11 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #include "scenario/scenario.hpp"
 
-#include "policies/govern/governors.hpp"
+#include "base/options/listing.hpp"
+#include "base/options/settings_printer.hpp"
+#include "base/protocol.hpp"
+#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
-#include "scenario/settings_printer.hpp"
-#include "world/listing.hpp"
-#include "world/protocol.hpp"
 
 #include <fmt/format.h>
 

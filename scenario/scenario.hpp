@@ -1,16 +1,16 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #pragma once
 
-#include "actors/service_kind.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "base/options/settings.hpp"
+#include "channel/channel.hpp"
 #include "messages/v2x/v2x_options.hpp"
-#include "policies/context.hpp"
-#include "world/channel.hpp"
-#include "world/cycle_cost.hpp"
-#include "world/sensors.hpp"
-#include "world/settings.hpp"
-#include "world/street_grid.hpp"
-#include "world/streets.hpp"
-#include "world/vehicle.hpp"
+#include "policies/api/context.hpp"
+#include "world/roads/street_grid.hpp"
+#include "world/roads/streets.hpp"
+#include "world/sensing/sensors.hpp"
+#include "world/vehicle/cycle_cost.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <cstdint>
 #include <filesystem>

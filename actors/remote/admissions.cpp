@@ -1,11 +1,11 @@
 // Who has been let in.
 #include "actors/remote/admissions.hpp"
 
-#include "actors/remote/printable.hpp"
 #include "actors/remote/session.hpp"
-#include "actors/time.hpp"
-#include "policies/rate_limit.hpp"
-#include "world/protocol.hpp"
+#include "actors/runtime/time.hpp"
+#include "base/protocol.hpp"
+#include "base/text/printable.hpp"
+#include "network/flow/rate_limit.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

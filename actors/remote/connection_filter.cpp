@@ -3,8 +3,8 @@
 
 #include "actors/remote/frame_allowance.hpp"
 #include "actors/remote/public_messages.hpp"
-#include "actors/time.hpp"
-#include "policies/rate_limit.hpp"
+#include "actors/runtime/time.hpp"
+#include "network/flow/rate_limit.hpp"
 
 #include <caf/binary_serializer.hpp>
 #include <caf/io/basp/frame_filter.hpp>

@@ -3,7 +3,7 @@
 
 #include "actors/remote/frame_check.hpp"
 #include "messages/type_ids.hpp"
-#include "network/identity.hpp"
+#include "network/keys/identity.hpp"
 
 #include <caf/fwd.hpp>
 #include <caf/io/fwd.hpp>

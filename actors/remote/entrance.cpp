@@ -1,8 +1,8 @@
 // Where one peer introduces itself.
 #include "actors/remote/entrance.hpp"
 
-#include "actors/time.hpp"
-#include "world/protocol.hpp"
+#include "actors/runtime/time.hpp"
+#include "base/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

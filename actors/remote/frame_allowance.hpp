@@ -1,8 +1,8 @@
 // How much a peer may send, by all its connections together.
 #pragma once
 
-#include "policies/rate_limit.hpp"
-#include "world/time.hpp"
+#include "base/time.hpp"
+#include "network/flow/rate_limit.hpp"
 
 #include <cstddef>
 #include <map>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "actors/remote/type_block.hpp"
-#include "messages/remote.hpp"
+#include "messages/protocol/remote.hpp"
 
 #include <caf/actor_control_block.hpp>
 #include <caf/result.hpp>

@@ -1,9 +1,9 @@
 // One connection to a provider, from its introduction on.
 #include "actors/remote/provider_connection.hpp"
 
-#include "actors/remote/printable.hpp"
 #include "actors/remote/type_block.hpp"
-#include "world/protocol.hpp"
+#include "base/protocol.hpp"
+#include "base/text/printable.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

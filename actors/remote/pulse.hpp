@@ -1,9 +1,9 @@
 // Keeps a connection to another host alive, and knows how its clock stands.
 #pragma once
 
-#include "messages/remote.hpp"
-#include "policies/clock_estimate.hpp"
-#include "world/protocol.hpp"
+#include "base/protocol.hpp"
+#include "messages/protocol/remote.hpp"
+#include "network/flow/clock_estimate.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -3,10 +3,10 @@
 
 #include "actors/remote/far_requester.hpp"
 #include "actors/remote/pulse.hpp"
-#include "actors/time.hpp"
-#include "network/identity.hpp"
-#include "policies/latest_value.hpp"
-#include "policies/rate_limit.hpp"
+#include "actors/runtime/time.hpp"
+#include "network/flow/latest_value.hpp"
+#include "network/flow/rate_limit.hpp"
+#include "network/keys/identity.hpp"
 
 #include <caf/send.hpp>
 #include <caf/stateful_actor.hpp>

@@ -1,8 +1,8 @@
 // What makes two programs of this project understand each other.
 #include "actors/remote/type_block.hpp"
 
+#include "base/fingerprint.hpp"
 #include "messages/type_ids.hpp"
-#include "world/fingerprint.hpp"
 
 #include <caf/detail/meta_object.hpp>
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 
 #include "actors/remote/provider_connection.hpp"
 #include "actors/remote/pulse.hpp"
-#include "actors/time.hpp"
-#include "policies/back_off.hpp"
-#include "policies/latest_value.hpp"
-#include "policies/rate_limit.hpp"
+#include "actors/runtime/time.hpp"
+#include "network/flow/back_off.hpp"
+#include "network/flow/latest_value.hpp"
+#include "network/flow/rate_limit.hpp"
 
 #include <caf/event_based_actor.hpp>
 #include <caf/send.hpp>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "actors/remote/far_provider.hpp"
+#include "base/random.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
-#include "world/random.hpp"
 
 #include <caf/actor_system.hpp>
 

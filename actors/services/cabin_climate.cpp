@@ -1,10 +1,10 @@
 // Cabin climate as a service: a thermal model of the cabin is its client, the
 // choice of heating or cooling power its function.
-#include "actors/service_kind.hpp"
-#include "actors/time.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "actors/runtime/time.hpp"
 #include "messages/type_ids.hpp"
-#include "planners/climate_judge.hpp"
-#include "world/cabin.hpp"
+#include "planners/judges/climate_judge.hpp"
+#include "world/vehicle/cabin.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

@@ -1,14 +1,14 @@
 // Trajectory planning as a service: the vehicle is its client; the planner at
 // a provider may plan farther and more thoroughly than the vehicle's own.
-#include "actors/planning/mec_planning.hpp"
-#include "actors/planning/onboard_planning.hpp"
-#include "actors/planning/plan_request.hpp"
-#include "actors/service_kind.hpp"
-#include "messages/v2x/coordination.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "actors/services/planning/mec_planning.hpp"
+#include "actors/services/planning/onboard_planning.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "planners/plan_judge.hpp"
-#include "policies/link/continuity.hpp"
-#include "world/protocol.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
+#include "planners/judges/plan_judge.hpp"
+#include "policies/algorithms/forecast/continuity.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Time as ETSI messages count it.
 #pragma once
 
-#include "world/time.hpp"
+#include "base/time.hpp"
 
 #include <array>
 #include <chrono>

@@ -1,10 +1,10 @@
 // From the description of a message to its JSON, and back.
 #include "messages/etsi/json.hpp"
 
+#include "base/options/spelling.hpp"
 #include "messages/etsi/field_path.hpp"
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/uper.hpp"
-#include "world/spelling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "messages/etsi/cam.hpp"
-#include "messages/service.hpp"
+#include "messages/protocol/service.hpp"
 #include "messages/v2x/datum.hpp"
 #include "messages/v2x/path_history.hpp"
-#include "world/vehicle.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <optional>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "messages/v2x/generation_rules.hpp"
-#include "world/perception.hpp"
+#include "world/sensing/perception.hpp"
 
 #include <cstddef>
 #include <span>

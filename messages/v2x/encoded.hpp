@@ -2,7 +2,7 @@
 #pragma once
 
 #include "messages/etsi/uper.hpp"
-#include "messages/its_pdu.hpp"
+#include "messages/protocol/its_pdu.hpp"
 
 #include <array>
 

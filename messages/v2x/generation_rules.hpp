@@ -1,8 +1,8 @@
 // When something is worth another message: what CAMs and CPMs have in common.
 #pragma once
 
-#include "world/geometry.hpp"
-#include "world/time.hpp"
+#include "base/geometry.hpp"
+#include "base/time.hpp"
 
 #include <cstdint>
 #include <numbers>

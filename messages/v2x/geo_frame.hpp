@@ -1,8 +1,8 @@
 // Where the map is on Earth, and which way its north points.
 #pragma once
 
-#include "world/geometry.hpp"
-#include "world/road_map.hpp"
+#include "base/geometry.hpp"
+#include "world/roads/road_map.hpp"
 
 #include <GeographicLib/LocalCartesian.hpp>
 #include <cstdint>

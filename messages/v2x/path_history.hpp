@@ -1,8 +1,8 @@
 // Where a vehicle has been, in few points: for the CAM's path history.
 #pragma once
 
-#include "world/geometry.hpp"
-#include "world/time.hpp"
+#include "base/geometry.hpp"
+#include "base/time.hpp"
 
 #include <array>
 #include <cstddef>

@@ -3,13 +3,13 @@
 
 #include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/cpm_ts103324.hpp"
-#include "messages/service.hpp"
+#include "messages/protocol/service.hpp"
 #include "messages/v2x/cpm_rules.hpp"
 #include "messages/v2x/datum.hpp"
 #include "messages/v2x/sighting.hpp"
-#include "world/perception.hpp"
-#include "world/sensors.hpp"
-#include "world/vehicle.hpp"
+#include "world/sensing/perception.hpp"
+#include "world/sensing/sensors.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 // What a message of another station says.
 #pragma once
 
-#include "messages/its_pdu.hpp"
-#include "messages/service.hpp"
+#include "messages/protocol/its_pdu.hpp"
+#include "messages/protocol/service.hpp"
 #include "messages/v2x/datum.hpp"
 #include "messages/v2x/perception.hpp"
 

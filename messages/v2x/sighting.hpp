@@ -1,11 +1,11 @@
 // What stations tell of bodies that they see, whatever the message.
 #pragma once
 
-#include "world/geometry.hpp"
-#include "world/ids.hpp"
-#include "world/perception.hpp"
-#include "world/time.hpp"
-#include "world/viewpoint.hpp"
+#include "base/geometry.hpp"
+#include "base/ids.hpp"
+#include "base/time.hpp"
+#include "world/sensing/perception.hpp"
+#include "world/sensing/viewpoint.hpp"
 
 #include <cmath>
 #include <cstdint>

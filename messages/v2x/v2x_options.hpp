@@ -1,9 +1,9 @@
 // When vehicles send what.
 #pragma once
 
+#include "base/options/settings.hpp"
+#include "base/options/spelling.hpp"
 #include "messages/v2x/generation_rules.hpp"
-#include "world/settings.hpp"
-#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // CODM "assignment": the best for all who ask and all who are served.
-#include "policies/assignment/branch_and_bound.hpp"
-#include "policies/assignment/cbc.hpp"
-#include "policies/assignment/central.hpp"
-#include "policies/assignment/greedy_regret.hpp"
-#include "policies/assignment/min_cost_flow.hpp"
+#include "base/options/spelling.hpp"
+#include "policies/algorithms/assignment/branch_and_bound.hpp"
+#include "policies/algorithms/assignment/cbc.hpp"
+#include "policies/algorithms/assignment/central.hpp"
+#include "policies/algorithms/assignment/greedy_regret.hpp"
+#include "policies/algorithms/assignment/min_cost_flow.hpp"
 #include "policies/entry.hpp"
-#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,8 @@ std::string_view where_it_is(std::string_view solver) {
   return "";
 }
 
-/// Source: see policies/assignment; Tran & Pompili 2019 for the setting.
+/// Source: see policies/algorithms/assignment; Tran & Pompili 2019 for the
+/// setting.
 class best_assignment final : public central_policy {
 public:
   std::vector<central_decision>

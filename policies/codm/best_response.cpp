@@ -1,11 +1,11 @@
 // CODM "best_response": an equilibrium among all who ask and all who are
 // served.
-#include "policies/game/best_response.hpp"
+#include "policies/algorithms/game/best_response.hpp"
 
-#include "policies/central_view.hpp"
+#include "base/options/spelling.hpp"
+#include "policies/algorithms/game/central.hpp"
+#include "policies/api/central_view.hpp"
 #include "policies/entry.hpp"
-#include "policies/game/central.hpp"
-#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // CODM "cross_entropy": the best for all, sought by sampling.
-#include "policies/assignment/central.hpp"
-#include "policies/assignment/sampled.hpp"
+#include "policies/algorithms/assignment/central.hpp"
+#include "policies/algorithms/assignment/sampled.hpp"
 #include "policies/entry.hpp"
 
 namespace sofof {

@@ -1,8 +1,8 @@
 // CODM "edf": every result of every service is to be in time.
+#include "base/options/spelling.hpp"
+#include "base/protocol.hpp"
+#include "policies/algorithms/scheduling/placement.hpp"
 #include "policies/entry.hpp"
-#include "policies/schedule/placement.hpp"
-#include "world/protocol.hpp"
-#include "world/spelling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // CODM "never".
+#include "policies/api/same_for_all.hpp"
 #include "policies/entry.hpp"
-#include "policies/same_for_all.hpp"
 
 namespace sofof {
 

@@ -1,8 +1,8 @@
 // LODM "alto": learns which provider is quickest.
-#include "policies/learning/alto.hpp"
+#include "policies/algorithms/learning/alto.hpp"
 
+#include "policies/algorithms/learning/trying.hpp"
 #include "policies/entry.hpp"
-#include "policies/learning/trying.hpp"
 
 #include <algorithm>
 

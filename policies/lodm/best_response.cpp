@@ -1,7 +1,7 @@
 // LODM "best_response": the offloading game, as one vehicle sees it.
+#include "policies/algorithms/game/channel_model.hpp"
+#include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
-#include "policies/game/channel_model.hpp"
-#include "policies/weights.hpp"
 
 #include <algorithm>
 

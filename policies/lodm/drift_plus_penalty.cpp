@@ -1,5 +1,5 @@
 // LODM "drift_plus_penalty": least energy with a budget of late results.
-#include "policies/lyapunov/drift_plus_penalty.hpp"
+#include "policies/algorithms/lyapunov/drift_plus_penalty.hpp"
 
 #include "policies/entry.hpp"
 

@@ -1,6 +1,6 @@
 // LODM "greedy_gain": goes where a cycle costs least, now.
+#include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
-#include "policies/weights.hpp"
 
 namespace sofof {
 

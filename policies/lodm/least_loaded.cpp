@@ -1,5 +1,5 @@
 // LODM "least_loaded": the power of two choices.
-#include "policies/drawn_place.hpp"
+#include "policies/api/drawn_place.hpp"
 #include "policies/entry.hpp"
 
 namespace sofof {

@@ -1,5 +1,5 @@
 // LODM "location": the paper's.
-#include "policies/location.hpp"
+#include "policies/filters/location.hpp"
 
 #include "policies/entry.hpp"
 

@@ -1,6 +1,6 @@
 // LODM "oracle": knows what will be late.
+#include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
-#include "policies/weights.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // LODM "q_learning": has learned when a change pays.
+#include "policies/algorithms/learning/learning_lodm.hpp"
+#include "policies/algorithms/learning/snapshots.hpp"
 #include "policies/entry.hpp"
-#include "policies/learning/learning_lodm.hpp"
-#include "policies/learning/snapshots.hpp"
 
 namespace sofof {
 

@@ -1,5 +1,5 @@
 // LODM "random": asks by the toss of a coin.
-#include "policies/drawn_place.hpp"
+#include "policies/api/drawn_place.hpp"
 #include "policies/entry.hpp"
 
 namespace sofof {

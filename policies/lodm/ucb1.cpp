@@ -1,10 +1,10 @@
 // LODM "ucb1": tries what is promising or little known.
-#include "policies/learning/ucb1.hpp"
+#include "policies/algorithms/learning/ucb1.hpp"
 
+#include "policies/algorithms/learning/state_text.hpp"
+#include "policies/algorithms/learning/trying.hpp"
+#include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
-#include "policies/learning/state_text.hpp"
-#include "policies/learning/trying.hpp"
-#include "policies/weights.hpp"
 
 #include <algorithm>
 #include <utility>

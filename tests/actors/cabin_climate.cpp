@@ -1,7 +1,7 @@
 // Tests of cabin climate as a service: the cabin asks, the function answers,
 // the cabin becomes comfortable.
-#include "actors/service_kind.hpp"
-#include "messages/bytes.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "messages/protocol/bytes.hpp"
 #include "tests/support/virtual_world.hpp"
 
 #include <doctest/doctest.h>

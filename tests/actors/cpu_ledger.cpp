@@ -1,6 +1,6 @@
 // Tests of the ledger of computing time, on paper and with real actors.
-#include "actors/accounting_scheduler.hpp"
-#include "actors/cpu_accounts.hpp"
+#include "actors/runtime/accounting_scheduler.hpp"
+#include "actors/runtime/cpu_accounts.hpp"
 #include "tests/support/virtual_world.hpp"
 
 #include <caf/actor_system_config.hpp>

@@ -1,6 +1,6 @@
 // Tests of the service provider: requests that are decided together, decisions
 // that are missing, and services that are revoked.
-#include "policies/composition.hpp"
+#include "policies/filters/composition.hpp"
 #include "tests/actors/provider_world.hpp"
 
 using namespace sofof;

@@ -1,5 +1,5 @@
 // Tests of virtual time.
-#include "actors/des_scheduler.hpp"
+#include "actors/simulation/des_scheduler.hpp"
 
 #include "tests/support/virtual_world.hpp"
 

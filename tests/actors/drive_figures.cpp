@@ -1,5 +1,5 @@
 // What counts as an emergency, and what as a change of source.
-#include "actors/drive_figures.hpp"
+#include "actors/simulation/drive_figures.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 // One vehicle on a straight street, among probes.
 #pragma once
 
-#include "actors/planning/plan_request.hpp"
-#include "actors/vehicle.hpp"
-#include "messages/v2x/coordination.hpp"
-#include "planners/lane_follow.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "actors/simulation/vehicle.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
+#include "planners/trajectory/lane_follow.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"

@@ -2,9 +2,9 @@
 // same: offered, requested, accepted, used, ended.
 #include "tests/support/echo_service.hpp"
 
-#include "actors/network_link.hpp"
-#include "actors/service_provider.hpp"
-#include "actors/service_requester.hpp"
+#include "actors/offloading/service_provider.hpp"
+#include "actors/offloading/service_requester.hpp"
+#include "actors/simulation/network_link.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"

@@ -2,8 +2,8 @@
 #include "actors/remote/gate.hpp"
 
 #include "actors/remote/type_block.hpp"
+#include "base/protocol.hpp"
 #include "tests/support/virtual_world.hpp"
-#include "world/protocol.hpp"
 
 #include <caf/actor_proxy.hpp>
 #include <caf/event_based_actor.hpp>

@@ -1,6 +1,6 @@
 // Tests of a second provider that is called only when the first does not
 // answer.
-#include "actors/service_manager.hpp"
+#include "actors/offloading/service_manager.hpp"
 #include "tests/actors/requester_world.hpp"
 
 using namespace sofof;

@@ -1,5 +1,5 @@
 // Tests of the network link: it looks like the far end, later or never.
-#include "actors/network_link.hpp"
+#include "actors/simulation/network_link.hpp"
 
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

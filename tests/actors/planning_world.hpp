@@ -2,8 +2,8 @@
 // time that a test sets.
 #pragma once
 
-#include "actors/planning/plan_request.hpp"
-#include "actors/service_kind.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "actors/services/planning/plan_request.hpp"
 #include "messages/v2x/reception.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"

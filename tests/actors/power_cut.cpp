@@ -1,5 +1,5 @@
 // What becomes of an actor whose power is cut.
-#include "actors/power_cut.hpp"
+#include "actors/simulation/power_cut.hpp"
 
 #include "messages/type_ids.hpp"
 #include "tests/support/virtual_world.hpp"

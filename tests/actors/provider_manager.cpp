@@ -1,5 +1,5 @@
 // Tests of service management at the provider, for one accepted service.
-#include "actors/service_manager.hpp"
+#include "actors/offloading/service_manager.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/virtual_world.hpp"
 

@@ -1,7 +1,7 @@
 // One service provider among probes that stand for requesters.
 #pragma once
 
-#include "actors/service_provider.hpp"
+#include "actors/offloading/service_provider.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

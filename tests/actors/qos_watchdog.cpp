@@ -1,5 +1,5 @@
 // Tests of the QoS watchdog.
-#include "actors/qos_watchdog.hpp"
+#include "actors/offloading/qos_watchdog.hpp"
 
 #include "tests/support/virtual_world.hpp"
 

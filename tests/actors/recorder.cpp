@@ -1,5 +1,5 @@
 // Tests of the recorder: every record reaches the sink, in order.
-#include "actors/recorder.hpp"
+#include "actors/runtime/recorder.hpp"
 
 #include "tests/support/virtual_world.hpp"
 

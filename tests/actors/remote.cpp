@@ -1,6 +1,6 @@
 // Tests of vehicles whose provider is on another host, end to end.
+#include "base/protocol.hpp"
 #include "tests/actors/remote_world.hpp"
-#include "world/protocol.hpp"
 
 #include <set>
 

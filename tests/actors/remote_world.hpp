@@ -2,11 +2,11 @@
 // virtual time.
 #pragma once
 
+#include "actors/offloading/service_provider.hpp"
+#include "actors/offloading/service_requester.hpp"
 #include "actors/remote/far_provider.hpp"
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
-#include "actors/service_provider.hpp"
-#include "actors/service_requester.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

@@ -1,5 +1,5 @@
 // Tests of service management in the vehicle: which source is used, when.
-#include "actors/service_manager.hpp"
+#include "actors/offloading/service_manager.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/virtual_world.hpp"
 

@@ -2,7 +2,7 @@
 // managers of accepted services.
 #pragma once
 
-#include "actors/service_requester.hpp"
+#include "actors/offloading/service_requester.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

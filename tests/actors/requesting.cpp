@@ -1,6 +1,6 @@
 // Tests of the service requester: from an offer to the first data.
+#include "base/protocol.hpp"
 #include "tests/actors/requester_world.hpp"
-#include "world/protocol.hpp"
 
 #include <algorithm>
 

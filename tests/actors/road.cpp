@@ -1,6 +1,6 @@
 // Tests of the road: it shows everybody what they perceive, and sees who
 // collides.
-#include "actors/road.hpp"
+#include "actors/simulation/road.hpp"
 
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"

@@ -1,5 +1,5 @@
 // Tests of the service instance: life cycle, grid, cycle numbers.
-#include "actors/service_instance.hpp"
+#include "actors/offloading/service_instance.hpp"
 
 #include "tests/support/echo_service.hpp"
 #include "tests/support/virtual_world.hpp"

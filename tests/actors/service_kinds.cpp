@@ -1,7 +1,7 @@
 // Tests of the kinds of services: names, options, functions.
-#include "actors/planning/plan_request.hpp"
-#include "actors/service_kind.hpp"
-#include "messages/v2x/coordination.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/option_list.hpp"

@@ -2,7 +2,7 @@
 // they were asked.
 #pragma once
 
-#include "policies/context.hpp"
+#include "policies/api/context.hpp"
 
 #include <memory>
 #include <optional>

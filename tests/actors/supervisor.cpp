@@ -1,5 +1,5 @@
 // Tests of the supervisor: it notices when an actor dies.
-#include "actors/supervisor.hpp"
+#include "actors/runtime/supervisor.hpp"
 
 #include "tests/support/virtual_world.hpp"
 

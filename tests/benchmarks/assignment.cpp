@@ -1,5 +1,5 @@
 // What it takes to prove an assignment of 40 vehicles to 3 providers optimal.
-#include "policies/assignment/branch_and_bound.hpp"
+#include "policies/algorithms/assignment/branch_and_bound.hpp"
 #include "tests/support/assignments.hpp"
 
 #include <benchmark/benchmark.h>

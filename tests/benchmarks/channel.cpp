@@ -1,5 +1,5 @@
 // What the channel's draws cost.
-#include "world/link_direction.hpp"
+#include "channel/link_direction.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // What a planning cycle costs.
-#include "planners/lane_follow.hpp"
-#include "planners/safe_stop.hpp"
-#include "planners/spatial_planner.hpp"
+#include "planners/trajectory/lane_follow.hpp"
+#include "planners/trajectory/safe_stop.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
 #include "tests/benchmarks/scenarios.hpp"
 #include "tests/benchmarks/stopwatch.hpp"
 

@@ -1,10 +1,10 @@
 // What a connection between two processes costs: an input there and its result
 // back, beside a bare round trip of the same octets between two CAF systems.
-#include "actors/recorder.hpp"
 #include "actors/remote/far_provider.hpp"
 #include "actors/remote/gate.hpp"
 #include "actors/remote/uplink.hpp"
-#include "messages/no_records.hpp"
+#include "actors/runtime/recorder.hpp"
+#include "messages/protocol/no_records.hpp"
 #include "scenario/runtime.hpp"
 
 #include <benchmark/benchmark.h>

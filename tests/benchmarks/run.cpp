@@ -1,7 +1,7 @@
 // What whole scenarios cost, with and without the files that they write.
 #include "scenario/run.hpp"
 
-#include "messages/no_records.hpp"
+#include "messages/protocol/no_records.hpp"
 #include "scenario/build.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/benchmarks/scenarios.hpp"

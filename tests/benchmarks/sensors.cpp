@@ -1,5 +1,5 @@
 // What it costs that everybody looks round.
-#include "world/sensors.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include "scenario/placement.hpp"
 #include "tests/benchmarks/scenarios.hpp"

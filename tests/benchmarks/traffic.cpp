@@ -1,5 +1,5 @@
 // What it costs to know who is ahead of whom, and whose turn it is.
-#include "world/traffic.hpp"
+#include "world/traffic/traffic.hpp"
 
 #include "scenario/placement.hpp"
 #include "tests/benchmarks/scenarios.hpp"

@@ -1,7 +1,7 @@
 // What 10 ms of driving cost.
-#include "world/vehicle.hpp"
+#include "world/vehicle/vehicle.hpp"
 
-#include "planners/lane_follow.hpp"
+#include "planners/trajectory/lane_follow.hpp"
 #include "tests/benchmarks/scenarios.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // Broken messages: whatever a stranger sends, it is a message or refused.
+#include "base/random.hpp"
 #include "messages/etsi/message.hpp"
 #include "tests/support/any_message.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the life of a service instance.
-#include "messages/lifecycle.hpp"
+#include "messages/protocol/lifecycle.hpp"
 
 #include <doctest/doctest.h>
 

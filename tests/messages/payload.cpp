@@ -1,8 +1,8 @@
 // Tests of payloads and their bytes: what goes in comes out, as a value and
 // as bytes, and strangers' bytes do no harm.
-#include "messages/payload.hpp"
+#include "messages/protocol/payload.hpp"
 
-#include "actors/planning/plan_request.hpp"
+#include "actors/services/planning/plan_request.hpp"
 #include "tests/messages/random_messages.hpp"
 #include "tests/messages/wire.hpp"
 

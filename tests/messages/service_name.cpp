@@ -1,5 +1,5 @@
 // Tests of the names of services: their length and how they travel.
-#include "messages/service_name.hpp"
+#include "messages/protocol/service_name.hpp"
 
 #include "tests/messages/random_messages.hpp"
 #include "tests/messages/wire.hpp"

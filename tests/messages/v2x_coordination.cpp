@@ -1,7 +1,7 @@
 // What vehicles and whoever plans for them say to each other, and what each
 // understands.
-#include "messages/v2x/coordination.hpp"
-#include "planners/lane_follow.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
+#include "planners/trajectory/lane_follow.hpp"
 #include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"

@@ -1,8 +1,8 @@
 // Tests of plans on the wire: what is written down is the plan, what is read
 // is the plan again, and strangers' numbers do no harm.
-#include "messages/v2x/maneuver.hpp"
-#include "planners/lane_motion.hpp"
-#include "planners/safe_stop.hpp"
+#include "messages/v2x/mcm/maneuver.hpp"
+#include "planners/scene/lane_motion.hpp"
+#include "planners/trajectory/safe_stop.hpp"
 #include "tests/planners/test_drive.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/map_file.hpp"

@@ -1,8 +1,8 @@
 // Who sends in the tests of V2X messages, and from when on.
 #pragma once
 
-#include "world/time.hpp"
-#include "world/vehicle.hpp"
+#include "base/time.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <numbers>
 

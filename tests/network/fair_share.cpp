@@ -1,7 +1,7 @@
 // Who makes room at a crowded port.
-#include "network/fair_share.hpp"
+#include "network/tls/fair_share.hpp"
 
-#include "world/random.hpp"
+#include "base/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Lists of stations, and identities as URIs.
-#include "network/identity.hpp"
+#include "network/keys/identity.hpp"
 
-#include "network/station_list.hpp"
+#include "network/keys/station_list.hpp"
 
 #include <doctest/doctest.h>
 

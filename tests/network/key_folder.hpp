@@ -1,8 +1,8 @@
 // A CA with some certificates in a folder of its own; gone with its test.
 #pragma once
 
-#include "network/credentials.hpp"
-#include "network/key_store.hpp"
+#include "network/keys/credentials.hpp"
+#include "network/keys/key_store.hpp"
 #include "tests/support/files.hpp"
 
 #include <atomic>

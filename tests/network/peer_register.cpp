@@ -1,5 +1,5 @@
 // Who is behind the connections that a door makes within its machine.
-#include "network/peer_register.hpp"
+#include "network/tls/peer_register.hpp"
 
 #include "tests/network/two_hosts.hpp"
 

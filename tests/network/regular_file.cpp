@@ -1,5 +1,5 @@
 // What may be read as a file, and what may not.
-#include "network/regular_file.hpp"
+#include "base/files/regular_file.hpp"
 
 #include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"

@@ -1,5 +1,5 @@
 // Credentials that change while lines are open.
-#include "network/key_ring.hpp"
+#include "network/keys/key_ring.hpp"
 #include "network/network_error.hpp"
 #include "tests/network/two_hosts.hpp"
 

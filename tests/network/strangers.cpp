@@ -1,5 +1,5 @@
 // Those who shall not get through, and what it costs those who shall.
-#include "network/refusal_log.hpp"
+#include "network/tls/refusal_log.hpp"
 #include "tests/network/two_hosts.hpp"
 #include "tests/support/dice.hpp"
 

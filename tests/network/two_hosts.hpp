@@ -1,9 +1,9 @@
 // What a provider's host and a vehicle's host need, on one machine.
 #pragma once
 
-#include "network/tls.hpp"
-#include "network/tls_dialer.hpp"
-#include "network/tls_door.hpp"
+#include "network/tls/tls.hpp"
+#include "network/tls/tls_dialer.hpp"
+#include "network/tls/tls_door.hpp"
 #include "tests/network/key_folder.hpp"
 #include "tests/network/loopback.hpp"
 #include "tests/support/contains.hpp"

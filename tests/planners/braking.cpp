@@ -1,5 +1,5 @@
 // The braking laws, each driven to its end.
-#include "planners/braking.hpp"
+#include "planners/speed/braking.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the judge of heating and cooling.
-#include "planners/climate_judge.hpp"
+#include "planners/judges/climate_judge.hpp"
 
 #include <doctest/doctest.h>
 

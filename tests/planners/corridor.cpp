@@ -1,5 +1,5 @@
 // Where the corridor lets the car be, and where not.
-#include "planners/corridor.hpp"
+#include "planners/scene/corridor.hpp"
 
 #include "tests/planners/random_road.hpp"
 #include "tests/support/dice.hpp"

@@ -1,8 +1,8 @@
 // Where a vehicle is that is planned for from afar.
-#include "planners/ego_estimate.hpp"
+#include "planners/scene/ego_estimate.hpp"
 
-#include "planners/lane_motion.hpp"
-#include "planners/trajectory_planner.hpp"
+#include "planners/scene/lane_motion.hpp"
+#include "planners/trajectory/trajectory_planner.hpp"
 #include "tests/planners/test_drive.hpp"
 
 #include <doctest/doctest.h>

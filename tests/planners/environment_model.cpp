@@ -1,9 +1,9 @@
 // What many observers see becomes one track of each body.
-#include "planners/environment_model.hpp"
+#include "planners/scene/environment_model.hpp"
 
+#include "base/random.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
-#include "world/vehicle.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <Eigen/LU>
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // The ways past the others: which there are, and which come first.
-#include "planners/homotopy.hpp"
+#include "planners/trajectory/homotopy.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,5 +1,5 @@
 // A plan to begin with.
-#include "planners/keep_speed.hpp"
+#include "planners/trajectory/keep_speed.hpp"
 
 #include "tests/planners/usual_drive.hpp"
 

@@ -1,5 +1,5 @@
 // Single plans: where they start, what they keep, how they go on.
-#include "planners/lane_follow.hpp"
+#include "planners/trajectory/lane_follow.hpp"
 
 #include "tests/planners/usual_drive.hpp"
 

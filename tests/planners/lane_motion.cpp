@@ -1,5 +1,5 @@
 // Moving along and beside the centre line.
-#include "planners/lane_motion.hpp"
+#include "planners/scene/lane_motion.hpp"
 
 #include "tests/planners/test_drive.hpp"
 

@@ -1,5 +1,5 @@
 // Who is on which lane, and which conflicts it drives towards.
-#include "planners/lane_network.hpp"
+#include "planners/scene/lane_network.hpp"
 
 #include "tests/support/near.hpp"
 #include "tests/support/toy_streets.hpp"

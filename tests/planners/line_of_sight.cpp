@@ -1,8 +1,8 @@
 // Buildings hide what is behind them, here as for the sensors of the road.
-#include "planners/line_of_sight.hpp"
+#include "planners/plausibility/line_of_sight.hpp"
 
-#include "world/random.hpp"
-#include "world/sensors.hpp"
+#include "base/random.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // What a station tells of a body has to fit what it told before.
-#include "planners/motion_check.hpp"
+#include "planners/plausibility/motion_check.hpp"
 
-#include "world/random.hpp"
+#include "base/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // A warm start that moves by any distance, and changes grids.
-#include "planners/practice.hpp"
+#include "planners/problems/practice.hpp"
 #include "tests/planners/solvers.hpp"
 #include "tests/support/near.hpp"
 

@@ -1,7 +1,7 @@
 // The models' derivatives, against the complex step (Squire & Trapp, SIAM
 // Review 40(1), 1998): exact to rounding.
-#include "planners/path_model.hpp"
-#include "planners/velocity_model.hpp"
+#include "planners/problems/path_model.hpp"
+#include "planners/problems/velocity_model.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // Speeds planned along whole drives, as a vehicle does: it moves by any
 // distance between plans, its horizon ends at stops, leaders come and go.
-#include "planners/velocity_ocp.hpp"
+#include "planners/problems/velocity_ocp.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

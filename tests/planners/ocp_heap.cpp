@@ -1,8 +1,8 @@
 // A planning cycle takes nothing from the heap.
-#include "planners/environment_model.hpp"
-#include "planners/outlook.hpp"
-#include "planners/practice.hpp"
-#include "planners/spatial_planner.hpp"
+#include "planners/problems/practice.hpp"
+#include "planners/scene/environment_model.hpp"
+#include "planners/scene/outlook.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
 #include "tests/planners/test_drive.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/toy_streets.hpp"

@@ -1,7 +1,7 @@
 // The structured Riccati sweep against a plain one in matrices.
 #include "planners/ocp/riccati.hpp"
-#include "planners/path_model.hpp"
-#include "planners/velocity_model.hpp"
+#include "planners/problems/path_model.hpp"
+#include "planners/problems/velocity_model.hpp"
 #include "tests/support/dice.hpp"
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 // The velocity problem, solved: what its plans promise, and what it refuses.
-#include "planners/practice.hpp"
-#include "planners/velocity_ocp.hpp"
+#include "planners/problems/practice.hpp"
+#include "planners/problems/velocity_ocp.hpp"
 #include "tests/planners/solvers.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kkt.hpp"

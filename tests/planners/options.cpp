@@ -1,7 +1,7 @@
 // The options of driving, as a scenario file lists them.
-#include "planners/lane_follow.hpp"
-#include "planners/spatial_planner.hpp"
-#include "world/cabin.hpp"
+#include "planners/trajectory/lane_follow.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
+#include "world/vehicle/cabin.hpp"
 
 #include <doctest/doctest.h>
 

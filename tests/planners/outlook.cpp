@@ -1,11 +1,11 @@
 // What tracks mean to one vehicle: who leads, who stands in the lane, and who
 // crosses.
-#include "planners/outlook.hpp"
+#include "planners/scene/outlook.hpp"
 
+#include "base/random.hpp"
 #include "tests/support/map_file.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/toy_streets.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Paths that continue each other.
-#include "planners/path_planner.hpp"
+#include "planners/path/path_planner.hpp"
 
 #include "tests/planners/random_road.hpp"
 #include "tests/support/dice.hpp"

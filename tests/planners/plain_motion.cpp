@@ -1,5 +1,5 @@
 // Motions that need no optimisation: what they keep, where they end.
-#include "planners/plain_motion.hpp"
+#include "planners/speed/plain_motion.hpp"
 
 #include "tests/support/dice.hpp"
 

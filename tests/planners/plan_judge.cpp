@@ -1,6 +1,6 @@
 // Tests of the judge of plans: what it refuses, after how many results, and
 // what it must not refuse.
-#include "planners/plan_judge.hpp"
+#include "planners/judges/plan_judge.hpp"
 
 #include "tests/support/toy_streets.hpp"
 

@@ -1,5 +1,5 @@
 // Reading a path: between its knots, along itself and along its line.
-#include "planners/planned_path.hpp"
+#include "planners/path/planned_path.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,6 +1,6 @@
 // A body that only its own messages know is not believed where others look;
 // one that nobody can see is.
-#include "planners/plausibility.hpp"
+#include "planners/plausibility/plausibility.hpp"
 
 #include "tests/support/watched_road.hpp"
 

@@ -1,8 +1,8 @@
 // Random roads for property tests: bends that tighten and open.
 #pragma once
 
+#include "base/random.hpp"
 #include "tests/planners/test_drive.hpp"
-#include "world/random.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // A route as tables of curvature, limit and width.
-#include "planners/reference_line.hpp"
+#include "planners/scene/reference_line.hpp"
 
 #include "tests/planners/random_road.hpp"
 #include "tests/planners/usual_drive.hpp"

@@ -1,5 +1,5 @@
 // The last resort.
-#include "planners/safe_stop.hpp"
+#include "planners/trajectory/safe_stop.hpp"
 
 #include "tests/planners/usual_drive.hpp"
 

@@ -1,8 +1,8 @@
 // Solvers on the heap; their workspaces are too large for a stack.
 #pragma once
 
-#include "planners/path_ocp.hpp"
-#include "planners/velocity_ocp.hpp"
+#include "planners/problems/path_ocp.hpp"
+#include "planners/problems/velocity_ocp.hpp"
 
 #include <memory>
 

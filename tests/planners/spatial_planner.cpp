@@ -1,8 +1,8 @@
 // Single plans of the optimiser: sound whatever comes in, honest about how
 // they came about.
-#include "planners/spatial_planner.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
 
-#include "planners/lane_motion.hpp"
+#include "planners/scene/lane_motion.hpp"
 #include "tests/planners/random_road.hpp"
 #include "tests/planners/usual_drive.hpp"
 #include "tests/support/dice.hpp"

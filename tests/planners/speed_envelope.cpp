@@ -1,5 +1,5 @@
 // How fast a route may be driven where.
-#include "planners/speed_envelope.hpp"
+#include "planners/speed/speed_envelope.hpp"
 
 #include "tests/planners/usual_drive.hpp"
 

@@ -1,6 +1,6 @@
 // Speeds on a path: what they keep to, and what happens where that is too
 // much.
-#include "planners/speed_planner.hpp"
+#include "planners/speed/speed_planner.hpp"
 
 #include "tests/planners/random_road.hpp"
 #include "tests/planners/usual_drive.hpp"

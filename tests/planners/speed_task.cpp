@@ -1,7 +1,7 @@
 // How the car ahead is reckoned with.
-#include "planners/speed_task.hpp"
+#include "planners/speed/speed_task.hpp"
 
-#include "planners/lane_motion.hpp"
+#include "planners/scene/lane_motion.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

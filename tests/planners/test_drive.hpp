@@ -2,9 +2,9 @@
 // every 10 ms, and what was worst on the way.
 #pragma once
 
-#include "planners/lane_follow.hpp"
-#include "planners/spatial_planner.hpp"
-#include "world/vehicle.hpp"
+#include "planners/trajectory/lane_follow.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <algorithm>
 #include <cmath>

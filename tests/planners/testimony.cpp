@@ -1,7 +1,7 @@
 // Who else has seen a body, who has not, and whose word counts for less.
-#include "planners/testimony.hpp"
+#include "planners/plausibility/testimony.hpp"
 
-#include "planners/reputation.hpp"
+#include "planners/plausibility/reputation.hpp"
 
 #include <doctest/doctest.h>
 

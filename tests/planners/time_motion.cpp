@@ -1,7 +1,7 @@
 // A speed plan over way, driven in time.
-#include "planners/time_motion.hpp"
+#include "planners/speed/time_motion.hpp"
 
-#include "planners/practice.hpp"
+#include "planners/problems/practice.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // What every planner does: beginning where the plan in use is.
-#include "planners/trajectory_planner.hpp"
+#include "planners/trajectory/trajectory_planner.hpp"
 
-#include "planners/lane_motion.hpp"
+#include "planners/scene/lane_motion.hpp"
 #include "tests/planners/test_drive.hpp"
 #include "tests/support/dice.hpp"
 

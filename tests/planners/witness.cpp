@@ -1,5 +1,5 @@
 // What somebody who looks would have told of, had it been there.
-#include "planners/witness.hpp"
+#include "planners/plausibility/witness.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of what an assignment is worth, and of what is refused.
-#include "policies/assignment/problem.hpp"
+#include "policies/algorithms/assignment/problem.hpp"
 #include "tests/support/assignments.hpp"
 
 #include <doctest/doctest.h>

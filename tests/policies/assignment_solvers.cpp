@@ -1,10 +1,10 @@
 // Tests of solvers against each other and against trying everything.
-#include "policies/assignment/branch_and_bound.hpp"
-#include "policies/assignment/capacity_prices.hpp"
-#include "policies/assignment/cbc.hpp"
-#include "policies/assignment/greedy_regret.hpp"
-#include "policies/assignment/min_cost_flow.hpp"
-#include "policies/assignment/sampled.hpp"
+#include "policies/algorithms/assignment/branch_and_bound.hpp"
+#include "policies/algorithms/assignment/capacity_prices.hpp"
+#include "policies/algorithms/assignment/cbc.hpp"
+#include "policies/algorithms/assignment/greedy_regret.hpp"
+#include "policies/algorithms/assignment/min_cost_flow.hpp"
+#include "policies/algorithms/assignment/sampled.hpp"
 #include "tests/support/assignments.hpp"
 
 #include <doctest/doctest.h>

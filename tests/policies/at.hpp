@@ -1,7 +1,7 @@
 // Times since the start.
 #pragma once
 
-#include "world/time.hpp"
+#include "base/time.hpp"
 
 namespace sofof::test {
 

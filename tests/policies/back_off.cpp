@@ -1,5 +1,5 @@
 // Tests of when to try again.
-#include "policies/back_off.hpp"
+#include "network/flow/back_off.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,7 +1,7 @@
 // Tests of learning which provider is good by trying them.
-#include "policies/learning/alto.hpp"
-#include "policies/learning/ucb1.hpp"
-#include "world/random.hpp"
+#include "base/random.hpp"
+#include "policies/algorithms/learning/alto.hpp"
+#include "policies/algorithms/learning/ucb1.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Tests of policies that decide about all who ask and all who are served
 // together: assignment, cross_entropy, best_response.
+#include "base/protocol.hpp"
 #include "tests/policies/scene.hpp"
-#include "world/protocol.hpp"
 
 #include <algorithm>
 #include <cmath>

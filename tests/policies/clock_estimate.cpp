@@ -1,10 +1,10 @@
 // Tests of how far another host's clock is ahead: random exchanges over links
 // whose delays and clocks are known.
-#include "policies/clock_estimate.hpp"
+#include "network/flow/clock_estimate.hpp"
 
+#include "channel/delay_law.hpp"
 #include "tests/policies/at.hpp"
 #include "tests/support/allocations.hpp"
-#include "world/delay_law.hpp"
 
 #include <doctest/doctest.h>
 

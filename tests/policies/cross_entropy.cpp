@@ -1,5 +1,5 @@
 // Tests of optimisation by sampling.
-#include "policies/cross_entropy.hpp"
+#include "policies/algorithms/assignment/cross_entropy.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of how long a vehicle stays away from a provider that has lied.
-#include "policies/distrust.hpp"
+#include "offloading/distrust.hpp"
 
 #include <doctest/doctest.h>
 

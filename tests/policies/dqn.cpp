@@ -1,5 +1,5 @@
 // Tests of learning with a neural network.
-#include "policies/learning/dqn.hpp"
+#include "policies/algorithms/learning/dqn.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the least energy with a budget of violations.
-#include "policies/lyapunov/drift_plus_penalty.hpp"
+#include "policies/algorithms/lyapunov/drift_plus_penalty.hpp"
 
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"

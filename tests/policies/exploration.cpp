@@ -1,5 +1,5 @@
 // Tests of trying what is not held for the best.
-#include "policies/learning/exploration.hpp"
+#include "policies/algorithms/learning/exploration.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Tests of redundancy: the first response wins, plans join.
-#include "policies/link/first_response.hpp"
+#include "offloading/first_response.hpp"
 
-#include "policies/link/continuity.hpp"
+#include "policies/algorithms/forecast/continuity.hpp"
 #include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"
 

@@ -1,6 +1,6 @@
 // Tests of the offloading game: what theory promises of it.
 // Source: Chen, Jiao, Li & Fu, ToN 24(5), 2016.
-#include "policies/game/best_response.hpp"
+#include "policies/algorithms/game/best_response.hpp"
 #include "tests/support/radio_cell.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // Tests of what keeps a scorer in check: gate and hysteresis.
-#include "policies/govern/hysteresis.hpp"
-#include "policies/link/predictive_gate.hpp"
+#include "policies/algorithms/forecast/predictive_gate.hpp"
+#include "policies/governors/hysteresis.hpp"
 #include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"
 

@@ -1,5 +1,5 @@
 // Tests of back-pressure: the latest value wins.
-#include "policies/latest_value.hpp"
+#include "network/flow/latest_value.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,9 +1,9 @@
 // Tests of taking what a learner knows to another one, as text.
-#include "policies/learning/alto.hpp"
-#include "policies/learning/dqn.hpp"
-#include "policies/learning/q_learning.hpp"
-#include "policies/learning/state_text.hpp"
-#include "policies/learning/ucb1.hpp"
+#include "policies/algorithms/learning/alto.hpp"
+#include "policies/algorithms/learning/dqn.hpp"
+#include "policies/algorithms/learning/q_learning.hpp"
+#include "policies/algorithms/learning/state_text.hpp"
+#include "policies/algorithms/learning/ucb1.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // Tests of learners as decisions of a vehicle; their cores have tests of their
 // own.
-#include "policies/learning/offloading_state.hpp"
+#include "policies/algorithms/learning/offloading_state.hpp"
 #include "tests/support/roadside.hpp"
 #include "tests/support/toy_drive.hpp"
 

@@ -1,9 +1,9 @@
 // Tests of what to expect of a link.
-#include "policies/link/link_estimator.hpp"
+#include "policies/algorithms/forecast/link_estimator.hpp"
 
+#include "base/random.hpp"
 #include "tests/policies/at.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the paper's decisions: the LODM's disc, the CODM's area and map.
-#include "policies/location.hpp"
+#include "policies/filters/location.hpp"
 
 #include "policies/registry.hpp"
 #include "tests/support/dice.hpp"

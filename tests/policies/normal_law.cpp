@@ -1,5 +1,5 @@
 // Tests of the standard normal law.
-#include "policies/link/normal_law.hpp"
+#include "policies/algorithms/forecast/normal_law.hpp"
 
 #include "tests/support/near.hpp"
 

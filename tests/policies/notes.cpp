@@ -1,5 +1,5 @@
 // Tests of what users are told of policies, filters and governors.
-#include "policies/govern/governors.hpp"
+#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/option_list.hpp"
 

@@ -1,5 +1,5 @@
 // Tests of learning from a table.
-#include "policies/learning/q_learning.hpp"
+#include "policies/algorithms/learning/q_learning.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the limits that results must keep.
-#include "policies/qos_monitor.hpp"
+#include "offloading/qos_monitor.hpp"
 
 #include "tests/policies/at.hpp"
 

@@ -1,5 +1,5 @@
 // Tests of how busy a provider may be.
-#include "policies/assignment/queueing.hpp"
+#include "policies/algorithms/assignment/queueing.hpp"
 
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"

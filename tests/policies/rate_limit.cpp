@@ -1,5 +1,5 @@
 // Tests of how much a peer may have in a while.
-#include "policies/rate_limit.hpp"
+#include "network/flow/rate_limit.hpp"
 
 #include "tests/policies/at.hpp"
 #include "tests/support/dice.hpp"

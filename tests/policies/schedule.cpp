@@ -1,7 +1,7 @@
 // Tests of admission, placement and phases of sessions on cores.
-#include "policies/schedule/edf.hpp"
-#include "policies/schedule/phases.hpp"
-#include "policies/schedule/placement.hpp"
+#include "policies/algorithms/scheduling/edf.hpp"
+#include "policies/algorithms/scheduling/phases.hpp"
+#include "policies/algorithms/scheduling/placement.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Tests of how long a route stays in an area, exact and against a reference.
-#include "policies/location.hpp"
+#include "policies/filters/location.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

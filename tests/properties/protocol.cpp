@@ -1,11 +1,11 @@
 // The promises of the offloading protocol, under loss, delay, duplicates,
 // reordering and crashes.
-#include "world/protocol.hpp"
+#include "base/protocol.hpp"
 
-#include "actors/network_link.hpp"
-#include "actors/recorder.hpp"
-#include "actors/service_provider.hpp"
-#include "actors/service_requester.hpp"
+#include "actors/offloading/service_provider.hpp"
+#include "actors/offloading/service_requester.hpp"
+#include "actors/runtime/recorder.hpp"
+#include "actors/simulation/network_link.hpp"
 #include "messages/v2x/awareness.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "policies/registry.hpp"

@@ -1,5 +1,5 @@
 // Optima of assignments at the size of a crossing with 40 vehicles.
-#include "policies/assignment/branch_and_bound.hpp"
+#include "policies/algorithms/assignment/branch_and_bound.hpp"
 #include "tests/support/assignments.hpp"
 
 #include <doctest/doctest.h>

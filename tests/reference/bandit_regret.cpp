@@ -1,8 +1,8 @@
 // Regret of UCB1 on five Bernoulli arms. The numbers 84 and 233 were measured
 // with a prototype of the algorithm in Auer, Cesa-Bianchi & Fischer 2002.
-#include "policies/learning/ucb1.hpp"
+#include "base/random.hpp"
+#include "policies/algorithms/learning/ucb1.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

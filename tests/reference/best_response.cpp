@@ -8,7 +8,7 @@
 //
 // The figures follow the paper's contention model with equal weights, though
 // the text speaks of its interference model: see the last test.
-#include "policies/game/best_response.hpp"
+#include "policies/algorithms/game/best_response.hpp"
 
 #include "tests/support/radio_cell.hpp"
 

@@ -1,6 +1,6 @@
 // Cliff walking (Sutton & Barto 2018, example 6.6): the best way along the rim
 // costs 13, the safe one, two rows up, 17.
-#include "policies/learning/q_learning.hpp"
+#include "policies/algorithms/learning/q_learning.hpp"
 #include "tests/support/cliff.hpp"
 
 #include <doctest/doctest.h>

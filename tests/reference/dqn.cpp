@@ -1,10 +1,10 @@
 // The deep Q-network: slopes against differences, and what it learns against
 // what is known.
-#include "policies/learning/dqn.hpp"
+#include "policies/algorithms/learning/dqn.hpp"
 
-#include "policies/learning/q_learning.hpp"
-#include "policies/learning/td_loss.hpp"
-#include "policies/learning/value_iteration.hpp"
+#include "policies/algorithms/learning/q_learning.hpp"
+#include "policies/algorithms/learning/td_loss.hpp"
+#include "policies/algorithms/learning/value_iteration.hpp"
 
 #include <doctest/doctest.h>
 

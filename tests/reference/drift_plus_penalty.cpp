@@ -3,10 +3,10 @@
 // 1 J locally, 0.4 J offloaded; 5 % of the cycles may be missed; 200 000
 // cycles. The best possible is 0.508 J: all good and 40 % of the bad cycles.
 // With the link's state known, debts stay near the threshold 2 V of the bad.
-#include "policies/lyapunov/drift_plus_penalty.hpp"
+#include "policies/algorithms/lyapunov/drift_plus_penalty.hpp"
 
+#include "base/random.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

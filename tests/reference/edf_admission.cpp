@@ -1,8 +1,8 @@
 // Sessions of 8 ms every 100 ms that leave 20 ms of a latency limit of 50 ms:
 // by utilisation 12 fit, released together 2 (16 ≤ 20 < 24), with phases 12
 // (100 / 8). Source: arithmetic of Liu & Layland 1973 and Baruah et al. 1990.
-#include "policies/schedule/phases.hpp"
-#include "policies/schedule/placement.hpp"
+#include "policies/algorithms/scheduling/phases.hpp"
+#include "policies/algorithms/scheduling/placement.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,10 +5,10 @@
 // (σ = 0.1), and 1 % of the messages, which nothing announces, take an
 // exponential time longer, 36 ms in the mean. So figures, means of eight hours,
 // are compared with some room, orders strictly.
-#include "policies/link/link_estimator.hpp"
-#include "policies/link/predictive_gate.hpp"
+#include "base/random.hpp"
+#include "policies/algorithms/forecast/link_estimator.hpp"
+#include "policies/algorithms/forecast/predictive_gate.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // Tabular learning against the exact values of small decision processes.
-#include "policies/learning/q_learning.hpp"
-#include "policies/learning/value_iteration.hpp"
+#include "policies/algorithms/learning/q_learning.hpp"
+#include "policies/algorithms/learning/value_iteration.hpp"
 
 #include <doctest/doctest.h>
 

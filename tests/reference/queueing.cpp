@@ -1,5 +1,5 @@
 // Waits of an M/D/1 queue.
-#include "policies/assignment/queueing.hpp"
+#include "policies/algorithms/assignment/queueing.hpp"
 
 #include "tests/support/near.hpp"
 

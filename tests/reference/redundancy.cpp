@@ -1,10 +1,10 @@
 // Golden numbers of redundancy, measured with a prototype: latency lognormal
 // with median 20 ms and σ = 0.5, 1 % lost, limit 50 ms; two providers whose
 // links are independent of each other.
-#include "policies/link/first_response.hpp"
-#include "policies/link/normal_law.hpp"
+#include "base/random.hpp"
+#include "offloading/first_response.hpp"
+#include "policies/algorithms/forecast/normal_law.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

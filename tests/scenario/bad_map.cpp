@@ -1,7 +1,7 @@
 // What is said about maps that are wrong.
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
 #include "scenario/map_file.hpp"
-#include "scenario/toml_file.hpp"
 #include "tests/scenario/example.hpp"
 #include "tests/scenario/mistakes.hpp"
 

@@ -1,6 +1,6 @@
 // What a run is judged by.
-#include "scenario/bench/criteria.hpp"
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
+#include "experiments/benchmark/criteria.hpp"
 #include "scenario/load.hpp"
 #include "tests/scenario/bench_town.hpp"
 #include "tests/support/near.hpp"

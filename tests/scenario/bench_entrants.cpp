@@ -1,9 +1,9 @@
 // Who takes part: every policy, and lines of a file.
+#include "base/input_error.hpp"
+#include "base/options/toml_nodes.hpp"
+#include "experiments/benchmark/entrants.hpp"
 #include "policies/registry.hpp"
-#include "scenario/bench/entrants.hpp"
-#include "scenario/input_error.hpp"
 #include "scenario/load.hpp"
-#include "scenario/toml_nodes.hpp"
 #include "tests/scenario/bench_town.hpp"
 
 #include <doctest/doctest.h>

@@ -1,9 +1,9 @@
 // Who is ranked where, and how it is shown.
-#include "scenario/bench/board_page.hpp"
-#include "scenario/bench/board_text.hpp"
-#include "scenario/bench/decision_costs.hpp"
-#include "scenario/bench/leaderboard.hpp"
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
+#include "experiments/benchmark/board_page.hpp"
+#include "experiments/benchmark/board_text.hpp"
+#include "experiments/benchmark/decision_costs.hpp"
+#include "experiments/benchmark/leaderboard.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,5 +1,5 @@
 // Tests of whether offloading pays in computing time.
-#include "scenario/cpu_balance.hpp"
+#include "recording/cpu_balance.hpp"
 
 #include "tests/support/near.hpp"
 

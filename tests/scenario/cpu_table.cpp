@@ -1,5 +1,5 @@
 // Tests of what a ledger of computing time means.
-#include "scenario/cpu_table.hpp"
+#include "recording/cpu_table.hpp"
 
 #include "tests/support/near.hpp"
 

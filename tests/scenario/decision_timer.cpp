@@ -1,7 +1,7 @@
 // A watch beside a policy changes nothing about it.
 #include "scenario/decision_timer.hpp"
 
-#include "scenario/settings_printer.hpp"
+#include "base/options/settings_printer.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // A scenario to try loading on: complete, right, and easily spoilt.
 #pragma once
 
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
 #include "scenario/load.hpp"
 
 #include <algorithm>

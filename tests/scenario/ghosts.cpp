@@ -1,5 +1,6 @@
 // A connected stranger tells of cars that are not there: whom that delays, and
 // for how long. All actors are the real ones, in virtual time.
+#include "base/random.hpp"
 #include "messages/v2x/awareness.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/perception.hpp"
@@ -8,7 +9,6 @@
 #include "scenario/load.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/support/memory_sink.hpp"
-#include "world/random.hpp"
 
 #include <caf/send.hpp>
 #include <caf/typed_event_based_actor.hpp>

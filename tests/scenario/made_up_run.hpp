@@ -1,8 +1,8 @@
 // Records as a run would make them, with figures that are easy to check.
 #pragma once
 
-#include "messages/record.hpp"
-#include "scenario/run_info.hpp"
+#include "messages/protocol/record.hpp"
+#include "recording/run_info.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // them.
 #pragma once
 
-#include "scenario/sweep/sweep.hpp"
-#include "scenario/toml_file.hpp"
+#include "base/options/toml_file.hpp"
+#include "experiments/sweep/sweep.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <atomic>

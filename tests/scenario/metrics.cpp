@@ -1,8 +1,8 @@
 // What the figures of a run count.
-#include "scenario/metrics.hpp"
+#include "recording/metrics.hpp"
 
+#include "base/random.hpp"
 #include "tests/scenario/made_up_run.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

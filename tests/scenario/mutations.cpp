@@ -1,7 +1,7 @@
 // Whatever is done to a scenario file, it loads or it is refused.
-#include "scenario/toml_file.hpp"
+#include "base/options/toml_file.hpp"
+#include "base/random.hpp"
 #include "tests/scenario/example.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

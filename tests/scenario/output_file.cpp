@@ -1,7 +1,7 @@
 // Tests of files that are written.
-#include "scenario/output_file.hpp"
+#include "base/files/output_file.hpp"
 
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 

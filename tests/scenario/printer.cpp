@@ -1,7 +1,7 @@
 // The effective configuration as a file.
-#include "scenario/settings_printer.hpp"
-#include "scenario/toml_file.hpp"
-#include "scenario/toml_text.hpp"
+#include "base/options/settings_printer.hpp"
+#include "base/options/toml_file.hpp"
+#include "base/options/toml_text.hpp"
 #include "tests/scenario/example.hpp"
 
 #include <doctest/doctest.h>

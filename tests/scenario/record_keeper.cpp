@@ -1,5 +1,5 @@
 // Results on a disk that takes no more, which /dev/full stands for.
-#include "scenario/record_keeper.hpp"
+#include "recording/record_keeper.hpp"
 
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"

@@ -1,8 +1,8 @@
 // A results folder of a made-up run, and ways to spoil it.
 #pragma once
 
-#include "scenario/input_error.hpp"
-#include "scenario/results.hpp"
+#include "base/input_error.hpp"
+#include "recording/results.hpp"
 #include "tests/scenario/made_up_run.hpp"
 
 #include <doctest/doctest.h>

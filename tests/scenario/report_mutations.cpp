@@ -1,8 +1,8 @@
 // Whatever is done to a results folder, it is shown or it is refused.
-#include "scenario/report/describe.hpp"
-#include "scenario/report/html.hpp"
+#include "base/random.hpp"
+#include "experiments/report/describe.hpp"
+#include "experiments/report/html.hpp"
 #include "tests/scenario/report_folder.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

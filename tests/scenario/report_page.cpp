@@ -1,9 +1,9 @@
 // The page: a document as JSON that nothing breaks out of, numbers in few
 // characters.
-#include "scenario/report/drive_json.hpp"
-#include "scenario/report/html.hpp"
-#include "scenario/report/packed.hpp"
-#include "scenario/report/page.hpp"
+#include "experiments/report/drive_json.hpp"
+#include "experiments/report/html.hpp"
+#include "experiments/report/packed.hpp"
+#include "experiments/report/page.hpp"
 #include "tests/scenario/report_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // Reading results folders: what is in them, and what is wrong with them.
-#include "scenario/report/describe.hpp"
-#include "scenario/report/html.hpp"
-#include "scenario/report/recorded_run.hpp"
+#include "experiments/report/describe.hpp"
+#include "experiments/report/html.hpp"
+#include "experiments/report/recorded_run.hpp"
 #include "tests/scenario/mistakes.hpp"
 #include "tests/scenario/report_folder.hpp"
 

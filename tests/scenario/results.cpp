@@ -1,9 +1,9 @@
 // The results folder: what is in it, and that nothing is lost or overwritten.
-#include "scenario/results.hpp"
+#include "recording/results.hpp"
 
-#include "scenario/input_error.hpp"
-#include "scenario/json.hpp"
-#include "scenario/results_folder.hpp"
+#include "base/input_error.hpp"
+#include "base/text/json.hpp"
+#include "recording/results_folder.hpp"
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"

@@ -1,8 +1,8 @@
 // Runs that appear whole in a folder that many share.
-#include "scenario/sweep/run_store.hpp"
+#include "experiments/sweep/run_store.hpp"
 
-#include "scenario/input_error.hpp"
-#include "scenario/toml_file.hpp"
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Runs shared out among shards: whole, even, and always alike.
-#include "scenario/sweep/shard.hpp"
+#include "experiments/sweep/shard.hpp"
 
 #include "tests/support/dice.hpp"
 

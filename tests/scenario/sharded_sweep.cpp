@@ -1,7 +1,7 @@
 // Shards of a sweep: each makes its runs, and the sweep finds all of them.
-#include "scenario/sweep/sharded_sweep.hpp"
+#include "experiments/sweep/sharded_sweep.hpp"
 
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
 #include "tests/scenario/made_up_sweep.hpp"
 
 #include <doctest/doctest.h>

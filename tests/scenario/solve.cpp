@@ -1,9 +1,9 @@
 // Problem files: what is read, what is said, and how well it is solved.
-#include "scenario/solve.hpp"
+#include "experiments/solve/solve.hpp"
 
-#include "scenario/input_error.hpp"
-#include "scenario/practice_file.hpp"
-#include "scenario/problem_file.hpp"
+#include "base/input_error.hpp"
+#include "experiments/solve/practice_file.hpp"
+#include "experiments/solve/problem_file.hpp"
 #include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>

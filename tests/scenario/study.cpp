@@ -1,8 +1,8 @@
 // What a study reads from runs, and how it pools them.
-#include "scenario/report/markdown.hpp"
-#include "scenario/study/bootstrap.hpp"
-#include "scenario/study/histogram.hpp"
-#include "scenario/study/measured_run.hpp"
+#include "experiments/dehler2025/bootstrap.hpp"
+#include "experiments/dehler2025/histogram.hpp"
+#include "experiments/dehler2025/measured_run.hpp"
+#include "experiments/report/markdown.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,9 +1,9 @@
 // Sections of the paper's evaluation, from runs that are made up.
-#include "scenario/input_error.hpp"
-#include "scenario/study/area_time.hpp"
-#include "scenario/study/describe_sweep.hpp"
-#include "scenario/study/deviation.hpp"
-#include "scenario/study/sections.hpp"
+#include "base/input_error.hpp"
+#include "experiments/dehler2025/area_time.hpp"
+#include "experiments/dehler2025/describe_sweep.hpp"
+#include "experiments/dehler2025/deviation.hpp"
+#include "experiments/dehler2025/sections.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/scratch.hpp"
 

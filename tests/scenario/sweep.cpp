@@ -1,7 +1,7 @@
 // Runs of a sweep: shared, found again, and put into one table.
-#include "scenario/sweep/sweep.hpp"
+#include "experiments/sweep/sweep.hpp"
 
-#include "scenario/input_error.hpp"
+#include "base/input_error.hpp"
 #include "tests/scenario/made_up_sweep.hpp"
 
 #include <doctest/doctest.h>

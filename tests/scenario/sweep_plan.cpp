@@ -1,6 +1,6 @@
 // What a sweep file says, and what is said about a wrong one.
-#include "scenario/input_error.hpp"
-#include "scenario/sweep/plan.hpp"
+#include "base/input_error.hpp"
+#include "experiments/sweep/plan.hpp"
 #include "tests/scenario/mistakes.hpp"
 
 #include <doctest/doctest.h>

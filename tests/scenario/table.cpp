@@ -1,10 +1,10 @@
 // The table in the end, and the line while one waits.
-#include "scenario/table.hpp"
+#include "recording/table.hpp"
 
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "scenario/progress.hpp"
+#include "recording/progress.hpp"
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"
 

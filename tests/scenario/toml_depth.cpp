@@ -1,9 +1,9 @@
 // How deep TOML may nest, and what only looks deep.
-#include "scenario/toml_depth.hpp"
+#include "base/options/toml_depth.hpp"
 
-#include "scenario/input_error.hpp"
-#include "scenario/toml_file.hpp"
-#include "scenario/toml_nodes.hpp"
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+#include "base/options/toml_nodes.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // Tests of policies that learn by driving.
-#include "scenario/bench/training.hpp"
+#include "experiments/benchmark/training.hpp"
 
+#include "base/input_error.hpp"
 #include "policies/registry.hpp"
-#include "scenario/input_error.hpp"
 #include "tests/scenario/bench_town.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"

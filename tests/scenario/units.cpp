@@ -1,7 +1,7 @@
 // Durations as text.
-#include "scenario/units.hpp"
+#include "base/options/units.hpp"
 
-#include "world/random.hpp"
+#include "base/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // ITS messages of a run: what is counted of them, and how they are captured.
+#include "base/input_error.hpp"
 #include "messages/etsi/message.hpp"
-#include "scenario/input_error.hpp"
+#include "recording/pcap_file.hpp"
+#include "recording/results.hpp"
 #include "scenario/load.hpp"
-#include "scenario/pcap_file.hpp"
-#include "scenario/results.hpp"
 #include "tests/scenario/made_up_run.hpp"
 #include "tests/scenario/whole_run.hpp"
 #include "tests/support/capture.hpp"

@@ -1,7 +1,7 @@
 // A scenario played in virtual time, and trajectory planning to look into.
 #pragma once
 
-#include "actors/service_kind.hpp"
+#include "actors/offloading/service_kind.hpp"
 #include "scenario/build.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/support/memory_sink.hpp"

@@ -1,7 +1,7 @@
 // Assignment problems to try, and their optima by plainer means.
 #pragma once
 
-#include "policies/assignment/problem.hpp"
+#include "policies/algorithms/assignment/problem.hpp"
 #include "tests/support/dice.hpp"
 
 #include <algorithm>

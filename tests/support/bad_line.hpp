@@ -2,7 +2,7 @@
 // that delays, holds up and cuts what passes through it.
 #pragma once
 
-#include "world/random.hpp"
+#include "base/random.hpp"
 
 #include <algorithm>
 #include <arpa/inet.h>

@@ -1,8 +1,8 @@
 // The smallest service there is, for tests of the framework.
 #pragma once
 
-#include "actors/service_kind.hpp"
-#include "messages/payload.hpp"
+#include "actors/offloading/service_kind.hpp"
+#include "messages/protocol/payload.hpp"
 
 #include <memory>
 #include <string>

@@ -2,8 +2,8 @@
 // what a channel profile does to latency, gaps and offloading durations.
 #pragma once
 
-#include "world/fifo_servers.hpp"
-#include "world/link_direction.hpp"
+#include "channel/fifo_servers.hpp"
+#include "channel/link_direction.hpp"
 
 #include <algorithm>
 #include <cmath>

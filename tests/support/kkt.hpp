@@ -1,8 +1,8 @@
 // Whether a plan is optimal, judged without the solver's own derivatives.
 #pragma once
 
-#include "planners/path_ocp.hpp"
-#include "planners/velocity_ocp.hpp"
+#include "planners/problems/path_ocp.hpp"
+#include "planners/problems/velocity_ocp.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Road users in lane order, for tests: who is ahead of whom.
 #pragma once
 
-#include "world/driver.hpp"
-#include "world/lane_order.hpp"
+#include "world/traffic/driver.hpp"
+#include "world/traffic/lane_order.hpp"
 
 #include <algorithm>
 #include <map>

@@ -7,9 +7,9 @@
 //                                        as `sofof provide`, over TLS
 //   lies time SCENARIO SECONDS           judges honest plans, in virtual time;
 //                                        prints what a plan takes, µs
-#include "actors/planning/plan_request.hpp"
+#include "actors/services/planning/plan_request.hpp"
 #include "network/network_address.hpp"
-#include "planners/plan_judge.hpp"
+#include "planners/judges/plan_judge.hpp"
 #include "scenario/hosts.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"

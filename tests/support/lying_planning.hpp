@@ -1,10 +1,10 @@
 // Trajectory planning at a provider that lies: what vehicles must survive.
 #pragma once
 
-#include "actors/service_kind.hpp"
-#include "messages/v2x/coordination.hpp"
+#include "actors/offloading/service_kind.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "world/route_finder.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
+#include "world/roads/route_finder.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Reads a map file for tests, without the checks of the real loader.
 #pragma once
 
-#include "world/road_map.hpp"
+#include "world/roads/road_map.hpp"
 
 #include <toml++/toml.h>
 

@@ -1,7 +1,7 @@
 // Keeps the records of a run in memory, for tests that look at them.
 #pragma once
 
-#include "messages/record.hpp"
+#include "messages/protocol/record.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // their ranges, and can set some of them.
 #pragma once
 
-#include "world/settings.hpp"
+#include "base/options/settings.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // The radio cell in which Chen 2016 plays the offloading game.
 #pragma once
 
-#include "policies/game/offloading_game.hpp"
-#include "world/random.hpp"
+#include "base/random.hpp"
+#include "policies/algorithms/game/offloading_game.hpp"
 
 #include <array>
 #include <cmath>

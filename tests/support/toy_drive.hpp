@@ -1,8 +1,8 @@
 // Drives past a provider, as simple as a learner can be taught by.
 #pragma once
 
-#include "policies/context.hpp"
-#include "policies/link/normal_law.hpp"
+#include "policies/algorithms/forecast/normal_law.hpp"
+#include "policies/api/context.hpp"
 #include "tests/support/dice.hpp"
 
 #include <algorithm>

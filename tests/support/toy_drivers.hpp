@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/support/lane_users.hpp"
-#include "world/traffic.hpp"
+#include "world/traffic/traffic.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // Small street layouts for tests: one junction, or a grid of them.
 #pragma once
 
-#include "world/road_map.hpp"
+#include "world/roads/road_map.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

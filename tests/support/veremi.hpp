@@ -4,9 +4,9 @@
 // (arXiv 1804.06701), table 1.
 #pragma once
 
-#include "world/geometry.hpp"
-#include "world/perception.hpp"
-#include "world/random.hpp"
+#include "base/geometry.hpp"
+#include "base/random.hpp"
+#include "world/sensing/perception.hpp"
 
 #include <array>
 #include <cmath>

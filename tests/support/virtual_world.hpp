@@ -2,8 +2,8 @@
 // that stand in for everybody else and remember what they were told.
 #pragma once
 
-#include "actors/des_scheduler.hpp"
-#include "actors/time.hpp"
+#include "actors/runtime/time.hpp"
+#include "actors/simulation/des_scheduler.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>

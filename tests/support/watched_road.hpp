@@ -2,10 +2,10 @@
 // themselves: what a provider's plausibility is fed with, step by step.
 #pragma once
 
-#include "planners/environment_model.hpp"
-#include "planners/plausibility.hpp"
-#include "world/random.hpp"
-#include "world/sensors.hpp"
+#include "base/random.hpp"
+#include "planners/plausibility/plausibility.hpp"
+#include "planners/scene/environment_model.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The wire between an uplink and a session, for tests that cut it.
 #pragma once
 
-#include "actors/time.hpp"
+#include "actors/runtime/time.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/event_based_actor.hpp>

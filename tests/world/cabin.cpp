@@ -1,5 +1,5 @@
 // The cabin's heat balance and its climate control.
-#include "world/cabin.hpp"
+#include "world/vehicle/cabin.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // What a cycle costs a vehicle.
-#include "world/cycle_cost.hpp"
+#include "world/vehicle/cycle_cost.hpp"
 
 #include "tests/support/option_list.hpp"
 

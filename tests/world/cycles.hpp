@@ -1,7 +1,7 @@
 // When a service at 20 Hz makes its results.
 #pragma once
 
-#include "world/time.hpp"
+#include "base/time.hpp"
 
 namespace sofof::test {
 

@@ -1,7 +1,7 @@
 // Tests of the distributions of delays.
-#include "world/delay_law.hpp"
+#include "channel/delay_law.hpp"
 
-#include "world/channel.hpp"
+#include "channel/channel.hpp"
 
 #include <doctest/doctest.h>
 

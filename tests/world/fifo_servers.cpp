@@ -1,8 +1,8 @@
 // A queue before a few equal servers.
-#include "world/fifo_servers.hpp"
+#include "channel/fifo_servers.hpp"
 
+#include "base/random.hpp"
 #include "tests/support/near.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Where vehicles may appear.
-#include "world/free_place.hpp"
+#include "world/traffic/free_place.hpp"
 
 #include <doctest/doctest.h>
 

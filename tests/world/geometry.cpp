@@ -1,5 +1,5 @@
 // Points, polygons, polylines and footprints in the plane.
-#include "world/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,5 +1,5 @@
 // Stalls and fades: where they lie in time.
-#include "world/interruptions.hpp"
+#include "channel/interruptions.hpp"
 
 #include "tests/support/near.hpp"
 

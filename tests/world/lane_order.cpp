@@ -1,5 +1,5 @@
 // Who is ahead of whom.
-#include "world/lane_order.hpp"
+#include "world/traffic/lane_order.hpp"
 
 #include "tests/support/toy_streets.hpp"
 #include "tests/world/toy_user.hpp"

@@ -1,5 +1,5 @@
 // One direction of a link: delay, airtime, loss, stalls and order.
-#include "world/link_direction.hpp"
+#include "channel/link_direction.hpp"
 
 #include "tests/support/near.hpp"
 #include "tests/world/cycles.hpp"

@@ -1,5 +1,5 @@
 // Faults for tests: messages that get lost, come twice, or out of order.
-#include "world/link_faults.hpp"
+#include "channel/link_faults.hpp"
 
 #include "tests/support/near.hpp"
 

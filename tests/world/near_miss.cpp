@@ -1,5 +1,5 @@
 // Tests of time to collision and of near misses.
-#include "world/near_miss.hpp"
+#include "world/traffic/near_miss.hpp"
 
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"

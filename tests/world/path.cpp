@@ -1,5 +1,5 @@
 // A smooth line through given points, addressed by arc length.
-#include "world/path.hpp"
+#include "world/roads/path.hpp"
 
 #include "tests/support/dice.hpp"
 

@@ -1,5 +1,5 @@
 // Draws that are addressed, not generated in turn.
-#include "world/random.hpp"
+#include "base/random.hpp"
 
 #include "tests/support/near.hpp"
 

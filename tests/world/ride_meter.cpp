@@ -1,5 +1,5 @@
 // What a ride feels like.
-#include "world/ride_meter.hpp"
+#include "world/vehicle/ride_meter.hpp"
 
 #include "tests/support/near.hpp"
 

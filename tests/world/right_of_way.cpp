@@ -1,9 +1,9 @@
 // Whose turn it is at crossings: the rules, one by one, and that nobody ever
 // touches anybody or waits for ever.
+#include "base/random.hpp"
 #include "tests/support/toy_drivers.hpp"
 #include "tests/support/toy_streets.hpp"
-#include "world/itinerary.hpp"
-#include "world/random.hpp"
+#include "world/roads/itinerary.hpp"
 
 #include <doctest/doctest.h>
 

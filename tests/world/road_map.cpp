@@ -1,5 +1,5 @@
 // Lanes, how they follow and meet each other, and routes over them.
-#include "world/road_map.hpp"
+#include "world/roads/road_map.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // Which route somebody follows who only tells its waypoints.
-#include "world/route_finder.hpp"
+#include "world/roads/route_finder.hpp"
 
 #include "tests/support/toy_streets.hpp"
 #include "tests/world/lehr.hpp"
-#include "world/street_grid.hpp"
+#include "world/roads/street_grid.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // What a sensor sees: range, field of view, what hides what, and noise.
-#include "world/sensors.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include "tests/support/near.hpp"
 

@@ -1,5 +1,5 @@
 // The made-up town: its streets, its turns and the ways round its blocks.
-#include "world/street_grid.hpp"
+#include "world/roads/street_grid.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Measured round trips, to be replayed.
-#include "world/trace.hpp"
+#include "channel/trace.hpp"
 
 #include "tests/support/near.hpp"
 

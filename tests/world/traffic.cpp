@@ -1,9 +1,9 @@
 // Who is told to wait, who is listed, and who touches whom.
-#include "world/traffic.hpp"
+#include "world/traffic/traffic.hpp"
 
+#include "base/random.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/world/toy_user.hpp"
-#include "world/random.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Reading a plan between its points.
-#include "world/trajectory.hpp"
+#include "world/vehicle/trajectory.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // The map of Ulm-Lehr: what it must be like to drive, and how close it is to
 // the survey.
 #include "tests/world/lehr.hpp"
-#include "world/road_map.hpp"
+#include "world/roads/road_map.hpp"
 
 #include <doctest/doctest.h>
 

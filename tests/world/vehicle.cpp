@@ -1,5 +1,5 @@
 // The car and its tracking controller.
-#include "world/vehicle.hpp"
+#include "world/vehicle/vehicle.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// Reads columns of numbers as scenario/report/packed.hpp writes them.
+// Reads columns of numbers as experiments/report/packed.hpp writes them.
 
 const block_size = 64;
 

@@ -292,7 +292,7 @@ class Peer(Line):
 
 def protocol():
     here = os.path.dirname(__file__)
-    with open(f"{here}/../../../messages/remote.hpp") as file:
+    with open(f"{here}/../../../messages/protocol/remote.hpp") as file:
         return int(re.search(r"remote_protocol = (\d+)", file.read())[1])
 
 

@@ -1,0 +1,29 @@
+// What a vehicle has of a service at any time, whoever runs it.
+#pragma once
+
+#include "actors/offloading/service_requester.hpp"
+
+#include <functional>
+
+namespace sofof {
+
+struct onboard_service {
+  client_actor client;
+  requester_manager_actor manager; ///< Has the instance on board, too.
+};
+
+/// @returns what that kind makes its parts of in a vehicle.
+service_setup onboard_setup(const requester_setup& vehicle,
+                            const service_kind& kind,
+                            std::function<time_point()> clock);
+
+/// Spawns client and manager, which ends with its local instance. The
+/// requester is to be linked to both, but for a client that is the vehicle.
+/// @param here  What `onboard_setup` returned for this vehicle and kind.
+onboard_service spawn_onboard_service(caf::actor_system& sys,
+                                      const requester_setup& vehicle,
+                                      const service_kind_ptr& kind,
+                                      onboard_requester_actor requester,
+                                      const service_setup& here);
+
+} // namespace sofof

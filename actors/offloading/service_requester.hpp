@@ -1,0 +1,50 @@
+// SR: the vehicle's side of offloading.
+#pragma once
+
+#include "actors/offloading/service_kind.hpp"
+#include "messages/type_ids.hpp"
+#include "policies/api/context.hpp"
+#include "world/vehicle/cycle_cost.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace sofof {
+
+/// What one vehicle's requester is made of.
+struct requester_setup {
+  station_id station = 0;
+  route_ptr way; ///< The planned route.
+  streets_ptr world;
+  datum_ptr where; ///< Where that is on Earth.
+  std::vector<service_kind_ptr> kinds;
+  std::unique_ptr<local_policy> lodm;
+  vehicle_actor vehicle;
+  recorder_actor recorder;
+  random_stream noise{0, ""};    ///< Of this vehicle.
+  bool virtual_time = true;      ///< Model run times instead of taking time.
+  bool crossings_granted = true; ///< As functions are told.
+  computer_options computer = {};
+  /// What is to come, where a run can tell; else null.
+  std::shared_ptr<const foresight> future{};
+  bool record_margins = false; ///< Of results that are used.
+};
+
+/// Weighs offers, requests services, and owns the states of all services of
+/// its vehicle; one state machine per kind and provider:
+///
+///   local → requested → starting → remote → local
+///
+/// A service that runs at one provider goes on there until another one that it
+/// was requested from gives first data (hand-over), or at both of them, if that
+/// was decided.
+///
+/// It spawns a manager and a client for each kind. At a violation, or when
+/// the provider is lost or ends the service, the local service is activated
+/// at the same time. On exit it closes what still runs (shutdown).
+onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
+                                                requester_setup setup);
+
+} // namespace sofof

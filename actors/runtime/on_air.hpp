@@ -1,0 +1,24 @@
+// Tells the records of ITS messages as they are sent.
+#pragma once
+
+#include "actors/runtime/time.hpp"
+#include "messages/type_ids.hpp"
+
+namespace sofof {
+
+/// An ITS message leaves now.
+template <class Self>
+void note_on_air(Self* self, const recorder_actor& recorder,
+                 const its_pdu& message) {
+  self->send(recorder, air_record{now(self), message});
+}
+
+/// The same, if it is one.
+template <class Self>
+void note_on_air(Self* self, const recorder_actor& recorder,
+                 const payload& what) {
+  if (const auto message = what.as<its_pdu>())
+    note_on_air(self, recorder, *message);
+}
+
+} // namespace sofof

@@ -1,0 +1,33 @@
+// What all planners of a run share of the map.
+#pragma once
+
+#include "planners/scene/lane_network.hpp"
+#include "planners/speed/route_profile.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace sofof {
+
+/// Everything is found once, by whoever needs it first. For several threads:
+/// vehicles make their planners in their own.
+class known_roads {
+public:
+  known_roads(const road_map& map, const driving_style& style);
+
+  const std::shared_ptr<const lane_network>& lanes() const { return lanes_; }
+
+  route_profile_ptr profile(const route_ptr& way);
+
+private:
+  std::shared_ptr<const lane_network> lanes_;
+  driving_style style_;
+  std::mutex mutex_;
+  // Each keeps its route, so that no other takes its place in memory.
+  std::map<const route*, route_profile_ptr> profiles_;
+};
+
+using known_roads_ptr = std::shared_ptr<known_roads>;
+
+} // namespace sofof

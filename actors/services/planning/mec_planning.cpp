@@ -1,0 +1,176 @@
+// Planning at a provider: from what vehicles and its own sensors tell it.
+#include "actors/services/planning/mec_planning.hpp"
+
+#include "actors/services/planning/plan_cycle.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "base/protocol.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "messages/v2x/mcm/coordination.hpp"
+#include "planners/scene/ego_estimate.hpp"
+#include "world/roads/route_finder.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+class mec_planning final : public service_function {
+public:
+  mec_planning(service_setup setup, planner_options options,
+               known_roads_ptr roads, std::shared_ptr<planning_site> site)
+      : setup_{std::move(setup)}, options_{std::move(options)},
+        roads_{std::move(roads)}, site_{std::move(site)} {}
+
+  service_output run(time_point now, const service_input& input) override {
+    if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
+      hear(*message, now);
+      heard_ = std::move(message);
+    }
+    if (!cycle_)
+      return {};
+    if (const auto own = site_->told_by(setup_.station))
+      ego_->hear({own->at, own->position, own->heading_rad, own->speed_mps,
+                  own->accel_mps2, own->curvature_1pm});
+    auto from = ego_->at(now);
+    if (!from)
+      return {};
+    from->others.stop_at_m = stop_at_m_;
+    site_->tracks(tracks_, setup_.station);
+    const auto report = cycle_->run(now, made_possible(*from), tracks_);
+    ego_->follow(cycle_->plan());
+    return said(report, input.running.counter);
+  }
+
+private:
+  // -- what the vehicle says ------------------------------------------------
+
+  void hear(const its_pdu& message, time_point now) {
+    if (!etsi::decode(message.view(), word_)
+        || word_.header.station != setup_.station)
+      return;
+    const auto word =
+        read_word(word_, setup_.where->ahead_by(message.ahead), now);
+    if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
+      return;
+    heard_at_ = word->at;
+    const auto ahead = place(word->way, now);
+    if (!ahead) { // it goes where nobody here knows the way
+      cycle_.reset();
+      ego_.reset();
+      return;
+    }
+    stop_at_m_ = ahead->to_m;
+    if (word->plan)
+      take_over(*word, ahead->from_m, now);
+  }
+
+  // Where on which route the vehicle's way ahead is.
+  std::optional<route_stretch> place(std::span<const point> way,
+                                     time_point now) {
+    if (cycle_) {
+      const auto own = ego_->at(now);
+      const auto guess_m = own ? own->s_m : from_m_;
+      if (const auto ahead = still_on(*cycle_->way(), guess_m, way)) {
+        from_m_ = ahead->from_m;
+        return ahead;
+      }
+    }
+    const auto found = find_route(setup_.world->routes, way);
+    if (!found)
+      return std::nullopt;
+    from_m_ = found->ahead.from_m;
+    begin(found->way);
+    return found->ahead;
+  }
+
+  // Of what was planned along another way that goes on which both share.
+  void begin(const route_ptr& way) {
+    const auto shared = cycle_ ? along(*way, cycle_->plan()) : trajectory{};
+    cycle_.emplace(setup_, options_, *roads_, way);
+    ego_.emplace(way, from_m_);
+    if (shared.is_sound())
+      follow(shared);
+  }
+
+  trajectory along(const route& way, trajectory plan) const {
+    constexpr double same_way_m = 1;
+    auto guess_m = from_m_;
+    auto& points = plan.points;
+    for (auto p = points.begin(); p != points.end(); ++p) {
+      const auto foot = way.path().project(p->at, guess_m);
+      if (std::hypot(foot.d_m, foot.beyond_m) > same_way_m) {
+        points.erase(p, points.end());
+        break;
+      }
+      guess_m = p->s_m = foot.s_m;
+    }
+    return plan;
+  }
+
+  void take_over(const understood_word& word, double from_m, time_point now) {
+    const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
+    trajectory plan;
+    const auto fault =
+        to_trajectory(*word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
+    if (fault != maneuver_fault::none
+        || protocol::is_of_future(plan.start, now))
+      return;
+    ego_.emplace(cycle_->way(), from_m);
+    const auto& first = plan.points.front(); // there it is, whatever CAMs said
+    ego_->hear({plan.start, first.at, first.heading_rad, first.speed_mps,
+                first.accel_mps2, first.curvature_1pm});
+    follow(plan);
+  }
+
+  // The vehicle follows this plan.
+  void follow(const trajectory& plan) {
+    cycle_->take_over(plan);
+    ego_->follow(plan);
+  }
+
+  // -- what it is told ------------------------------------------------------
+
+  service_output said(const plan_report& report, std::uint32_t counter) {
+    const suggestion what{setup_.provider.station,
+                          setup_.provider.position,
+                          setup_.station,
+                          {static_cast<std::uint16_t>(counter), ++update_}};
+    if (!make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_,
+                         said_))
+      return {};
+    auto message = encoded(said_);
+    if (message.octets.empty())
+      return {};
+    return {payload::of(std::move(message)), payload::of(report)};
+  }
+
+  service_setup setup_;
+  planner_options options_;
+  known_roads_ptr roads_;
+  std::shared_ptr<planning_site> site_;
+  std::shared_ptr<const its_pdu> heard_; // last, ...
+  time_point heard_at_;                  // and when it was said
+  std::optional<plan_cycle> cycle_;
+  std::optional<ego_estimate> ego_; // whenever there is a cycle
+  double from_m_ = 0;               // of the last word
+  double stop_at_m_ = 0;            // the end of the vehicle's authority
+  std::uint16_t update_ = 0;
+  // Room that is used again.
+  etsi::mcm word_, said_;
+  std::vector<track> tracks_;
+  std::vector<maneuver_waypoint> waypoints_;
+};
+
+} // namespace
+
+std::shared_ptr<service_function>
+make_mec_planning(service_setup setup, planner_options options,
+                  known_roads_ptr roads, std::shared_ptr<planning_site> site) {
+  return std::make_shared<mec_planning>(std::move(setup), std::move(options),
+                                        std::move(roads), std::move(site));
+}
+
+} // namespace sofof

@@ -1,0 +1,22 @@
+// Planning at a provider: from what vehicles and its own sensors tell it.
+#pragma once
+
+#include "actors/offloading/service_kind.hpp"
+#include "actors/services/planning/known_roads.hpp"
+#include "actors/services/planning/planner_options.hpp"
+#include "actors/services/planning/planning_site.hpp"
+
+#include <memory>
+
+namespace sofof {
+
+/// Takes the MCMs of one vehicle, which say where it is allowed to go, and,
+/// when the provider takes over, which plan it follows. Where the vehicle is
+/// it knows from its CAMs, and from the plans that it has sent; the others
+/// from everybody's CAMs and CPMs and from its sensors. Gives an MCM that
+/// suggests a plan, about it a `plan_report`.
+std::shared_ptr<service_function>
+make_mec_planning(service_setup setup, planner_options options,
+                  known_roads_ptr roads, std::shared_ptr<planning_site> site);
+
+} // namespace sofof

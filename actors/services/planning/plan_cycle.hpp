@@ -1,0 +1,45 @@
+// One planner at work, cycle by cycle, along one route.
+#pragma once
+
+#include "actors/offloading/service_kind.hpp"
+#include "actors/services/planning/known_roads.hpp"
+#include "actors/services/planning/planner_options.hpp"
+#include "planners/scene/outlook.hpp"
+#include "planners/scene/track.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace sofof {
+
+/// What planning in vehicles and at providers has in common: the planner, its
+/// last plan, and what it makes of the others.
+class plan_cycle {
+public:
+  plan_cycle(const service_setup& setup, const planner_options& options,
+             known_roads& roads, route_ptr way);
+
+  const route_ptr& way() const { return way_; }
+
+  /// @returns the last plan; empty before the first.
+  const trajectory& plan() const { return plan_; }
+
+  /// Another source has planned, and its plan is in use.
+  /// @param other  Sound.
+  void take_over(const trajectory& other) { plan_ = other; }
+
+  /// Plans from here, given what is known of the others. `from.others` is
+  /// filled in, but for what it says of stopping.
+  plan_report run(time_point now, planning_input from,
+                  std::span<const track> others);
+
+private:
+  const service_setup& setup_;
+  route_ptr way_;
+  std::unique_ptr<trajectory_planner> planner_;
+  outlook outlook_;
+  trajectory plan_, next_;
+};
+
+} // namespace sofof

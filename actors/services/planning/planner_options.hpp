@@ -1,0 +1,30 @@
+// Which planner plans, and how.
+#pragma once
+
+#include "actors/services/planning/known_roads.hpp"
+#include "base/options/settings.hpp"
+#include "planners/speed/driving_style.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
+#include "planners/trajectory/trajectory_planner.hpp"
+#include "world/roads/route.hpp"
+
+#include <memory>
+#include <string>
+
+namespace sofof {
+
+/// Of both sides; only the optimal planner plans differently at a provider.
+struct planner_options {
+  std::string name = "al_ilqr"; ///< Or "lane_follow", a simple one.
+  driving_style style;
+  spatial_params onboard;
+  spatial_params mec{
+      .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
+
+  void fields(settings& s);
+
+  std::unique_ptr<trajectory_planner>
+  make(const route_ptr& way, known_roads& roads, bool remote) const;
+};
+
+} // namespace sofof

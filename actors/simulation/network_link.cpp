@@ -1,0 +1,178 @@
+// The air between one vehicle and one provider.
+#include "actors/simulation/network_link.hpp"
+
+#include "actors/runtime/time.hpp"
+#include "messages/v2x/geonet.hpp"
+
+#include <caf/binary_serializer.hpp>
+#include <caf/byte_buffer.hpp>
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+/// What a message takes on the air: an ITS message with what the layers below
+/// add to it, anything else as our own protocol has it.
+std::size_t octets_of(const its_pdu& message) {
+  return message.octets.size() + geonet_octets;
+}
+
+template <class Message>
+std::size_t octets_of(const Message& message) {
+  if constexpr (requires { message.what.type(); })
+    if (const auto pdu = message.what.template as<its_pdu>())
+      return octets_of(*pdu);
+  caf::byte_buffer bytes;
+  caf::binary_serializer sink{nullptr, bytes};
+  return sink.apply(message) ? bytes.size() : 0;
+}
+
+struct link_state {
+  static inline const char* name = "network_link";
+
+  link_actor::pointer self = nullptr;
+  provider_actor far;
+  requester_actor near;
+  std::optional<link_setup> setup;
+  // Who feeds the running services at the far end.
+  std::vector<std::pair<running_service, provider_manager_actor>> managers;
+  std::uint64_t carried = 0;
+
+  template <class Receiver, class Message, class... Ts>
+  void up(const Receiver& receiver, const Message& message, Ts&&... xs) {
+    carry(setup->up, message_class::other, time_number(message), receiver,
+          message, std::forward<Ts>(xs)...);
+  }
+
+  template <class Message, class... Ts>
+  void down(const Message& message, Ts&&... xs) {
+    if (near)
+      carry(setup->down, message_class::other, time_number(message), near,
+            message, std::forward<Ts>(xs)...);
+  }
+
+  // They are numbered by the time they are sent at, so that the noise of one
+  // does not depend on how many went before.
+  std::uint64_t time_number(const auto&) const {
+    return static_cast<std::uint64_t>(now(self).time_since_epoch().count());
+  }
+  // Those that are sent together do not share their noise.
+  std::uint64_t time_number(const its_pdu& message) const {
+    constexpr std::size_t id = 1; // the octet of the message's id
+    const auto of_its_kind =
+        message.octets.size() > id
+            ? std::to_integer<std::uint64_t>(message.octets[id])
+            : 0;
+    return time_number(0) ^ of_its_kind << 56;
+  }
+
+  template <class Receiver, class Message, class... Ts>
+  void carry(link_direction& direction, message_class kind,
+             std::uint64_t number, const Receiver& receiver,
+             const Message& message, Ts&&... xs) {
+    const auto t =
+        direction.arrival(now(self), kind, number, octets_of(message));
+    if (!t)
+      return;
+    if (!setup->faults) {
+      send_at(self, receiver, *t, message, std::forward<Ts>(xs)...);
+      return;
+    }
+    const auto fate = setup->faults->of(carried++);
+    if (fate.lost)
+      return;
+    send_at(self, receiver, *t + fate.extra_delay, message, xs...);
+    if (fate.copy_after)
+      send_at(self, receiver, *t + *fate.copy_after, message, xs...);
+  }
+
+  void meet(const requester_actor& requester) {
+    if (requester == near)
+      return;
+    if (near)
+      self->demonitor(near);
+    near = requester;
+    self->monitor(near);
+  }
+
+  void take(const service_response& response,
+            const std::vector<provider_manager_actor>& given) {
+    auto manager = given.begin();
+    for (const auto& v : response.verdicts)
+      if (v.accepted && manager != given.end())
+        managers.emplace_back(v.running, *manager++);
+    const std::vector<provider_manager_actor> me(
+        given.size(), provider_manager_actor{link_actor{self}});
+    down(response, me);
+  }
+
+  void take(const service_input& input) {
+    auto i = std::ranges::find(managers, input.running,
+                               &decltype(managers)::value_type::first);
+    if (i != managers.end())
+      up(i->second, input);
+  }
+
+  void take(const service_result& result) {
+    if (near)
+      carry(setup->down, message_class::result, result.cycle, near, result);
+  }
+
+  void take(const service_end& end) {
+    std::erase_if(managers,
+                  [&](const auto& m) { return m.first == end.running; });
+    if (end.from == side::provider)
+      down(end);
+    else
+      up(far, end);
+  }
+};
+
+link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
+                               provider_actor far, link_setup setup) {
+  auto& state = self->state;
+  state.self = self;
+  state.far = std::move(far);
+  state.setup.emplace(std::move(setup));
+  state.setup->up.begin(now(self));
+  state.setup->down.begin(now(self));
+  self->monitor(state.far);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);
+  });
+  return {
+      [self](const its_pdu& message, const requester_actor& requester) {
+        self->state.meet(requester);
+        self->state.up(self->state.far, message,
+                       requester_actor{link_actor{self}});
+      },
+      [self](const service_request& request, const requester_actor& requester) {
+        self->state.meet(requester);
+        self->state.up(self->state.far, request,
+                       requester_actor{link_actor{self}});
+      },
+      [self](const service_end& end) { self->state.take(end); },
+      [self](const service_result& result) { self->state.take(result); },
+      [self](const service_offer& offer) { self->state.down(offer); },
+      [self](const service_response& response,
+             const std::vector<provider_manager_actor>& managers) {
+        self->state.take(response, managers);
+      },
+      [self](const service_input& input) { self->state.take(input); },
+  };
+}
+
+} // namespace
+
+link_actor spawn_network_link(caf::actor_system& sys, provider_actor far,
+                              link_setup setup) {
+  return sys.spawn(link, std::move(far), std::move(setup));
+}
+
+} // namespace sofof

@@ -1,0 +1,30 @@
+// The air between one vehicle and one provider.
+#pragma once
+
+#include "channel/link_direction.hpp"
+#include "channel/link_faults.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace sofof {
+
+/// How a link carries what it is given.
+struct link_setup {
+  link_direction up;
+  link_direction down;
+  std::optional<link_faults> faults; ///< For tests.
+};
+
+/// A proxy that looks like the far end to both sides: it delays and loses
+/// messages after the channel model, and hands itself out in place of every
+/// handle that crosses it. In a distributed run the remote handle takes its
+/// place. Quits when the provider does, so the requester sees its peer lost;
+/// dies with the requester, so the provider sees the same.
+link_actor spawn_network_link(caf::actor_system& sys, provider_actor far,
+                              link_setup setup);
+
+} // namespace sofof

@@ -1,0 +1,18 @@
+// Ends an actor at a time, without goodbye: what happens to a computer whose
+// power is cut.
+#pragma once
+
+#include "base/time.hpp"
+
+#include <caf/actor.hpp>
+#include <caf/actor_system.hpp>
+
+namespace sofof {
+
+/// @param victim  Is killed: it tells nobody, but whoever monitors it hears.
+/// @param after   From now on. The actor that is returned waits for that; once
+///                it has ended nothing happens any more.
+caf::actor spawn_power_cut(caf::actor_system& sys, caf::actor victim,
+                           duration after);
+
+} // namespace sofof

@@ -1,0 +1,50 @@
+// What a vehicle tells everybody: its CAMs and CPMs.
+#pragma once
+
+#include "messages/protocol/its_pdu.hpp"
+#include "messages/protocol/service.hpp"
+#include "messages/v2x/cam_rules.hpp"
+#include "messages/v2x/cpm_rules.hpp"
+#include "messages/v2x/datum.hpp"
+#include "messages/v2x/path_history.hpp"
+#include "messages/v2x/v2x_options.hpp"
+#include "planners/scene/environment_model.hpp"
+#include "world/sensing/perception.hpp"
+#include "world/sensing/sensors.hpp"
+#include "world/vehicle/vehicle.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// Decides what is due and encodes it. Objects keep their names in CPMs as
+/// long as an environment model of the vehicle's own recognises them; what is
+/// told of them is what the model makes of all sightings.
+class v2x_broadcast {
+public:
+  v2x_broadcast(const v2x_options& options, const vehicle_params& car,
+                const sensor_params& sensor, datum_ptr where);
+
+  /// The vehicle is here now; every protocol::ego_period.
+  /// @returns its CAM, if one is due.
+  std::optional<its_pdu> awareness(const cam& own);
+
+  /// @param own   The vehicle's motion now.
+  /// @param seen  What it saw last.
+  /// @returns its CPM, if one is due.
+  std::optional<its_pdu> perceived(const cam& own, const perception& seen);
+
+private:
+  v2x_options options_;
+  vehicle_params car_;
+  sensor_params sensor_;
+  datum_ptr where_;
+  cam_trigger cam_due_;
+  cpm_trigger cpm_due_;
+  path_history been_;
+  environment_model model_;
+  std::vector<known_object> known_, told_; // one after the other
+};
+
+} // namespace sofof

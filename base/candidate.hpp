@@ -1,0 +1,16 @@
+// A provider that could serve a vehicle, as the vehicle sees it.
+#pragma once
+
+#include "base/ids.hpp"
+
+namespace sofof {
+
+struct candidate {
+  boot_id provider = 0;
+  double gain = 0;        ///< What a cycle there costs less than one on board,
+                          ///< weighed as in policies/api/gain.hpp.
+  double utilisation = 0; ///< Of the provider, as it said.
+  friend bool operator==(const candidate&, const candidate&) = default;
+};
+
+} // namespace sofof

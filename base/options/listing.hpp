@@ -1,0 +1,62 @@
+// What several lists of options have in common.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "base/options/settings.hpp"
+#include "base/options/spelling.hpp"
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Lists a list of tables, each of which has `fields`.
+template <class T>
+void list_all(settings& s, std::string_view key, std::vector<T>& items) {
+  s.tables(key, items.size(), [&](std::size_t i, settings& t) {
+    if (i == items.size())
+      items.emplace_back();
+    items[i].fields(t);
+  });
+}
+
+/// Lists an object whose type hangs on its `name`, and its options.
+/// @param object  Null if it has no default; then the name must be there.
+/// @param make    From a name to a pointer, null for an unknown name.
+/// @param what    E.g. "LODM policy".
+/// @param known   All names.
+/// @param hint    From an unknown name to a sentence on where it belongs, or
+///                to nothing.
+template <class Pointer, class Make>
+void list_named(
+    settings& s, Pointer& object, Make make, std::string_view what,
+    const std::vector<std::string_view>& known,
+    const std::function<std::string(std::string_view name)>& hint = {}) {
+  std::string name{object ? object->name() : ""};
+  s.field("name", name);
+  if (!object || object->name() != name) {
+    Pointer made = make(name);
+    if (!made) {
+      const auto more = hint ? hint(name) : std::string{};
+      return s.refuse("name", unknown_word(what, name, known)
+                                  + (more.empty() ? "" : " " + more));
+    }
+    object = std::move(made);
+  }
+  object->fields(s);
+}
+
+/// Refuses corners that are no simple polygon.
+inline void refuse_bad_polygon(settings& s, std::string_view key,
+                               const std::vector<point>& corners) {
+  try {
+    polygon{corners};
+  } catch (const std::invalid_argument& problem) {
+    s.refuse(key, problem.what());
+  }
+}
+
+} // namespace sofof

@@ -1,0 +1,63 @@
+// One way to list the options of anything: loading, checking and printing a
+// scenario all walk the same list.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "base/time.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Visits options by name. A loader writes into the references what a file
+/// says and leaves absent ones at their defaults; a printer reads them.
+/// Every option struct has one `void fields(settings&)` that lists its
+/// members once, with the ranges they must keep.
+class settings {
+public:
+  /// What a number must keep; both ends are allowed values.
+  struct range {
+    double min = -1e300;
+    double max = 1e300;
+  };
+
+  virtual ~settings() = default;
+
+  virtual void field(std::string_view key, bool& value) = 0;
+  virtual void field(std::string_view key, double& value, range r) = 0;
+  virtual void field(std::string_view key, std::int64_t& value, range r) = 0;
+  virtual void field(std::string_view key, std::string& value) = 0;
+  /// In files a string with a unit: "50ms", "1.5s", "30min", "2h".
+  virtual void field(std::string_view key, duration& value, duration min) = 0;
+  virtual void field(std::string_view key, std::vector<std::string>& value) = 0;
+  /// In files `[x, y]`, m.
+  virtual void field(std::string_view key, point& value) = 0;
+  virtual void field(std::string_view key, std::vector<point>& value) = 0;
+  /// A nested table; `list` lists its fields, also when a file does not have
+  /// it (then all of them are absent). A string in its place stands for
+  /// `{ name = "…" }`.
+  virtual void table(std::string_view key,
+                     const std::function<void(settings&)>& list) = 0;
+  /// A list of tables: when printing, `list(i, s)` is called for each i below
+  /// `size`; when loading, for each element i of the file, in order, and must
+  /// make room for it.
+  virtual void
+  tables(std::string_view key, std::size_t size,
+         const std::function<void(std::size_t, settings&)>& list) = 0;
+  /// Whether an option is there at all, for those without a default.
+  /// @param set  Whether it is set now; a printer returns it. A loader
+  ///             returns whether its file has the key.
+  virtual bool has(std::string_view, bool set) { return set; }
+  /// Refuses the value just read under `key`; a loader adds file, line and
+  /// column. Printers ignore it.
+  /// @param why  What would be right: "must not be less than …".
+  virtual void refuse(std::string_view key, const std::string& why) = 0;
+
+  void field(std::string_view key, double& value) { field(key, value, {}); }
+};
+
+} // namespace sofof

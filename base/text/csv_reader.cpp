@@ -1,0 +1,139 @@
+// Rows, fields and numbers, each with its place when it is wrong.
+#include "base/text/csv_reader.hpp"
+
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace sofof::report {
+
+namespace {
+
+template <class T>
+bool parse(std::string_view text, T& value) {
+  const auto* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  return error == std::errc{} && end == last;
+}
+
+} // namespace
+
+csv_reader::csv_reader(const std::filesystem::path& file,
+                       std::span<const std::string_view> wanted, ending end)
+    : file_{file.string()}, wanted_(wanted.begin(), wanted.end()) {
+  content_ = require_text(file, longest_results);
+  if (end == ending::killed) {
+    content_.resize(content_.rfind('\n') + 1); // npos + 1 is 0
+    if (content_.empty())
+      return; // killed before its first line
+  }
+  if (!read_row())
+    throw input_error{fmt::format("{}: the file is empty; its first line "
+                                  "should name its columns.",
+                                  file_)};
+  const auto header = std::span{fields_}.first(count_);
+  for (const auto& name : wanted_) {
+    const auto found = std::ranges::find(header, name);
+    if (found == header.end())
+      refuse(fmt::format("the column \"{}\" is missing.", name));
+    places_.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+}
+
+bool csv_reader::next() {
+  const auto columns = count_;
+  if (!read_row())
+    return false;
+  if (count_ != columns)
+    refuse(fmt::format("{} fields stand here, but the first line names {} "
+                       "columns.",
+                       count_, columns));
+  return true;
+}
+
+bool csv_reader::read_row() {
+  if (at_ == content_.size())
+    return false;
+  line_ = next_line_;
+  for (std::size_t i = 0;; ++i) {
+    if (i == fields_.size())
+      fields_.emplace_back();
+    auto& field = fields_[i];
+    field.clear();
+    if (at_ < content_.size() && content_[at_] == '"') {
+      read_quoted(field);
+    } else {
+      const auto end =
+          std::min(content_.find_first_of(",\n", at_), content_.size());
+      field.assign(content_, at_, end - at_);
+      at_ = end;
+    }
+    if (at_ == content_.size())
+      refuse("this line is cut off.");
+    if (content_[at_++] == ',')
+      continue;
+    ++next_line_;
+    count_ = i + 1;
+    return true;
+  }
+}
+
+void csv_reader::read_quoted(std::string& field) {
+  for (++at_; at_ < content_.size(); ++at_) {
+    const auto c = content_[at_];
+    if (c == '"') {
+      const auto next = at_ + 1 < content_.size() ? content_[at_ + 1] : '\0';
+      if (next == ',' || next == '\n') {
+        ++at_;
+        return;
+      }
+      if (next != '"')
+        break;
+      ++at_;
+    }
+    next_line_ += c == '\n' ? 1 : 0;
+    field += c;
+  }
+  refuse(at_ + 1 < content_.size() ? "a quote stands within a field."
+                                   : "this line is cut off.");
+}
+
+double csv_reader::number(std::size_t column) const {
+  double value = 0;
+  if (!parse(text(column), value) || !std::isfinite(value))
+    refuse(column, "is not a number");
+  return value;
+}
+
+std::optional<double> csv_reader::number_if_any(std::size_t column) const {
+  return text(column).empty() ? std::nullopt : std::optional{number(column)};
+}
+
+std::uint64_t csv_reader::whole(std::size_t column) const {
+  std::uint64_t value = 0;
+  if (!parse(text(column), value))
+    refuse(column, "is not a whole number");
+  return value;
+}
+
+bool csv_reader::flag(std::size_t column) const {
+  if (text(column) != "0" && text(column) != "1")
+    refuse(column, "is neither 0 nor 1");
+  return text(column) == "1";
+}
+
+void csv_reader::refuse(std::size_t column, std::string_view why) const {
+  refuse(fmt::format("{} \"{}\" {}.", wanted_[column], text(column), why));
+}
+
+void csv_reader::refuse(std::string_view why) const {
+  throw input_error{fmt::format("{}:{}: {}", file_, line_, why)};
+}
+
+} // namespace sofof::report

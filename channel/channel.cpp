@@ -1,0 +1,161 @@
+// How long messages travel and results are computed: the draws of one vehicle.
+#include "channel/channel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+// Tells the draws of one message apart.
+enum draw : std::uint32_t {
+  joint_lane,
+  service_lane,
+  network_lane,
+  airtime_lane,
+  loss_lane,
+  spike_lane,
+  spike_length_lane
+};
+
+double network_draw_s(const channel_profile& p, const random_stream& draws,
+                      std::uint64_t number) {
+  return p.network.draw_s(draws, number, network_lane)
+         + (1 - p.joint_service_share)
+               * p.joint.draw_s(draws, number, joint_lane);
+}
+
+double spike_s(const spike_options& p, const random_stream& draws,
+               std::uint64_t number) {
+  if (p.probability <= 0 || draws.uniform(number, spike_lane) >= p.probability)
+    return 0;
+  return draws.uniform(to_seconds(p.shortest), to_seconds(p.longest), number,
+                       spike_length_lane);
+}
+
+random_stream radio_of(const random_stream& vehicle, std::string_view name) {
+  return name.empty() ? vehicle : vehicle.part("radio").part(name);
+}
+
+} // namespace
+
+channel::channel(std::shared_ptr<const channel_profile> profile,
+                 random_stream seed, station_id station, std::uint32_t provider,
+                 std::string_view radio)
+    : of_radio_{radio_of(seed.part("channel").part(station), radio)},
+      drift_{of_radio_.part("drift").part(provider)}, // stalls by radio
+      up_{split("up", provider)}, // the rest by provider, too
+      down_{split("down", provider)}, profile_{std::move(profile)} {
+  if (!profile_->replays)
+    return;
+  if (profile_->trace.empty())
+    throw std::invalid_argument{"the trace to replay has no samples"};
+  if (profile_->scatters_trace)
+    trace_start_s_ =
+        of_radio_.part("trace").uniform(0, replay_length_s(profile_->trace), 0);
+}
+
+duration channel::service_time(std::uint64_t cycle) const {
+  const auto& draws = of({way::down, message_class::result, cycle});
+  const auto& p = *profile_;
+  return p.more_computing
+         + from_seconds(p.service.draw_s(draws, cycle, service_lane)
+                        + p.joint_service_share
+                              * p.joint.draw_s(draws, cycle, joint_lane));
+}
+
+duration channel::network_delay(const message_id& m, time_point sent) const {
+  const auto& p = *profile_;
+  const auto extra =
+      p.more_delay + from_seconds(spike_s(p.spikes, of(m), m.number));
+  if (!p.replays)
+    return extra
+           + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));
+  if (m.direction == way::up)
+    return extra;
+  return extra
+         + from_seconds(
+             drift(sent)
+             * replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent)));
+}
+
+// Between values that are drawn for the ends of each period the weights turn
+// from one to the other; their squares add up to 1, so g is as wide anywhere.
+double channel::drift(time_point sent) const {
+  const auto& [sd, period] = profile_->drift;
+  if (sd <= 0 || period <= duration{})
+    return 1;
+  const auto periods = to_seconds(sent) / to_seconds(period);
+  const auto before = std::floor(periods);
+  const auto angle = std::numbers::pi / 2 * (periods - before);
+  const auto number = static_cast<std::uint64_t>(before);
+  const auto g = std::cos(angle) * drift_.normal(0, 1, number)
+                 + std::sin(angle) * drift_.normal(0, 1, number + 1);
+  return std::exp(sd * g);
+}
+
+duration channel::burst_delay(way direction, std::uint64_t stall) const {
+  return from_seconds(network_draw_s(*profile_, of(direction).bursts, stall));
+}
+
+duration channel::airtime(const message_id& m, std::size_t octets) const {
+  const auto& p = *profile_;
+  const auto size = static_cast<double>(octets);
+  const auto usual = p.airtime.draw_s(of(m), m.number, airtime_lane);
+  const auto share = size / static_cast<double>(usual_octets);
+  const auto bits = p.cell_mbps > 0 ? size * 8 / (p.cell_mbps * 1e6) : 0;
+  return from_seconds(usual * share + bits);
+}
+
+bool channel::lost(const message_id& m, bool fading) const {
+  const auto& burst = profile_->burst_loss;
+  const auto arrives =
+      (1 - profile_->loss) * (1 - (fading ? burst.loss_bad : burst.loss_good));
+  return of(m).uniform(m.number, loss_lane) >= arrives;
+}
+
+interruptions channel::stalls() const {
+  const auto& [rate_hz, shortest, longest] = profile_->stalls;
+  if (rate_hz <= 0)
+    return {};
+  const auto mean_quiet = from_seconds(1 / rate_hz) - (shortest + longest) / 2;
+  if (mean_quiet <= duration{})
+    throw std::invalid_argument{"no time is left between two stalls"};
+  return {of_radio_.part("stalls"), delay_law::exponential(mean_quiet),
+          delay_law::uniform(shortest, longest)};
+}
+
+interruptions channel::fades() const {
+  const auto& burst = profile_->burst_loss;
+  if (burst.mean_good <= duration{} || burst.mean_bad <= duration{})
+    return {};
+  return {of_radio_.part("fades"), delay_law::exponential(burst.mean_good),
+          delay_law::exponential(burst.mean_bad)};
+}
+
+bool channel::is_out(duration since_start) const {
+  return std::ranges::any_of(profile_->outages, [since_start](const auto& x) {
+    return x.from <= since_start && since_start < x.to;
+  });
+}
+
+channel::streams channel::split(std::string_view direction,
+                                std::uint32_t provider) const {
+  const auto s = of_radio_.part(direction).part(provider);
+  return {s.part("results"), s.part("others"), s.part("bursts")};
+}
+
+const channel::streams& channel::of(way direction) const {
+  return direction == way::up ? up_ : down_;
+}
+
+const random_stream& channel::of(const message_id& m) const {
+  const auto& streams = of(m.direction);
+  return m.kind == message_class::result ? streams.results : streams.others;
+}
+
+} // namespace sofof

@@ -1,0 +1,191 @@
+// The named channel profiles.
+#include "channel/channel_profile.hpp"
+
+#include "base/options/listing.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace sofof {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+channel_profile ideal() {
+  return {};
+}
+
+// Ours, fitted to 10.54 ± 9.83 ms and nearly nothing over 50 ms (Dehler &
+// Buchholz 2025, figure "delay-plot"): a light tail.
+channel_profile paper_sim() {
+  channel_profile p;
+  p.joint = delay_law::beta(45ms, 0.646, 2.11);
+  p.joint_service_share = 0.3;
+  return p;
+}
+
+// The other reading of the same mean and deviation: a narrow body and rare
+// stalls like those in the CICV5G data.
+channel_profile paper_sim_stalls() {
+  channel_profile p;
+  p.network = delay_law::lognormal(4ms, 6060us, 3200us);
+  p.stalls = {0.0135, 240ms, 295ms};
+  return p;
+}
+
+// Ours, fitted to the drives of Dehler & Buchholz 2025: 11.94 ± 2.98 ms.
+channel_profile paper_5g() {
+  channel_profile p;
+  p.workers = 2;
+  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_law::lognormal(5ms, 3740us, 2800us);
+  p.airtime = delay_law::exponential(200us);
+  return p;
+}
+
+// Fitted to the measured round trips of CICV5G (Zhang et al. 2025, doi
+// 10.5281/zenodo.17475688): private 5G in town.
+channel_profile cicv5g_n8() {
+  channel_profile p;
+  p.network = delay_law::lognormal_about(12090us, 6220us, 0.424);
+  p.stalls = {0.0116, 240ms, 295ms};
+  return p;
+}
+
+// As before: public 5G in town.
+channel_profile cicv5g_n78() {
+  channel_profile p;
+  p.network = delay_law::lognormal_about(10740us, 4970us, 0.472);
+  p.stalls = {0.0137, 240ms, 295ms};
+  return p;
+}
+
+// Ours, of no measured network: 20 ms in the median, phases of some seconds
+// in which it is late, which can be foreseen, and single messages that are,
+// which cannot. docs/channels.md tells what it does.
+channel_profile spiky_5g() {
+  channel_profile p;
+  p.workers = 8;
+  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_law::lognormal_about(0ms, 16500us, 0.17);
+  p.drift = {0.45, 15s};
+  p.spikes = {0.01, 5ms, 32ms};
+  return p;
+}
+
+channel_profile trace() {
+  channel_profile p;
+  p.replays = true;
+  return p;
+}
+
+struct entry {
+  std::string_view name;
+  channel_profile (*make)();
+};
+
+constexpr std::array known_profiles{
+    entry{"ideal", ideal},
+    entry{"paper-sim", paper_sim},
+    entry{"paper-sim-stalls", paper_sim_stalls},
+    entry{"paper-5g", paper_5g},
+    entry{"cicv5g-n8", cicv5g_n8},
+    entry{"cicv5g-n78", cicv5g_n78},
+    entry{"spiky-5g", spiky_5g},
+    entry{"trace", trace},
+};
+
+constexpr settings::range chances{0, 1};
+
+} // namespace
+
+void stall_options::fields(settings& s) {
+  s.field("rate_hz", rate_hz, {0, 1e3});
+  s.field("shortest", shortest, 0ns);
+  s.field("longest", longest, 0ns);
+  if (longest < shortest)
+    s.refuse("longest", "must not be less than shortest");
+  if (rate_hz * to_seconds(shortest + longest) / 2 >= 1)
+    s.refuse("rate_hz", "leaves no time between two stalls");
+  if (rate_hz > 0 && longest == 0ns)
+    s.refuse("rate_hz", "has no effect while longest is \"0s\"");
+}
+
+void burst_loss_options::fields(settings& s) {
+  s.field("mean_good", mean_good, 0ns);
+  s.field("mean_bad", mean_bad, 0ns);
+  s.field("loss_good", loss_good, chances);
+  s.field("loss_bad", loss_bad, chances);
+  if ((mean_good > 0ns) != (mean_bad > 0ns))
+    s.refuse(mean_good > 0ns ? "mean_good" : "mean_bad",
+             "has no effect alone; mean_good and mean_bad go together");
+}
+
+void drift_options::fields(settings& s) {
+  s.field("sd", sd, {0, 3});
+  s.field("period", period, 0ns);
+  if (sd > 0 && period <= 0ns)
+    s.refuse("sd", "has no effect while period is \"0s\"");
+}
+
+void spike_options::fields(settings& s) {
+  s.field("probability", probability, chances);
+  s.field("shortest", shortest, 0ns);
+  s.field("longest", longest, 0ns);
+  if (longest < shortest)
+    s.refuse("longest", "must not be less than shortest");
+  if (probability > 0 && longest == 0ns)
+    s.refuse("probability", "has no effect while longest is \"0s\"");
+}
+
+void outage_options::fields(settings& s) {
+  s.field("from", from, 0ns);
+  s.field("to", to, 0ns);
+  if (to <= from)
+    s.refuse("to", "must be later than from");
+}
+
+double channel_profile::mean_service_s() const {
+  return service.mean_s() + joint_service_share * joint.mean_s()
+         + to_seconds(more_computing);
+}
+
+double channel_profile::service_deviation_s() const {
+  return std::hypot(service.deviation_s(),
+                    joint_service_share * joint.deviation_s());
+}
+
+void channel_profile::fields(settings& s) {
+  s.field("workers", workers, {1, 1024});
+  s.field("more_computing", more_computing, 0ns);
+  s.field("more_delay", more_delay, 0ns);
+  s.field("loss", loss, chances);
+  s.field("cell_mbps", cell_mbps, {0, 1e6});
+  s.field("scatters_trace", scatters_trace);
+  s.table("stalls", [this](settings& t) { stalls.fields(t); });
+  s.table("burst_loss", [this](settings& t) { burst_loss.fields(t); });
+  s.table("drift", [this](settings& t) { drift.fields(t); });
+  s.table("spikes", [this](settings& t) { spikes.fields(t); });
+  list_all(s, "outage", outages);
+}
+
+std::vector<std::string_view> channel_profile_names() {
+  std::vector<std::string_view> names;
+  for (const auto& e : known_profiles)
+    names.push_back(e.name);
+  return names;
+}
+
+std::optional<channel_profile> find_channel_profile(std::string_view name) {
+  for (const auto& e : known_profiles) {
+    if (e.name != name)
+      continue;
+    auto profile = e.make();
+    profile.name = name;
+    return profile;
+  }
+  return std::nullopt;
+}
+
+} // namespace sofof

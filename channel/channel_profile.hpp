@@ -1,0 +1,126 @@
+// What tells one kind of channel from another: its distributions and loss.
+#pragma once
+
+#include "base/options/settings.hpp"
+#include "base/time.hpp"
+#include "channel/delay_law.hpp"
+#include "channel/trace.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Of a trajectory on the air, about: the message that airtimes were fitted
+/// to.
+inline constexpr std::int64_t usual_octets = 500;
+
+/// Outages of one vehicle's connection: what is sent during one is held back
+/// and released together at its end (head-of-line blocking).
+struct stall_options {
+  double rate_hz = 0; ///< Stalls a second, 0 for none.
+  duration shortest{};
+  duration longest{};
+
+  void fields(settings& s);
+};
+
+/// Two-state loss after Gilbert (1960) and Elliott (1963), in continuous time:
+/// a vehicle's connection is good or bad, both for exponentially distributed
+/// times, and loses messages with a probability of its own in each state.
+struct burst_loss_options {
+  duration mean_good{}; ///< 0: never bad, no burst loss.
+  duration mean_bad{};
+  double loss_good = 0; ///< Probability in [0, 1].
+  double loss_bad = 1;  ///< Probability in [0, 1].
+
+  void fields(settings& s);
+};
+
+/// Good and bad phases of one vehicle's way to one provider: all its delays at
+/// a time are exp(sd · g(t)) as long, with a Gaussian g of mean 0 and deviation
+/// 1 that forgets its past within about a period.
+struct drift_options {
+  double sd = 0;     ///< Of the logarithm of delays; 0: no drift.
+  duration period{}; ///< From one independent value of g to the next.
+
+  void fields(settings& s);
+};
+
+/// Messages that take longer, at random: nothing before tells which.
+struct spike_options {
+  double probability = 0; ///< In [0, 1], for each message.
+  duration shortest{};    ///< Added to its delay, uniformly up to
+  duration longest{};     ///< this.
+
+  void fields(settings& s);
+};
+
+/// A time in which nothing gets through, for anybody: what is sent meanwhile is
+/// lost.
+struct outage_options {
+  duration from{}; ///< Since the start of the run,
+  duration to{};   ///< up to here.
+
+  void fields(settings& s);
+};
+
+/// Everything that tells one kind of channel from another. docs/channels.md
+/// has the sources and the measured figures.
+struct channel_profile {
+  std::string name = "ideal";
+
+  std::int64_t workers = 1; ///< Of one provider, >= 1.
+  delay_law service;        ///< Computing time of a result of unit demand.
+  delay_law network;        ///< Delay of any message, one way.
+  delay_law airtime;        ///< Time that a message of `usual_octets` takes in
+                            ///< the radio cell that all share; others take
+                            ///< it in proportion to their size.
+  double cell_mbps = 0;     ///< What the cell carries, Mbit/s, which takes time
+                            ///< besides; 0: as much as there is.
+
+  /// One draw X a message, on top of the above: `joint_service_share` · X is
+  /// computing time, the rest network delay.
+  delay_law joint;
+  double joint_service_share = 0; ///< In [0, 1].
+
+  stall_options stalls;
+  double loss = 0; ///< Probability in [0, 1] for each message.
+  burst_loss_options burst_loss;
+  drift_options drift; ///< Of network delays, without `more_delay`.
+  spike_options spikes;
+  std::vector<outage_options> outages; ///< `outage` in files.
+
+  /// Replays `trace`: a result takes the measured round trip, messages to the
+  /// provider take no time, so that the loop takes what was measured.
+  bool replays = false;
+  std::vector<trace_sample> trace;
+  /// Each vehicle starts at its own place in the trace, else all at its begin.
+  bool scatters_trace = true;
+
+  /// Constant parts, on top of the above and of a trace.
+  duration more_computing{}; ///< Of a result of unit demand.
+  duration more_delay{};     ///< Of any message, one way.
+
+  /// @returns the mean computing time of a result of unit demand, s; without
+  /// what is part of a trace.
+  double mean_service_s() const;
+
+  /// @returns its standard deviation, s.
+  double service_deviation_s() const;
+
+  /// What a scenario may change about a named profile.
+  void fields(settings& s);
+};
+
+/// @returns the names of all profiles, `trace` included.
+std::vector<std::string_view> channel_profile_names();
+
+/// @returns the profile of that name; nullopt when there is none. `trace`
+/// comes without samples.
+std::optional<channel_profile> find_channel_profile(std::string_view name);
+
+} // namespace sofof

@@ -1,0 +1,34 @@
+// One direction of a link.
+#include "channel/link_direction.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof {
+
+link_direction::link_direction(channel draws, way direction,
+                               std::shared_ptr<fifo_servers> cell)
+    : draws_{std::move(draws)}, direction_{direction}, cell_{std::move(cell)},
+      stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
+
+std::optional<time_point> link_direction::arrival(time_point sent,
+                                                  message_class kind,
+                                                  std::uint64_t number,
+                                                  std::size_t octets) {
+  const message_id m{direction_, kind, number};
+  const auto airtime = draws_.airtime(m, octets);
+  const auto queues = cell_ && airtime > duration{};
+  const auto on_air = queues ? cell_->finish(sent, airtime) : sent + airtime;
+  const auto stall = stalls_.at(sent);
+  if (draws_.lost(m, fades_.at(sent).has_value())
+      || draws_.is_out(sent - start_))
+    return std::nullopt;
+  const auto arrives = stall
+                           ? std::max(on_air, stall->end)
+                                 + draws_.burst_delay(direction_, stall->number)
+                           : on_air + draws_.network_delay(m, sent);
+  last_arrival_ = std::max(last_arrival_, arrives);
+  return last_arrival_;
+}
+
+} // namespace sofof

@@ -1,0 +1,49 @@
+// One direction of a link: delay, airtime in the shared cell, loss, stalls,
+// and delivery in order.
+#pragma once
+
+#include "base/time.hpp"
+#include "channel/channel.hpp"
+#include "channel/fifo_servers.hpp"
+#include "channel/interruptions.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace sofof {
+
+/// Carries the messages of one vehicle one way. Has one owner; only the cell
+/// may be shared between threads.
+class link_direction {
+public:
+  /// @param cell  The radio cell's airtime queue, of one worker, shared by
+  ///              the vehicles of a cell in this direction; null for none.
+  link_direction(channel draws, way direction,
+                 std::shared_ptr<fifo_servers> cell);
+
+  /// The run begins now: outages are counted from here, else from time zero.
+  void begin(time_point start) { start_ = start; }
+
+  /// @param sent    When the message leaves; not earlier than before. Calls
+  ///                of links that share a cell are in the order of `sent`.
+  /// @param number  Number of the draw: the cycle of a result, a running
+  ///                number for everything else (streams of their own).
+  /// @param octets  What the message takes on the air.
+  /// @returns when it arrives, never before an earlier message; nullopt when
+  /// it is lost.
+  std::optional<time_point> arrival(time_point sent, message_class kind,
+                                    std::uint64_t number,
+                                    std::size_t octets = usual_octets);
+
+private:
+  channel draws_;
+  way direction_;
+  std::shared_ptr<fifo_servers> cell_;
+  interruptions stalls_;
+  interruptions fades_;
+  time_point start_;
+  time_point last_arrival_ = time_point::min();
+};
+
+} // namespace sofof

@@ -1,0 +1,67 @@
+// By what policies are compared: figures of a run, and a score made of them.
+#pragma once
+
+#include "experiments/dehler2025/measured_run.hpp"
+#include "scenario/scenario.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof::bench {
+
+enum class better { more, less, neither };
+
+/// One column of a leaderboard. Meanings: docs/bench.md.
+struct criterion {
+  std::string_view name;  ///< In files, with its unit.
+  std::string_view title; ///< For people, with its unit.
+  std::string_view brief; ///< The same in a narrow table; empty: not in it.
+  int decimals = 0;
+  better wanted = better::neither;
+};
+
+/// @returns all of them, in the order of columns; none is of the wall's clock.
+std::span<const criterion> criteria();
+
+inline constexpr std::string_view score_name = "score";
+inline constexpr std::string_view regret_name = "regret_percent";
+inline constexpr std::string_view than_location_name = "than_location_percent";
+
+/// What a scenario says about its runs, whoever decides.
+struct yardstick {
+  double limit_s = 0;  ///< τ: longest latency of trajectory planning.
+  double period_s = 0; ///< T_p: of its cycles.
+  double local_s = 0;  ///< T_loc: of a cycle on board, mean.
+  /// The share of one provider's workers that a running service takes.
+  std::map<std::string, double, std::less<>> utilisation_by;
+  double providers = 0;
+};
+
+/// @param s  Loaded, so that it has trajectory planning.
+yardstick yardstick_of(const scenario& s);
+
+/// A run of an entrant, judged.
+struct judged_run {
+  std::string entrant;
+  std::string scenario;
+  std::int64_t seed = 0;
+  bool safe = true; ///< Its safety line held.
+  /// By names of criteria; what a run does not tell is missing.
+  std::map<std::string_view, double> values;
+};
+
+/// @param run  Of a scenario that `by` is of.
+/// @throws input_error when its summary lacks what every run writes.
+judged_run judge(const study::measured_run& run, const yardstick& by);
+
+/// Adds to each run how much worse its score is than those of the entrants
+/// called "oracle" and "location", in the same scenario with the same seed,
+/// percent of theirs: so noise that they have in common does not count.
+void compare_scores(std::vector<judged_run>& runs);
+
+} // namespace sofof::bench

@@ -1,0 +1,146 @@
+// Pooling runs, and putting entrants in order.
+#include "experiments/benchmark/leaderboard.hpp"
+
+#include "base/text/csv.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+namespace sofof::bench {
+
+namespace {
+
+constexpr int csv_places = 6;
+
+std::optional<study::interval>
+pooled(const std::vector<const judged_run*>& runs, std::string_view name) {
+  std::map<std::int64_t, study::group> by_seed;
+  for (const auto* run : runs) {
+    auto& group = by_seed[run->seed];
+    const auto found = run->values.find(name);
+    if (found == run->values.end())
+      continue;
+    group.sum += found->second;
+    ++group.count;
+  }
+  std::vector<study::group> groups;
+  for (const auto& [seed, group] : by_seed)
+    groups.push_back(group);
+  constexpr std::uint64_t stream_seed = 1;
+  return study::bootstrap(groups, random_stream{stream_seed, "bench"});
+}
+
+standing standing_of(const std::string& entrant,
+                     const std::vector<const judged_run*>& runs,
+                     std::size_t expected) {
+  standing one{entrant, runs.size(), 0, expected - runs.size(), {}};
+  for (const auto* run : runs)
+    one.unsafe += run->safe ? 0U : 1U;
+  for (const auto& by : criteria())
+    if (const auto value = pooled(runs, by.name))
+      one.values.emplace(by.name, *value);
+  return one;
+}
+
+/// What standings are sorted by.
+auto place_of(const standing& one) {
+  const auto score = one.values.find(score_name);
+  return std::tuple{!one.above_line(),
+                    score != one.values.end()
+                        ? score->second.mean
+                        : std::numeric_limits<double>::infinity()};
+}
+
+std::size_t above_line(const std::vector<standing>& all) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(all, &standing::above_line));
+}
+
+} // namespace
+
+std::span<const standing> leaderboard::above() const {
+  return std::span{standings}.first(above_line(standings));
+}
+
+std::span<const standing> leaderboard::below() const {
+  return std::span{standings}.subspan(above_line(standings));
+}
+
+leaderboard rank(std::span<const judged_run> runs,
+                 const expected_runs& expected, const std::string& scenario) {
+  const auto each =
+      expected.seeds * (scenario.empty() ? expected.scenarios.size() : 1);
+  leaderboard all{scenario, {}};
+  for (const auto& entrant : expected.entrants) {
+    std::vector<const judged_run*> own;
+    for (const auto& run : runs)
+      if (run.entrant == entrant
+          && (scenario.empty() || run.scenario == scenario))
+        own.push_back(&run);
+    all.standings.push_back(standing_of(entrant, own, each));
+  }
+  std::ranges::stable_sort(all.standings, {}, place_of);
+  return all;
+}
+
+const study::interval* best_of(const leaderboard& all, const criterion& by) {
+  if (by.wanted == better::neither)
+    return nullptr;
+  const auto sign = by.wanted == better::less ? 1 : -1;
+  std::vector<const study::interval*> values;
+  for (const auto& one : all.above())
+    if (const auto found = one.values.find(by.name); found != one.values.end())
+      values.push_back(&found->second);
+  const auto [best, worst] = std::ranges::minmax_element(
+      values, {}, [sign](const auto* x) { return sign * x->mean; });
+  if (values.empty() || (*best)->mean == (*worst)->mean)
+    return nullptr;
+  return *best;
+}
+
+std::string to_csv(std::span<const leaderboard> boards,
+                   std::span<const entrant> entrants) {
+  std::string text =
+      "scenario,place,entrant,lodm,codm,status,runs,unsafe,failed";
+  for (const auto& by : criteria())
+    for (const auto* end : {"", "_low", "_high"})
+      ((text += ',') += by.name) += end;
+  text += '\n';
+  for (const auto& board : boards) {
+    std::uint64_t place = 0;
+    for (const auto& one : board.standings) {
+      const auto& who =
+          *std::ranges::find(entrants, one.entrant, &entrant::name);
+      append(text, board.scenario.empty() ? "all" : board.scenario);
+      text += ',';
+      append(text, ++place);
+      for (const auto& cell : {who.name, who.lodm, who.codm}) {
+        text += ',';
+        append(text, std::string_view{cell});
+      }
+      text += one.above_line() ? ",ranked" : ",below the line";
+      for (const auto count : {one.runs, one.unsafe, one.failed}) {
+        text += ',';
+        append(text, std::uint64_t{count});
+      }
+      for (const auto& by : criteria()) {
+        const auto found = one.values.find(by.name);
+        const auto known = found != one.values.end();
+        for (auto end : {&study::interval::mean, &study::interval::low,
+                         &study::interval::high}) {
+          text += ',';
+          append(text, rounded(known ? std::optional{found->second.*end}
+                                     : std::nullopt,
+                               csv_places));
+        }
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+} // namespace sofof::bench

@@ -1,0 +1,127 @@
+// A policy that learns by driving.
+#include "experiments/benchmark/training.hpp"
+
+#include "base/files/output_file.hpp"
+#include "base/input_error.hpp"
+#include "base/stopwatch.hpp"
+#include "messages/protocol/no_records.hpp"
+#include "policies/registry.hpp"
+#include "scenario/build.hpp"
+#include "scenario/load.hpp"
+#include "scenario/runtime.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <ostream>
+#include <utility>
+
+namespace sofof::bench {
+
+namespace {
+
+constexpr duration a_moment = std::chrono::seconds{1};
+
+/// @returns the names of those that learn.
+std::vector<std::string> learners() {
+  std::vector<std::string> names;
+  for (const auto& notes : lodm_notes())
+    if (std::ranges::find(notes.parameters, "learning", &parameter_note::name)
+        != notes.parameters.end())
+      names.emplace_back(notes.name);
+  return names;
+}
+
+/// Drives until the end, or until it is interrupted.
+void drive(const scenario& s, const std::atomic<bool>& interrupted) {
+  const auto time = make_virtual_runtime();
+  const auto actors = build(time->system(), s, std::make_shared<no_records>(),
+                            time->clock(), true);
+  const auto end = time->now() + s.length;
+  while (time->now() < end && !interrupted)
+    time->run_until(std::min(time->now() + a_moment, end));
+  dismiss(actors, *time);
+}
+
+class school_days {
+public:
+  school_days(const training_options& options,
+              const std::atomic<bool>& interrupted, std::ostream& console)
+      : options_{options}, interrupted_{interrupted}, shown_{console,
+                                                             options.show} {
+    const auto known = learners();
+    if (std::ranges::find(known, options.policy) == known.end())
+      throw input_error{fmt::format("\"{}\" is no policy that is trained; "
+                                    "these are: {}.",
+                                    options.policy, fmt::join(known, ", "))};
+    for (const auto& one : options.set)
+      if (one.starts_with("seed="))
+        throw input_error{fmt::format("--set {}: seeds for training begin with "
+                                      "{}; --seeds says how many there are.",
+                                      one, first_training_seed)};
+    output_file::check(options.out, choose);
+    for (const auto& file : options.scenarios) // before any lesson
+      pupil_ = lesson(file, first_training_seed).policies.lodm;
+  }
+
+  bool carry_out() {
+    for (std::size_t k = 0; k < options_.seeds && !interrupted_; ++k)
+      for (const auto& file : options_.scenarios) {
+        tell(k, file);
+        auto s =
+            lesson(file, first_training_seed + static_cast<std::int64_t>(k));
+        s.policies.lodm = pupil_;
+        drive(s, interrupted_);
+      }
+    shown_.clear();
+    if (interrupted_)
+      return false;
+    write_file(options_.out, pupil_->snapshot(), choose);
+    return true;
+  }
+
+private:
+  static constexpr std::string_view choose = "another file with --out";
+
+  scenario lesson(const std::filesystem::path& file, std::int64_t seed) const {
+    std::vector<std::string> set{
+        "record.tracks=false", "record.cycles=false",
+        fmt::format("policies.lodm={{name=\"{}\"}}", options_.policy)};
+    std::ranges::copy(options_.set, std::back_inserter(set));
+    set.push_back(fmt::format("seed={}", seed));
+    set.emplace_back("policies.lodm.learning=true");
+    auto s = load_scenario(file, set);
+    if (s.policies.lodm->name() != options_.policy)
+      throw input_error{
+          fmt::format("--set policies.lodm: it is {} that learns, "
+                      "by --policy.",
+                      options_.policy)};
+    return s;
+  }
+
+  void tell(std::size_t k, const std::filesystem::path& file) {
+    shown_.show(
+        [&] {
+          return fmt::format("{} learns  seed {} of {}  {}", options_.policy,
+                             k + 1, options_.seeds, file.stem().string());
+        },
+        watch_.elapsed_s());
+  }
+
+  const training_options& options_;
+  const std::atomic<bool>& interrupted_;
+  progress shown_;
+  stopwatch watch_;
+  std::shared_ptr<local_policy> pupil_; ///< Its clones share its mind.
+};
+
+} // namespace
+
+bool train(const training_options& options,
+           const std::atomic<bool>& interrupted, std::ostream& console) {
+  return school_days{options, interrupted, console}.carry_out();
+}
+
+} // namespace sofof::bench

@@ -1,0 +1,83 @@
+// A run in a store, and its cpu.csv read again.
+#include "experiments/dehler2025/cpu_run.hpp"
+
+#include "base/text/csv_reader.hpp"
+#include "scenario/load.hpp"
+#include "scenario/run.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
+
+namespace sofof::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @returns the figures of trajectory planning.
+std::optional<cpu_figures> figures_in(const fs::path& file) {
+  enum { station, actor, service, source, cpu_s, time_s, wakes };
+  constexpr std::string_view columns[] = {
+      "station", "actor", "service", "source", "cpu_s", "time_s", "wakes"};
+  report::csv_reader rows{file, columns};
+  std::deque<std::string> names; // which the table's lines refer to
+  cpu_table table;
+  while (rows.next()) {
+    const auto turns = rows.whole(wakes);
+    const auto cpu = from_seconds(rows.number(cpu_s));
+    if (rows.text(actor) == "(measuring)" && turns > 0)
+      table.look = cpu / (2 * static_cast<std::int64_t>(turns));
+    if (rows.text(station).empty())
+      continue;
+    table.lines.push_back(
+        {{static_cast<station_id>(rows.whole(station)),
+          service_name{rows.text(service)}, rows.text(source) == "remote"},
+         names.emplace_back(rows.text(actor)),
+         cpu,
+         from_seconds(rows.number(time_s)),
+         turns});
+  }
+  return figures_of(table, planning);
+}
+
+} // namespace
+
+fs::path make_cpu_run(const cpu_run& which, const run_store& store,
+                      const std::atomic<bool>& interrupted) {
+  const auto s = load_scenario(which.scenario, which.given);
+  const auto name =
+      fmt::format("{}-{}", which.name, name_of_run(s, which.program));
+  if (store.summary_of(name))
+    return store.folder_of(name);
+  store.add(name, [&](const fs::path& folder) {
+    run_options how;
+    how.out = folder;
+    how.realtime = true;
+    how.cpu = true;
+    how.version = which.version;
+    std::ostream nowhere{nullptr};
+    if (run(s, how, interrupted, nowhere) == run_outcome::failed)
+      throw std::runtime_error{fmt::format(
+          "the run {} on the wall's clock was unsafe; it needs an idle "
+          "machine. The same command tries it again.",
+          which.name)};
+  });
+  return store.folder_of(name);
+}
+
+measured_cpu read_cpu_run(const fs::path& folder) {
+  const auto figures = figures_in(folder / "cpu.csv");
+  if (!figures)
+    throw std::runtime_error{fmt::format(
+        "no vehicle in {} was both local and offloaded.", folder.string())};
+  const auto drove = read_run({}, folder);
+  return {*figures,
+          drove.figure("driving.distance_m") / drove.figure("safety.driven_s")};
+}
+
+} // namespace sofof::study

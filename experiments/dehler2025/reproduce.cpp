@@ -1,0 +1,163 @@
+// Sweeps, wall-clock runs, a report.
+#include "experiments/dehler2025/reproduce.hpp"
+
+#include "base/files/output_file.hpp"
+#include "base/stopwatch.hpp"
+#include "experiments/dehler2025/cpu_run.hpp"
+#include "experiments/dehler2025/sections.hpp"
+#include "experiments/dehler2025/swept.hpp"
+#include "experiments/report/html.hpp"
+#include "experiments/report/markdown.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
+
+namespace sofof::study {
+
+namespace {
+
+constexpr std::string_view sweeps[] = {
+    "latency_plot", "delay_plot", "in_area", "apart",
+    "stalls",       "real_world", "quality"};
+
+/// Thrown to get out of the middle of a reproduction.
+struct interruption {};
+
+std::vector<cpu_run> cpu_runs(const reproduction_options& options) {
+  const auto file = options.sweeps / "cpu.toml";
+  const auto& program = options.runs.program;
+  return {{"cpu_20_hz", file, {}, program, options.version},
+          {"cpu_100_hz",
+           file,
+           {"service.0.period=10ms"},
+           program,
+           options.version}};
+}
+
+void say(const reproduction_options& options, std::ostream& console,
+         const std::string& line) {
+  if (options.runs.show != progress::output::quiet)
+    console << line << std::endl;
+}
+
+/// @returns their folders.
+/// @throws interruption.
+std::vector<std::filesystem::path>
+make_cpu_runs(const reproduction_options& options,
+              const std::atomic<bool>& interrupted, std::ostream& console) {
+  const run_store store{options.runs.out};
+  std::vector<std::filesystem::path> folders;
+  for (const auto& which : cpu_runs(options)) {
+    const stopwatch watch;
+    folders.push_back(make_cpu_run(which, store, interrupted));
+    if (interrupted)
+      throw interruption{};
+    say(options, console,
+        fmt::format("{}: {} on the wall's clock", which.name,
+                    for_people(watch.elapsed_s())));
+  }
+  return folders;
+}
+
+class reproduction {
+public:
+  reproduction(const reproduction_options& options,
+               const std::atomic<bool>& interrupted, std::ostream& console)
+      : options_{options}, interrupted_{interrupted}, console_{console},
+        plans_{plans_of(options)} {}
+
+  evidence gather() {
+    evidence e;
+    e.latency_plot = next_runs();
+    e.delay_plot = next_runs();
+    e.in_area = next_runs();
+    e.apart = next_runs();
+    e.stalls = next_runs();
+    e.real_world = next_runs();
+    e.quality = next_runs();
+    // Nothing else computes meanwhile.
+    const auto folders = make_cpu_runs(options_, interrupted_, console_);
+    e.cpu_20_hz = read_cpu_run(folders[0]);
+    e.cpu_100_hz = read_cpu_run(folders[1]);
+    return e;
+  }
+
+private:
+  /// The runs of the next plan.
+  std::vector<measured_run> next_runs() {
+    const stopwatch watch;
+    const auto& plan = plans_.at(begun_++);
+    auto how = options_.runs;
+    how.title =
+        fmt::format("{} ({} of {})  ", plan.name, begun_, plans_.size());
+    const auto outcome = sweep(plan, how, interrupted_, console_);
+    if (outcome.interrupted)
+      throw interruption{};
+    if (!outcome.all_good())
+      throw std::runtime_error{fmt::format(
+          "{} runs of {} failed and {} were unsafe: {} says which.",
+          outcome.failed, plan.name, outcome.unsafe, outcome.table.string())};
+    auto runs = study::runs_of(plan, outcome);
+    say(options_, console_,
+        fmt::format("{}: {} runs, {}", plan.name, runs.size(),
+                    for_people(watch.elapsed_s())));
+    return runs;
+  }
+
+  const reproduction_options& options_;
+  const std::atomic<bool>& interrupted_;
+  std::ostream& console_;
+  std::vector<sweep_plan> plans_;
+  std::size_t begun_ = 0;
+};
+
+} // namespace
+
+std::vector<sweep_plan> plans_of(const reproduction_options& options) {
+  std::vector<sweep_plan> plans;
+  for (const auto name : sweeps)
+    plans.push_back(load_sweep(options.sweeps / fmt::format("{}.toml", name)));
+  return plans;
+}
+
+shard_outcome reproduce_shard(const reproduction_options& options,
+                              const shard& which,
+                              const std::atomic<bool>& interrupted,
+                              std::ostream& console) {
+  auto outcome =
+      make_shard(plans_of(options), options.runs, which, interrupted, console);
+  if (which.number == measuring_shard && !outcome.interrupted)
+    try {
+      make_cpu_runs(options, interrupted, console);
+    } catch (const interruption&) {
+      outcome.interrupted = true;
+    }
+  return outcome;
+}
+
+bool reproduce(const reproduction_options& options,
+               const std::atomic<bool>& interrupted, std::ostream& console) {
+  try {
+    const auto e = reproduction{options, interrupted, console}.gather();
+    report::document all;
+    all.title = "The paper's evaluation, reproduced";
+    all.subtitle = fmt::format(
+        "R. Dehler, M. Buchholz, IEEE RA-L 10(5), 2025, doi "
+        "10.1109/LRA.2025.3555939, by SOFOF {}. `sofof reproduce` makes this "
+        "again; docs/results.md says what figures count, docs/channels.md what "
+        "the channels are.",
+        options.version);
+    all.sections = {latency_plot(e), delay_plot(e), real_world(e), cpu_cost(e),
+                    quality(e)};
+    write_file(options.runs.out / "reproduction.md", report::markdown(all));
+    report::write_html(all, options.runs.out / "report.html");
+  } catch (const interruption&) {
+    return false;
+  }
+  return true;
+}
+
+} // namespace sofof::study

@@ -1,0 +1,49 @@
+// The paper's evaluation, section by section, from finished runs.
+#pragma once
+
+#include "experiments/dehler2025/measured_run.hpp"
+#include "experiments/report/document.hpp"
+#include "recording/cpu_table.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof::study {
+
+/// What a run on the wall's clock cost.
+struct measured_cpu {
+  cpu_figures figures;
+  double speed_mps = 0; ///< Mean of its vehicles.
+};
+
+/// The runs of all sweeps in config/paper.
+struct evidence {
+  std::vector<measured_run> latency_plot; ///< Axes: vehicles, max_interarrival.
+  std::vector<measured_run> delay_plot;   ///< Axis: vehicles.
+  std::vector<measured_run> in_area;      ///< Axis: vehicles; with tracks.
+  std::vector<measured_run> apart;        ///< Axis: start.
+  std::vector<measured_run> stalls;       ///< Axes as of latency_plot.
+  std::vector<measured_run> real_world;   ///< Axis: drive.
+  std::vector<measured_run> quality;      ///< Axis: codm; with tracks.
+  measured_cpu cpu_20_hz;
+  measured_cpu cpu_100_hz;
+};
+
+/// How long vehicles stay offloaded, against the longest gap that they accept.
+report::section latency_plot(const evidence& e);
+
+/// How long results are on their way, against the number of vehicles; their
+/// distribution.
+report::section delay_plot(const evidence& e);
+
+/// The real drives as an emulation.
+report::section real_world(const evidence& e);
+
+/// Computing time in the vehicle, and whether offloading pays.
+report::section cpu_cost(const evidence& e);
+
+/// What offloading does to the driving.
+report::section quality(const evidence& e);
+
+} // namespace sofof::study

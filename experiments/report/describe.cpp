@@ -1,0 +1,171 @@
+// From results folders to sections.
+#include "experiments/report/describe.hpp"
+
+#include "experiments/report/episode_table.hpp"
+#include "experiments/report/key_figures.hpp"
+#include "experiments/report/options.hpp"
+#include "experiments/report/recorded_run.hpp"
+#include "experiments/report/remote_results.hpp"
+#include "experiments/report/vehicle_table.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+namespace sofof::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using runs_view = std::span<const recorded_run>;
+
+/// What a reader has to know before the figures.
+void add_remarks(section& to, const recorded_run& run, bool several) {
+  const auto say = [&](std::string_view what) {
+    to.blocks.emplace_back(
+        paragraph{several ? fmt::format("`{}`: {}", run.label, what)
+                          : std::string{what}});
+  };
+  if (!run.figures)
+    say("This run was killed: there is no `summary.json`, and the last few "
+        "seconds may be missing. What it had written until then is shown.");
+  if (run.interrupted)
+    say("This run was interrupted before its planned length; all figures count "
+        "up to there.");
+}
+
+section drives(runs_view runs) {
+  section all{.title = runs.size() == 1 ? "Drive" : "Drives", .blocks = {}};
+  for (const auto& run : runs)
+    add_remarks(all, run, runs.size() > 1);
+  for (const auto& run : runs)
+    all.blocks.emplace_back(drive{run.folder});
+  return all;
+}
+
+section figures(runs_view runs) {
+  section all{.title = "Key figures", .blocks = {}};
+  for (auto& one : key_figures(runs))
+    all.blocks.emplace_back(std::move(one));
+  return all;
+}
+
+void add_results(std::vector<section>& to, runs_view runs) {
+  for (const auto& service : services_of(runs)) {
+    section all{.title = "Remote results of " + service, .blocks = {}};
+    for (auto& one : remote_results(runs, service))
+      all.blocks.emplace_back(std::move(one));
+    if (!all.blocks.empty())
+      to.push_back(std::move(all));
+  }
+}
+
+/// Adds one run's table; among several it is called after its run.
+void add_of_run(section& to, table one, const recorded_run& run,
+                runs_view runs) {
+  if (runs.size() > 1)
+    one.title = run.label;
+  to.blocks.emplace_back(std::move(one));
+}
+
+void add_episodes(std::vector<section>& to, runs_view runs) {
+  section all{.title = "Episodes", .blocks = {}};
+  for (const auto& run : runs)
+    if (auto one = episode_table(run); !one.rows.empty())
+      add_of_run(all, std::move(one), run, runs);
+  if (all.blocks.empty())
+    all.blocks.emplace_back(paragraph{"No offloading has ended."});
+  to.push_back(std::move(all));
+}
+
+void add_vehicles(std::vector<section>& to, runs_view runs) {
+  section all{.title = "Vehicles", .blocks = {}};
+  for (const auto& run : runs)
+    if (auto one = vehicle_table(run); !one.rows.empty())
+      add_of_run(all, std::move(one), run, runs);
+  if (!all.blocks.empty())
+    to.push_back(std::move(all));
+}
+
+section configuration(runs_view runs) {
+  section all{.title = "Configuration", .blocks = {}};
+  if (runs.size() == 2) {
+    auto differing =
+        differing_options(runs[0].config_toml, runs[1].config_toml);
+    differing.title = "Options that differ";
+    differing.columns = {"option", runs[0].label, runs[1].label};
+    if (differing.rows.empty())
+      all.blocks.emplace_back(
+          paragraph{"Both runs have the same configuration."});
+    else
+      all.blocks.emplace_back(std::move(differing));
+  }
+  for (const auto& run : runs)
+    all.blocks.emplace_back(
+        listing{runs.size() == 1 ? "config.toml" : run.label + "/config.toml",
+                run.config_toml});
+  return all;
+}
+
+/// One run, or two side by side.
+std::vector<section> sections_of(runs_view runs) {
+  std::vector<section> all{drives(runs), figures(runs)};
+  add_results(all, runs);
+  add_episodes(all, runs);
+  add_vehicles(all, runs);
+  all.push_back(configuration(runs));
+  return all;
+}
+
+std::string what_was_run(const recorded_run& run) {
+  auto text = fmt::format("{}, seed {}", run.what.name, run.what.seed);
+  if (const auto count = run.figure("vehicles"))
+    text += fmt::format(", {} vehicles", *count);
+  if (const auto length_s = run.figure("virtual_s"))
+    text += fmt::format(", {:.0f} s", *length_s);
+  if (!run.clock.empty())
+    text += fmt::format(", {} clock", run.clock);
+  text += fmt::format(", channel {}", run.what.profiles());
+  if (!run.version.empty())
+    text += fmt::format(", sofof {}", run.version);
+  return text;
+}
+
+std::vector<section> one_after_the_other(runs_view runs) {
+  std::vector<section> all{figures(runs)};
+  for (const auto& run : runs)
+    for (auto& one : sections_of({&run, 1})) {
+      one.title = fmt::format("{}: {}", run.label, one.title);
+      all.push_back(std::move(one));
+    }
+  return all;
+}
+
+} // namespace
+
+std::vector<section> describe_run(const fs::path& folder) {
+  const auto runs = open_runs({&folder, 1});
+  return sections_of(runs);
+}
+
+std::vector<section> compare_runs(const fs::path& first,
+                                  const fs::path& second) {
+  const auto runs = open_runs(std::array{first, second});
+  return sections_of(runs);
+}
+
+document describe(std::span<const fs::path> folders, std::string_view version) {
+  const auto runs = open_runs(folders);
+  document all;
+  for (const auto& run : runs) {
+    all.title += (all.title.empty() ? "" : " · ") + run.label;
+    all.subtitle += (all.subtitle.empty() ? "" : " · ") + what_was_run(run);
+  }
+  all.subtitle += fmt::format(" · report by sofof {}", version);
+  all.sections =
+      runs.size() > 2 ? one_after_the_other(runs) : sections_of(runs);
+  return all;
+}
+
+} // namespace sofof::report

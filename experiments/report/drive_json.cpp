@@ -1,0 +1,163 @@
+// Packs a results folder.
+#include "experiments/report/drive_json.hpp"
+
+#include "experiments/report/packed.hpp"
+#include "experiments/report/recorded_run.hpp"
+#include "experiments/report/scenery_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof::report {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int metre_places = 3;   // as in tracks.csv
+constexpr int second_places = 3;  // vehicles move in steps of 10 ms
+constexpr int heading_places = 4; // 0.01 degrees
+
+/// What befell an offloading or a vehicle: shown on the map when it happens.
+constexpr std::array<std::string_view, 6> alarming{
+    "violation", "collision",     "near_miss",
+    "peer_lost", "provider_lost", "requester_lost"};
+/// What else is worth a line.
+constexpr std::array<std::string_view, 5> notable{
+    "refused", "clock_in_doubt", "clock_known", "provider_connected",
+    "arrived"};
+
+bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+json car_json() {
+  const vehicle_params car;
+  return {{"front", car.front_m}, {"rear", car.rear_m}, {"width", car.width_m}};
+}
+
+/// One vehicle's lines of tracks.csv, column by column.
+struct track {
+  std::vector<double> t_s, x_m, y_m, heading_rad, speed_mps, remote;
+
+  void add(const track_line& line) {
+    t_s.push_back(line.t_s);
+    x_m.push_back(line.x_m);
+    y_m.push_back(line.y_m);
+    heading_rad.push_back(line.heading_rad);
+    speed_mps.push_back(line.speed_mps);
+    remote.push_back(line.remote ? 1 : 0);
+  }
+};
+
+json vehicles_json(std::span<const track_line> lines) {
+  std::map<std::uint64_t, track> tracks;
+  for (const auto& line : lines)
+    tracks[line.station].add(line);
+  auto all = json::array();
+  for (const auto& [station, one] : tracks)
+    all.push_back({{"station", station},
+                   {"t", packed(one.t_s, second_places)},
+                   {"x", packed(one.x_m, metre_places)},
+                   {"y", packed(one.y_m, metre_places)},
+                   {"heading", packed(one.heading_rad, heading_places)},
+                   {"speed", packed(one.speed_mps, metre_places)},
+                   {"remote", packed(one.remote, 0)}});
+  return all;
+}
+
+/// A time in which a service of a vehicle ran at a provider.
+struct offloading {
+  offloading_name of;
+  double from_s = 0;
+  double until_s = 0;
+};
+
+/// @param end_s  Ends what nobody has ended.
+std::vector<offloading> switched(std::span<const event_line> events,
+                                 double end_s) {
+  std::vector<offloading> all;
+  std::map<std::pair<std::uint64_t, std::string>, std::size_t> open;
+  for (const auto& event : events) {
+    if (event.what != "switch")
+      continue;
+    const std::pair key{event.of.station, event.of.service};
+    if (const auto found = open.find(key); found != open.end()) {
+      all[found->second].until_s = event.t_s;
+      open.erase(found);
+    }
+    if (event.detail == "remote") {
+      open[key] = all.size();
+      all.push_back({event.of, event.t_s, end_s});
+    }
+  }
+  return all;
+}
+
+std::vector<offloading> served(std::span<const episode_line> episodes) {
+  std::vector<offloading> all;
+  for (const auto& one : episodes)
+    if (!one.by_requester)
+      all.push_back({one.of, one.accepted_s, one.ended_s});
+  return all;
+}
+
+json offloadings_json(std::span<const offloading> offloadings) {
+  auto all = json::array();
+  for (const auto& one : offloadings)
+    all.push_back({one.of.station, one.of.service, one.of.provider, one.from_s,
+                   one.until_s});
+  return all;
+}
+
+json events_json(std::span<const event_line> events) {
+  auto all = json::array();
+  for (const auto& one : events) {
+    const auto alarm = is_one_of(alarming, one.what);
+    if (alarm || is_one_of(notable, one.what))
+      all.push_back({one.t_s, one.what, one.of.station, one.of.provider,
+                     one.of.service, one.detail, alarm});
+  }
+  return all;
+}
+
+} // namespace
+
+json drive_json(const std::filesystem::path& folder) {
+  const auto run = open_run(folder);
+  const auto events = read_events(folder);
+  const auto tracks = read_tracks(folder);
+  const auto lines = tracks.value_or(std::vector<track_line>{});
+
+  double end_s = run.figure("virtual_s").value_or(0);
+  const auto reaches = [&end_s](double t_s) { end_s = std::max(end_s, t_s); };
+  for (const auto& line : lines)
+    reaches(line.t_s);
+  for (const auto& event : events)
+    reaches(event.t_s);
+  for (const auto& episode : run.episodes)
+    reaches(episode.ended_s);
+
+  auto offloadings = switched(events, end_s);
+  if (offloadings.empty())
+    offloadings = served(run.episodes);
+  json all{{"name", run.label},
+           {"until", end_s},
+           {"has_tracks", tracks.has_value()},
+           {"car", car_json()},
+           {"services", services_of({&run, 1})},
+           {"vehicles", vehicles_json(lines)},
+           {"offloadings", offloadings_json(offloadings)},
+           {"events", events_json(events)}};
+  all.update(scenery_json(run.what));
+  return all;
+}
+
+} // namespace sofof::report

@@ -1,0 +1,13 @@
+// The episodes of a run, one a row.
+#pragma once
+
+#include "experiments/report/document.hpp"
+#include "experiments/report/recorded_run.hpp"
+
+namespace sofof::report {
+
+/// @returns episodes as the vehicles closed them; where no vehicle ran, as the
+/// provider did. No title.
+table episode_table(const recorded_run& run);
+
+} // namespace sofof::report

@@ -1,0 +1,147 @@
+// Puts a document into the page.
+#include "experiments/report/html.hpp"
+
+#include "base/files/output_file.hpp"
+#include "experiments/report/drive_json.hpp"
+#include "experiments/report/packed.hpp"
+#include "experiments/report/page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+#include <string_view>
+
+namespace sofof::report {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view style_names[]{"line", "points", "steps"};
+
+json to_json(const curve& x) {
+  json all{{"name", x.name},
+           {"x", packed(x.x)},
+           {"y", packed(x.y)},
+           {"style", style_names[static_cast<std::size_t>(x.drawn)]},
+           {"dashed", x.dashed}};
+  if (!x.low.empty() && !x.high.empty()) {
+    all["low"] = packed(x.low);
+    all["high"] = packed(x.high);
+  }
+  return all;
+}
+
+json to_json(const paragraph& x) {
+  return {{"kind", "paragraph"}, {"text", x.text}};
+}
+
+json to_json(const table& x) {
+  return {{"kind", "table"},
+          {"title", x.title},
+          {"columns", x.columns},
+          {"rows", x.rows},
+          {"note", x.note}};
+}
+
+json to_json(const figure& x) {
+  auto curves = json::array();
+  for (const auto& one : x.curves)
+    curves.push_back(to_json(one));
+  auto marks = json::array();
+  for (const auto& [at, name] : x.marks)
+    marks.push_back({at, name});
+  return {{"kind", "figure"},     {"title", x.title}, {"x_label", x.x_label},
+          {"y_label", x.y_label}, {"curves", curves}, {"marks", marks},
+          {"caption", x.caption}};
+}
+
+json to_json(const scatter& x) {
+  auto dots = json::array();
+  for (const auto& one : x.dots)
+    dots.push_back({{"name", one.name},
+                    {"x", one.x},
+                    {"y", one.y},
+                    {"hollow", one.hollow}});
+  return {{"kind", "scatter"},    {"title", x.title}, {"x_label", x.x_label},
+          {"y_label", x.y_label}, {"dots", dots},     {"joined", x.joined},
+          {"caption", x.caption}};
+}
+
+json to_json(const drive& x) {
+  auto all = drive_json(x.folder);
+  all["kind"] = "drive";
+  return all;
+}
+
+json to_json(const listing& x) {
+  return {{"kind", "listing"}, {"title", x.title}, {"text", x.text}};
+}
+
+json to_json(const document& x) {
+  auto sections = json::array();
+  for (const auto& one : x.sections) {
+    auto blocks = json::array();
+    for (const auto& b : one.blocks)
+      blocks.push_back(std::visit([](const auto& y) { return to_json(y); }, b));
+    sections.push_back({{"title", one.title}, {"blocks", std::move(blocks)}});
+  }
+  return {{"title", x.title},
+          {"subtitle", x.subtitle},
+          {"sections", std::move(sections)}};
+}
+
+/// @returns JSON that no HTML parser takes for anything but text.
+std::string script_text(const json& x) {
+  const auto text = x.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const auto c : text)
+    if (c == '<') // in strings only
+      safe += "\\u003c";
+    else
+      safe += c;
+  return safe;
+}
+
+std::string html_text(std::string_view text) {
+  std::string safe;
+  for (const auto c : text)
+    switch (c) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      default:
+        safe += c;
+    }
+  return safe;
+}
+
+} // namespace
+
+std::string html(const document& what) {
+  constexpr std::string_view title = "%title%";
+  constexpr std::string_view body = "%document%";
+  const auto title_at = page.find(title);
+  const auto body_at = page.find(body);
+  if (title_at == page.npos || body_at == page.npos || body_at < title_at)
+    throw std::logic_error{"apps/report/dist lacks a place for the document"};
+  const auto between = title_at + title.size();
+  std::string all{page.substr(0, title_at)};
+  all += html_text(what.title);
+  all += page.substr(between, body_at - between);
+  all += script_text(to_json(what));
+  all += page.substr(body_at + body.size());
+  return all;
+}
+
+void write_html(const document& what, const std::filesystem::path& file,
+                std::string_view choose) {
+  output_file::check(file, choose); // before the work
+  write_file(file, html(what), choose);
+}
+
+} // namespace sofof::report

@@ -1,0 +1,77 @@
+// Opens results folders.
+#include "experiments/report/recorded_run.hpp"
+
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+#include "scenario/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @param levels  Of objects in objects; deeper ones are none of ours.
+std::string name_of(const fs::path& folder) {
+  auto whole = fs::absolute(folder).lexically_normal();
+  if (!whole.has_filename())
+    whole = whole.parent_path();
+  return whole.filename().string();
+}
+
+} // namespace
+
+std::optional<double> recorded_run::figure(const std::string& name) const {
+  if (!figures)
+    return std::nullopt;
+  const auto found = figures->find(name);
+  return found == figures->end() ? std::nullopt : std::optional{found->second};
+}
+
+recorded_run open_run(const fs::path& folder) {
+  const auto config = folder / "config.toml";
+  if (!fs::exists(config))
+    throw input_error{fmt::format("{} is no results folder: there is no {}; "
+                                  "name a folder that a run has written.",
+                                  folder.string(), config.string())};
+  recorded_run run;
+  run.folder = folder;
+  run.label = name_of(folder);
+  run.what = load_scenario(config);
+  run.config_toml = read_text(config).value_or("");
+  run.episodes = read_episodes(folder);
+  run.cycles = read_cycles(folder);
+  if (auto summary = read_summary(folder)) {
+    run.figures = std::move(summary->figures);
+    run.version = std::move(summary->version);
+    run.clock = std::move(summary->clock);
+    run.interrupted = summary->interrupted;
+  }
+  return run;
+}
+
+std::vector<recorded_run> open_runs(std::span<const fs::path> folders) {
+  std::vector<recorded_run> runs;
+  for (const auto& folder : folders)
+    runs.push_back(open_run(folder));
+  for (auto& run : runs)
+    if (std::ranges::count(folders, name_of(run.folder), name_of) > 1)
+      run.label = run.folder.string();
+  return runs;
+}
+
+std::vector<std::string> services_of(std::span<const recorded_run> runs) {
+  std::vector<std::string> names;
+  for (const auto& run : runs)
+    for (const auto& service : run.what.services)
+      if (std::ranges::find(names, service->name()) == names.end())
+        names.emplace_back(service->name());
+  return names;
+}
+
+} // namespace sofof::report

@@ -1,0 +1,216 @@
+// One function per file.
+#include "experiments/report/run_files.hpp"
+
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+#include "base/text/csv_reader.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace sofof::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using columns = std::string_view[];
+
+/// Reads the five columns that name an offloading, from `first` on.
+offloading_name name_at(const csv_reader& row, std::size_t first) {
+  return {.provider = row.text(first),
+          .service = row.text(first + 1),
+          .provider_id = row.whole(first + 2),
+          .station = row.whole(first + 3),
+          .counter = row.whole(first + 4)};
+}
+
+bool one_of(const csv_reader& row, std::size_t column, std::string_view yes,
+            std::string_view no) {
+  if (row.text(column) != yes && row.text(column) != no)
+    row.refuse(column, fmt::format("is neither {} nor {}", yes, no));
+  return row.text(column) == yes;
+}
+
+bool was_killed(const fs::path& folder) {
+  return !fs::exists(folder / "summary.json");
+}
+
+csv_reader::ending ending_of(const fs::path& folder) {
+  return was_killed(folder) ? csv_reader::ending::killed
+                            : csv_reader::ending::whole;
+}
+
+/// @param levels  Of objects in objects; deeper ones are none of ours.
+void collect(const json& from, const std::string& prefix, int levels,
+             std::map<std::string, double>& to) {
+  for (const auto& [name, value] : from.items())
+    if (value.is_number())
+      to[prefix + name] = value.get<double>();
+    else if (value.is_object() && levels > 0)
+      collect(value, prefix + name + '.', levels - 1, to);
+}
+
+std::string text_of(const json& summary, const char* name) {
+  const auto found = summary.find(name);
+  return found != summary.end() && found->is_string()
+             ? found->get<std::string>()
+             : std::string{};
+}
+
+/// A line of events.jsonl and its place.
+class event_reader {
+public:
+  event_reader(std::string_view text, std::string place)
+      : place_{std::move(place)}, line_(json::parse(text, nullptr, false)) {
+    if (!line_.is_object())
+      refuse("this is no JSON object");
+  }
+
+  double seconds(const char* name) const {
+    const auto& x = member(name);
+    if (!x.is_number() || !std::isfinite(x.get<double>()))
+      refuse(fmt::format("\"{}\" should be a number", name));
+    return x.get<double>();
+  }
+
+  std::uint64_t whole(const char* name) const {
+    const auto& x = member(name);
+    if (!x.is_number_unsigned())
+      refuse(fmt::format("\"{}\" should be a whole number", name));
+    return x.get<std::uint64_t>();
+  }
+
+  std::string text(const char* name) const {
+    const auto& x = member(name);
+    if (!x.is_string())
+      refuse(fmt::format("\"{}\" should be a text", name));
+    return x.get<std::string>();
+  }
+
+private:
+  const json& member(const char* name) const {
+    const auto found = line_.find(name);
+    if (found == line_.end())
+      refuse(fmt::format("\"{}\" is missing", name));
+    return *found;
+  }
+
+  [[noreturn]] void refuse(std::string_view why) const {
+    throw input_error{fmt::format("{}: {}.", place_, why)};
+  }
+
+  std::string place_;
+  json line_;
+};
+
+} // namespace
+
+std::vector<episode_line> read_episodes(const fs::path& folder) {
+  static constexpr columns names{"provider",   "service",      "provider_id",
+                                 "station",    "counter",      "side",
+                                 "accepted_s", "first_data_s", "ended_s",
+                                 "t_off_s",    "reason",       "fallback"};
+  enum { side = 5, accepted, first_data, ended, t_off, reason, fallback };
+  csv_reader row{folder / "episodes.csv", names, ending_of(folder)};
+  std::vector<episode_line> all;
+  while (row.next())
+    all.push_back({.of = name_at(row, 0),
+                   .by_requester = one_of(row, side, "requester", "provider"),
+                   .accepted_s = row.number(accepted),
+                   .first_data_s = row.number_if_any(first_data),
+                   .ended_s = row.number(ended),
+                   .t_off_s = row.number_if_any(t_off),
+                   .reason = row.text(reason),
+                   .fallback = row.flag(fallback)});
+  return all;
+}
+
+std::optional<std::vector<cycle_line>> read_cycles(const fs::path& folder) {
+  static constexpr columns names{"provider",   "service",        "provider_id",
+                                 "station",    "counter",        "received_s",
+                                 "latency_ms", "interarrival_ms"};
+  enum { received = 5, latency, interarrival };
+  const auto file = folder / "cycles.csv";
+  if (!fs::exists(file))
+    return std::nullopt;
+  csv_reader row{file, names, ending_of(folder)};
+  std::vector<cycle_line> all;
+  while (row.next())
+    all.push_back({.of = name_at(row, 0),
+                   .received_s = row.number(received),
+                   .latency_ms = row.number(latency),
+                   .interarrival_ms = row.number_if_any(interarrival)});
+  return all;
+}
+
+std::optional<std::vector<track_line>> read_tracks(const fs::path& folder) {
+  static constexpr columns names{"station",     "t_s",       "x_m",   "y_m",
+                                 "heading_rad", "speed_mps", "source"};
+  enum { station, t, x, y, heading, speed, source };
+  const auto file = folder / "tracks.csv";
+  if (!fs::exists(file))
+    return std::nullopt;
+  csv_reader row{file, names, ending_of(folder)};
+  std::vector<track_line> all;
+  while (row.next())
+    all.push_back({.station = row.whole(station),
+                   .t_s = row.number(t),
+                   .x_m = row.number(x),
+                   .y_m = row.number(y),
+                   .heading_rad = row.number(heading),
+                   .speed_mps = row.number(speed),
+                   .remote = one_of(row, source, "remote", "local")});
+  return all;
+}
+
+std::optional<run_summary> read_summary(const fs::path& folder) {
+  const auto file = folder / "summary.json";
+  if (!fs::exists(file))
+    return std::nullopt;
+  constexpr auto no_exceptions = false;
+  const auto text = read_text(file).value_or("");
+  const auto all = json::parse(text, nullptr, no_exceptions);
+  if (!all.is_object())
+    throw input_error{fmt::format(
+        "{}: this is no JSON object, which every run writes.", file.string())};
+  run_summary summary;
+  constexpr int levels = 4;
+  collect(all, "", levels, summary.figures);
+  summary.version = text_of(all, "version");
+  summary.clock = text_of(all, "clock");
+  summary.interrupted = all.value("interrupted", json{}) == true;
+  return summary;
+}
+
+std::vector<event_line> read_events(const fs::path& folder) {
+  const auto file = folder / "events.jsonl";
+  const auto content = require_text(file, longest_results);
+  std::vector<event_line> all;
+  std::string_view rest = content;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const auto end = rest.find('\n');
+    const auto place = fmt::format("{}:{}", file.string(), number);
+    if (end == rest.npos && was_killed(folder))
+      break;
+    if (end == rest.npos)
+      throw input_error{fmt::format("{}: this line is cut off.", place)};
+    const event_reader line{rest.substr(0, end), place};
+    rest.remove_prefix(end + 1);
+    all.push_back({.t_s = line.seconds("t_s"),
+                   .what = line.text("what"),
+                   .of = {.provider = line.text("provider"),
+                          .service = line.text("service"),
+                          .provider_id = line.whole("provider_id"),
+                          .station = line.whole("station"),
+                          .counter = line.whole("counter")},
+                   .detail = line.text("detail")});
+  }
+  return all;
+}
+
+} // namespace sofof::report

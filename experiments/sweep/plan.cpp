@@ -1,0 +1,268 @@
+// From a sweep file to its points.
+#include "experiments/sweep/plan.hpp"
+
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+#include "base/options/toml_nodes.hpp"
+#include "base/options/toml_settings.hpp"
+#include "base/options/toml_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+#include <numeric>
+
+namespace sofof {
+
+namespace {
+
+/// Reads one sweep file; every mistake is thrown with its place.
+class sweep_reader {
+public:
+  sweep_reader(std::string_view text, const std::filesystem::path& file)
+      : file_{file.string()}, root_{parse_toml(text, file_)} {}
+
+  sweep_plan read(std::span<const std::string> overrides) {
+    known(root_, {"name", "scenario", "seeds", "set", "axis"});
+    sweep_plan plan;
+    plan.name = text_of(root_, "name");
+    if (plan.name.find_first_of("/\\") != plan.name.npos)
+      fail(*root_.get("name"), "name is part of a file's name: no slashes.");
+    plan.scenario =
+        std::filesystem::path{file_}.parent_path() / text_of(root_, "scenario");
+    read_seeds(plan.seeds);
+    if (const auto* set = root_.get("set"))
+      plan.given = assignments(*set);
+    plan.given.insert(plan.given.end(), overrides.begin(), overrides.end());
+    if (const auto* axes = root_.get("axis"))
+      for (const auto* axis : tables_of(*axes, "axis"))
+        plan.axes.push_back(axis_of(*axis));
+    check_axes(plan);
+    if (plan.size() > most_sweep_points)
+      fail(root_, fmt::format("these are {} runs; {} are the most.",
+                              plan.size(), most_sweep_points));
+    return plan;
+  }
+
+private:
+  using keys = std::initializer_list<std::string_view>;
+
+  [[noreturn]] void fail(const toml::node& at, std::string_view why) const {
+    throw input_error{fmt::format("{}: {}", place_of(at.source(), file_), why)};
+  }
+
+  void known(const toml::table& table, keys allowed) const {
+    for (const auto& [key, value] : table)
+      if (std::ranges::find(allowed, key.str()) == allowed.end())
+        fail(value, fmt::format("there is no option \"{}\"; these are: {}.",
+                                key.str(), fmt::join(allowed, ", ")));
+  }
+
+  std::string text_of(const toml::table& table, std::string_view key) const {
+    const auto* node = table.get(key);
+    if (!node)
+      fail(table, fmt::format("{} is missing.", key));
+    const auto text = node->value_exact<std::string>();
+    if (!text || text->empty())
+      fail(*node, fmt::format("{} must be a text.", key));
+    return *text;
+  }
+
+  std::vector<const toml::table*> tables_of(const toml::node& node,
+                                            std::string_view key) const {
+    const auto* list = node.as_array();
+    if (!list || list->empty() || !list->is_homogeneous<toml::table>())
+      fail(node, fmt::format("{0} must be a list of tables, [[{0}]].", key));
+    std::vector<const toml::table*> tables;
+    for (const auto& entry : *list)
+      tables.push_back(entry.as_table());
+    return tables;
+  }
+
+  void read_seeds(std::vector<std::int64_t>& seeds) const {
+    const auto* node = root_.get("seeds");
+    if (!node)
+      return;
+    if (const auto count = node->value_exact<std::int64_t>()) {
+      if (*count < 1 || *count > std::int64_t{most_sweep_points})
+        fail(*node, fmt::format("a number of seeds must be from 1 to {}.",
+                                most_sweep_points));
+      seeds.resize(static_cast<std::size_t>(*count));
+      std::iota(seeds.begin(), seeds.end(), 1);
+      return;
+    }
+    seeds.clear();
+    if (const auto* list = node->as_array())
+      for (const auto& entry : *list) {
+        const auto seed = entry.value_exact<std::int64_t>();
+        if (!seed)
+          fail(entry, "a seed must be an integer.");
+        if (std::ranges::find(seeds, *seed) != seeds.end())
+          fail(entry, fmt::format("seed {} stands here twice.", *seed));
+        seeds.push_back(*seed);
+      }
+    if (seeds.empty())
+      fail(*node, "seeds must be how many, or a list of integers.");
+  }
+
+  /// @returns "KEY=VALUE" with the value as TOML.
+  static std::string assignment(std::string_view key, const toml::node& value) {
+    return fmt::format("{}={}", key, value_text(value));
+  }
+
+  std::vector<std::string> assignments(const toml::node& node) const {
+    const auto* table = node.as_table();
+    if (!table)
+      fail(node, "set must be a table, { \"KEY\" = VALUE }.");
+    std::vector<std::string> all;
+    add_assignments(all, "", *table);
+    return all;
+  }
+
+  /// Tables in it are parts of keys: a.b = 1 is { a = { b = 1 } }.
+  static void add_assignments(std::vector<std::string>& all,
+                              const std::string& prefix,
+                              const toml::table& table) {
+    for (const auto& [key, value] : table) {
+      const auto whole = prefix + std::string{key.str()};
+      if (const auto* inner = value.as_table())
+        add_assignments(all, whole + '.', *inner);
+      else
+        all.push_back(assignment(whole, value));
+    }
+  }
+
+  static std::string label_of(const toml::node& value) {
+    if (const auto text = value.value_exact<std::string>())
+      return *text;
+    return assignment("", value).substr(1);
+  }
+
+  sweep_axis axis_of(const toml::table& table) const {
+    known(table, {"name", "key", "values", "value"});
+    sweep_axis axis;
+    if (table.contains("value")) {
+      known(table, {"name", "value"});
+      axis.name = text_of(table, "name");
+      for (const auto* value : tables_of(*table.get("value"), "axis.value")) {
+        known(*value, {"name", "set"});
+        const auto* set = value->get("set");
+        if (!set)
+          fail(*value, "set is missing: what this value changes.");
+        axis.values.push_back({text_of(*value, "name"), assignments(*set)});
+      }
+    } else {
+      const auto key = text_of(table, "key");
+      axis.name = table.contains("name") ? text_of(table, "name") : key;
+      const auto* node = table.get("values");
+      const auto* list = node ? node->as_array() : nullptr;
+      if (!list || list->empty())
+        fail(node ? *node : table,
+             "values must be a list of at least one value, [1, 2, 3].");
+      for (const auto& value : *list)
+        axis.values.push_back({label_of(value), {assignment(key, value)}});
+    }
+    check_labels(axis, table);
+    return axis;
+  }
+
+  void check_labels(const sweep_axis& axis, const toml::table& at) const {
+    std::vector<std::string_view> labels;
+    for (const auto& value : axis.values)
+      labels.push_back(value.label);
+    std::ranges::sort(labels);
+    const auto twice = std::ranges::adjacent_find(labels);
+    if (twice != labels.end())
+      fail(at, fmt::format("the value {} of {} stands here twice.", *twice,
+                           axis.name));
+  }
+
+  void check_axes(const sweep_plan& plan) const {
+    std::vector<std::string_view> names{"point", "seed", "status", "run"};
+    for (const auto& axis : plan.axes) {
+      if (axis.name.find_first_of(",\"\n") != axis.name.npos)
+        fail(root_, fmt::format("the name of an axis, {}, has a comma, a quote "
+                                "or a line end in it; choose another one.",
+                                quoted_toml(axis.name)));
+      if (std::ranges::find(names, axis.name) != names.end())
+        fail(root_, fmt::format("two columns of the results would be called "
+                                "\"{}\"; give an axis another name, and vary "
+                                "each option once.",
+                                axis.name));
+      names.push_back(axis.name);
+    }
+  }
+
+  std::string file_;
+  toml::table root_;
+};
+
+} // namespace
+
+std::size_t sweep_plan::size() const {
+  auto all = seeds.size();
+  for (const auto& axis : axes)
+    all = std::min(all * axis.values.size(), most_sweep_points + 1);
+  return all;
+}
+
+sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
+                       std::span<const std::string> overrides) {
+  return sweep_reader{text, file}.read(overrides);
+}
+
+sweep_plan load_sweep(const std::filesystem::path& file,
+                      std::span<const std::string> overrides) {
+  return parse_sweep(require_text(file), file, overrides);
+}
+
+std::vector<sweep_point> points_of(const sweep_plan& plan) {
+  std::vector<sweep_point> points{{{}, 0, plan.given}};
+  for (const auto& axis : plan.axes) {
+    std::vector<sweep_point> more;
+    for (const auto& point : points)
+      for (const auto& value : axis.values) {
+        auto& next = more.emplace_back(point);
+        next.labels.push_back(value.label);
+        std::ranges::copy(value.given, std::back_inserter(next.given));
+      }
+    points = std::move(more);
+  }
+  std::vector<sweep_point> seeded;
+  for (const auto& point : points)
+    for (const auto seed : plan.seeds) {
+      auto& next = seeded.emplace_back(point);
+      next.seed = seed;
+      next.given.push_back(fmt::format("seed={}", seed));
+    }
+  return seeded;
+}
+
+void check_given_once(const sweep_plan& plan, const sweep_point& point,
+                      std::string_view base) {
+  toml_file file{base, plan.scenario.string()};
+  std::vector<std::string> keys;
+  for (const auto& given : point.given) {
+    keys.push_back(file.numbered(given.substr(0, given.find('='))) + '.');
+    file.set(given);
+  }
+  for (std::size_t i = plan.given.size(); i < keys.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (keys[i].starts_with(keys[k]) || keys[k].starts_with(keys[i]))
+        throw input_error{fmt::format(
+            "{} and {} give the same option of {} twice; a sweep varies each "
+            "option in one place, seeds in `seeds`.",
+            point.given[k], point.given[i], plan.scenario.string())};
+}
+
+std::string describe(const sweep_plan& plan, const sweep_point& point) {
+  std::string text;
+  for (std::size_t i = 0; i < plan.axes.size(); ++i)
+    text += fmt::format("{}={}, ", plan.axes[i].name, point.labels[i]);
+  return text + fmt::format("seed={}", point.seed);
+}
+
+} // namespace sofof

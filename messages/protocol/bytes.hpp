@@ -1,0 +1,149 @@
+// Plain bytes for what services exchange: little-endian, no padding.
+#pragma once
+
+#include "base/time.hpp"
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace sofof {
+
+static_assert(std::endian::native == std::endian::little,
+              "bytes are written as they lie in memory");
+
+/// Writes values one after the other. A struct takes part through
+/// `archive(auto& bytes, T& x) { bytes(x.first, x.second); }`.
+class byte_writer {
+public:
+  template <class... Ts>
+  void operator()(const Ts&... xs) {
+    (write(xs), ...);
+  }
+
+  std::vector<std::byte> take() { return std::move(out_); }
+
+private:
+  template <class T>
+  void write(const T& x) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      const auto* from = reinterpret_cast<const std::byte*>(&x);
+      out_.insert(out_.end(), from, from + sizeof(T));
+    } else {
+      // `archive` serves both directions, hence takes a mutable reference.
+      archive(*this, const_cast<T&>(x));
+    }
+  }
+  void write(const duration& d) { write(d.count()); }
+  void write(const time_point& t) { write(t.time_since_epoch()); }
+  template <class T>
+  void write(const std::optional<T>& x) {
+    write(x.has_value());
+    if (x)
+      write(*x);
+  }
+  template <class T>
+  void write(const std::vector<T>& xs) {
+    write(static_cast<std::uint32_t>(xs.size()));
+    for (const auto& x : xs)
+      write(x);
+  }
+  void write(const std::string& text) {
+    write(static_cast<std::uint32_t>(text.size()));
+    for (auto c : text)
+      write(c);
+  }
+
+  std::vector<std::byte> out_;
+};
+
+/// Reads what `byte_writer` wrote. Bytes from a stranger are no danger: once
+/// something does not fit, `ok()` is false and everything reads as zero.
+class byte_reader {
+public:
+  explicit byte_reader(std::span<const std::byte> in) : in_{in} {}
+
+  template <class... Ts>
+  void operator()(Ts&... xs) {
+    (read(xs), ...);
+  }
+
+  /// @returns whether all reads so far fitted.
+  bool ok() const { return ok_; }
+  /// @returns whether everything was read, and fitted.
+  bool done() const { return ok_ && in_.empty(); }
+
+private:
+  template <class T>
+  void read(T& x) {
+    if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = 0;
+      read(byte);
+      ok_ = ok_ && byte <= 1;
+      x = ok_ && byte == 1;
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      x = T{};
+      if (!fits(sizeof(T)))
+        return;
+      std::memcpy(&x, in_.data(), sizeof(T));
+      in_ = in_.subspan(sizeof(T));
+    } else {
+      archive(*this, x);
+    }
+  }
+  void read(duration& d) {
+    duration::rep count = 0;
+    read(count);
+    d = duration{count};
+  }
+  void read(time_point& t) {
+    duration since{};
+    read(since);
+    t = time_point{since};
+    ok_ = ok_ && is_plausible(t);
+  }
+  template <class T>
+  void read(std::optional<T>& x) {
+    bool present = false;
+    read(present);
+    x.reset();
+    if (present)
+      read(x.emplace());
+  }
+  template <class T>
+  void read(std::vector<T>& xs) {
+    std::uint32_t size = 0;
+    read(size);
+    xs.clear();
+    if (!fits(size)) // every element takes a byte or more
+      return;
+    for (std::uint32_t i = 0; i < size && ok_; ++i)
+      read(xs.emplace_back());
+  }
+  void read(std::string& text) {
+    std::uint32_t size = 0;
+    read(size);
+    text.clear();
+    if (!fits(size))
+      return;
+    text.resize(size);
+    std::memcpy(text.data(), in_.data(), size);
+    in_ = in_.subspan(size);
+  }
+  bool fits(std::size_t size) {
+    ok_ = ok_ && size <= in_.size();
+    return ok_;
+  }
+
+  std::span<const std::byte> in_;
+  bool ok_ = true;
+};
+
+} // namespace sofof

@@ -1,0 +1,52 @@
+// An ITS message as it is on the air: whoever sends it encodes it, whoever
+// gets it decodes it.
+#pragma once
+
+#include "base/ids.hpp"
+#include "base/time.hpp"
+#include "messages/protocol/payload.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// A CAM, CPM or MCM in UPER (messages/etsi). May come from a stranger.
+struct its_pdu {
+  std::vector<std::byte> octets;
+  /// How far its sender's time of day is ahead of ours. Does not travel: who
+  /// gets it from another host fills it in.
+  duration ahead{};
+  /// Whose certificate it came by; 0: it comes from this process. Does not
+  /// travel either.
+  sender_id sender = 0;
+
+  std::span<const std::byte> view() const { return octets; }
+
+  /// @returns whose message it says it is; nothing if it is too short.
+  std::optional<station_id> station() const {
+    constexpr std::size_t begin = 2, end = 6; // of its header
+    if (octets.size() < end)
+      return std::nullopt;
+    station_id id = 0;
+    for (auto i = begin; i < end; ++i)
+      id = id << 8 | std::to_integer<station_id>(octets[i]);
+    return id;
+  }
+};
+
+template <>
+inline constexpr std::string_view payload_name<its_pdu> = "its_pdu";
+
+void archive(auto& bytes, its_pdu& x) {
+  bytes(x.octets);
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, its_pdu& x) {
+  return f.object(x).fields(f.field("octets", x.octets));
+}
+
+} // namespace sofof

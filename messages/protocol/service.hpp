@@ -1,0 +1,231 @@
+// Offering, requesting, running and ending a service, as it crosses the air.
+#pragma once
+
+#include "base/candidate.hpp"
+#include "base/ids.hpp"
+#include "base/time.hpp"
+#include "messages/protocol/inspect.hpp"
+#include "messages/protocol/payload.hpp"
+#include "messages/protocol/service_name.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// One offloading, from acceptance to its end. Both sides and all data name
+/// it, so that duplicates and leftovers of earlier ones are told apart.
+struct running_service {
+  boot_id provider = 0;
+  station_id station = 0;
+  service_name kind;
+  std::uint32_t counter = 0; ///< Rising per provider; 0: the local service.
+  friend auto operator<=>(const running_service&,
+                          const running_service&) = default;
+};
+
+/// A vehicle's own motion, as its CAMs tell it.
+struct cam {
+  station_id station = 0;
+  time_point at;
+  point position; ///< Rear axle, m, east-north.
+  double heading_rad = 0;
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+  double curvature_1pm = 0; ///< Of its way, left positive.
+  double length_m = 5.1;    ///< Of its body; the test vehicle's, as below.
+  double width_m = 1.89;
+};
+
+/// A provider has seen a station in its area and offers its services.
+struct service_offer {
+  boot_id provider = 0;
+  point position; ///< Of the provider, m, east-north.
+  std::vector<service_name> kinds;
+  /// What runs there needs this share of its workers, ≥ 0; above 1 it falls
+  /// behind.
+  double utilisation = 0;
+  std::uint32_t workers = 1;
+  duration computing{}; ///< Mean time of a result of unit demand, > 0 if any.
+  /// When it was made: tells how good the way is; none if clocks disagree.
+  std::optional<time_point> created{};
+};
+
+/// A requester asks for some of the offered services.
+struct service_request {
+  boot_id provider = 0;
+  station_id station = 0;
+  std::uint32_t number = 0; ///< Rising per requester.
+  std::vector<service_name> kinds;
+  std::vector<point> route; ///< Planned waypoints from the vehicle on, m.
+  double speed_mps = 0;
+  /// Whom it could ask, and what it would win; for the first of the kinds.
+  std::vector<candidate> candidates{};
+};
+
+/// What a provider says to one requested service.
+struct verdict {
+  running_service running; ///< Counter 0 when refused.
+  bool accepted = false;
+  std::string why;     ///< Short; for records.
+  boot_id instead = 0; ///< If refused: who should be asked; 0: nobody.
+};
+
+/// A provider's answer to one request: a verdict for each requested service.
+struct service_response {
+  boot_id provider = 0;
+  station_id station = 0;
+  std::uint32_t number = 0; ///< Of the request.
+  std::vector<verdict> verdicts;
+};
+
+/// What a running service works on next; newer input replaces older. Whoever is
+/// on call gives one result at once, and the next one when it is called again.
+struct service_input {
+  running_service running;
+  time_point at;
+  payload what;
+  /// The result in use, for a source that takes over from another one, which
+  /// shall go on from there; else empty.
+  payload in_use{};
+  bool on_call = false; ///< Else a result comes in every period.
+};
+
+/// What one cycle of a running service gave.
+struct service_result {
+  running_service running;
+  std::uint64_t cycle = 0;
+  time_point created; ///< Start of the cycle (t_creation).
+  payload what;
+  payload about{}; ///< How it came about, for records; often empty.
+  /// `created` may be off by this: clocks of two hosts never quite agree.
+  duration doubt{};
+};
+
+/// Why an offloading ended.
+enum class end_reason : std::uint8_t {
+  left_area,
+  cam_timeout,
+  qos_latency,
+  qos_gap,
+  no_data,
+  refused,
+  peer_lost,
+  handed_over, ///< The service goes on at another provider.
+  released,    ///< The vehicle took it back, for no fault.
+  revoked,     ///< The provider wants its room for others.
+  implausible, ///< The vehicle did not believe a result.
+  shutdown,
+};
+
+inline constexpr std::string_view name_of(end_reason reason) {
+  constexpr std::string_view names[] = {
+      "left_area", "cam_timeout", "qos_latency", "qos_gap",
+      "no_data",   "refused",     "peer_lost",   "handed_over",
+      "released",  "revoked",     "implausible", "shutdown"};
+  return names[static_cast<std::size_t>(reason)];
+}
+
+enum class side : std::uint8_t { requester, provider };
+
+/// One side has ended a running service; saying it twice does no harm.
+struct service_end {
+  running_service running;
+  end_reason reason = end_reason::shutdown;
+  side from = side::requester;
+  payload what{}; ///< The same in the service's own terms, if it has any.
+};
+
+template <class Inspector>
+bool inspect(Inspector& f, running_service& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("kind", x.kind), f.field("counter", x.counter));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, cam& x) {
+  return f.object(x).fields(
+      f.field("station", x.station), f.field("at", x.at),
+      f.field("position", x.position), f.field("heading_rad", x.heading_rad),
+      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
+      f.field("curvature_1pm", x.curvature_1pm),
+      f.field("length_m", x.length_m), f.field("width_m", x.width_m));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_offer& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("position", x.position),
+      f.field("kinds", x.kinds), exact_field(f, "utilisation", x.utilisation),
+      f.field("workers", x.workers), f.field("computing", x.computing),
+      f.field("created", x.created));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, candidate& x) {
+  return f.object(x).fields(f.field("provider", x.provider),
+                            exact_field(f, "gain", x.gain),
+                            exact_field(f, "utilisation", x.utilisation));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_request& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("number", x.number), f.field("kinds", x.kinds),
+      f.field("route", x.route), exact_field(f, "speed_mps", x.speed_mps),
+      f.field("candidates", x.candidates));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, verdict& x) {
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("accepted", x.accepted),
+      f.field("why", x.why), f.field("instead", x.instead));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_response& x) {
+  return f.object(x).fields(
+      f.field("provider", x.provider), f.field("station", x.station),
+      f.field("number", x.number), f.field("verdicts", x.verdicts));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_input& x) {
+  return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
+                            f.field("what", x.what),
+                            f.field("in_use", x.in_use),
+                            f.field("on_call", x.on_call));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_result& x) {
+  return f.object(x).fields(
+      f.field("running", x.running), f.field("cycle", x.cycle),
+      f.field("created", x.created), f.field("what", x.what),
+      f.field("about", x.about), f.field("doubt", x.doubt));
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, end_reason& x) {
+  return inspect_enum(f, x, end_reason::shutdown);
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, side& x) {
+  return inspect_enum(f, x, side::provider);
+}
+
+template <class Inspector>
+bool inspect(Inspector& f, service_end& x) {
+  return f.object(x).fields(f.field("running", x.running),
+                            f.field("reason", x.reason),
+                            f.field("from", x.from), f.field("what", x.what));
+}
+
+} // namespace sofof

@@ -1,0 +1,65 @@
+// TLS 1.3 where both sides show certificates of our CA.
+#pragma once
+
+#include "network/keys/credentials.hpp"
+#include "network/keys/openssl.hpp"
+
+#include <memory>
+#include <string>
+
+namespace sofof {
+
+/// Who opened a connection and who answered it.
+enum class tls_side {
+  opener,   ///< Shows stations, wants a provider.
+  answerer, ///< Shows a provider, wants stations.
+};
+
+/// What handshakes begin with.
+struct tls_context {
+  credentials own;
+  ssl_context_ptr settings;
+};
+
+/// TLS 1.3 and nothing older, no sessions that are resumed.
+/// @throws network_error when OpenSSL does not take the credentials.
+tls_context make_tls_context(const credentials& own);
+
+/// The handshake of a connection that does not block.
+class tls_handshake {
+public:
+  enum class step { waits_to_read, waits_to_write, done, failed };
+
+  /// @param socket  Connected; outlives this and what `take` returns.
+  tls_handshake(const tls_context& context, int socket, tls_side side);
+
+  /// Goes on as far as it can now.
+  step advance();
+
+  /// @returns whom the peer's certificate names; once it is done.
+  const peer_identity& who() const { return notes_->verdict.who.value(); }
+
+  /// @returns why it failed, with the peer as "it".
+  const std::string& failure() const { return failure_; }
+
+  /// @returns the connection, once it is done.
+  ssl_ptr take() { return std::move(tls_); }
+
+private:
+  struct notes {
+    credentials own;
+    certificate_verdict verdict;
+  };
+
+  friend int judge_certificate(X509_STORE_CTX* asked, void*);
+
+  std::unique_ptr<notes> notes_; // stays where it is, for OpenSSL
+  ssl_ptr tls_;
+  std::string failure_;
+};
+
+/// @returns OpenSSL's last error of this thread as words about the peer, "it";
+/// forgets all.
+std::string explain_tls_error();
+
+} // namespace sofof

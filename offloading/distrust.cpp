@@ -1,0 +1,19 @@
+// How long a vehicle stays away from a provider whose result was refused.
+#include "offloading/distrust.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sofof {
+
+duration distrust::add(time_point now) {
+  constexpr duration first = std::chrono::seconds{60};
+  constexpr std::uint32_t most_doublings = 16; // 45 days
+  const auto pause =
+      first * (std::int64_t{1} << std::min(lies_, most_doublings));
+  ++lies_;
+  until_ = std::max(until_, now + pause);
+  return pause;
+}
+
+} // namespace sofof

@@ -1,0 +1,22 @@
+// Several providers plan the same cycles: the first response wins.
+#include "offloading/first_response.hpp"
+
+namespace sofof {
+
+bool first_response::use(time_point began) {
+  if (answered(began)) {
+    ++dropped_;
+    return false;
+  }
+  newest_ = began;
+  return true;
+}
+
+double joint_miss_probability(std::span<const double> misses) {
+  double joint = 1;
+  for (const auto p : misses)
+    joint *= p;
+  return joint;
+}
+
+} // namespace sofof

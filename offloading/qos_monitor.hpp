@@ -1,0 +1,38 @@
+// Judges results against the limits that a service was promised to keep.
+// Source: Dehler & Buchholz 2025, QoS check of the service requester.
+#pragma once
+
+#include "base/time.hpp"
+
+namespace sofof {
+
+/// @returns whether a result came in time: exactly at the limit is in time,
+/// from the future is not.
+constexpr bool in_time(time_point created, time_point received,
+                       duration max_latency) {
+  return created <= received && received - created <= max_latency;
+}
+
+/// Watches the gaps between received results.
+class gap_monitor {
+public:
+  explicit gap_monitor(duration max_interarrival)
+      : max_interarrival_{max_interarrival} {}
+
+  void arrived(time_point t) { last_ = t; }
+
+  /// @returns the first moment at which the gap is too long unless another
+  /// result arrives: one nanosecond past the limit, so that a link whose
+  /// period is the limit does not trip by the order of simultaneous events.
+  time_point deadline() const {
+    return last_ + max_interarrival_ + duration{1};
+  }
+
+  bool too_long(time_point now) const { return now >= deadline(); }
+
+private:
+  duration max_interarrival_;
+  time_point last_;
+};
+
+} // namespace sofof

@@ -1,0 +1,110 @@
+// Planning paths on a grid that stays.
+#include "planners/path/path_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+// Farther than this from its path a car begins a new one.
+constexpr double same_place_m = 0.05;
+constexpr double same_heading_rad = 0.03;
+constexpr double same_curvature_1pm = 0.02;
+/// A plan that misses the corridor by less may be driven all the same.
+constexpr double reduced_margin_m = 0.1;
+constexpr double curvature_max_1pm = 0.2;
+constexpr double rate_max_1pm2 = 0.1;
+
+} // namespace
+
+bool path_planner::follows(const path_start& car) const {
+  if (path_.empty() || car.s_m < path_.start_s_m
+      || car.s_m >= path_.end_s_m() - path_.ds_m)
+    return false;
+  const auto x = path_.at_s(car.s_m).x;
+  return std::abs(x.d_m - car.x.d_m) <= same_place_m
+         && std::abs(x.heading_rad - car.x.heading_rad) <= same_heading_rad
+         && std::abs(x.curvature_1pm - car.x.curvature_1pm)
+                <= same_curvature_1pm;
+}
+
+ocp::solve_report path_planner::plan(const path_start& car,
+                                     std::span<const passing> others,
+                                     const ocp::budget& go_on) {
+  if (!follows(car)) {
+    forget();
+    if (solve(car.s_m, car.x, ocp::start::cold, others, go_on))
+      take(car.s_m, 0);
+    return report_;
+  }
+  const auto passed =
+      static_cast<int>((car.s_m - path_.start_s_m) / path_.ds_m);
+  const auto idle = passed == 0 && frozen_ == 1 && others.empty() && !narrowed_;
+  if (idle && settled_)
+    return report_;
+  const auto first = static_cast<std::size_t>(passed) + 1;
+  const auto s = path_.start_s_m + static_cast<double>(first) * path_.ds_m;
+  if (settled_)
+    solver_.shift(passed + 1 - frozen_);
+  const auto how = settled_ ? ocp::start::warm : ocp::start::cold;
+  if (solve(s, path_.knots[first].x, how, others, go_on))
+    take(s, static_cast<int>(first));
+  return report_;
+}
+
+bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
+                         std::span<const passing> others,
+                         const ocp::budget& go_on) {
+  const auto n = static_cast<std::size_t>(grid_.steps);
+  corridor_.open(*line_, s_m, grid_.ds_m, grid_.steps);
+  for (const auto& other : others)
+    corridor_.pass(other.body, other.side);
+  corridor_.admit(from);
+  narrowed_ = !others.empty();
+  bends_.resize(2 * n + 1);
+  wanted_.assign(n + 1, 0);
+  for (std::size_t i = 0; i < bends_.size(); ++i)
+    bends_[i] =
+        line_->curvature_1pm(s_m + static_cast<double>(i) * grid_.ds_m / 2);
+
+  path_problem problem;
+  problem.steps = grid_.steps;
+  problem.ds_m = grid_.ds_m;
+  problem.start = from;
+  problem.curvature_1pm = bends_;
+  problem.wanted_m = wanted_;
+  problem.discs = corridor_.discs();
+  problem.curvature_max_1pm =
+      std::max(curvature_max_1pm, std::abs(from.curvature_1pm));
+  problem.rate_max_1pm2 = rate_max_1pm2;
+  report_ = solver_.solve(problem, how, {}, go_on);
+  if (how == ocp::start::warm && !ocp::publishable(report_.status))
+    report_ = solver_.solve(problem, ocp::start::cold, {}, go_on);
+  settled_ =
+      ocp::publishable(report_.status)
+      || (report_.status == ocp::solve_status::soft_infeasible
+          && report_.iterations > 0
+          && corridor_.contains(solver_.offset_m(), solver_.heading_rad(),
+                                reduced_margin_m));
+  return settled_;
+}
+
+// The solver's plan behind the knot that the car has passed last.
+void path_planner::take(double s_m, int first) {
+  frozen_ = first > 0 ? 1 : 0;
+  auto at = path_.knots.begin();
+  if (frozen_)
+    *at++ = path_.knots[static_cast<std::size_t>(first) - 1];
+  for (int k = 0; k <= solver_.steps(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    (at++)->x = {solver_.offset_m()[i], solver_.heading_rad()[i],
+                 solver_.curvature_1pm()[i]};
+  }
+  path_.ds_m = grid_.ds_m;
+  path_.start_s_m = s_m - frozen_ * path_.ds_m;
+  path_.size = static_cast<int>(at - path_.knots.begin());
+  path_.measure([this](double s) { return line_->curvature_1pm(s); });
+}
+
+} // namespace sofof

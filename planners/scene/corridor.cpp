@@ -1,0 +1,134 @@
+// The corridor, disc by disc.
+#include "planners/scene/corridor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+/// A part of the car: a disc, or the axle's centre.
+struct part {
+  double ahead_m, radius_m;
+};
+
+// Three discs cover 5.10 m × 1.89 m from 1.0825 m behind the rear axle on,
+// to within 4 mm at the corners.
+constexpr double disc_radius_m = 1.27;
+constexpr std::array<part, ocp::path_rows::most_discs> parts{
+    {{0, 0},
+     {-0.23, disc_radius_m},
+     {1.47, disc_radius_m},
+     {3.17, disc_radius_m}}};
+
+/// Knots are the same when they are so near, in steps.
+constexpr double same_knot = 1e-6;
+/// The car on the line itself fits by this, whatever the discs say.
+constexpr double least_room_m = 0.12;
+/// Kept between the car and a body it passes.
+constexpr double passing_gap_m = 0.3;
+/// Discs are wider than the car by this at their middle.
+constexpr double disc_excess_m = disc_radius_m - 0.945;
+/// Way before and after a body on which the car may leave the centre line.
+constexpr double evasion_m = 20;
+/// Way over which the car comes back into the corridor.
+constexpr double return_m = 25;
+/// A heading error carries the car on over this way before it steers back.
+constexpr double overshoot_m = 4;
+
+} // namespace
+
+// Most of the lane is the one of the cycle before.
+void corridor::open(const reference_line& line, double s_m, double ds_m,
+                    int steps) {
+  const auto moved = (s_m - s_m_) / ds_m;
+  const auto same_grid = line_ == &line && ds_m == ds_m_ && steps == steps_
+                         && std::abs(moved - std::round(moved)) < same_knot;
+  const auto by = same_grid && moved >= 0 && moved <= steps
+                      ? static_cast<int>(std::lround(moved))
+                      : steps + 1;
+  line_ = &line;
+  s_m_ = s_m;
+  ds_m_ = ds_m;
+  steps_ = steps;
+  const auto knots = static_cast<std::size_t>(steps) + 1;
+  for (std::size_t j = 0; j < rows; ++j) {
+    if (by <= steps)
+      for (auto* column : {&lane_lo_[j], &lane_hi_[j]})
+        std::copy(column->begin() + by, column->begin() + steps + 1,
+                  column->begin());
+    measure_lane(j, std::max(0, steps + 1 - by), steps);
+    std::copy_n(lane_lo_[j].begin(), knots, lo_[j].begin());
+    std::copy_n(lane_hi_[j].begin(), knots, hi_[j].begin());
+    discs_[j] = {parts[j].ahead_m, std::span{lo_[j]}.first(knots),
+                 std::span{hi_[j]}.first(knots)};
+  }
+}
+
+void corridor::measure_lane(std::size_t part, int from, int to) {
+  const auto [ahead_m, radius_m] = parts[part];
+  for (auto k = from; k <= to; ++k) {
+    const auto s = s_m_ + k * ds_m_;
+    const auto room =
+        part == 0 ? freedom_m : line_->half_width_m(s + ahead_m) - radius_m;
+    const auto bow = part == 0 ? 0 : line_->bow_m(s, ahead_m);
+    lane_lo_[part][k] = std::min(bow - room, -least_room_m);
+    lane_hi_[part][k] = std::max(bow + room, least_room_m);
+  }
+}
+
+void corridor::pass(const lane_obstacle& body, side_of_road side) {
+  for (int k = 0; k <= steps_; ++k) {
+    const auto s = s_m_ + k * ds_m_;
+    if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
+      const auto lane = line_->half_width_m(s);
+      lo_[0][k] = std::min(lo_[0][k], -lane);
+      hi_[0][k] = std::max(hi_[0][k], lane);
+    }
+    for (std::size_t j = 1; j < rows; ++j) {
+      const auto& p = parts[j];
+      const auto at = s + p.ahead_m;
+      const auto reach = p.radius_m + ds_m_ / 2;
+      if (at < body.from_m - reach || at > body.to_m + reach)
+        continue;
+      const auto bow = line_->bow_m(s, p.ahead_m);
+      const auto gap = passing_gap_m + p.radius_m - disc_excess_m;
+      if (side == side_of_road::left)
+        lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
+      else
+        hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
+    }
+  }
+}
+
+void corridor::admit(const path_state& start) {
+  for (std::size_t j = 0; j < rows; ++j) {
+    const auto ahead = parts[j].ahead_m;
+    const auto drift = overshoot_m * std::abs(start.heading_rad);
+    const auto y = start.d_m + ahead * std::sin(start.heading_rad);
+    const auto over = std::max(0.0, y + drift - hi_[j][0]);
+    const auto under = std::max(0.0, lo_[j][0] - y + drift);
+    if (over == 0 && under == 0)
+      continue;
+    for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
+      const auto fading = 1 - k * ds_m_ / return_m;
+      hi_[j][k] += over * fading;
+      lo_[j][k] -= under * fading;
+    }
+  }
+}
+
+bool corridor::contains(std::span<const double> d_m,
+                        std::span<const double> heading_rad,
+                        double tolerance_m) const {
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t k = 1; k < d_m.size(); ++k) {
+      const auto at = static_cast<int>(k);
+      const auto y = d_m[k] + parts[j].ahead_m * std::sin(heading_rad[k]);
+      if (y < lo_[j][at] - tolerance_m || y > hi_[j][at] + tolerance_m)
+        return false;
+    }
+  return true;
+}
+
+} // namespace sofof

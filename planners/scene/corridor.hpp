@@ -1,0 +1,59 @@
+// Where the car may be beside its reference line: the lane, less what stands
+// in it.
+#pragma once
+
+#include "planners/problems/path_ocp.hpp"
+#include "planners/scene/reference_line.hpp"
+#include "planners/scene/surroundings.hpp"
+
+#include <array>
+#include <span>
+
+namespace sofof {
+
+/// On which side of a body to pass.
+enum class side_of_road : unsigned char { left, right };
+
+/// Bounds on the rear axle and on three discs that cover the car, knot by
+/// knot. A disc is held by the lane where it is, not where the axle is.
+class corridor {
+public:
+  /// How far the rear axle may leave the centre line where nothing stands in
+  /// the lane, m: half of what crossing and passing traffic leaves between
+  /// two bodies (world/roads/conflict.hpp).
+  static constexpr double freedom_m = 0.25;
+
+  /// A car needs so much room beside a body: the discs, and a gap.
+  static constexpr double room_beside_m = 2.52;
+
+  /// The free lane along the knots s_m + k · ds_m, k = 0..steps. The line
+  /// itself always fits.
+  void open(const reference_line& line, double s_m, double ds_m, int steps);
+
+  /// Narrows it beside a body; the car may use the whole lane there.
+  void pass(const lane_obstacle& body, side_of_road side);
+
+  /// Widens it near the car as far as it needs to come back into it.
+  void admit(const path_state& start);
+
+  std::span<const disc_corridor> discs() const { return discs_; }
+
+  /// @returns whether a car that keeps to the line of knots
+  /// d(k), θ(k) stays within, up to `tolerance_m`.
+  bool contains(std::span<const double> d_m,
+                std::span<const double> heading_rad, double tolerance_m) const;
+
+private:
+  static constexpr std::size_t rows = ocp::path_rows::most_discs;
+
+  void measure_lane(std::size_t part, int from, int to);
+
+  const reference_line* line_ = nullptr;
+  double s_m_ = 0, ds_m_ = 1;
+  int steps_ = -1;
+  std::array<ocp::column, rows> lane_lo_, lane_hi_; // with nothing in it
+  std::array<ocp::column, rows> lo_, hi_;
+  std::array<disc_corridor, rows> discs_;
+};
+
+} // namespace sofof

@@ -1,0 +1,134 @@
+// Where the bodies that a vehicle sees will be on its own way, and whether it
+// would touch them.
+#include "planners/scene/foreseen_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sofof {
+
+namespace {
+
+constexpr auto no_limit = std::numeric_limits<double>::infinity();
+
+/// A body's place along the way is looked for so far before and behind the
+/// place that it would have if the way were straight.
+constexpr auto foot_within_m = 20.0;
+
+} // namespace
+
+void foreseen_bodies::look(const route& way, double s_m,
+                           std::span<const perceived_object> seen,
+                           const vehicle_params& car) {
+  boxes_.clear();
+  front_m_ = s_m + car.front_m;
+  rear_m_ = s_m - car.rear_m;
+  half_corridor_m_ = car.width_m / 2;
+  const auto& path = way.path();
+  const auto here = path.frame(s_m);
+  for (const auto& o : seen) {
+    const auto to = o.centre - here.at;
+    if (dot(to, to) > farthest_m * farthest_m)
+      continue;
+    const auto guess_m = s_m + dot(to, here.tangent);
+    if (guess_m + foot_within_m + o.length_m / 2 < rear_m_)
+      continue; // behind the car, wherever its foot is found
+    const auto foot = path.project(o.centre, guess_m, foot_within_m);
+    if (std::abs(foot.d_m) > farthest_beside_m
+        || std::abs(foot.beyond_m) > farthest_beside_m)
+      continue;
+    const auto lane = path.frame(foot.s_m);
+    const point axis{std::cos(o.heading_rad), std::sin(o.heading_rad)};
+    const auto c = dot(lane.tangent, axis), s = cross(lane.tangent, axis);
+    box x{foot.s_m + foot.beyond_m,
+          foot.d_m,
+          (std::abs(c) * o.length_m + std::abs(s) * o.width_m) / 2,
+          (std::abs(s) * o.length_m + std::abs(c) * o.width_m) / 2
+              - uncertain_m,
+          o.speed_mps * c,
+          o.speed_mps * s,
+          0,
+          no_limit,
+          true,
+          false};
+    if (x.s_m + x.half_length_m < s_m - car.rear_m)
+      continue;
+    if (std::abs(c) > along_cosine) {
+      // It keeps to its lane; its body has the lane's direction.
+      x.across_mps = 0;
+      x.half_width_m = o.width_m / 2 - uncertain_m;
+      if (c > 0 && o.accel_mps2 < -least_braking_mps2)
+        x.brakes_mps2 = -o.accel_mps2;
+    } else {
+      const auto apart_m = std::abs(x.d_m) - x.half_width_m - half_corridor_m_;
+      const auto comes = x.d_m * x.across_mps < 0;
+      const auto way_to_stop_m =
+          x.across_mps * x.across_mps / (2 * expected_decel_mps2);
+      x.counts = apart_m <= 0 || (comes && apart_m < way_to_stop_m);
+      x.core_m = o.width_m / 2 - uncertain_m;
+      x.crosses = true;
+    }
+    boxes_.push_back(x);
+  }
+}
+
+double foreseen_bodies::along_m(const box& x, double t_s) {
+  if (x.brakes_mps2 <= 0)
+    return x.s_m + x.along_mps * t_s;
+  const auto t = std::min(t_s, x.along_mps / x.brakes_mps2);
+  return x.s_m + t * (x.along_mps - 0.5 * x.brakes_mps2 * t);
+}
+
+bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
+                                   double until_s) const {
+  return std::ranges::any_of(boxes_, [&](const box& x) {
+    const auto moves_m = std::abs(x.along_mps) * until_s;
+    const auto comes_m = std::abs(x.across_mps) * until_s;
+    return x.counts && x.s_m - x.half_length_m - moves_m < front_m_ + ahead_m
+           && x.s_m + x.half_length_m + moves_m > rear_m_
+           && std::abs(x.d_m) - x.half_width_m - comes_m
+                  < beside_m + half_corridor_m_;
+  });
+}
+
+std::optional<foreseen_bodies::touch>
+foreseen_bodies::first_touch(std::span<const place_in_time> motion,
+                             const vehicle_params& car) const {
+  const auto middle_m = (car.front_m - car.rear_m) / 2;
+  const auto half_length_m = (car.front_m + car.rear_m) / 2;
+  for (const auto& p : motion) {
+    if (p.speed_mps < stands_mps)
+      continue;
+    for (const auto& x : boxes_)
+      if (x.counts
+          && std::abs(along_m(x, p.t_s) - p.s_m - middle_m)
+                 < half_length_m + std::min(x.half_length_m, x.core_m)
+          && std::abs(x.d_m + x.across_mps * p.t_s - p.d_m)
+                 < half_corridor_m_ + std::min(x.half_width_m, x.core_m))
+        return touch{p.t_s, x.crosses};
+  }
+  return std::nullopt;
+}
+
+bool foreseen_bodies::any_ahead(double within_m) const {
+  return std::ranges::any_of(boxes_, [&](const box& x) {
+    if (x.s_m + x.half_length_m < front_m_
+        || x.s_m - x.half_length_m > front_m_ + within_m)
+      return false;
+    const auto apart_m = std::abs(x.d_m) - x.half_width_m - half_corridor_m_;
+    const auto comes = x.d_m * x.across_mps < 0;
+    return apart_m < near_beside_m
+           || (comes && apart_m < soon_s * std::abs(x.across_mps));
+  });
+}
+
+bool foreseen_bodies::any_near(double within_m, double beside_m) const {
+  return std::ranges::any_of(boxes_, [&](const box& x) {
+    return x.s_m + x.half_length_m >= front_m_
+           && x.s_m - x.half_length_m <= front_m_ + within_m
+           && std::abs(x.d_m) - x.half_width_m <= beside_m;
+  });
+}
+
+} // namespace sofof

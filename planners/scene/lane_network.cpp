@@ -1,0 +1,151 @@
+// The lanes of a map as bodies drive on them.
+#include "planners/scene/lane_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <unordered_map>
+
+namespace sofof {
+
+namespace {
+
+constexpr auto piece_m = 2.0;
+
+/// Of a piece: outside a bend, whoever is beside the gap between two pieces is
+/// beside both. No lane goes on for longer beyond its end.
+constexpr auto wedge = 0.25;
+
+/// Cosine of the largest angle between a body and its lane, 45°.
+constexpr auto same_way = std::numbers::sqrt2 / 2;
+
+/// Slower is standing.
+constexpr auto still_mps = 0.3;
+
+} // namespace
+
+struct lane_network::driver {
+  double half_length_m, speed_mps, within_m;
+  std::size_t first; // of its arrivals in `out`
+  std::vector<conflict_visit>& out;
+};
+
+lane_network::lane_network(const road_map& map)
+    : meetings_{list_encounters(map)}, ranks_(2 * map.conflicts().size()),
+      next_(map.lanes().size()), previous_(map.lanes().size()) {
+  for (const auto& lane : meetings_)
+    for (const auto& e : lane)
+      ranks_[e.side] = e.rank;
+  std::unordered_map<std::string_view, std::size_t> index;
+  for (const auto& l : map.lanes()) {
+    index.emplace(l.name, paths_.size());
+    half_widths_m_.push_back(l.half_width_m);
+    paths_.emplace_back(l.centre);
+    cut(paths_.size() - 1);
+  }
+  for (std::size_t i = 0; i < paths_.size(); ++i)
+    for (const auto& name : map.lanes()[i].next) {
+      next_[i].push_back(index.at(name));
+      previous_[index.at(name)].push_back(i);
+    }
+}
+
+void lane_network::cut(std::size_t lane) {
+  const auto& line = paths_[lane];
+  const auto count = std::ceil(line.length_m() / piece_m);
+  const auto step_m = line.length_m() / count;
+  for (auto i = 0.0; i < count; ++i) {
+    const piece p{lane, (i + 0.5) * step_m, line.at(i * step_m).at,
+                  line.at((i + 1) * step_m).at};
+    cells_.add(p.from, p.to, half_widths_m_[lane],
+               static_cast<cell_grid::item>(pieces_.size()));
+    pieces_.push_back(p);
+  }
+}
+
+lane_network::placements lane_network::find(const oriented_box& body) const {
+  const point along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
+  placements found;
+  const piece* best = nullptr;
+  auto best_m = 0.0;
+  auto settle = [&] {
+    if (best && found.count < found.all.size()) {
+      const auto on =
+          paths_[best->lane].project(body.centre, best->s_m, piece_m);
+      found.all[found.count++] = {best->lane, on.s_m};
+    }
+    best = nullptr;
+  };
+  // The pieces of a cell come in the order of lanes.
+  cells_.for_each_near(body.centre, 0, [&](cell_grid::item i) {
+    const auto& p = pieces_[i];
+    const auto ahead = p.to - p.from;
+    const auto c = dot(ahead, along);
+    if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
+      return;
+    const auto to = body.centre - p.from;
+    const auto share = dot(ahead, to) / dot(ahead, ahead);
+    if (share < -wedge || share > 1 + wedge)
+      return;
+    const auto away_m = distance_to_segment_m(body.centre, p.from, p.to);
+    if (away_m > half_widths_m_[p.lane])
+      return;
+    if (best && best->lane != p.lane)
+      settle();
+    if (!best || away_m < best_m)
+      best = &p, best_m = away_m;
+  });
+  settle();
+  return found;
+}
+
+void lane_network::foresee(const track& x, double within_m,
+                           std::vector<conflict_visit>& out) const {
+  const driver who{x.length_m / 2, x.speed_mps(), within_m, out.size(), out};
+  for (const auto& [lane, s_m] : find(x.body())) {
+    drive(who, lane, -s_m);
+    if (s_m < who.half_length_m) // its rear is still there
+      for (const auto before : previous_[lane])
+        meet(who, before, -s_m - paths_[before].length_m());
+  }
+}
+
+/// @param start_m  Where the lane begins, from the body's centre on.
+void lane_network::meet(const driver& who, std::size_t lane,
+                        double start_m) const {
+  for (const auto& e : meetings_[lane]) {
+    const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
+    const auto left_m = start_m + e.to_m + who.half_length_m;
+    const auto stands = who.speed_mps < still_mps;
+    if (e.how == conflict::kind::diverge || left_m <= 0 || way_m > who.within_m
+        || (stands && way_m > 0))
+      continue;
+    const conflict_visit here{e.side, e.rank, way_m,
+                              way_m > 0 ? way_m / who.speed_mps : 0.0,
+                              stands ? std::numeric_limits<double>::infinity()
+                                     : left_m / who.speed_mps};
+    const auto known = std::find_if(
+        who.out.begin() + static_cast<std::ptrdiff_t>(who.first), who.out.end(),
+        [&](const conflict_visit& a) { return a.side == e.side; });
+    if (known == who.out.end()) {
+      who.out.push_back(here);
+    } else {
+      known->way_m = std::min(known->way_m, here.way_m);
+      known->enter_s = std::min(known->enter_s, here.enter_s);
+      known->leave_s = std::max(known->leave_s, here.leave_s);
+    }
+  }
+}
+
+void lane_network::drive(const driver& who, std::size_t lane,
+                         double start_m) const {
+  meet(who, lane, start_m);
+  const auto end_m = start_m + paths_[lane].length_m();
+  if (end_m - who.half_length_m <= who.within_m)
+    for (const auto following : next_[lane])
+      drive(who, following, end_m);
+}
+
+} // namespace sofof

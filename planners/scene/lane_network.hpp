@@ -1,0 +1,89 @@
+// The lanes of a map as bodies drive on them: who is on which lane, and which
+// conflicts it drives towards.
+#pragma once
+
+#include "base/cell_grid.hpp"
+#include "planners/scene/track.hpp"
+#include "world/roads/encounter.hpp"
+#include "world/roads/path.hpp"
+#include "world/roads/road_map.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// When a body is on one side of a conflict, if its speed stays as it is.
+struct conflict_visit {
+  std::uint32_t side = 0; ///< As in `encounter`.
+  int rank = 0;           ///< Of its lane.
+  double way_m = 0;       ///< From its front to the stretch; 0: on it.
+  double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
+  double leave_s = 0;     ///< Its rear leaves; infinite: it stands there.
+};
+
+/// Lanes, how they follow each other, and their conflicts; immutable, one for
+/// all vehicles on a map.
+class lane_network {
+public:
+  static constexpr double farthest_m = 300;
+
+  explicit lane_network(const road_map& map);
+
+  const encounters& meetings() const { return meetings_; }
+
+  /// @returns the right of way of a conflict's side.
+  int rank(std::uint32_t side) const { return ranks_[side]; }
+
+  /// Where a body is on a lane that it drives along.
+  struct placement {
+    std::size_t lane = 0; ///< Index into the map's lanes.
+    double s_m = 0;       ///< Of its centre, arc length on that lane.
+  };
+
+  /// Up to this many lanes; where more lie on top of each other, the first in
+  /// the order of the map.
+  struct placements {
+    std::array<placement, 8> all;
+    std::size_t count = 0;
+
+    auto begin() const { return all.begin(); }
+    auto end() const { return all.begin() + count; }
+  };
+
+  /// @returns the lanes that a body's centre is on and that run its way (to
+  /// within 45°), in the order of the map; several where lanes begin, end or
+  /// cross.
+  placements find(const oriented_box& body) const;
+
+  /// Appends the conflicts that a body is on or drives towards, on whatever
+  /// lanes it may take; each side once, with the earliest entry and the latest
+  /// exit of all ways. Who stands drives towards none.
+  /// @param within_m  How far its front looks, m, at most `farthest_m`.
+  void foresee(const track& x, double within_m,
+               std::vector<conflict_visit>& out) const;
+
+private:
+  struct piece {
+    std::size_t lane;
+    double s_m; // of its middle
+    point from, to;
+  };
+  struct driver; // on its way
+  void cut(std::size_t lane);
+  void meet(const driver& who, std::size_t lane, double start_m) const;
+  void drive(const driver& who, std::size_t lane, double start_m) const;
+
+  encounters meetings_;
+  std::vector<int> ranks_; // of all sides
+  std::vector<path> paths_;
+  std::vector<double> half_widths_m_;
+  std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
+  std::vector<piece> pieces_;
+  cell_grid cells_; // of the pieces, as wide as the lanes
+};
+
+} // namespace sofof

@@ -1,0 +1,51 @@
+// A route as the planner samples it: bends, limits and width by arc length.
+#pragma once
+
+#include "world/roads/route.hpp"
+
+#include <vector>
+
+namespace sofof {
+
+/// The centre line of a route, tabulated once. Arc lengths are those of the
+/// route: closed routes wrap, open ones clamp.
+class reference_line {
+public:
+  /// @param way  Kept.
+  explicit reference_line(route_ptr way);
+
+  const route& way() const { return *way_; }
+
+  /// Linear between samples, 1/m.
+  double curvature_1pm(double s_m) const;
+
+  /// The lowest speed limit within a sample's step, m/s.
+  double limit_mps(double s_m) const;
+
+  /// Half of the lane, the narrowest within a sample's step, m.
+  double half_width_m(double s_m) const;
+
+  /// How far the line leaves its tangent at `s_m`, `ahead_m` further on
+  /// (either sign), m, left positive.
+  double bow_m(double s_m, double ahead_m) const;
+
+private:
+  struct sample {
+    double curvature_1pm = 0;
+    double limit_mps = 0;
+    double half_width_m = 0;
+  };
+  struct place {
+    const sample& low;
+    const sample& high;
+    double share;
+  };
+  place find(double s_m) const;
+
+  route_ptr way_;
+  std::vector<sample> table_; // equidistant, both ends included
+  double steps_per_m_ = 0;
+  double laps_per_m_ = 0;
+};
+
+} // namespace sofof

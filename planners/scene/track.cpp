@@ -1,0 +1,52 @@
+// A body on the road as it is known from sightings.
+#include "planners/scene/track.hpp"
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace sofof {
+
+namespace {
+
+/// Spectral density of the acceleration, m²/s³: drivers change it by 2 m/s²
+/// (standard deviation) about once a second.
+constexpr auto manoeuvre_m2ps3 = 4.0;
+
+} // namespace
+
+void motion_estimate::advance(double dt_s) {
+  constexpr auto q = manoeuvre_m2ps3;
+  mean.col(0) += dt_s * mean.col(1);
+  auto& p = covariance;
+  p(0, 0) += dt_s * (2 * p(0, 1) + dt_s * (p(1, 1) + dt_s * q / 3));
+  p(0, 1) += dt_s * (p(1, 1) + dt_s * q / 2);
+  p(1, 0) = p(0, 1);
+  p(1, 1) += dt_s * q;
+}
+
+void motion_estimate::fuse(const motion_estimate& other) {
+  const Eigen::Matrix2d sum = covariance + other.covariance;
+  const Eigen::Matrix2d gain = covariance * sum.inverse();
+  mean += (other.mean - mean) * gain.transpose();
+  covariance -= gain * covariance;
+  covariance(1, 0) = covariance(0, 1);
+}
+
+motion_estimate::mismatch
+motion_estimate::compare(const motion_estimate& other) const {
+  const Eigen::Matrix2d sum = covariance + other.covariance;
+  const Eigen::Matrix2d apart = other.mean - mean;
+  const auto distance2 = (apart * sum.inverse()).cwiseProduct(apart).sum();
+  return {distance2, distance2 + 2 * std::log(sum.determinant())};
+}
+
+track predict(track x, time_point then) {
+  if (then > x.at) {
+    x.motion.advance(to_seconds(then - x.at));
+    x.at = then;
+  }
+  return x;
+}
+
+} // namespace sofof

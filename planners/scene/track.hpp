@@ -1,0 +1,81 @@
+// A body on the road as it is known from sightings.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "base/ids.hpp"
+#include "base/time.hpp"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace sofof {
+
+/// Where something is and how it moves, and how well that is known: the state
+/// of a Kalman filter. What is known is equally good in all directions, so
+/// that east and north are two filters with one covariance.
+struct motion_estimate {
+  /// Columns: centre, m, and velocity, m/s; rows: east and north.
+  Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
+  /// Of position and velocity along any one axis; symmetric, m and m/s.
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+
+  /// Lets time pass: at constant velocity, but for random manoeuvres
+  /// (acceleration is white noise), which make the estimate less certain.
+  /// Source: Bar-Shalom, Li & Kirubarajan 2001, section 6.2.2.
+  /// @param dt_s  >= 0.
+  void advance(double dt_s);
+
+  /// Makes the most of two independent estimates of one body at one time.
+  void fuse(const motion_estimate& other);
+
+  /// How badly two estimates agree, if they are of one body.
+  struct mismatch {
+    double distance2; ///< Squared Mahalanobis distance, 4 degrees of freedom.
+    double cost;      ///< Minus twice the log-likelihood, up to a constant.
+  };
+  mismatch compare(const motion_estimate& other) const;
+};
+
+/// A body that has been seen on the road.
+struct track {
+  std::uint32_t id = 0;              ///< Counts the bodies ever seen.
+  std::optional<station_id> station; ///< Of a vehicle that was heard.
+  time_point at;                     ///< When `motion` holds.
+  time_point seen;                   ///< When it was last seen or heard.
+  motion_estimate motion;
+  double heading_rad = 0; ///< Of its long axis, known at rest as well.
+  double accel_mps2 = 0;  ///< Along its heading.
+  double length_m = 0;
+  double width_m = 0;
+
+  point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
+
+  /// @returns the velocity along an axis.
+  double speed_along_mps(double axis_rad) const {
+    return motion.mean(0, 1) * std::cos(axis_rad)
+           + motion.mean(1, 1) * std::sin(axis_rad);
+  }
+
+  double speed_mps() const { return speed_along_mps(heading_rad); }
+
+  oriented_box body() const {
+    return {centre(), heading_rad, length_m, width_m};
+  }
+};
+
+/// @returns `x` at a later time; as it is when `then` is not later.
+track predict(track x, time_point then);
+
+/// @returns whether two bodies with these widths and a distance of this
+/// square between their centres overlap whatever their headings: their
+/// inscribed circles do. Bodies are not wider than long.
+inline bool in_one_place(double distance2_m2, double width_a_m,
+                         double width_b_m) {
+  const auto apart_m = 0.5 * (width_a_m + width_b_m);
+  return distance2_m2 < apart_m * apart_m;
+}
+
+} // namespace sofof

@@ -1,0 +1,24 @@
+// What planners look up of a route.
+#pragma once
+
+#include "planners/scene/reference_line.hpp"
+#include "planners/speed/speed_envelope.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace sofof {
+
+/// A route as it is sampled, and how fast it may be driven. It takes
+/// milliseconds to compute and never changes: all planners share one.
+struct route_profile {
+  route_profile(route_ptr way, const driving_style& style)
+      : line{std::move(way)}, envelope{line.way(), style} {}
+
+  reference_line line;
+  speed_envelope envelope;
+};
+
+using route_profile_ptr = std::shared_ptr<const route_profile>;
+
+} // namespace sofof

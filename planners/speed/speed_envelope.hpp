@@ -1,0 +1,39 @@
+// How fast a route may be driven where.
+#pragma once
+
+#include "planners/speed/driving_style.hpp"
+#include "world/roads/route.hpp"
+
+#include <vector>
+
+namespace sofof {
+
+/// The speed that a route allows where, with bends and the braking before
+/// them, already limited in jerk: computed once per route, then only looked
+/// up.
+class speed_envelope {
+public:
+  /// Speed at a place, and the acceleration of a car that drives it.
+  struct sample {
+    double speed_mps = 0;
+    double accel_mps2 = 0;
+  };
+
+  /// @param way  Its limits must be positive.
+  speed_envelope(const route& way, const driving_style& params);
+
+  /// @param s_m  Arc length on the route; closed routes wrap, open ones
+  ///             clamp.
+  sample at(double s_m) const;
+
+  double limit_mps(double s_m) const { return at(s_m).speed_mps; }
+
+private:
+  std::vector<sample> table_; // equidistant, 1 m or less, both ends included
+  double steps_per_m_ = 0;
+  double laps_per_m_ = 0;
+  double length_m_ = 0;
+  bool closed_ = false;
+};
+
+} // namespace sofof

@@ -1,0 +1,412 @@
+// Setting up the velocity problem, and motions for when it does not fit.
+#include "planners/speed/speed_planner.hpp"
+
+#include "planners/speed/plain_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+constexpr double never = speed_task::never;
+
+// Where to stop before a line, and what must be kept in any case.
+constexpr double wanted_line_gap_m = 0.3;
+constexpr double least_line_gap_m = 0.15;
+constexpr double least_gap_m = 1.0;
+/// Comfort keeps off a window by so much more than an emergency does.
+constexpr double window_slack_s = 0.4;
+constexpr double least_way_m = 0.1;
+/// What a plan that was made before may come closer still.
+constexpr double slack_m = 0.1;
+
+/// Behind a car that crawls, rather stop than follow: it is taken to brake.
+constexpr double crawl_ahead_mps = 2.0;
+constexpr double crawling_decel_mps2 = 1.0;
+/// How long a car ahead is taken to go on as it does.
+constexpr double foresight_s = 8.0;
+/// A time gap that is too short grows again by this share.
+constexpr double opening = 0.1;
+constexpr double least_speed_for_gap_mps = 2.0;
+
+/// Up to here, cars move up rather than set off.
+constexpr double moving_up_m = 5.0;
+constexpr double worth_starting_m = 0.5;
+constexpr double halted_mps = 0.05;
+
+constexpr double low_speed_mps = 2.0;
+constexpr double share_at_low_speed = 0.65;
+/// A plan that began farther back is of another drive.
+constexpr double longest_shift_m = 10;
+/// Envelopes use this much of jerk and braking; the rest is for plans.
+constexpr double envelope_share_of_jerk = 0.8;
+constexpr double share_of_braking = 0.95;
+constexpr double small = 1e-3;
+/// Braking that cannot wait is planned with some reserve.
+constexpr double reserve = 1.1;
+constexpr double emergency_share_of_jerk = 0.7;
+/// A plan that misses its bounds by less (s, m²/s², m/s², m/s³) may be driven
+/// all the same if it is clear.
+constexpr double reduced_margin = 0.025;
+/// A plan's own tolerance is no emergency.
+constexpr double beyond_firm_mps2 = 0.05;
+/// After an emergency, back to comfort at this jerk.
+constexpr double recovery_jerk_mps3 = 5.0;
+
+constexpr double lateral_margin = 0.975;
+constexpr double least_curvature_1pm = 1e-4;
+constexpr double least_wanted_m2ps2 = 0.125;
+
+/// Way to rest when braking builds up at a jerk.
+double stopping_m(double v, double a, double decel, double jerk) {
+  const auto t = (a + decel) / jerk;
+  if (t <= 0)
+    return v * v / (2 * std::max(decel, -a));
+  const auto v1 = v + t * (a - jerk * t / 2);
+  const auto x1 = t * (v + t * (a / 2 - jerk * t / 6));
+  return v1 > 0 ? x1 + v1 * v1 / (2 * decel) : std::max(x1, 0.0);
+}
+
+double square(double x) {
+  return x * x;
+}
+
+/// The constant braking with which a car is not at a place before some time.
+double decel_to_be_late(double v, double way_m, double time_s) {
+  if (!(time_s > 0) || v * time_s <= way_m)
+    return 0;
+  const auto way = std::max(way_m, least_way_m);
+  const auto decel = 2 * (v * time_s - way) / square(time_s);
+  return v < decel * time_s ? square(v) / (2 * way) : decel; // or at rest
+}
+
+bool keeps_windows(const time_motion& motion, double step_s,
+                   const speed_task& task) {
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    const auto t = static_cast<double>(i) * step_s;
+    for (const auto& window : task.windows)
+      if (motion[i].s_m > window.at_m && motion[i - 1].s_m <= window.at_m
+          && (t < window.earliest_s - window_slack_s
+              || t > window.latest_s + window_slack_s))
+        return false;
+  }
+  return true;
+}
+
+} // namespace
+
+speed_planner::speed_planner(route_profile_ptr way, const driving_style& style,
+                             grid horizon)
+    : way_{std::move(way)}, style_{style}, grid_{horizon},
+      steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
+  motion_.reserve(static_cast<std::size_t>(steps_) + 1);
+}
+
+speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
+  stop end{task.stop_m - wanted_line_gap_m, task.stop_m - least_line_gap_m};
+  if (task.ahead) {
+    const auto& lead = task.ahead->lead;
+    auto left = task.ahead->way_left_m();
+    if (lead.speed_mps < crawl_ahead_mps)
+      left = std::min(left, square(lead.speed_mps) / (2 * crawling_decel_mps2));
+    const auto rear = task.ahead->touch_m + left;
+    // Nobody knows more of it than for a while: the plan ends behind it then.
+    const auto seen = std::min(rear, task.ahead->at(foresight_s));
+    end.wanted_m = std::min(end.wanted_m, seen - style_.standstill_gap_m);
+    end.last_m = std::min(end.last_m, rear - least_gap_m);
+  }
+  return end;
+}
+
+double speed_planner::needed_decel(const speed_task& task) const {
+  auto needed = 0.0;
+  if (std::isfinite(task.stop_m))
+    needed =
+        sofof::needed_decel(task.speed_mps, task.stop_m - least_line_gap_m, {});
+  if (task.ahead)
+    needed =
+        std::max(needed, sofof::needed_decel(task.speed_mps,
+                                             task.ahead->touch_m - least_gap_m,
+                                             task.ahead->lead));
+  for (const auto& window : task.windows)
+    needed =
+        std::max(needed, decel_to_be_late(task.speed_mps, window.at_m,
+                                          window.earliest_s - window_slack_s));
+  return needed;
+}
+
+bool speed_planner::comes_too_late(const speed_task& task,
+                                   const stop& end) const {
+  return task.speed_mps > halted_mps
+         && stopping_m(task.speed_mps, task.accel_mps2,
+                       style_.firm_decel_mps2(),
+                       envelope_share_of_jerk * style_.max_jerk_mps3)
+                > end.last_m;
+}
+
+speed_planner::result speed_planner::plan(const planned_path& path,
+                                          double way_m, const speed_task& task,
+                                          const ocp::budget& go_on) {
+  const auto end = find_stop(task);
+  result r;
+  if (needed_decel(task) > style_.firm_decel_mps2()
+      || comes_too_late(task, end)) {
+    r = brake_only(task);
+  } else if (setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
+                                    grid_.ds_m)
+             && end.wanted_m < moving_up_m) {
+    const auto stands =
+        task.speed_mps < halted_mps && end.wanted_m < worth_starting_m;
+    r.how = stands ? speed_mode::stands : speed_mode::moves_up;
+    r.report.status = ocp::solve_status::converged;
+    move_up({0, task.speed_mps, task.accel_mps2}, end.wanted_m, style_, steps_,
+            motion_);
+    solved_ = false;
+  } else if (!drive(path, way_m, task, end, r, go_on)) {
+    motion_.clear();
+    return r;
+  }
+  r.price = price(path, way_m);
+  return r;
+}
+
+speed_planner::result speed_planner::brake_only(const speed_task& task) {
+  const auto decel =
+      std::clamp(reserve * needed_decel(task),
+                 driving_style::least_emergency_mps2, style_.max_decel_mps2);
+  brake({0, task.speed_mps, task.accel_mps2}, decel,
+        emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
+        steps_, motion_);
+  solved_ = false;
+  result r;
+  r.emergency = true;
+  r.report.status = ocp::solve_status::soft_infeasible;
+  return r;
+}
+
+bool speed_planner::drive(const planned_path& path, double way_m,
+                          const speed_task& task, const stop& end, result& r,
+                          const ocp::budget& go_on) {
+  lane_motion from{0, task.speed_mps, task.accel_mps2};
+  auto from_s = 0.0;
+  motion_.assign(1, from);
+  if (setting_off::is_needed(from, grid_.ds_m)) {
+    const setting_off ramp{from, envelope_share_of_jerk * style_.max_jerk_mps3};
+    ramp.drive(style_.step_s, steps_, motion_);
+    from = ramp.end;
+    from_s = ramp.takes_s;
+  }
+  const auto comfortable_m =
+      from.s_m
+      + stopping_m(from.speed_mps, from.accel_mps2, style_.comfort_decel_mps2,
+                   envelope_share_of_jerk * style_.max_jerk_mps3);
+  const auto stop_m = std::clamp(comfortable_m, end.wanted_m,
+                                 std::max(end.wanted_m, end.last_m))
+                      - from.s_m;
+  const auto sight_m = path.length_m() - way_m - from.s_m;
+  const auto full_m = std::min(sight_m, grid_.ds_m * grid_.steps);
+  const auto stops = stop_m < full_m;
+  const auto length_m = stops ? stop_m : full_m;
+  if (!(length_m > 0))
+    return false;
+  const auto steps =
+      std::clamp(static_cast<int>(std::ceil(length_m / grid_.ds_m)),
+                 fewest_steps, grid_.steps);
+  const auto ds_m = length_m / steps;
+  const auto comfort = style_.comfort_decel_mps2;
+  const auto firm = style_.firm_decel_mps2();
+  const auto pose = [&] {
+    set_limits(path, way_m + from.s_m, ds_m, steps);
+    be_cautious(task, from.s_m, ds_m);
+    w_max_.back() = std::min(w_max_.back(), comfort * (stop_m - length_m));
+    set_windows(task, from, ds_m);
+  };
+  pose();
+  auto decel = comfort;
+  if (!yield_to_braking(from, from_s, ds_m, share_of_braking * comfort)) {
+    decel = firm;
+    pose();
+    yield_to_braking(from, from_s, ds_m, share_of_braking * firm);
+    r.emergency = too_fast_for_bends();
+  }
+
+  velocity_problem p;
+  p.steps = steps;
+  p.ds_m = ds_m;
+  p.start = {from_s, square(from.speed_mps) / 2, from.accel_mps2};
+  p.w_max_m2ps2 = w_max_;
+  p.wanted_m2ps2 = wanted_;
+  p.curvature_1pm = bends_;
+  p.earliest_s = earliest_;
+  p.latest_s = latest_;
+  if (stops)
+    p.stop_knot = steps;
+  const auto recovers = from.accel_mps2 < -firm - beyond_firm_mps2;
+  p.limits.accel_min_mps2 = std::min(-decel, from.accel_mps2);
+  p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
+  // From low speeds jerk grows between knots, with speed.
+  const auto slow = from.speed_mps < low_speed_mps;
+  p.limits.jerk_max_mps3 =
+      recovers ? recovery_jerk_mps3
+               : (slow ? share_at_low_speed : 1) * style_.max_jerk_mps3;
+  p.limits.total_max_mps2 = std::hypot(style_.max_lateral_accel_mps2, firm);
+
+  const auto s = path.s_m(way_m + from.s_m);
+  const auto warm = solved_ && solved_stop_ == stops && s >= solved_s_m_
+                    && s < solved_s_m_ + longest_shift_m;
+  if (warm)
+    solver_.carry_over(s - solved_s_m_, ds_m, steps);
+  r.report =
+      solver_.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
+  if (warm && !ocp::publishable(r.report.status))
+    r.report = solver_.solve(p, ocp::start::cold, {}, go_on);
+  solved_ = ocp::publishable(r.report.status);
+  solved_stop_ = stops;
+  solved_s_m_ = s;
+  if (r.report.iterations == 0 && !solved_)
+    return false;
+  drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
+  r.how = speed_mode::optimal;
+  r.emergency |= recovers;
+  // Where braking is too weak, even a solved plan comes too early.
+  return motion_.size() > 1
+         && (solved_ ? keeps_windows(motion_, style_.step_s, task)
+                     : r.report.violation < reduced_margin
+                           && is_clear(motion_, style_.step_s, task));
+}
+
+void speed_planner::set_limits(const planned_path& path, double from_m,
+                               double ds_m, int steps) {
+  const auto knots = static_cast<std::size_t>(steps) + 1;
+  for (auto* column : {&w_max_, &wanted_, &bends_})
+    column->resize(knots);
+  const auto lateral = lateral_margin * style_.max_lateral_accel_mps2;
+  auto s = 0.0;
+  for (std::size_t k = 0; k < knots; ++k) {
+    s = path.s_m(from_m + static_cast<double>(k) * ds_m);
+    bends_[k] = path.curvature_1pm(s);
+    const auto bend = std::max(path.sharpest_1pm(s), least_curvature_1pm);
+    w_max_[k] = std::min(square(way_->line.limit_mps(s)), lateral / bend) / 2;
+  }
+  // What comes behind the horizon must not find the car too fast.
+  w_max_.back() =
+      std::min(w_max_.back(), square(way_->envelope.limit_mps(s)) / 2);
+}
+
+void speed_planner::be_cautious(const speed_task& task, double from_m,
+                                double ds_m) {
+  const auto w = square(task.caution_mps) / 2;
+  for (std::size_t k = 0; k < w_max_.size(); ++k)
+    if (from_m + static_cast<double>(k) * ds_m <= task.caution_to_m)
+      w_max_[k] = std::min(w_max_[k], w);
+}
+
+void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
+                                double ds_m) {
+  const auto knots = w_max_.size();
+  earliest_.assign(knots, -never);
+  latest_.assign(knots, never);
+  for (const auto& window : task.windows) {
+    // The knot before the place opens late, the knot behind it closes early.
+    const auto steps = std::clamp((window.at_m - from.s_m) / ds_m, 0.0,
+                                  static_cast<double>(knots));
+    const auto before = static_cast<std::size_t>(steps);
+    const auto behind = static_cast<std::size_t>(std::ceil(steps));
+    for (auto k = before; k < knots; ++k)
+      earliest_[k] = std::max(earliest_[k], window.earliest_s);
+    if (behind < knots)
+      latest_[behind] = std::min(latest_[behind], window.latest_s);
+  }
+  if (!task.ahead)
+    return;
+  const auto& ahead = *task.ahead;
+  const auto gap_m = style_.standstill_gap_m;
+  // A gap that is too short now opens slowly.
+  const auto now_s = (ahead.touch_m - gap_m)
+                     / std::max(task.speed_mps, least_speed_for_gap_mps);
+  for (std::size_t k = 0; k < knots; ++k) {
+    const auto t =
+        ahead.when_s(from.s_m + static_cast<double>(k) * ds_m + gap_m);
+    if (t == never)
+      return; // behind where it comes to rest, and so does the plan
+    const auto opened = now_s + opening * std::max(0.0, t);
+    earliest_[k] =
+        std::max(earliest_[k], t + std::min(style_.time_gap_s, opened));
+  }
+}
+
+// Even firm braking comes too late for them.
+bool speed_planner::too_fast_for_bends() const {
+  constexpr auto tolerance = 1.02;
+  for (std::size_t k = 0; k < w_max_.size(); ++k)
+    if (2 * w_max_[k] * std::abs(bends_[k])
+        > tolerance * style_.max_lateral_accel_mps2)
+      return true;
+  return false;
+}
+
+// No bound may ask for more than braking can do.
+bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
+                                     double ds_m, double decel_mps2) {
+  const auto slow = from.speed_mps < low_speed_mps;
+  const auto jerk = (slow ? share_at_low_speed : envelope_share_of_jerk)
+                    * style_.max_jerk_mps3;
+  auto w = square(from.speed_mps) / 2, a = from.accel_mps2, t = from_s;
+  auto fits = true;
+  for (std::size_t k = 0; k < w_max_.size(); ++k) {
+    fits = fits && w <= w_max_[k] + small && earliest_[k] <= t + small;
+    w_max_[k] = std::max(w_max_[k], w);
+    earliest_[k] = std::min(earliest_[k], t);
+    wanted_[k] = std::max(w_max_[k], least_wanted_m2ps2);
+    const auto v = std::sqrt(2 * w);
+    const auto next_a =
+        std::max(a - jerk * ds_m / std::max(v, setting_off::until_mps),
+                 std::min(a, -decel_mps2));
+    const auto next_w = w + ds_m * (a + next_a) / 2;
+    a = next_a;
+    t += 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w)); // as there
+    w = std::max(0.0, next_w);
+  }
+  // Waiting costs little over way: without this, cars crawl until what holds
+  // them up is far off, rather than drive as fast as it lets them.
+  auto mean = never;
+  for (auto k = wanted_.size() - 1; k > 0; --k) {
+    if (earliest_[k] > from_s)
+      mean = std::min(mean,
+                      static_cast<double>(k) * ds_m / (earliest_[k] - from_s));
+    wanted_[k] =
+        std::max(std::min(wanted_[k], square(mean) / 2), least_wanted_m2ps2);
+  }
+  return fits;
+}
+
+// As the velocity problem prices its plans, but over time, so that plans of
+// different length can be compared.
+double speed_planner::price(const planned_path& path, double way_m) const {
+  constexpr velocity_weights weigh;
+  auto sum = 0.0;
+  for (std::size_t i = 1; i < motion_.size(); ++i) {
+    const auto &x = motion_[i], &before = motion_[i - 1];
+    const auto limit = way_->line.limit_mps(path.s_m(way_m + x.s_m));
+    const auto jerk = (x.accel_mps2 - before.accel_mps2) / style_.step_s;
+    sum += weigh.speed * square(limit - x.speed_mps)
+           + weigh.accel * square(x.accel_mps2) + weigh.jerk * square(jerk);
+  }
+  return sum * style_.step_s;
+}
+
+bool is_clear(const time_motion& motion, double step_s,
+              const speed_task& task) {
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const auto t = static_cast<double>(i) * step_s;
+    const auto& x = motion[i];
+    if (x.s_m > task.stop_m - least_line_gap_m + slack_m)
+      return false;
+    if (task.ahead && x.s_m > task.ahead->at(t) - least_gap_m + slack_m)
+      return false;
+  }
+  return keeps_windows(motion, step_s, task);
+}
+
+} // namespace sofof

@@ -1,0 +1,30 @@
+// Straight on at constant speed.
+#include "planners/trajectory/keep_speed.hpp"
+
+#include "planners/scene/lane_motion.hpp"
+
+namespace sofof {
+namespace {
+
+constexpr double sample_s = 0.1;
+constexpr auto steps = 30;
+constexpr double nothing_to_centre_m = 15.0;
+
+} // namespace
+
+trajectory keep_speed(const route& way, time_point now, double s_m,
+                      double speed_mps) {
+  planning_input from;
+  from.s_m = s_m;
+  from.speed_mps = speed_mps;
+  const centring line{way, from, nothing_to_centre_m};
+  auto x = line.motion();
+  trajectory plan{now, {}};
+  for (auto i = 0; i <= steps; ++i) {
+    plan.points.push_back(line.place(x, i * sample_s));
+    x = advance(x, 0, sample_s);
+  }
+  return plan;
+}
+
+} // namespace sofof

@@ -1,0 +1,95 @@
+// The trajectory planner: a path, then speeds on it, both optimal, again and
+// again, for the best of several ways past the others.
+#pragma once
+
+#include "base/options/settings.hpp"
+#include "planners/path/path_planner.hpp"
+#include "planners/speed/speed_planner.hpp"
+#include "planners/trajectory/homotopy.hpp"
+#include "planners/trajectory/trajectory_planner.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// How far, how finely and how thoroughly a planner plans.
+struct spatial_params {
+  double horizon_m = 80;
+  double step_m = 1;
+  std::int64_t candidates = 2;   ///< Ways past the others that are weighed.
+  std::int64_t alternations = 1; ///< Path, speed, path for these speeds, …
+  /// Before crossings where others go first it reckons with seeing no
+  /// farther than this; 0: it does not.
+  double cautious_sight_m = 0;
+
+  void fields(settings& s);
+};
+
+/// Path–velocity decomposition over arc length; both parts by the
+/// augmented-Lagrangian iLQR of planners/ocp. A plan that fails is replaced by
+/// the one before as long as that is safe, then by braking.
+/// Source: docs/planner.md.
+class spatial_planner final : public trajectory_planner {
+public:
+  /// @param way  Of the same style.
+  spatial_planner(route_profile_ptr way, const driving_style& style,
+                  const spatial_params& params);
+
+  plan_report plan(time_point now, const planning_input& input,
+                   const trajectory* previous, trajectory& out,
+                   const ocp::budget& go_on = {}) override;
+
+private:
+  /// What a cycle starts from.
+  struct scene {
+    time_point now;
+    planning_input start;
+    const surroundings& others;
+    double age_s; ///< Of what is known of them.
+  };
+
+  void forget();
+  bool plan_path(const scene& at, plan_report& report,
+                 const ocp::budget& go_on);
+  bool plan_speed(const scene& at, plan_report& report,
+                  const ocp::budget& go_on);
+  speed_task task(const scene& at) const;
+  bool keep(const trajectory& previous, const scene& at, trajectory& out);
+  bool avoids_crossings() const;
+  bool passes(const trajectory& plan,
+              std::span<const lane_obstacle> bodies) const;
+  void publish(time_point now, trajectory& out) const;
+  void list_bodies(const scene& at);
+  double lane_m(double s_m) const;
+  bool meets(const lane_obstacle& body) const;
+  double way_from_car(double s_m) const;
+  std::size_t most() const {
+    return static_cast<std::size_t>(params_.candidates);
+  }
+  lane_obstacle met(const lane_obstacle& body, double age_s) const;
+
+  const route& lane() const { return way_->line.way(); }
+
+  route_profile_ptr way_;
+  driving_style style_;
+  spatial_params params_;
+  vehicle_params car_;
+  // The plan in use and one to try others with.
+  std::unique_ptr<path_planner> path_, other_path_;
+  std::unique_ptr<speed_planner> speed_, other_speed_;
+  double way_m_ = 0;       // of the car on its path, ...
+  double s_m_ = 0;         // ... and on its route
+  double blocked_s_m_ = 0; // where a body begins that leaves no room
+  std::uint32_t sides_ = 0, order_ = 0; // chosen last
+  std::vector<lane_obstacle> bodies_;
+  std::vector<crossing_user> users_;
+  std::vector<passing_order> all_sides_;
+  std::vector<crossing_order> all_orders_;
+  time_motion kept_;
+  std::optional<time_point> made_;      // start of the last plan
+  std::optional<time_point> kept_from_; // start of the plan that is kept
+};
+
+} // namespace sofof

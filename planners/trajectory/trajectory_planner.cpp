@@ -1,0 +1,55 @@
+// Where a new plan begins.
+#include "planners/trajectory/trajectory_planner.hpp"
+
+#include "planners/scene/lane_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+namespace {
+
+constexpr double same_drive_m = 1.0;
+constexpr double same_speed_mps = 1.0;
+constexpr double max_lead_age_s = 0.5;
+
+/// @returns the own motion, without the others: they would take memory.
+planning_input own(const planning_input& x) {
+  planning_input alone;
+  alone.at = x.at;
+  alone.s_m = x.s_m;
+  alone.d_m = x.d_m;
+  alone.heading_error_rad = x.heading_error_rad;
+  alone.curvature_1pm = x.curvature_1pm;
+  alone.speed_mps = x.speed_mps;
+  alone.accel_mps2 = x.accel_mps2;
+  return alone;
+}
+
+} // namespace
+
+planning_input joined(const route& way, time_point now,
+                      const planning_input& input, const trajectory* previous) {
+  if (previous && !previous->empty() && previous->start <= now
+      && now <= previous->end()) {
+    const auto seen = moved_forward(own(input), previous->start);
+    const auto then = previous->at(std::max(input.at, previous->start));
+    if (std::abs(then.s_m - seen.s_m) <= same_drive_m
+        && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
+      return seen_from(way, previous->at(now));
+  }
+  return made_possible(moved_forward(made_possible(own(input)), now));
+}
+
+lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
+  const auto age_s = std::clamp(to_seconds(now - seen), 0.0, max_lead_age_s);
+  const auto accel = std::min(lead.accel_mps2, 0.0);
+  const auto then =
+      advance({lead.rear_s_m, lead.speed_mps, accel}, accel, age_s);
+  lead.rear_s_m = then.s_m;
+  lead.speed_mps = then.speed_mps;
+  lead.accel_mps2 = then.accel_mps2;
+  return lead;
+}
+
+} // namespace sofof

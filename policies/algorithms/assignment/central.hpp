@@ -1,0 +1,48 @@
+// The assignment as one provider sees it: who shall be served here, who
+// elsewhere, who at home.
+#pragma once
+
+#include "policies/algorithms/assignment/problem.hpp"
+#include "policies/api/central_view.hpp"
+
+#include <chrono>
+#include <vector>
+
+namespace sofof::assignment {
+
+/// Options of all policies that decide so; μ is the price.
+struct assignment_options : central_options {
+  /// w*: results may wait so long for a worker, in the mean; > 0.
+  duration wait = std::chrono::milliseconds{16};
+
+  /// Lists the options once.
+  void fields(settings& s);
+};
+
+struct central_problem {
+  problem what; ///< Of the requests and then the sessions.
+  /// Of each index, this one first.
+  std::vector<boot_id> providers;
+};
+
+/// Who asks may be served by any provider that it names; who is served stays or
+/// goes home, as what it could win elsewhere is old, and nobody can tell it
+/// whom to ask.
+///
+/// This provider may be busy up to `utilisation_cap` of the longest computing
+/// time, which bounds the mean wait of a mixture too; what runs has room in any
+/// case. Others have what is left by what they said, and a service is taken to
+/// need as much of them as of this one.
+central_problem problem_of(const central_context& context,
+                           const assignment_options& options);
+
+/// Serves here who is at home though there is room: first who is served now,
+/// then who asks. For solvers that may overlook it.
+void fill_room(const problem& p, std::vector<choice>& choices);
+
+/// @returns a decision for each request and then for each session.
+std::vector<central_decision> decisions_of(const central_context& context,
+                                           const central_problem& asked,
+                                           const solution& found);
+
+} // namespace sofof::assignment

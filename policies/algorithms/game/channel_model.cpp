@@ -1,0 +1,28 @@
+// Rates on a shared channel, and their inverses.
+#include "policies/algorithms/game/channel_model.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sofof::game {
+
+double interference::rate_bps(const player& p, double received) const {
+  const auto ratio = p.received_power_w / (noise_w_ + received);
+  return bandwidth_hz_ * std::log1p(ratio) / std::numbers::ln2;
+}
+
+double interference::received_at(const player& p, double rate_bps) const {
+  const auto ratio = std::expm1(rate_bps / bandwidth_hz_ * std::numbers::ln2);
+  return p.received_power_w / ratio - noise_w_;
+}
+
+double contention::rate_bps(const player& p, double received) const {
+  const auto share = p.contention_weight / (p.contention_weight + received);
+  return p.lone_rate_bps * share;
+}
+
+double contention::received_at(const player& p, double rate_bps) const {
+  return p.contention_weight * (p.lone_rate_bps / rate_bps - 1);
+}
+
+} // namespace sofof::game

@@ -1,0 +1,190 @@
+// What the deciders see, and what they say.
+#pragma once
+
+#include "base/candidate.hpp"
+#include "base/geometry.hpp"
+#include "base/ids.hpp"
+#include "base/random.hpp"
+#include "policies/api/gain.hpp"
+#include "policies/api/periodic_task.hpp"
+#include "policies/api/policy.hpp"
+#include "world/roads/road_map.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// What a vehicle expects of results by what came so far; without any the
+/// worst.
+struct link_quality {
+  double late = 1; ///< P(a result is later than its limit), in [0, 1].
+  double gap = 1;  ///< P(the gap to the next one is longer than its limit).
+  /// Latencies that half and 99 % of the results stay below; unknown at first.
+  std::optional<duration> median{}, p99{};
+};
+
+/// What a vehicle knows of a provider.
+struct provider_view {
+  boot_id id = 0;
+  point at; ///< m, east-north.
+  /// What runs there needs this share of its workers, as it says, ≥ 0; above 1
+  /// it falls behind.
+  double utilisation = 0;
+  std::size_t workers = 1;
+  /// Mean computing time of a result of this service there, without a wait.
+  double computing_s = 0;
+  link_quality link{};
+  cycle_cost cost{}; ///< Of a cycle that is planned there, for the vehicle.
+};
+
+/// What a cycle at this provider costs less than one on board, without unit: <
+/// 0 where it costs more. Where nothing came yet, latency is computing and way.
+/// @param on_board  Of a cycle in the vehicle.
+double gain(const provider_view& provider, const cycle_cost& on_board,
+            const service_needs& needs, const cost_weights& weights = {});
+
+/// What results of a provider will be like for a while.
+struct foreseen_results {
+  std::optional<time_point> late; ///< Creation of the first late or lost one.
+  double latency_s = 0;           ///< Mean of those before; 0 without any.
+};
+
+/// What is to come, for who wants to know what the best would have been. What
+/// others do meanwhile is not foreseen.
+class foresight {
+public:
+  virtual ~foresight() = default;
+
+  /// @returns what is foreseen of results that are created from `from` on and
+  /// before `until`.
+  virtual foreseen_results look(boot_id provider, std::string_view kind,
+                                time_point from, time_point until) const = 0;
+};
+
+/// What a requester weighs: one of its services, and where it may run.
+struct local_context {
+  time_point now;
+  std::string_view kind;
+  /// First where it runs, then those that may be asked now: who offers it just
+  /// now, then the others by id.
+  std::span<const provider_view> providers;
+  std::span<const point> path; ///< Planned, from the vehicle on, m.
+  double speed_mps = 0;
+  random_stream noise{0, ""}; ///< Of this vehicle's decisions.
+  std::uint64_t number = 0;   ///< Of this decision: the counter of `noise`.
+
+  boot_id current = 0; ///< Where it runs; 0: in the vehicle itself.
+  time_point since{};  ///< When it came there.
+  service_needs needs{};
+  cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
+  /// Only where a run can tell; null elsewhere.
+  const foresight* future = nullptr;
+  /// Where it runs, in case a filter keeps that from `providers`:
+  /// `where_it_runs`.
+  const provider_view* here = nullptr;
+};
+
+/// @returns what is known of where the service runs, whatever a filter says of
+/// it; null when it runs in the vehicle.
+inline const provider_view* where_it_runs(const local_context& context) {
+  if (context.here || context.current == 0)
+    return context.here;
+  const auto& all = context.providers;
+  const auto found =
+      std::ranges::find(all, context.current, &provider_view::id);
+  return found == all.end() ? nullptr : &*found;
+}
+
+struct local_decision {
+  /// The provider that shall run it; 0: it stays where it is. Where it runs
+  /// already it goes on until it has come to the new one (hand-over).
+  boot_id source = 0;
+  std::string_view why; ///< A short literal, for the records.
+  /// Another one that shall run it at the same time; 0: none. Of each cycle the
+  /// first result is used.
+  boot_id second = 0;
+  bool release = false; ///< It shall come home, and nobody is asked.
+  double advantage = 1; ///< Over where it runs: a normalised gain, if known.
+  /// The second one plans only cycles that the first has not answered for so
+  /// long after they began (a hedge); 0: all.
+  duration hedge_after{};
+};
+
+/// @returns a decision to leave all as it is.
+constexpr local_decision as_it_is(std::string_view why) {
+  return {0, why};
+}
+
+/// @param place  A provider; 0: the vehicle itself.
+/// @returns a decision to have the service there, and nowhere else.
+constexpr local_decision at_place(const local_context& context, boot_id place,
+                                  std::string_view why) {
+  return {place, why, 0, place == 0 && context.current != 0};
+}
+
+/// One service that a vehicle asks for.
+struct request_view {
+  station_id station = 0;
+  std::string_view kind;
+  std::span<const point> route; ///< Planned, m, at least 1.
+  double speed_mps = 0;
+  double utilisation = 0; ///< What it would add to that of the provider.
+  /// How it computes on one worker: `wcet` is its mean and three standard
+  /// deviations more, `deadline` the latency that it may have.
+  periodic_task task{};
+  /// What the vehicle wins by each provider that it could ask, this one among
+  /// them: policies/api/gain.hpp.
+  std::span<const candidate> candidates{};
+};
+
+/// One service of one station that runs now.
+struct session_view {
+  station_id station = 0;
+  std::string_view kind;
+  time_point since;
+  periodic_task task;     ///< With the offset that was assigned, or drawn.
+  std::size_t worker = 0; ///< As `central_decision` has it.
+  double utilisation = 0; ///< What it adds to that of the provider.
+  std::span<const candidate> candidates{}; ///< As the vehicle asked for it.
+};
+
+/// What a provider weighs: requests, and what runs already.
+struct central_context {
+  time_point now;
+  std::span<const request_view> requests; ///< That came together.
+  std::span<const session_view> sessions; ///< Of all stations.
+  double utilisation = 0;                 ///< Of its workers, by the sessions.
+  std::size_t workers = 1;
+  const polygon& area;
+  const road_map& map;
+  boot_id self = 0;           ///< The provider.
+  random_stream noise{0, ""}; ///< Of its decisions.
+  std::uint64_t number = 0;   ///< Of this one: the counter of `noise`.
+};
+
+struct central_decision {
+  bool accept = false;
+  std::string_view why;   ///< A short literal, for the records.
+  std::size_t worker = 0; ///< That it counts on.
+  /// When in the period its cycles begin; drawn if nobody assigns it.
+  std::optional<duration> offset{};
+  /// If it does not accept: who should be asked instead; 0: nobody.
+  boot_id instead = 0;
+};
+
+/// LODM: local offloading decision making, in the vehicle.
+using local_policy = policy<local_context, local_decision>;
+
+/// CODM: centralised offloading decision making, at the provider: one decision
+/// per request, in their order, and then, if it likes, one per session, of
+/// which those that are not accepted end (revoked). What is missing is refused,
+/// or goes on.
+using central_policy = policy<central_context, std::vector<central_decision>>;
+
+} // namespace sofof

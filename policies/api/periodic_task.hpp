@@ -1,0 +1,21 @@
+// A session that computes once a period, as a scheduler sees it.
+#pragma once
+
+#include "base/time.hpp"
+
+#include <span>
+
+namespace sofof {
+
+struct periodic_task {
+  duration wcet{0};     ///< C: computing time at most, on one core, ≥ 0.
+  duration period{1};   ///< T > 0.
+  duration deadline{0}; ///< D: from a job's arrival to its result.
+  duration jitter{0}; ///< J ≥ 0: a job may be released so long after arrival.
+  duration offset{0}; ///< Arrival of the first job, for those with a phase.
+};
+
+/// @returns Σ C/T: the share of one core that the tasks take.
+double utilisation(std::span<const periodic_task> tasks);
+
+} // namespace sofof

@@ -1,0 +1,87 @@
+// What every decision policy has in common.
+#pragma once
+
+#include "base/ids.hpp"
+#include "base/options/settings.hpp"
+#include "base/time.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sofof {
+
+/// What cycles of a service were like.
+struct cycle_outcome {
+  time_point at;         ///< When the result came.
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;  ///< Who computed it; 0: the vehicle itself.
+  double latency_s = 0;  ///< Infinite when nothing came.
+  bool missed = false;   ///< Later than the limit, or not at all.
+  double energy_j = 0;   ///< Of the vehicle, for each of them.
+  double cycles = 1;     ///< How many it stands for, > 0.
+};
+
+/// A request that came to nothing.
+struct refusal_outcome {
+  time_point at;
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;
+  std::string_view why; ///< As the provider says; "no answer" if it does not.
+};
+
+/// What one whole offloading was like.
+struct episode_outcome {
+  std::string_view kind; ///< Of the service.
+  boot_id provider = 0;
+  double remote_s = 0;         ///< Time on the remote source.
+  std::string_view end_reason; ///< One of protocol's reasons.
+  station_id station = 0;      ///< Of the vehicle.
+};
+
+/// Decides from a context and nothing else: the same context (and learned
+/// state) gives the same decision. Time and randomness come in the context.
+template <class Context, class Decision>
+class policy {
+public:
+  virtual ~policy() = default;
+
+  virtual Decision decide(const Context& context) = 0;
+
+  /// Feedback: planning cycles.
+  virtual void observe(const cycle_outcome&) {}
+  /// Feedback: nobody took it.
+  virtual void observe(const refusal_outcome&) {}
+  /// Feedback: one offloading, when it has ended.
+  virtual void observe(const episode_outcome&) {}
+
+  /// How often it wants to be asked, s, >= 0. In the vehicle 0 is whenever a
+  /// provider offers something; else also so often, wherever the service runs,
+  /// and cycles on board are told at the same pace. At a provider 0 is for
+  /// every request as it comes; else requests wait, and those of one epoch are
+  /// decided together.
+  virtual double epoch_s() const { return 0; }
+
+  /// @returns what it has learned, as text for `restore`; empty for nothing.
+  virtual std::string snapshot() const { return {}; }
+  /// Takes up what another one of this kind and options has learned.
+  /// @returns why the text is no such snapshot, and then all stays as it was;
+  /// else nullopt.
+  virtual std::optional<std::string> restore(std::string_view) {
+    return "this policy learns nothing";
+  }
+
+  /// Lists the options once (base/options/settings.hpp).
+  virtual void fields(settings&) {}
+
+  virtual std::string_view name() const = 0;
+  /// @returns its name, with those of governors behind it, for results.
+  virtual std::string title() const { return std::string{name()}; }
+
+  /// @returns a policy with the same options and learned state; every
+  /// vehicle and provider has one of its own.
+  virtual std::unique_ptr<policy> clone() const = 0;
+};
+
+} // namespace sofof

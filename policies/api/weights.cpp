@@ -1,0 +1,22 @@
+// The weights of a cycle's cost as options.
+#include "policies/api/weights.hpp"
+
+namespace sofof {
+
+void list_weights(settings& s, cost_weights& weights) {
+  s.field("time_weight", weights.time, {0, 1e3});
+  s.field("energy_weight", weights.energy, {0, 1e3});
+  s.field("violation_weight", weights.violation, {0, 1e3});
+}
+
+std::vector<parameter_note>
+weights_and(const std::vector<parameter_note>& others) {
+  std::vector<parameter_note> all{
+      {"time_weight", "1", "lambda_T, of latency in parts of its limit"},
+      {"energy_weight", "1", "lambda_E, of energy in parts of that on board"},
+      {"violation_weight", "1", "lambda_V, of the probability to be late"}};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+} // namespace sofof

@@ -1,0 +1,19 @@
+// The weights of a cycle's cost as options of those who go by it.
+#pragma once
+
+#include "base/options/settings.hpp"
+#include "policies/api/gain.hpp"
+#include "policies/api/notes.hpp"
+
+#include <vector>
+
+namespace sofof {
+
+/// Lists λ_T, λ_E and λ_V.
+void list_weights(settings& s, cost_weights& weights);
+
+/// @returns what is said of them, then `others`.
+std::vector<parameter_note>
+weights_and(const std::vector<parameter_note>& others);
+
+} // namespace sofof

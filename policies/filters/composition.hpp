@@ -1,0 +1,77 @@
+// A policy made of parts: a filter, then a choice among what is left.
+#pragma once
+
+#include "policies/api/filter.hpp"
+#include "policies/api/notes.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+/// @returns what is said of each filter.
+std::vector<policy_notes> local_filter_notes();
+std::vector<policy_notes> central_filter_notes();
+
+/// @returns the filter with its default options; null for an unknown name.
+std::unique_ptr<local_filter> make_local_filter(std::string_view name);
+std::unique_ptr<central_filter> make_central_filter(std::string_view name);
+
+/// What both sides have in common. Goes by the name of its choice.
+template <class Policy, class Filter>
+class filtered_policy : public Policy {
+public:
+  filtered_policy(std::unique_ptr<Filter> filter,
+                  std::unique_ptr<Policy> choice)
+      : filter_{std::move(filter)}, choice_{std::move(choice)} {}
+
+  void observe(const cycle_outcome& outcome) override {
+    choice_->observe(outcome);
+  }
+  void observe(const refusal_outcome& outcome) override {
+    choice_->observe(outcome);
+  }
+  void observe(const episode_outcome& outcome) override {
+    choice_->observe(outcome);
+  }
+  double epoch_s() const override { return choice_->epoch_s(); }
+  std::string snapshot() const override { return choice_->snapshot(); }
+  std::optional<std::string> restore(std::string_view text) override {
+    return choice_->restore(text);
+  }
+  void fields(settings& s) override;
+  std::string_view name() const override { return choice_->name(); }
+  std::string title() const override { return choice_->title(); }
+
+protected:
+  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<Policy> choice_;
+};
+
+/// LODM: `choice` chooses among the providers that the filter has no objection
+/// to, the one where the service runs not excepted; "location" unless options
+/// say otherwise. When none is left nobody is asked; where the service runs
+/// already, the choice is to stay or to come home.
+class filtered_lodm final : public filtered_policy<local_policy, local_filter> {
+public:
+  explicit filtered_lodm(std::unique_ptr<local_policy> choice);
+
+  local_decision decide(const local_context& context) override;
+  std::unique_ptr<local_policy> clone() const override;
+};
+
+/// CODM: the same for requests. What its choice says of sessions holds.
+class filtered_codm final
+    : public filtered_policy<central_policy, central_filter> {
+public:
+  explicit filtered_codm(std::unique_ptr<central_policy> choice);
+
+  std::vector<central_decision> decide(const central_context& context) override;
+  std::unique_ptr<central_policy> clone() const override;
+};
+
+} // namespace sofof

@@ -1,0 +1,98 @@
+// The paper's decisions: offload where enough of the way lies ahead.
+#include "policies/filters/location.hpp"
+
+#include <limits>
+
+namespace sofof {
+
+namespace {
+
+constexpr double slowest_mps = 0.1;
+
+} // namespace
+
+std::optional<area_stay> stay_in_area(std::span<const point> route,
+                                      const polygon& area, double speed_mps,
+                                      double enough_s) {
+  if (route.empty() || !area.contains(route.front()))
+    return std::nullopt;
+  if (speed_mps < slowest_mps)
+    return area_stay{route.first(1), std::numeric_limits<double>::infinity()};
+  const auto enough_m = enough_s * speed_mps;
+  double passed_m = 0;
+  std::size_t count = 1;
+  while (count < route.size() && !(passed_m > enough_m)
+         && area.contains(route[count])) {
+    passed_m += distance_m(route[count - 1], route[count]);
+    ++count;
+  }
+  return area_stay{route.first(count), passed_m / speed_mps};
+}
+
+double distance_in_disc_m(std::span<const point> path, point centre,
+                          double radius_m, double enough_m) {
+  double passed_m = 0;
+  for (std::size_t i = 0; i < path.size() && passed_m <= enough_m; ++i) {
+    if (!(distance_m(path[i], centre) <= radius_m)) // nor what is no number
+      break;
+    if (i > 0)
+      passed_m += distance_m(path[i - 1], path[i]);
+  }
+  return passed_m;
+}
+
+std::string_view near_provider::objection(const local_context& context,
+                                          const provider_view& provider) const {
+  const auto passed_m =
+      distance_in_disc_m(context.path, provider.at, radius_m_, min_distance_m_);
+  if (passed_m > min_distance_m_)
+    return {};
+  return "path leaves r_off or ends before d_min";
+}
+
+void near_provider::fields(settings& s) {
+  s.field("radius_m", radius_m_, {0, 1e6});
+  s.field("min_distance_m", min_distance_m_, {0, 1e6});
+}
+
+std::vector<parameter_note> near_provider::parameters() {
+  return {{"radius_m", "m", "r_off, of the disc round the provider"},
+          {"min_distance_m", "m",
+           "d_min; the way ahead must stay longer than this within r_off"}};
+}
+
+std::unique_ptr<local_filter> near_provider::clone() const {
+  return std::make_unique<near_provider>(*this);
+}
+
+std::string_view stays_in_area::objection(const central_context& context,
+                                          const request_view& request) const {
+  const auto enough_s = to_seconds(min_time_);
+  const auto stay =
+      stay_in_area(request.route, context.area, request.speed_mps, enough_s);
+  if (!stay)
+    return "outside the area";
+  if (!(stay->time_s >= enough_s)) // nor what is no number
+    return "t_in_area < t_min";
+  if (!context.map.near_lanes(stay->way, map_tolerance_m_))
+    return "route is not on the map";
+  return {};
+}
+
+void stays_in_area::fields(settings& s) {
+  s.field("min_time", min_time_, duration{0});
+  s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
+}
+
+std::vector<parameter_note> stays_in_area::parameters() {
+  return {{"min_time", "time",
+           "t_min; the vehicle must stay at least this long in the area"},
+          {"map_tolerance_m", "m",
+           "so near to a lane must be the route until then"}};
+}
+
+std::unique_ptr<central_filter> stays_in_area::clone() const {
+  return std::make_unique<stays_in_area>(*this);
+}
+
+} // namespace sofof

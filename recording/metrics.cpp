@@ -1,0 +1,258 @@
+// Adding up what happened.
+#include "recording/metrics.hpp"
+
+#include "messages/etsi/cam.hpp"
+#include "messages/etsi/mcm.hpp"
+#include "messages/etsi/uper.hpp"
+
+#include <algorithm>
+
+namespace sofof {
+
+namespace {
+
+const service_metrics nothing_happened;
+
+} // namespace
+
+std::optional<double> service_metrics::offloaded_share(std::size_t vehicles,
+                                                       double virtual_s) const {
+  const auto driving_s = static_cast<double>(vehicles) * virtual_s;
+  if (driving_s <= 0)
+    return std::nullopt;
+  double sum = 0;
+  for (const auto& [station, seconds] : remote_s)
+    sum += seconds;
+  return sum / driving_s;
+}
+
+std::optional<double> service_metrics::fairness(std::size_t vehicles) const {
+  double sum = 0, squares = 0;
+  for (const auto& [station, seconds] : remote_s) {
+    sum += seconds;
+    squares += seconds * seconds;
+  }
+  if (squares <= 0 || vehicles == 0)
+    return std::nullopt;
+  return sum * sum / (static_cast<double>(vehicles) * squares);
+}
+
+std::optional<double> cycle_figures::saved_share() const {
+  if (all_on_board_j <= 0)
+    return std::nullopt;
+  return 1 - energy_j() / all_on_board_j;
+}
+
+std::optional<double> cycle_figures::offloaded_share() const {
+  const auto all = on_board + offloaded;
+  if (all == 0)
+    return std::nullopt;
+  return static_cast<double>(offloaded) / static_cast<double>(all);
+}
+
+void safety_metrics::add(const safety_record& x) {
+  driven += x.driven;
+  without_fresh_plan += x.without_fresh_plan;
+  off_road += x.off_road;
+  max_plan_age = std::max(max_plan_age, x.max_plan_age);
+}
+
+metrics::metrics(const run_info& run)
+    : headline_{run.headline_kind}, names_{run.provider_names},
+      costs_{run.energy}, obstacles_{run.obstacles} {
+  for (const auto& kind : run.kinds)
+    of(service_name{kind});
+}
+
+void metrics::take(const event_record& x) {
+  if (x.what == "offer") {
+    ++offers_;
+  } else if (x.what == "near_miss") {
+    ++together_.safety.near_misses;
+  } else if (x.what == "implausible") {
+    const auto check = x.detail.substr(0, x.detail.find(' '));
+    ++of(x.kind).implausible[std::string{name_of(x.provider, names_)}][check];
+  } else if (x.what == "switch") {
+    source_changed(x);
+  }
+}
+
+void metrics::source_changed(const event_record& x) {
+  const user who{x.kind, x.station};
+  const auto open = open_.find(who);
+  if (x.detail != "remote") {
+    left_[who] = {x.provider, x.at};
+    if (open != open_.end())
+      open_.erase(open);
+    return;
+  }
+  auto& service = of(x.kind);
+  const auto straight = open != open_.end();
+  service.hand_overs += straight ? 1U : 0U;
+  const auto left = left_.find(who);
+  if (left != left_.end() && x.at - left->second.at <= ping_pong_limit
+      && (!straight || left->second.provider == x.provider))
+    ++service.ping_pongs;
+  if (straight)
+    left_[who] = {open->second.running.provider, x.at};
+  open_[who] = {{x.provider, x.station, x.kind, x.counter},
+                x.at,
+                straight ? open->second.remote_since : x.at};
+}
+
+void metrics::take(const decision_record& x) {
+  auto& service = of(x.kind);
+  ++(x.accepted ? service.accepted : service.rejected);
+}
+
+void metrics::take(const cycle_record& x) {
+  auto& service = of(x.running.kind);
+  service.latency.add(x.received - x.created);
+  service.results_used += x.used;
+  for (const auto& margin : x.margins) {
+    const auto [least, is_first] =
+        service.margins.emplace(margin.name, margin.left);
+    if (!is_first)
+      least->second = std::min(least->second, margin.left);
+  }
+  if (x.interarrival)
+    service.interarrival.add(*x.interarrival);
+  if (x.running.kind != headline_)
+    return;
+  auto& counts = cycles_[x.running.station];
+  ++counts.sent;
+  if (counts.sent > 1 && x.cycle <= counts.newest)
+    return; // another provider has computed it too
+  ++counts.offloaded;
+  counts.newest = x.cycle;
+}
+
+void metrics::take(const episode_record& x) {
+  auto& service = of(x.running.kind);
+  if (x.of == side::provider) {
+    service.served_s.add(to_seconds(x.ended - x.accepted));
+    ++service.served_until[static_cast<std::size_t>(x.reason)];
+    return;
+  }
+  ++service.ended_by[static_cast<std::size_t>(x.reason)];
+  service.fallbacks += x.fallback;
+  if (!x.got_data) {
+    ++service.no_data;
+    return;
+  }
+  ++service.episodes;
+  service.t_off_s.add(to_seconds(x.ended - x.first_data));
+  // Another provider may have taken over already; that one stays open.
+  const auto open = open_.find({x.running.kind, x.running.station});
+  if (open != open_.end() && open->second.running != x.running)
+    return;
+  const auto since =
+      open == open_.end() ? x.first_data : open->second.remote_since;
+  service.remote_s[x.running.station] += to_seconds(x.ended - since);
+  if (open != open_.end())
+    open_.erase(open);
+}
+
+void metrics::take(const safety_record& x) {
+  together_.safety.add(x);
+  vehicles_[x.station].safety.add(x);
+}
+
+void metrics::take(const collision_record& x) {
+  ++together_.safety.collisions;
+  for (const auto station : {x.first, x.second})
+    if (!is_obstacle(station, obstacles_))
+      ++vehicles_[station].safety.collisions;
+}
+
+void metrics::take(const drive_record& x) {
+  for (auto* sum : {&together_, &vehicles_[x.station]}) {
+    sum->plans.add(x.plans);
+    sum->ride.add(x.ride);
+  }
+  cycles_[x.station].on_board += x.plans.on_board;
+}
+
+void metrics::take(const air_record& x) {
+  const auto octets = x.message.view();
+  etsi::bit_reader in{octets};
+  etsi::pdu_header header;
+  etsi::read(in, header);
+  const auto downwards = is_provider_station(header.station);
+  auto& count = header.message_id == etsi::cam::message_id ? air_.cam
+                : header.message_id == etsi::mcm::message_id
+                    ? downwards ? air_.mcm_down : air_.mcm_up
+                    : air_.cpm;
+  count.add(octets.size());
+}
+
+void metrics::take(const plan_switch_record& x) {
+  switches_.d_m.add(x.jump.d_m);
+  switches_.curvature_1pm.add(x.jump.curvature_1pm);
+  switches_.speed_mps.add(x.jump.speed_mps);
+  switches_.accel_mps2.add(x.jump.accel_mps2);
+}
+
+void metrics::finish(time_point end) {
+  for (const auto& [who, episode] : open_) {
+    auto& service = of(who.first);
+    ++service.episodes;
+    ++service.running_at_end;
+    service.t_off_s.add(to_seconds(end - episode.since));
+    service.remote_s[who.second] += to_seconds(end - episode.remote_since);
+  }
+  open_.clear();
+}
+
+const service_metrics& metrics::headline() const {
+  const auto found =
+      std::ranges::find(services_, headline_, &service_metrics::kind);
+  return found != services_.end() ? *found : nothing_happened;
+}
+
+cycle_figures metrics::cycles() const {
+  cycle_figures all;
+  for (const auto& [station, counts] : cycles_) {
+    const auto x = cycles(station);
+    all.on_board += x.on_board;
+    all.offloaded += x.offloaded;
+    all.on_board_j += x.on_board_j;
+    all.offloaded_j += x.offloaded_j;
+    all.all_on_board_j += x.all_on_board_j;
+  }
+  return all;
+}
+
+cycle_figures metrics::cycles(station_id station) const {
+  const auto found = cycles_.find(station);
+  if (found == cycles_.end())
+    return {};
+  const auto& counts = found->second;
+  const auto known = costs_.find(station);
+  const auto cost = known != costs_.end() ? known->second : cycle_energy{};
+  const auto times = [](std::uint64_t count, double energy_j) {
+    return static_cast<double>(count) * energy_j;
+  };
+  return {counts.on_board, counts.offloaded,
+          times(counts.on_board, cost.on_board_j),
+          times(counts.sent, cost.offloaded_j),
+          times(counts.on_board + counts.offloaded, cost.on_board_j)};
+}
+
+std::size_t metrics::offloaded_now() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(open_, [this](const auto& entry) {
+        return entry.first.first == headline_;
+      }));
+}
+
+service_metrics& metrics::of(const service_name& kind) {
+  const auto found = std::ranges::find(services_, kind, &service_metrics::kind);
+  if (found != services_.end())
+    return *found;
+  auto& added = services_.emplace_back();
+  added.kind = kind;
+  return added;
+}
+
+} // namespace sofof

@@ -1,0 +1,228 @@
+// Scores a run while its records come in: pure sums, flat over hours.
+#pragma once
+
+#include "base/statistics.hpp"
+#include "messages/protocol/record.hpp"
+#include "recording/run_info.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+inline constexpr std::size_t end_reason_count =
+    static_cast<std::size_t>(end_reason::shutdown) + 1;
+
+/// Who comes back to a provider so soon has gone in vain.
+inline constexpr duration ping_pong_limit = std::chrono::seconds{5};
+
+/// How often something ended why.
+using end_counts = std::array<std::uint64_t, end_reason_count>;
+
+/// How often vehicles refused a result, by the provider's name and the check.
+using refusal_counts =
+    std::map<std::string, std::map<std::string, std::uint64_t>>;
+
+/// The figures of one kind of service, as the requesters see it.
+struct service_metrics {
+  service_name kind;
+  // Pairs of a request and a service that it names; the answer counts.
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0; ///< No answer in time is a rejection too.
+  std::uint64_t requests() const { return accepted + rejected; }
+
+  std::uint64_t episodes = 0;       ///< Offloadings that got first data.
+  std::uint64_t running_at_end = 0; ///< Those of them that the end cut off.
+  std::uint64_t no_data = 0;        ///< Offloadings that ended without any.
+  std::uint64_t fallbacks = 0;
+  std::uint64_t hand_overs = 0; ///< From one provider straight to another.
+  /// Times that the source was remote again within `ping_pong_limit`.
+  std::uint64_t ping_pongs = 0;
+  /// Reasons of all that ended, with data or without.
+  end_counts ended_by{};
+  refusal_counts implausible; ///< Results that vehicles refused.
+  /// Of those that were used, the least by check; empty unless recorded.
+  std::map<std::string, double> margins;
+  statistics t_off_s; ///< Switch to remote → switch back, of each episode.
+  /// Of each vehicle, the time that it was not local, at one provider or at
+  /// several at once.
+  std::map<station_id, double> remote_s;
+
+  // As the providers see it.
+  statistics served_s; ///< Acceptance → end, of all that ran there.
+  end_counts served_until{};
+
+  std::uint64_t results_used = 0; ///< Of those that `latency` counts.
+  distribution latency;           ///< t_receiving − t_creation.
+  distribution interarrival;      ///< Between two results of an episode.
+
+  /// @returns the share of driving time that was offloaded, all episodes of
+  /// all vehicles together; nullopt for no vehicle or no time.
+  std::optional<double> offloaded_share(std::size_t vehicles,
+                                        double virtual_s) const;
+
+  /// @returns how evenly vehicles are offloaded, by the time x that each is:
+  /// (Σx)² / (n Σx²), from 1/n, one alone, to 1; nullopt if none ever is.
+  /// Source: Jain, Chiu, Hawe, DEC-TR-301, 1984.
+  std::optional<double> fairness(std::size_t vehicles) const;
+};
+
+/// How safely vehicles drove.
+struct safety_metrics {
+  duration driven{};
+  duration without_fresh_plan{};
+  duration off_road{};
+  duration max_plan_age{}; ///< The largest of all.
+  std::uint64_t collisions = 0;
+  std::uint64_t near_misses = 0; ///< Of all vehicles together only.
+
+  void add(const safety_record& x);
+
+  /// @returns whether the safety line held all the time.
+  bool ok() const {
+    return without_fresh_plan == duration::zero()
+           && off_road == duration::zero() && collisions == 0;
+  }
+};
+
+/// Cycles of the headline service, and what they took out of the batteries of
+/// one vehicle, or of all together.
+struct cycle_figures {
+  std::uint64_t on_board = 0;  ///< Computed in the vehicle, and used.
+  std::uint64_t offloaded = 0; ///< Whose result a provider has sent.
+  double on_board_j = 0;
+  double offloaded_j = 0;    ///< Each provider costs that was asked.
+  double all_on_board_j = 0; ///< If nothing had been offloaded.
+
+  double energy_j() const { return on_board_j + offloaded_j; }
+  /// @returns the share of energy that offloading saves; nullopt for none.
+  std::optional<double> saved_share() const;
+  /// @returns the share of cycles that were offloaded; nullopt for none.
+  std::optional<double> offloaded_share() const;
+};
+
+/// How one vehicle drove, or all together.
+struct drive_metrics {
+  safety_metrics safety;
+  plan_figures plans;
+  ride_figures ride;
+};
+
+/// How far plans jumped when their source changed, all vehicles together.
+struct switch_metrics {
+  statistics d_m;
+  statistics curvature_1pm;
+  statistics speed_mps;
+  statistics accel_mps2;
+
+  std::uint64_t count() const { return d_m.count(); }
+};
+
+/// What was sent of one kind of ITS message.
+struct air_count {
+  std::uint64_t messages = 0;
+  std::uint64_t octets = 0; ///< Of the messages alone.
+
+  void add(std::size_t size) {
+    ++messages;
+    octets += size;
+  }
+  /// @returns how long one is, on average.
+  std::optional<double> mean_octets() const {
+    if (messages == 0)
+      return std::nullopt;
+    return static_cast<double>(octets) / static_cast<double>(messages);
+  }
+};
+
+/// All ITS messages of a run.
+struct air_metrics {
+  air_count cam, cpm, mcm_up, mcm_down;
+};
+
+/// All figures of a run. Meanings: docs/results.md.
+class metrics {
+public:
+  /// @param run  Its kinds are listed even when nothing happens to them;
+  ///             others follow in the order of their first record.
+  explicit metrics(const run_info& run);
+
+  void take(const event_record& x);
+  void take(const decision_record& x);
+  void take(const cycle_record& x);
+  void take(const episode_record& x);
+  void take(const safety_record& x);
+  void take(const collision_record& x);
+  void take(const drive_record& x);
+  void take(const plan_switch_record& x);
+  void take(const air_record& x);
+
+  /// The run ends: what is still offloaded counts up to here.
+  void finish(time_point end);
+
+  std::uint64_t offers() const { return offers_; }
+  std::span<const service_metrics> services() const { return services_; }
+  /// @returns the figures that stand at the top level of the summary.
+  const service_metrics& headline() const;
+  const safety_metrics& safety() const { return together_.safety; }
+  /// @returns the sums and extremes of all vehicles.
+  const drive_metrics& together() const { return together_; }
+  /// @returns the same of each vehicle, by station.
+  const std::map<station_id, drive_metrics>& vehicles() const {
+    return vehicles_;
+  }
+  /// @returns the sums of all vehicles.
+  cycle_figures cycles() const;
+  /// @returns the same of one vehicle.
+  cycle_figures cycles(station_id station) const;
+  const switch_metrics& switches() const { return switches_; }
+  const air_metrics& air() const { return air_; }
+  /// @returns the vehicles whose headline service is remote just now.
+  std::size_t offloaded_now() const;
+
+private:
+  struct open_episode {
+    running_service running;
+    time_point since;
+    time_point remote_since; ///< Perhaps at other providers before.
+  };
+
+  /// Where a service was remote before.
+  struct left_provider {
+    boot_id provider = 0;
+    time_point at;
+  };
+  using user = std::pair<service_name, station_id>;
+  struct cycle_counts {
+    std::uint64_t on_board = 0;
+    std::uint64_t offloaded = 0;
+    std::uint64_t sent = 0; // to all providers
+    std::uint64_t newest = 0;
+  };
+
+  service_metrics& of(const service_name& kind);
+  void source_changed(const event_record& x);
+
+  service_name headline_;
+  provider_names names_;
+  std::map<station_id, cycle_energy> costs_;
+  std::map<station_id, cycle_counts> cycles_;
+  std::uint32_t obstacles_;
+  std::uint64_t offers_ = 0;
+  std::vector<service_metrics> services_;
+  std::map<user, open_episode> open_;
+  std::map<user, left_provider> left_; ///< The last one.
+  drive_metrics together_;
+  std::map<station_id, drive_metrics> vehicles_;
+  switch_metrics switches_;
+  air_metrics air_;
+};
+
+} // namespace sofof

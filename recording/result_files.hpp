@@ -1,0 +1,71 @@
+// The files in the results folder of a run: every record becomes a line while
+// it runs, the summary comes last. What they hold: docs/results.md.
+#pragma once
+
+#include "base/files/output_file.hpp"
+#include "base/text/csv.hpp"
+#include "messages/protocol/record.hpp"
+#include "recording/metrics.hpp"
+#include "recording/pcap_file.hpp"
+#include "recording/run_info.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Figures of the wall's clock, which no seed repeats.
+struct figures_of_clock {
+  struct timing {
+    std::string name; ///< With its unit, e.g. "solve_p99_us".
+    double value;
+  };
+  std::vector<timing> timings; ///< For timing.csv.
+  std::string cpu_csv;         ///< cpu.csv; empty: none.
+};
+
+/// Every member throws `input_error` when the disk refuses to take more.
+class result_files {
+public:
+  /// Removes the files of an earlier run and starts new ones.
+  /// @param folder  Exists.
+  result_files(std::filesystem::path folder, const run_info& run);
+
+  void write(const event_record& x);
+  void write(const cycle_record& x);
+  void write(const episode_record& x);
+  void write(const track_record& x);
+  void write(const air_record& x);
+
+  /// Brings all files up to date.
+  void flush();
+
+  /// Closes all files and writes those of the end, once.
+  void finish(const metrics& all, const run_info& run, const run_end& end,
+              const figures_of_clock& clock);
+
+private:
+  using timing = figures_of_clock::timing;
+
+  std::string_view name_of(boot_id provider) const;
+  void write_vehicles(const metrics& all) const;
+  void write_distributions(const metrics& all) const;
+  void write_timing(const run_end& end,
+                    const std::vector<timing>& timings) const;
+
+  std::optional<pcap_file> pcap_; // before results are replaced
+  std::filesystem::path folder_;
+  time_point start_;
+  provider_names names_;
+  csv_file episodes_;
+  std::optional<csv_file> cycles_;
+  std::optional<csv_file> tracks_;
+  std::optional<csv_file> margins_;
+  output_file events_;
+};
+
+} // namespace sofof

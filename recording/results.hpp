@@ -1,0 +1,68 @@
+// The results of a run: its figures, and its files as long as they can be
+// written.
+#pragma once
+
+#include "messages/protocol/record.hpp"
+#include "recording/cpu_table.hpp"
+#include "recording/metrics.hpp"
+#include "recording/result_files.hpp"
+#include "recording/run_info.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace sofof {
+
+/// Counts every record of a run, and writes it to the files in its folder.
+/// Every member throws `input_error` when the disk refuses to take more; what
+/// was not written has not been counted either, so that it may be taken again
+/// once the files are closed.
+class results final : public record_sink {
+public:
+  /// Removes the files of an earlier run and starts new ones.
+  /// @param folder  From `make_results_folder`, or any that exists.
+  results(std::filesystem::path folder, run_info run);
+  /// Without files.
+  explicit results(run_info run);
+
+  void take(const event_record& x) override;
+  void take(const decision_record& x) override;
+  void take(const cycle_record& x) override;
+  void take(const episode_record& x) override;
+  void take(const track_record& x) override;
+  void take(const safety_record& x) override;
+  void take(const collision_record& x) override;
+  void take(const drive_record& x) override;
+  void take(const plan_switch_record& x) override;
+  void take(const air_record& x) override;
+
+  /// A figure of the wall's clock, for timing.csv.
+  /// @param name  With its unit, e.g. "solve_p99_us".
+  void take_timing(std::string name, double value);
+
+  /// Who computed how much, for cpu.csv.
+  void take(const cpu_table& x);
+
+  const metrics& so_far() const { return metrics_; }
+
+  /// Brings all files up to date; to be called now and then, so that a killed
+  /// run keeps what it recorded.
+  void flush();
+
+  /// Writes no more files; what they hold stays, as of a run that was killed.
+  void close_files() { files_.reset(); }
+
+  /// Closes all files and writes the summary, once. A folder without one is
+  /// of a run that was killed.
+  /// @returns what has become of the run, for the final table.
+  run_end finish(time_point end, double wall_s, bool interrupted);
+
+private:
+  run_info run_;
+  metrics metrics_;
+  figures_of_clock of_clock_;
+  std::optional<result_files> files_;
+};
+
+} // namespace sofof

@@ -1,0 +1,128 @@
+// Making a folder without taking anybody else's.
+#include "recording/results_folder.hpp"
+
+#include "base/files/output_file.hpp"
+#include "base/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace sofof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view files_of_a_run[] = {
+    "summary.json", "summary.json.tmp", "config.toml",  "config.toml.tmp",
+    "episodes.csv", "cycles.csv",       "tracks.csv",   "events.jsonl",
+    "timing.csv",   "timing.csv.tmp",   "map.toml",     "map.toml.tmp",
+    "trace.txt",    "trace.txt.tmp",    "vehicles.csv", "distributions.csv",
+    "cpu.csv",      "cpu.csv.tmp",      "margins.csv"};
+
+[[noreturn]] void refused(const fs::path& folder, const std::string& why,
+                          int error = 0) {
+  refuse_to_write(fmt::format("cannot make the results folder {}: {}; choose "
+                              "another one with --out",
+                              folder.string(), why),
+                  error);
+}
+
+/// Makes a folder and its parents, or nothing.
+/// @returns whether it was not there before.
+bool make_all(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (auto at = folder; !at.empty() && !fs::exists(at, error) && !error;
+       at = at.parent_path())
+    missing.push_back(at);
+  bool made = false;
+  std::vector<fs::path> done;
+  while (!error && !missing.empty()) {
+    made = fs::create_directory(missing.back(), error);
+    if (made)
+      done.push_back(missing.back());
+    missing.pop_back();
+  }
+  if (!error)
+    return made;
+  std::error_code ignored;
+  for (; !done.empty(); done.pop_back())
+    fs::remove(done.back(), ignored);
+  refused(folder, error.message(), error.value());
+}
+
+std::string safe_name(std::string_view scenario) {
+  std::string name{scenario};
+  for (auto& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.')
+      c = '_';
+  return name;
+}
+
+} // namespace
+
+fs::path make_results_folder(const std::optional<fs::path>& wanted,
+                             std::string_view scenario, std::int64_t seed,
+                             bool force, const fs::path& parent) {
+  if (!wanted) {
+    const auto name = fmt::format("{}-{}", safe_name(scenario), seed);
+    auto folder = parent / name;
+    for (int i = 2; !make_all(folder); ++i)
+      folder = parent / fmt::format("{}-{}", name, i);
+    return folder;
+  }
+  // "out/" has an empty last part.
+  auto folder = wanted->has_filename() ? *wanted : wanted->parent_path();
+  std::error_code error;
+  if (make_all(folder))
+    return folder;
+  if (!fs::is_directory(folder, error))
+    refused(folder, "a file of that name is in the way");
+  const auto empty = fs::is_empty(folder, error);
+  if (error)
+    refused(folder, error.message());
+  if (!empty && !force)
+    throw input_error(fmt::format(
+        "the results folder {} is not empty; choose another one with --out, or "
+        "replace the results in it with --force",
+        folder.string()));
+  return folder;
+}
+
+bool same_place(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error))
+    return true;
+  const auto place = [&error](const fs::path& path) {
+    const auto whole = fs::absolute(path, error);
+    const auto found = fs::weakly_canonical(whole, error);
+    return error ? whole.lexically_normal() : found;
+  };
+  return place(a) == place(b);
+}
+
+bool is_result(const fs::path& file, const fs::path& folder) {
+  return std::ranges::any_of(files_of_a_run, [&](const auto name) {
+    return same_place(file, folder / name);
+  });
+}
+
+void remove_results(const fs::path& folder) {
+  for (const auto name : files_of_a_run) {
+    std::error_code error;
+    fs::remove(folder / name, error);
+    if (error)
+      refuse_to_write(
+          fmt::format("cannot replace {}: {}; choose another folder with --out",
+                      (folder / name).string(), error.message()),
+          error.value());
+  }
+}
+
+} // namespace sofof

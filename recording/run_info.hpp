@@ -1,0 +1,76 @@
+// What is known of a run before it starts, and once it has ended.
+#pragma once
+
+#include "base/ids.hpp"
+#include "base/time.hpp"
+#include "messages/etsi/its_time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// What a cycle of the headline service costs one vehicle.
+struct cycle_energy {
+  double on_board_j = 0;
+  double offloaded_j = 0;
+};
+
+/// Providers by boot id; one that has booted again has the name of its place.
+using provider_names = std::map<boot_id, std::string>;
+
+/// @returns a provider's name; empty for one of no configuration.
+inline std::string_view name_of(boot_id provider, const provider_names& names) {
+  auto found = names.find(provider);
+  if (found == names.end()) // of a process of its own
+    found = names.find(place_of(provider));
+  return found != names.end() ? std::string_view{found->second} : "";
+}
+
+/// Known before the first record.
+struct run_info {
+  std::string scenario;    ///< Its name.
+  std::string version;     ///< Of this program.
+  std::string clock;       ///< Whose time passed: "virtual" or "wall".
+  std::string profile;     ///< Of the channel.
+  std::string lodm;        ///< Title of the policy.
+  std::string codm;        ///< Likewise.
+  std::string config_toml; ///< The effective configuration.
+  std::string map_toml;    ///< The map that it names; empty for none.
+  std::string trace_text;  ///< The trace that it names; empty for none.
+  std::int64_t seed = 0;
+  std::size_t vehicles = 0;
+  std::string provider; ///< The one that is all that runs here; often empty.
+  std::uint32_t obstacles = 0; ///< They have the highest station ids.
+  sofof::provider_names provider_names;
+  std::vector<std::string> kinds; ///< Of services, in the order of reports.
+  /// The kind whose figures stand at the top level of the summary.
+  std::string headline_kind = "trajectory_planning";
+  /// Of each vehicle that is driven here.
+  std::map<station_id, cycle_energy> energy;
+  bool cycles = true;   ///< Write cycles.csv.
+  bool tracks = true;   ///< Write tracks.csv.
+  bool margins = false; ///< Write margins.csv.
+  std::string pcap;     ///< Where to capture all ITS messages; empty: nowhere.
+  etsi::its_clock time_of_day;
+  time_point start; ///< Second 0 of all files.
+};
+
+/// Known once the run has ended.
+struct run_end {
+  double virtual_s = 0; ///< From the start on, on the run's clock.
+  double wall_s = 0;    ///< The same on the wall's.
+  bool interrupted = false;
+
+  /// @returns how much faster than real time it was; nullopt for no time.
+  std::optional<double> x_real_time() const {
+    return wall_s > 0 ? std::optional{virtual_s / wall_s} : std::nullopt;
+  }
+};
+
+} // namespace sofof

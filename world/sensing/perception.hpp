@@ -1,0 +1,34 @@
+// What a driver is told of the road: bodies without names, and where to wait.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "base/time.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// A body that a sensor has seen, as a perceived object of a CPM describes it.
+struct perceived_object {
+  point centre;           ///< Of its body, m, east-north.
+  double heading_rad = 0; ///< Of its long axis, forward.
+  double speed_mps = 0;   ///< Along its heading.
+  double accel_mps2 = 0;  ///< Along its heading.
+  double length_m = 0;
+  double width_m = 0;
+};
+
+/// What a driver has to know about the others.
+struct perception {
+  time_point at;
+  /// The front bumper must not pass this arc length on the own route: a
+  /// crossing has not been granted yet. Empty where nobody is granted
+  /// anything.
+  std::optional<double> stop_at_m;
+  /// What the own sensors see, in the order of `scene::seen_by`. The traffic
+  /// leaves it empty; the road fills it in.
+  std::vector<perceived_object> objects;
+};
+
+} // namespace sofof

@@ -1,0 +1,19 @@
+// Whether a vehicle may appear on the road without surprising anybody.
+#pragma once
+
+#include "world/roads/road_body.hpp"
+
+#include <span>
+
+namespace sofof {
+
+/// @param place      Where it would appear.
+/// @param speed_mps  How fast, ≥ 0.
+/// @param others     Who is on the road.
+/// @returns whether everybody is so far away that either of them can hesitate
+/// for a second and then brake at 2 m/s², and 12 m stay between their middles:
+/// cautious, since it does not ask who drives where.
+bool is_free(const oriented_box& place, double speed_mps,
+             std::span<const road_body> others);
+
+} // namespace sofof
