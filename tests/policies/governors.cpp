@@ -1,7 +1,7 @@
 // Tests of what keeps a scorer in check: gate and hysteresis.
 #include "policies/algorithms/forecast/predictive_gate.hpp"
 #include "policies/governors/hysteresis.hpp"
-#include "tests/policies/at.hpp"
+#include "tests/support/at.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

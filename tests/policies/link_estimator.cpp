@@ -2,7 +2,7 @@
 #include "policies/algorithms/forecast/link_estimator.hpp"
 
 #include "base/random.hpp"
-#include "tests/policies/at.hpp"
+#include "tests/support/at.hpp"
 #include "tests/support/near.hpp"
 
 #include <doctest/doctest.h>

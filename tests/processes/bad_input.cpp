@@ -1,6 +1,6 @@
 // Input that cannot be used is refused in one sentence, and leaves no trace.
 #include "tests/processes/workplace.hpp"
-#include "tests/scenario/mistakes.hpp"
+#include "tests/support/mistakes.hpp"
 
 #include <sys/stat.h>
 

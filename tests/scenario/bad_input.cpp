@@ -1,6 +1,6 @@
 // What is said about scenarios that are wrong.
 #include "tests/scenario/example.hpp"
-#include "tests/scenario/mistakes.hpp"
+#include "tests/support/mistakes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/map_file.hpp"
 #include "tests/scenario/example.hpp"
-#include "tests/scenario/mistakes.hpp"
+#include "tests/support/mistakes.hpp"
 
 #include <doctest/doctest.h>
 

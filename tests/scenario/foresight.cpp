@@ -2,8 +2,8 @@
 #include "scenario/foresight.hpp"
 
 #include "scenario/load.hpp"
-#include "tests/scenario/bench_town.hpp"
 #include "tests/scenario/whole_run.hpp"
+#include "tests/support/bench_town.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,10 +4,10 @@
 #include "recording/pcap_file.hpp"
 #include "recording/results.hpp"
 #include "scenario/load.hpp"
-#include "tests/scenario/made_up_run.hpp"
 #include "tests/scenario/whole_run.hpp"
 #include "tests/support/capture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/made_up_run.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 #include "network/flow/clock_estimate.hpp"
 
 #include "channel/delay_law.hpp"
-#include "tests/policies/at.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/at.hpp"
 
 #include <doctest/doctest.h>
 

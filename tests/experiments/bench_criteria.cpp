@@ -2,7 +2,7 @@
 #include "base/input_error.hpp"
 #include "experiments/benchmark/criteria.hpp"
 #include "scenario/load.hpp"
-#include "tests/scenario/bench_town.hpp"
+#include "tests/support/bench_town.hpp"
 #include "tests/support/near.hpp"
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 #include "experiments/sweep/sweep.hpp"
 
 #include "base/input_error.hpp"
-#include "tests/scenario/made_up_sweep.hpp"
+#include "tests/experiments/made_up_sweep.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/input_error.hpp"
 #include "recording/results.hpp"
-#include "tests/scenario/made_up_run.hpp"
+#include "tests/support/made_up_run.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include "base/random.hpp"
 #include "experiments/report/describe.hpp"
 #include "experiments/report/html.hpp"
-#include "tests/scenario/report_folder.hpp"
+#include "tests/experiments/report_folder.hpp"
 
 #include <doctest/doctest.h>
 

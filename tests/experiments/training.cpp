@@ -3,7 +3,7 @@
 
 #include "base/input_error.hpp"
 #include "policies/registry.hpp"
-#include "tests/scenario/bench_town.hpp"
+#include "tests/support/bench_town.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"

@@ -1,7 +1,7 @@
 // What a sweep file says, and what is said about a wrong one.
 #include "base/input_error.hpp"
 #include "experiments/sweep/plan.hpp"
-#include "tests/scenario/mistakes.hpp"
+#include "tests/support/mistakes.hpp"
 
 #include <doctest/doctest.h>
 

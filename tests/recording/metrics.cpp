@@ -2,7 +2,7 @@
 #include "recording/metrics.hpp"
 
 #include "base/random.hpp"
-#include "tests/scenario/made_up_run.hpp"
+#include "tests/support/made_up_run.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include "offloading/first_response.hpp"
 
 #include "policies/algorithms/forecast/continuity.hpp"
-#include "tests/policies/at.hpp"
+#include "tests/support/at.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>

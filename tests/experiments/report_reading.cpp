@@ -2,8 +2,8 @@
 #include "experiments/report/describe.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/recorded_run.hpp"
-#include "tests/scenario/mistakes.hpp"
-#include "tests/scenario/report_folder.hpp"
+#include "tests/experiments/report_folder.hpp"
+#include "tests/support/mistakes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Good and bad phases, spikes, outages, and radios of their own.
 #include "channel/link_direction.hpp"
+#include "tests/channel/cycles.hpp"
 #include "tests/support/near.hpp"
-#include "tests/world/cycles.hpp"
 
 #include <doctest/doctest.h>
 

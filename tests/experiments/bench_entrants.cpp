@@ -4,7 +4,7 @@
 #include "experiments/benchmark/entrants.hpp"
 #include "policies/registry.hpp"
 #include "scenario/load.hpp"
-#include "tests/scenario/bench_town.hpp"
+#include "tests/support/bench_town.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Tests of the limits that results must keep.
 #include "offloading/qos_monitor.hpp"
 
-#include "tests/policies/at.hpp"
+#include "tests/support/at.hpp"
 
 #include <doctest/doctest.h>
 

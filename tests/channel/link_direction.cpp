@@ -1,8 +1,8 @@
 // One direction of a link: delay, airtime, loss, stalls and order.
 #include "channel/link_direction.hpp"
 
+#include "tests/channel/cycles.hpp"
 #include "tests/support/near.hpp"
-#include "tests/world/cycles.hpp"
 
 #include <doctest/doctest.h>
 

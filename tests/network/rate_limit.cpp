@@ -1,7 +1,7 @@
 // Tests of how much a peer may have in a while.
 #include "network/flow/rate_limit.hpp"
 
-#include "tests/policies/at.hpp"
+#include "tests/support/at.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/not_a_number.hpp"
 

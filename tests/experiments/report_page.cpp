@@ -4,7 +4,7 @@
 #include "experiments/report/html.hpp"
 #include "experiments/report/packed.hpp"
 #include "experiments/report/page.hpp"
-#include "tests/scenario/report_folder.hpp"
+#include "tests/experiments/report_folder.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // Results on a disk that takes no more, which /dev/full stands for.
 #include "recording/record_keeper.hpp"
 
-#include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/made_up_run.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>

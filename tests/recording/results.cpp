@@ -4,9 +4,9 @@
 #include "base/input_error.hpp"
 #include "base/text/json.hpp"
 #include "recording/results_folder.hpp"
-#include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/made_up_run.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>

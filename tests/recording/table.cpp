@@ -5,8 +5,8 @@
 #include "messages/etsi/mcm.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "recording/progress.hpp"
-#include "tests/scenario/made_up_run.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/made_up_run.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
