@@ -1,6 +1,6 @@
 // sofof decode: V2X messages from hexadecimal digits to JSON.
 #include "apps/command.hpp"
-#include "apps/line_by_line.hpp"
+#include "apps/filter_lines.hpp"
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/json.hpp"
 
@@ -37,7 +37,7 @@ void add_decode(CLI::App& app, int& exit_code) {
       "\"line\": ...}.\nExample:\n  sofof decode - < messages.hex | jq "
       "'.header | .stationID // .stationId'");
   command->callback(
-      [words, &exit_code] { exit_code = line_by_line(*words, decode); });
+      [words, &exit_code] { exit_code = filter_lines(*words, decode); });
 }
 
 } // namespace sofof

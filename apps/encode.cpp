@@ -1,6 +1,6 @@
 // sofof encode: V2X messages from JSON to hexadecimal digits.
 #include "apps/command.hpp"
-#include "apps/line_by_line.hpp"
+#include "apps/filter_lines.hpp"
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/json.hpp"
 
@@ -37,7 +37,7 @@ void add_encode(CLI::App& app, int& exit_code) {
       "{\"error\": ..., \"line\": ...}.\nExample:\n  sofof decode - < "
       "messages.hex | sed s/forward/backward/ | sofof encode -");
   command->callback(
-      [words, &exit_code] { exit_code = line_by_line(*words, encode); });
+      [words, &exit_code] { exit_code = filter_lines(*words, encode); });
 }
 
 } // namespace sofof

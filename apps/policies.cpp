@@ -1,6 +1,6 @@
 // sofof policies: what decides, and by what.
+#include "apps/annotated_options.hpp"
 #include "apps/command.hpp"
-#include "apps/documented.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
 #include "policies/governors/governors.hpp"
@@ -24,7 +24,7 @@ namespace {
 struct role {
   std::string_view key; ///< In `[policies]`.
   std::string_view what;
-  std::vector<policy_notes> all;
+  std::vector<policy_info> all;
   /// Lists the options of one.
   std::function<void(settings&, std::string_view name)> options;
   bool several = false; ///< A list of them.
@@ -56,7 +56,7 @@ std::string list(const role& one) {
   return text;
 }
 
-std::string describe(const role& sort, const policy_notes& one) {
+std::string describe(const role& sort, const policy_info& one) {
   const auto header = sort.several ? fmt::format("[[policies.{}]]", sort.key)
                                    : fmt::format("[policies.{}]", sort.key);
   const auto options = [&](settings& s) {

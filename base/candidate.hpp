@@ -6,7 +6,7 @@
 namespace sofof {
 
 struct candidate {
-  boot_id provider = 0;
+  provider_id provider = 0;
   double gain = 0;        ///< What a cycle there costs less than one on board,
                           ///< weighed as in policies/api/gain.hpp.
   double utilisation = 0; ///< Of the provider, as it said.

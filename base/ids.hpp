@@ -37,18 +37,18 @@ constexpr bool is_provider_station(station_id x) {
 }
 
 /// A provider process since its start; a restarted one has a new id.
-using boot_id = std::uint64_t;
+using provider_id = std::uint64_t;
 
 /// @param place  Of the provider in the scenario's file, counting from 1,
 ///               < 65536.
 /// @param start  When its process started, in any unit; 0 if it is the only
 ///               one.
-constexpr boot_id boot_of(std::uint32_t place, std::uint64_t start) {
+constexpr provider_id boot_of(std::uint32_t place, std::uint64_t start) {
   return start << 16 | place;
 }
 
 /// @returns the place of a provider in the scenario's file.
-constexpr boot_id place_of(boot_id provider) {
+constexpr provider_id place_of(provider_id provider) {
   return provider & 0xffff;
 }
 

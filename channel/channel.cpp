@@ -118,23 +118,24 @@ bool channel::lost(const message_id& m, bool fading) const {
   return of(m).uniform(m.number, loss_lane) >= arrives;
 }
 
-interruptions channel::stalls() const {
+outage_process channel::stalls() const {
   const auto& [rate_hz, shortest, longest] = profile_->stalls;
   if (rate_hz <= 0)
     return {};
   const auto mean_quiet = from_seconds(1 / rate_hz) - (shortest + longest) / 2;
   if (mean_quiet <= duration{})
     throw std::invalid_argument{"no time is left between two stalls"};
-  return {of_radio_.part("stalls"), delay_law::exponential(mean_quiet),
-          delay_law::uniform(shortest, longest)};
+  return {of_radio_.part("stalls"), delay_distribution::exponential(mean_quiet),
+          delay_distribution::uniform(shortest, longest)};
 }
 
-interruptions channel::fades() const {
+outage_process channel::fades() const {
   const auto& burst = profile_->burst_loss;
   if (burst.mean_good <= duration{} || burst.mean_bad <= duration{})
     return {};
-  return {of_radio_.part("fades"), delay_law::exponential(burst.mean_good),
-          delay_law::exponential(burst.mean_bad)};
+  return {of_radio_.part("fades"),
+          delay_distribution::exponential(burst.mean_good),
+          delay_distribution::exponential(burst.mean_bad)};
 }
 
 bool channel::is_out(duration since_start) const {

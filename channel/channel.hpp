@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "base/time.hpp"
 #include "channel/channel_profile.hpp"
-#include "channel/interruptions.hpp"
+#include "channel/outage_process.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -69,10 +69,10 @@ public:
 
   /// Stalls of this vehicle, for both directions and all providers of a radio.
   /// @throws std::invalid_argument  when they leave no time in between.
-  interruptions stalls() const;
+  outage_process stalls() const;
 
   /// Times in which this vehicle's connection is in the bad state, likewise.
-  interruptions fades() const;
+  outage_process fades() const;
 
   /// @param since_start  Of the run.
   /// @returns whether nothing gets through then, for anybody.

@@ -20,7 +20,7 @@ channel_profile ideal() {
 // Buchholz 2025, figure "delay-plot"): a light tail.
 channel_profile paper_sim() {
   channel_profile p;
-  p.joint = delay_law::beta(45ms, 0.646, 2.11);
+  p.joint = delay_distribution::beta(45ms, 0.646, 2.11);
   p.joint_service_share = 0.3;
   return p;
 }
@@ -29,7 +29,7 @@ channel_profile paper_sim() {
 // stalls like those in the CICV5G data.
 channel_profile paper_sim_stalls() {
   channel_profile p;
-  p.network = delay_law::lognormal(4ms, 6060us, 3200us);
+  p.network = delay_distribution::lognormal(4ms, 6060us, 3200us);
   p.stalls = {0.0135, 240ms, 295ms};
   return p;
 }
@@ -38,9 +38,9 @@ channel_profile paper_sim_stalls() {
 channel_profile paper_5g() {
   channel_profile p;
   p.workers = 2;
-  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
-  p.network = delay_law::lognormal(5ms, 3740us, 2800us);
-  p.airtime = delay_law::exponential(200us);
+  p.service = delay_distribution::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_distribution::lognormal(5ms, 3740us, 2800us);
+  p.airtime = delay_distribution::exponential(200us);
   return p;
 }
 
@@ -48,7 +48,7 @@ channel_profile paper_5g() {
 // 10.5281/zenodo.17475688): private 5G in town.
 channel_profile cicv5g_n8() {
   channel_profile p;
-  p.network = delay_law::lognormal_about(12090us, 6220us, 0.424);
+  p.network = delay_distribution::lognormal_about(12090us, 6220us, 0.424);
   p.stalls = {0.0116, 240ms, 295ms};
   return p;
 }
@@ -56,7 +56,7 @@ channel_profile cicv5g_n8() {
 // As before: public 5G in town.
 channel_profile cicv5g_n78() {
   channel_profile p;
-  p.network = delay_law::lognormal_about(10740us, 4970us, 0.472);
+  p.network = delay_distribution::lognormal_about(10740us, 4970us, 0.472);
   p.stalls = {0.0137, 240ms, 295ms};
   return p;
 }
@@ -67,8 +67,8 @@ channel_profile cicv5g_n78() {
 channel_profile spiky_5g() {
   channel_profile p;
   p.workers = 8;
-  p.service = delay_law::lognormal(0ms, 3ms, 1ms);
-  p.network = delay_law::lognormal_about(0ms, 16500us, 0.17);
+  p.service = delay_distribution::lognormal(0ms, 3ms, 1ms);
+  p.network = delay_distribution::lognormal_about(0ms, 16500us, 0.17);
   p.drift = {0.45, 15s};
   p.spikes = {0.01, 5ms, 32ms};
   return p;

@@ -3,7 +3,7 @@
 
 #include "base/options/settings.hpp"
 #include "base/time.hpp"
-#include "channel/delay_law.hpp"
+#include "channel/delay_distribution.hpp"
 #include "channel/trace.hpp"
 
 #include <cstdint>
@@ -73,18 +73,18 @@ struct outage_options {
 struct channel_profile {
   std::string name = "ideal";
 
-  std::int64_t workers = 1; ///< Of one provider, >= 1.
-  delay_law service;        ///< Computing time of a result of unit demand.
-  delay_law network;        ///< Delay of any message, one way.
-  delay_law airtime;        ///< Time that a message of `usual_octets` takes in
-                            ///< the radio cell that all share; others take
-                            ///< it in proportion to their size.
-  double cell_mbps = 0;     ///< What the cell carries, Mbit/s, which takes time
-                            ///< besides; 0: as much as there is.
+  std::int64_t workers = 1;   ///< Of one provider, >= 1.
+  delay_distribution service; ///< Computing time of a result of unit demand.
+  delay_distribution network; ///< Delay of any message, one way.
+  delay_distribution airtime; ///< Time that a message of `usual_octets` takes
+                              ///< in the radio cell that all share; others take
+                              ///< it in proportion to their size.
+  double cell_mbps = 0; ///< What the cell carries, Mbit/s, which takes time
+                        ///< besides; 0: as much as there is.
 
   /// One draw X a message, on top of the above: `joint_service_share` · X is
   /// computing time, the rest network delay.
-  delay_law joint;
+  delay_distribution joint;
   double joint_service_share = 0; ///< In [0, 1].
 
   stall_options stalls;

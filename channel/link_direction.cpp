@@ -7,7 +7,7 @@
 namespace sofof {
 
 link_direction::link_direction(channel draws, way direction,
-                               std::shared_ptr<fifo_servers> cell)
+                               std::shared_ptr<multi_server_queue> cell)
     : draws_{std::move(draws)}, direction_{direction}, cell_{std::move(cell)},
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
 

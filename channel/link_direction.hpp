@@ -4,8 +4,8 @@
 
 #include "base/time.hpp"
 #include "channel/channel.hpp"
-#include "channel/fifo_servers.hpp"
-#include "channel/interruptions.hpp"
+#include "channel/multi_server_queue.hpp"
+#include "channel/outage_process.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -20,7 +20,7 @@ public:
   /// @param cell  The radio cell's airtime queue, of one worker, shared by
   ///              the vehicles of a cell in this direction; null for none.
   link_direction(channel draws, way direction,
-                 std::shared_ptr<fifo_servers> cell);
+                 std::shared_ptr<multi_server_queue> cell);
 
   /// The run begins now: outages are counted from here, else from time zero.
   void begin(time_point start) { start_ = start; }
@@ -39,9 +39,9 @@ public:
 private:
   channel draws_;
   way direction_;
-  std::shared_ptr<fifo_servers> cell_;
-  interruptions stalls_;
-  interruptions fades_;
+  std::shared_ptr<multi_server_queue> cell_;
+  outage_process stalls_;
+  outage_process fades_;
   time_point start_;
   time_point last_arrival_ = time_point::min();
 };

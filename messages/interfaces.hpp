@@ -21,124 +21,124 @@ namespace sofof {
 struct begin_atom; // a word of nothing but its name, in type_ids.hpp
 
 template <class... Ts>
-using takes = caf::result<void>(Ts...);
+using reacts_to = caf::result<void>(Ts...);
 
 /// Runs one function of a service, cycle by cycle, and has a life cycle.
 using instance_actor = caf::typed_actor<
     // Its life cycle shall take this step; an impossible one is ignored.
-    takes<lifecycle_step>,
+    reacts_to<lifecycle_step>,
     // The next cycles shall start from this.
-    takes<service_input>>;
+    reacts_to<service_input>>;
 
 /// Wherever results of cycles go.
 using result_actor = caf::typed_actor<
     // A cycle is done.
-    takes<service_result>>;
+    reacts_to<service_result>>;
 
 /// Feeds one accepted service at the provider.
 using provider_manager_actor = result_actor::extend<
     // New input from the vehicle.
-    takes<service_input>,
+    reacts_to<service_input>,
     // The service has ended: finalise the instance.
-    takes<service_end>>;
+    reacts_to<service_end>>;
 
 /// Feeds one service in the vehicle and chooses its source. It alone decides
 /// whose results the client gets, so there is always exactly one source.
 using requester_manager_actor = result_actor::extend<
     // The client has new input.
-    takes<service_input>,
+    reacts_to<service_input>,
     // A provider runs the service too: feed it there, and use the results from
     // the first one on.
-    takes<running_service, provider_manager_actor>,
+    reacts_to<session_id, provider_manager_actor>,
     // Of several, this provider is on call: it is fed when nobody has answered
     // a cycle for so long. 0: no provider is.
-    takes<boot_id, duration>,
+    reacts_to<provider_id, duration>,
     // The running service has ended: the local service plans at once.
-    takes<service_end>>;
+    reacts_to<service_end>>;
 
 /// Uses what a service gives; there is one per vehicle and kind.
 using client_actor = result_actor::extend<
     // From now on results come from this source.
-    takes<source_change>,
+    reacts_to<source_change>,
     // Inputs are wanted here.
-    takes<requester_manager_actor>>;
+    reacts_to<requester_manager_actor>>;
 
 /// Barks when results come late or stop coming.
 using watchdog_actor = caf::typed_actor<
     // Watch this running service; its first result came at this time.
-    takes<running_service, time_point>,
+    reacts_to<session_id, time_point>,
     // Another result has come.
-    takes<arrival>,
+    reacts_to<arrival>,
     // One has come that is of no use, for this reason.
-    takes<running_service, std::string>,
+    reacts_to<session_id, std::string>,
     // Watch no longer.
-    takes<service_end>>;
+    reacts_to<service_end>>;
 
 /// SR, the vehicle's side of offloading, as providers see it. The sender of
 /// an offer is the provider, or a link that looks like it.
 using requester_actor = result_actor::extend<
     // A provider has seen this station in its area.
-    takes<service_offer>,
+    reacts_to<service_offer>,
     // Each requested service is accepted or refused; one manager per accepted
     // service, in the order of the verdicts.
-    takes<service_response, std::vector<provider_manager_actor>>,
+    reacts_to<service_response, std::vector<provider_manager_actor>>,
     // The provider has ended a running service.
-    takes<service_end>>;
+    reacts_to<service_end>>;
 
 /// SR, as the other actors of its vehicle see it.
 using onboard_requester_actor = requester_actor::extend<
     // The own motion, every protocol::ego_period.
-    takes<ego_state>,
+    reacts_to<ego_state>,
     // The first result of a running service is in use.
-    takes<running_service>,
+    reacts_to<session_id>,
     // The watchdog has barked, or a result was implausible.
-    takes<qos_violation>>;
+    reacts_to<qos_violation>>;
 
 /// SP, the edge server's side of offloading, as requesters see it.
 using provider_actor = caf::typed_actor<
     // What a station tells everybody: a CAM, a CPM. Its requester can be
     // reached here.
-    takes<its_pdu, requester_actor>,
+    reacts_to<its_pdu, requester_actor>,
     // A station asks for offered services.
-    takes<service_request, requester_actor>,
+    reacts_to<service_request, requester_actor>,
     // The requester has ended a running service.
-    takes<service_end>>;
+    reacts_to<service_end>>;
 
 /// SP, as its own sensors see it.
 using roadside_provider_actor = provider_actor::extend<
     // One of them has looked at the road.
-    takes<site_view>>;
+    reacts_to<roadside_detections>>;
 
 /// All that crosses the air between one vehicle and one provider. It looks
 /// like the far end to both of them: to the provider and its managers like a
 /// requester, to the requester like all of these.
 using link_actor = requester_actor::extend<
     // As provider_actor and provider_manager_actor take them.
-    takes<its_pdu, requester_actor>, takes<service_request, requester_actor>,
-    takes<service_input>>;
+    reacts_to<its_pdu, requester_actor>,
+    reacts_to<service_request, requester_actor>, reacts_to<service_input>>;
 
 /// The far end of a connection to a provider on another host: what it says to
 /// the vehicles of this process.
 using uplink_actor = caf::typed_actor<
     // As requester_actor takes them; offers, with the station they are for.
-    takes<station_id, service_offer>, takes<service_response>,
-    takes<service_result>, takes<service_end>,
+    reacts_to<station_id, service_offer>, reacts_to<service_response>,
+    reacts_to<service_result>, reacts_to<service_end>,
     // The connection lives; whose clock says what.
-    takes<life_sign>, takes<life_echo>,
+    reacts_to<ping>, reacts_to<pong>,
     // The latest message of this stream has come: the next one may follow.
-    takes<stream_id>>;
+    reacts_to<stream_id>>;
 
 /// The far end of a connection to vehicles on another host: what they say to
 /// the provider of this process.
 using session_actor = caf::typed_actor<
     // As provider_actor and provider_manager_actor take them; what a station
     // tells everybody, with the station.
-    takes<station_id, its_pdu>, takes<service_request>, takes<service_input>,
-    takes<service_end>,
+    reacts_to<station_id, its_pdu>, reacts_to<service_request>,
+    reacts_to<service_input>, reacts_to<service_end>,
     // The connection lives; whose clock says what.
-    takes<life_sign>, takes<life_echo>,
+    reacts_to<ping>, reacts_to<pong>,
     // The latest message of this stream has come: the next one may follow.
-    takes<stream_id>>;
+    reacts_to<stream_id>>;
 
 /// Where one process of vehicles introduces itself, once.
 using entrance_actor = caf::typed_actor<
@@ -157,40 +157,40 @@ using gate_actor = caf::typed_actor<
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<
     // What the driver has to know about the others.
-    takes<perception>,
+    reacts_to<perception>,
     // It is on the road now: its place was free.
-    takes<begin_atom>>;
+    reacts_to<begin_atom>>;
 
 /// The streets and all that moves on them, and what sensors see of it.
 using road_actor = caf::typed_actor<
     // A vehicle is here now; it wants to know what it perceives.
-    takes<motion_report, vehicle_actor>,
+    reacts_to<motion_report, vehicle_actor>,
     // A vehicle wants to appear here; it waits until its place is free.
-    takes<begin_atom, motion_report, vehicle_actor>,
+    reacts_to<begin_atom, motion_report, vehicle_actor>,
     // A vehicle has arrived and leaves the streets.
-    takes<station_id>>;
+    reacts_to<station_id>>;
 
 /// Keeps what happened.
 using recorder_actor = caf::typed_actor<
     // Something worth a line in the log.
-    takes<event_record>,
+    reacts_to<event_record>,
     // A requested service was answered.
-    takes<decision_record>,
+    reacts_to<decision_record>,
     // A remote result came in.
-    takes<cycle_record>,
+    reacts_to<cycle_record>,
     // One side has closed a running service.
-    takes<episode_record>,
+    reacts_to<episode_record>,
     // Where a vehicle is.
-    takes<track_record>,
+    reacts_to<track_record>,
     // How safely a vehicle drove.
-    takes<safety_record>,
+    reacts_to<safety_record>,
     // Two bodies have touched.
-    takes<collision_record>,
+    reacts_to<collision_record>,
     // How smoothly a vehicle drove.
-    takes<drive_record>,
+    reacts_to<drive_record>,
     // The plans that a vehicle follows come from another source.
-    takes<plan_switch_record>,
+    reacts_to<plan_switch_record>,
     // An ITS message was sent.
-    takes<air_record>>;
+    reacts_to<air_record>>;
 
 } // namespace sofof

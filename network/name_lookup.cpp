@@ -1,7 +1,7 @@
 // A detached thread that owns whatever it touches.
 #include "network/name_lookup.hpp"
 
-#include "network/thread_manners.hpp"
+#include "network/block_signals.hpp"
 
 #include <mutex>
 #include <thread>

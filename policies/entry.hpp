@@ -11,7 +11,7 @@ namespace sofof {
 
 template <class Policy>
 struct policy_entry {
-  policy_notes notes;
+  policy_info notes;
   std::unique_ptr<Policy> (*make)(); ///< With its default options.
 };
 using lodm_entry = policy_entry<local_policy>;
@@ -19,17 +19,17 @@ using codm_entry = policy_entry<central_policy>;
 
 /// Makes a policy that sees everything.
 template <class Policy, class Whole>
-std::unique_ptr<Policy> alone() {
+std::unique_ptr<Policy> unfiltered() {
   return std::make_unique<Whole>();
 }
 
 /// Makes one that chooses among what a filter lets through.
 template <class Choice>
-std::unique_ptr<local_policy> behind_lodm_filter() {
+std::unique_ptr<local_policy> filtered_by_provider() {
   return std::make_unique<filtered_lodm>(std::make_unique<Choice>());
 }
 template <class Choice>
-std::unique_ptr<central_policy> behind_codm_filter() {
+std::unique_ptr<central_policy> filtered_by_request() {
   return std::make_unique<filtered_codm>(std::make_unique<Choice>());
 }
 

@@ -27,11 +27,11 @@ std::unique_ptr<Policy> make(const Table& table, std::string_view name) {
 
 } // namespace
 
-std::vector<policy_notes> lodm_notes() {
+std::vector<policy_info> lodm_notes() {
   return notes_of(entries(lodm_table));
 }
 
-std::vector<policy_notes> codm_notes() {
+std::vector<policy_info> codm_notes() {
   return notes_of(entries(codm_table));
 }
 

@@ -12,8 +12,8 @@
 namespace sofof {
 
 /// @returns what is said of each, by name.
-std::vector<policy_notes> lodm_notes();
-std::vector<policy_notes> codm_notes();
+std::vector<policy_info> lodm_notes();
+std::vector<policy_info> codm_notes();
 
 /// @returns the policy with its default options; null for an unknown name.
 std::unique_ptr<local_policy> make_lodm(std::string_view name);

@@ -189,14 +189,14 @@ public:
 
 private:
   struct open_episode {
-    running_service running;
+    session_id running;
     time_point since;
     time_point remote_since; ///< Perhaps at other providers before.
   };
 
   /// Where a service was remote before.
   struct left_provider {
-    boot_id provider = 0;
+    provider_id provider = 0;
     time_point at;
   };
   using user = std::pair<service_name, station_id>;

@@ -175,7 +175,7 @@ void result_files::finish(const metrics& all, const run_info& run,
   write_file(folder_ / "summary.json", summary_json(all, run, end));
 }
 
-std::string_view result_files::name_of(boot_id provider) const {
+std::string_view result_files::name_of(provider_id provider) const {
   return sofof::name_of(provider, names_);
 }
 

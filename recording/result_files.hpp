@@ -51,7 +51,7 @@ public:
 private:
   using timing = figures_of_clock::timing;
 
-  std::string_view name_of(boot_id provider) const;
+  std::string_view name_of(provider_id provider) const;
   void write_vehicles(const metrics& all) const;
   void write_distributions(const metrics& all) const;
   void write_timing(const run_end& end,

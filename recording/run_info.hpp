@@ -22,10 +22,11 @@ struct cycle_energy {
 };
 
 /// Providers by boot id; one that has booted again has the name of its place.
-using provider_names = std::map<boot_id, std::string>;
+using provider_names = std::map<provider_id, std::string>;
 
 /// @returns a provider's name; empty for one of no configuration.
-inline std::string_view name_of(boot_id provider, const provider_names& names) {
+inline std::string_view name_of(provider_id provider,
+                                const provider_names& names) {
   auto found = names.find(provider);
   if (found == names.end()) // of a process of its own
     found = names.find(place_of(provider));

@@ -1,7 +1,7 @@
 // Lining up figures.
 #include "recording/table.hpp"
 
-#include "base/text/painter.hpp"
+#include "base/text/terminal_style.hpp"
 
 #include <fmt/format.h>
 
@@ -98,7 +98,7 @@ public:
   }
 
   /// Appends it, as many columns side by side as fit into a line.
-  void print(std::string& out, const painter& paint) const {
+  void print(std::string& out, const terminal_style& paint) const {
     for (std::size_t first = 0; first < services_.size();) {
       auto used = label_width + width(first);
       auto end = first + 1;
@@ -132,7 +132,7 @@ private:
     return widest;
   }
 
-  void print(std::string& out, const painter& paint, std::size_t first,
+  void print(std::string& out, const terminal_style& paint, std::size_t first,
              std::size_t end) const {
     for (const auto& line : lines_) {
       auto text = line.label;
@@ -206,7 +206,7 @@ void drive_line(std::string& out, std::string_view label,
                      drive_column_width, verdict);
 }
 
-void safety_lines(std::string& out, const painter& paint,
+void safety_lines(std::string& out, const terminal_style& paint,
                   const safety_metrics& safety) {
   out += '\n' + paint.heading("safety") + '\n';
   if (safety.driven == duration::zero()) {
@@ -230,7 +230,7 @@ void safety_lines(std::string& out, const painter& paint,
              with_unit(to_seconds(safety.max_plan_age), 3, "s"));
 }
 
-void comfort_lines(std::string& out, const painter& paint,
+void comfort_lines(std::string& out, const terminal_style& paint,
                    const drive_metrics& drive) {
   if (drive.safety.driven == duration::zero())
     return;
@@ -243,7 +243,7 @@ void comfort_lines(std::string& out, const painter& paint,
   drive_line(out, "emergency plans", fmt::format("{}", drive.plans.emergency));
 }
 
-void energy_lines(std::string& out, const painter& paint,
+void energy_lines(std::string& out, const terminal_style& paint,
                   const cycle_figures& cycles, double distance_m) {
   constexpr auto m_per_km = 1e3;
   if (cycles.all_on_board_j <= 0)
@@ -262,7 +262,8 @@ std::uint64_t messages_of(const air_metrics& air) {
          + air.mcm_down.messages;
 }
 
-void air_lines(std::string& out, const painter& paint, const air_metrics& air) {
+void air_lines(std::string& out, const terminal_style& paint,
+               const air_metrics& air) {
   if (messages_of(air) == 0)
     return;
   const auto line = [](std::string_view label, std::string_view messages,
@@ -289,7 +290,7 @@ void air_lines(std::string& out, const painter& paint, const air_metrics& air) {
 
 std::string table(const metrics& m, const run_info& run, const run_end& end,
                   const std::filesystem::path& folder, bool colour) {
-  const painter paint{colour};
+  const terminal_style paint{colour};
   std::string out;
   out += paint.heading(fmt::format("{}, seed {}", run.scenario, run.seed));
   out += fmt::format("   (sofof {})\n", run.version);

@@ -6,12 +6,12 @@
 #include "actors/remote/uplink.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
+#include "actors/simulation/crash_injector.hpp"
 #include "actors/simulation/network_link.hpp"
-#include "actors/simulation/power_cut.hpp"
 #include "actors/simulation/road.hpp"
 #include "actors/simulation/vehicle.hpp"
-#include "channel/silent.hpp"
-#include "scenario/foresight.hpp"
+#include "channel/with_outage.hpp"
+#include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
 
 #include <caf/exit_reason.hpp>
@@ -42,15 +42,17 @@ struct site {
 
   bool may_die() const { return options->fails_at.has_value(); }
 
-  std::shared_ptr<fifo_servers> cell_up = std::make_shared<fifo_servers>(1);
-  std::shared_ptr<fifo_servers> cell_down = std::make_shared<fifo_servers>(1);
+  std::shared_ptr<multi_server_queue> cell_up =
+      std::make_shared<multi_server_queue>(1);
+  std::shared_ptr<multi_server_queue> cell_down =
+      std::make_shared<multi_server_queue>(1);
 };
 
-std::vector<service_kind_ptr> offered(const scenario& s,
+std::vector<service_type_ptr> offered(const scenario& s,
                                       const provider_options& options) {
   if (options.services.empty())
     return s.services;
-  std::vector<service_kind_ptr> kinds;
+  std::vector<service_type_ptr> kinds;
   for (const auto& kind : s.services)
     if (std::ranges::find(options.services, kind->name())
         != options.services.end())
@@ -71,7 +73,7 @@ duration fresh_limit(const scenario& s) {
 
 roadside_provider_actor spawn_provider(caf::actor_system& sys,
                                        const scenario& s, std::uint32_t number,
-                                       const datum_ptr& where,
+                                       const georeference_ptr& where,
                                        const recorder_actor& recorder,
                                        std::uint64_t start, bool virtual_time) {
   const auto& options = s.providers[number];
@@ -139,7 +141,7 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 
 // The vehicle calls it later, from its own thread: nothing is borrowed.
 auto requester_maker(caf::actor_system& sys, const scenario& s,
-                     const placed_vehicle& v, const datum_ptr& where,
+                     const placed_vehicle& v, const georeference_ptr& where,
                      const recorder_actor& recorder, bool virtual_time,
                      const decltype(foresee(s))& future) {
   return [&sys, v, where, recorder, virtual_time, world = s.world,
@@ -186,8 +188,8 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    const part& here) {
   world_actors world;
   const vehicle_params car;
-  const auto where =
-      std::make_shared<const datum>(geo_frame{s.world->map.origin()}, clock);
+  const auto where = std::make_shared<const georeference>(
+      geo_frame{s.world->map.origin()}, clock);
   std::vector<placed_vehicle> placed;
   station_routes ways;
   for (auto& v : place_vehicles(s))
@@ -223,7 +225,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
     // It lives from the start on, but nothing reaches it.
     if (options.returns_at)
       boot(k, here.start + 1,
-           silent(*s.channel_to(k), {}, *options.returns_at));
+           with_outage(*s.channel_to(k), {}, *options.returns_at));
   }
   for (const auto& to : here.remotes) {
     world.uplinks.push_back(to.spawn_uplink(world.recorder));

@@ -1,7 +1,7 @@
 // From a scenario to actors.
 #pragma once
 
-#include "actors/remote/far_provider.hpp"
+#include "actors/remote/provider_proxy.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/runtime.hpp"

@@ -35,12 +35,13 @@ front::open(network_runtime& time, const gate_actor& gate,
   const auto port = time.publish(gate, keys_ ? 0 : listen_.port);
   if (!keys_)
     return {listen_.host, port};
-  door_.emplace(keys_->now(),
-                door_options{.listen = listen_,
-                             .inner_port = port,
-                             .draws = {fingerprint(draw_nonce()), "handshakes"},
-                             .peers = peers_,
-                             .on_refusal = std::move(on_refusal)});
+  door_.emplace(
+      keys_->now(),
+      acceptor_options{.listen = listen_,
+                       .inner_port = port,
+                       .draws = {fingerprint(draw_nonce()), "handshakes"},
+                       .peers = peers_,
+                       .on_refusal = std::move(on_refusal)});
   keys_->add_user([this](const credentials& own) { door_->renew(own); });
   return {listen_.host, door_->port()};
 }

@@ -3,7 +3,7 @@
 
 #include "network/keys/key_ring.hpp"
 #include "network/network_address.hpp"
-#include "network/tls/tls_door.hpp"
+#include "network/tls/tls_acceptor.hpp"
 #include "scenario/runtime.hpp"
 
 #include <functional>
@@ -44,7 +44,7 @@ private:
   std::shared_ptr<key_ring> keys_;
   network_address listen_;
   std::shared_ptr<peer_register> peers_ = std::make_shared<peer_register>();
-  std::optional<tls_door> door_;
+  std::optional<tls_acceptor> door_;
 };
 
 } // namespace sofof

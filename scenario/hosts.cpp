@@ -9,7 +9,7 @@
 #include "base/text/printable.hpp"
 #include "network/keys/key_ring.hpp"
 #include "network/keys/nonce.hpp"
-#include "network/tls/tls_dialer.hpp"
+#include "network/tls/tls_connector.hpp"
 #include "scenario/front.hpp"
 
 #include <fmt/format.h>
@@ -277,7 +277,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
   std::shared_ptr<key_ring> keys;
-  std::vector<std::unique_ptr<tls_dialer>> dialers; // outlive what uses them
+  std::vector<std::unique_ptr<tls_connector>> dialers; // outlive what uses them
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
@@ -313,8 +313,9 @@ run_outcome drive(const scenario& s, const drive_options& what,
                       .part(stations.empty() ? 0 : stations.front());
     if (keys) {
       const auto own = keys->now();
-      dialers.push_back(std::make_unique<tls_dialer>(
-          &own, dialer_options{.remote = to.at, .provider = setup.provider}));
+      dialers.push_back(std::make_unique<tls_connector>(
+          &own,
+          connector_options{.remote = to.at, .provider = setup.provider}));
       keys->add_user([&dialer = *dialers.back()](const credentials& fresh) {
         dialer.renew(fresh);
       });

@@ -5,8 +5,8 @@
 #include "base/input_error.hpp"
 #include "base/stopwatch.hpp"
 #include "recording/cpu_table.hpp"
+#include "recording/locked_results.hpp"
 #include "recording/pcap_file.hpp"
-#include "recording/record_keeper.hpp"
 #include "recording/results_folder.hpp"
 #include "recording/table.hpp"
 #include "scenario/build.hpp"
@@ -94,7 +94,7 @@ void tell_news(const run_options& options, progress& shown,
 /// Tells once that files are no longer written.
 class loss_teller {
 public:
-  void look_at(const record_keeper& keeper, progress& shown,
+  void look_at(const locked_results& keeper, progress& shown,
                std::ostream& console) {
     if (is_told_)
       return;
@@ -112,7 +112,7 @@ private:
 
 /// Moves the run to its end, or to where it was interrupted.
 time_point advance(runtime& time, time_point end, const run_options& options,
-                   const std::atomic<bool>& interrupted, record_keeper& keeper,
+                   const std::atomic<bool>& interrupted, locked_results& keeper,
                    loss_teller& losses, progress& shown, const stopwatch& watch,
                    std::ostream& console) {
   const auto start = time.now();
@@ -184,7 +184,7 @@ void discard(const std::filesystem::path& folder, bool was_there) {
 
 struct kept_results {
   std::filesystem::path folder; ///< Empty: none could be made.
-  std::shared_ptr<record_keeper> keeper;
+  std::shared_ptr<locked_results> keeper;
 };
 
 kept_results make_keeper(const std::string& name, std::int64_t seed,
@@ -192,12 +192,12 @@ kept_results make_keeper(const std::string& name, std::int64_t seed,
   try {
     const auto folder =
         make_results_folder(options.out, name, seed, options.force);
-    return {folder, std::make_shared<record_keeper>(folder, info,
-                                                    options.when_unwritable)};
+    return {folder, std::make_shared<locked_results>(folder, info,
+                                                     options.when_unwritable)};
   } catch (const storage_error& full) {
     if (options.when_unwritable == write_failure::ends_the_run)
       throw;
-    return {{}, std::make_shared<record_keeper>(info, full.what())};
+    return {{}, std::make_shared<locked_results>(info, full.what())};
   }
 }
 

@@ -1,7 +1,7 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "base/options/settings.hpp"
 #include "channel/channel.hpp"
 #include "messages/v2x/v2x_options.hpp"
@@ -151,7 +151,7 @@ struct scenario {
   std::vector<provider_options> providers;
   network_options network;
   v2x_options v2x; ///< What vehicles tell everybody.
-  std::vector<service_kind_ptr> services;
+  std::vector<service_type_ptr> services;
   policy_options policies;
   record_options record;
 

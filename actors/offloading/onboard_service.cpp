@@ -2,7 +2,7 @@
 #include "actors/offloading/onboard_service.hpp"
 
 #include "actors/offloading/service_manager.hpp"
-#include "base/drawn_phase.hpp"
+#include "base/random_phase.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,12 +26,12 @@ local_run_time(bool virtual_time, const service_options& options,
 }
 
 instance_setup local_instance(const requester_setup& vehicle,
-                              const service_kind& kind,
+                              const service_type& kind,
                               const service_setup& here) {
   instance_setup local;
   local.function = kind.make_function(here);
   local.period = kind.common.period;
-  local.phase = drawn_phase(here.noise.part("local phase"), local.period);
+  local.phase = random_phase(here.noise.part("local phase"), local.period);
   local.finish = local_run_time(vehicle.virtual_time,
                                 on(vehicle.computer, kind.common), here.noise);
   return local;
@@ -40,7 +40,7 @@ instance_setup local_instance(const requester_setup& vehicle,
 } // namespace
 
 service_setup onboard_setup(const requester_setup& vehicle,
-                            const service_kind& kind,
+                            const service_type& kind,
                             std::function<time_point()> clock) {
   return {.world = vehicle.world,
           .where = vehicle.where,
@@ -52,7 +52,7 @@ service_setup onboard_setup(const requester_setup& vehicle,
 
 onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const requester_setup& vehicle,
-                                      const service_kind_ptr& kind,
+                                      const service_type_ptr& kind,
                                       onboard_requester_actor requester,
                                       const service_setup& here) {
   auto local = local_instance(vehicle, *kind, here);

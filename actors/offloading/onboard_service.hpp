@@ -14,7 +14,7 @@ struct onboard_service {
 
 /// @returns what that kind makes its parts of in a vehicle.
 service_setup onboard_setup(const requester_setup& vehicle,
-                            const service_kind& kind,
+                            const service_type& kind,
                             std::function<time_point()> clock);
 
 /// Spawns client and manager, which ends with its local instance. The
@@ -22,7 +22,7 @@ service_setup onboard_setup(const requester_setup& vehicle,
 /// @param here  What `onboard_setup` returned for this vehicle and kind.
 onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const requester_setup& vehicle,
-                                      const service_kind_ptr& kind,
+                                      const service_type_ptr& kind,
                                       onboard_requester_actor requester,
                                       const service_setup& here);
 

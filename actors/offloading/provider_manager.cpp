@@ -14,7 +14,7 @@ namespace {
 
 using provider_manager_impl = provider_manager_actor::extend<
     // Has the first input come by now?
-    takes<tick_atom>>;
+    reacts_to<tick_atom>>;
 
 struct manager_state {
   static inline const char* name = "provider_manager";

@@ -15,7 +15,8 @@ namespace sofof {
 
 namespace {
 
-using watchdog_impl = watchdog_actor::extend<takes<tick_atom, std::uint64_t>>;
+using watchdog_impl =
+    watchdog_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
 
 struct watchdog_state {
   static inline const char* name = "qos_watchdog";
@@ -23,12 +24,12 @@ struct watchdog_state {
   watchdog_impl::stateful_pointer<watchdog_state> self;
   qos_limits limits;
   onboard_requester_actor requester;
-  std::optional<running_service> watched;
+  std::optional<session_id> watched;
   gap_monitor gaps{duration{0}};
   std::string useless;     // why the results since the last arrival are so
   std::uint64_t epoch = 0; // of the one timer that counts
 
-  void arm(const running_service& running, time_point first) {
+  void arm(const session_id& running, time_point first) {
     watched = running;
     gaps = gap_monitor{limits.max_interarrival};
     gaps.arrived(first);
@@ -46,12 +47,12 @@ struct watchdog_state {
       bark(qos_breach::latency);
   }
 
-  void take_useless(const running_service& running, std::string why) {
+  void take_useless(const session_id& running, std::string why) {
     if (watched == running)
       useless = std::move(why);
   }
 
-  void disarm(const running_service& running) {
+  void disarm(const session_id& running) {
     if (watched != running)
       return;
     watched.reset();
@@ -90,11 +91,11 @@ watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
   self->state.limits = limits;
   self->state.requester = std::move(requester);
   return {
-      [self](const running_service& running, time_point first) {
+      [self](const session_id& running, time_point first) {
         self->state.arm(running, first);
       },
       [self](const arrival& a) { self->state.take(a); },
-      [self](const running_service& running, std::string& why) {
+      [self](const session_id& running, std::string& why) {
         self->state.take_useless(running, std::move(why));
       },
       [self](const service_end& end) { self->state.disarm(end.running); },

@@ -26,7 +26,7 @@ namespace {
 
 // A service at a provider, waited for or in use.
 struct remote_source {
-  running_service running;
+  session_id running;
   provider_manager_actor manager;
   std::unique_ptr<result_judge> judge;
   bool in_use = false;
@@ -45,7 +45,7 @@ struct remote_source {
 // Besides its interface: the timer with this number says that it is time to
 // call.
 using manager_impl =
-    requester_manager_actor::extend<takes<tick_atom, std::uint64_t>>;
+    requester_manager_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
 
 std::string in_ms(duration d) {
   return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
@@ -65,15 +65,15 @@ struct offloaded_state {
   watchdog_actor watchdog;
   std::vector<remote_source> remotes;
   first_response answers;  // of planning cycles, by any of them
-  boot_id hedge = 0;       // the provider that is on call beside others,
+  provider_id hedge = 0;   // the provider that is on call beside others,
   duration hedge_after{};  // when a cycle is not answered for so long
   time_point began;        // the latest cycle of who is not on call
   std::uint64_t timer = 0; // the one that counts
-  running_service watched; // by whose name the watchdog watches
+  session_id watched;      // by whose name the watchdog watches
   service_input newest;
-  payload in_use;         // the last result that the client got,
-  running_service source; // of whom,
-  time_point used_at;     // and when
+  payload in_use;     // the last result that the client got,
+  session_id source;  // of whom,
+  time_point used_at; // and when
 
   void start() {
     setup.local.running = {0, setup.station, setup.kind, 0};
@@ -133,8 +133,7 @@ struct offloaded_state {
     return true;
   }
 
-  void await(const running_service& running,
-             const provider_manager_actor& manager) {
+  void await(const session_id& running, const provider_manager_actor& manager) {
     auto& remote = remotes.emplace_back();
     remote.running = running;
     remote.manager = manager;
@@ -183,7 +182,7 @@ struct offloaded_state {
   }
 
   // Who sends what is implausible is left in the same turn.
-  void refuse(const running_service& running, const objection& why) {
+  void refuse(const session_id& running, const objection& why) {
     end({running, end_reason::implausible, side::requester});
     self->send(setup.requester, qos_violation{running, qos_breach::implausible,
                                               now(self), true, in_words(why)});
@@ -249,7 +248,7 @@ struct offloaded_state {
     return remote.running.provider == hedge && sources() > remote.in_use;
   }
 
-  void be_on_call(boot_id provider, duration after) {
+  void be_on_call(provider_id provider, duration after) {
     hedge = provider;
     hedge_after = after;
     tell_duties();
@@ -351,7 +350,7 @@ struct offloaded_state {
     tell_duties();
   }
 
-  void watch(const running_service& running, time_point last) {
+  void watch(const session_id& running, time_point last) {
     watched = running;
     self->send(watchdog, running, last);
   }
@@ -398,11 +397,10 @@ requester_manager(manager_impl::stateful_pointer<offloaded_state> self,
   return {
       [self](const service_result& result) { self->state.take(result); },
       [self](service_input& input) { self->state.feed(input); },
-      [self](const running_service& running,
-             const provider_manager_actor& manager) {
+      [self](const session_id& running, const provider_manager_actor& manager) {
         self->state.await(running, manager);
       },
-      [self](boot_id provider, duration after) {
+      [self](provider_id provider, duration after) {
         self->state.be_on_call(provider, after);
       },
       [self](const service_end& e) { self->state.end(e); },

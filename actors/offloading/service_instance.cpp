@@ -13,7 +13,8 @@ namespace sofof {
 namespace {
 
 // Besides its interface: the own timer, with the epoch it was set in.
-using instance_impl = instance_actor::extend<takes<tick_atom, std::uint64_t>>;
+using instance_impl =
+    instance_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
 
 struct instance_state {
   static inline const char* name = "service_instance";

@@ -1,7 +1,7 @@
 // A service instance: one function with a life cycle, run period by period.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
@@ -13,7 +13,7 @@ namespace sofof {
 
 /// When and for whom an instance runs.
 struct instance_setup {
-  running_service running; ///< Stamped on every result.
+  session_id running; ///< Stamped on every result.
   std::shared_ptr<service_function> function;
   duration period{};
   duration phase{}; ///< Cycles start at phase + k · period.

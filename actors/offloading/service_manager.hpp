@@ -16,11 +16,11 @@ struct requester_manager_setup {
   station_id station = 0;
   service_name kind;
   service_options options;
-  /// `service_kind::on_air` of this vehicle.
+  /// `service_type::on_air` of this vehicle.
   std::function<service_input(service_input, bool takes_over)> on_air;
-  /// `service_kind::make_judge` of this vehicle.
+  /// `service_type::make_judge` of this vehicle.
   std::function<std::unique_ptr<result_judge>()> make_judge;
-  /// `service_kind::continues`.
+  /// `service_type::continues`.
   std::function<bool(const payload& in_use, const payload& offered,
                      time_point now)>
       continues =

@@ -4,10 +4,10 @@
 #include "actors/offloading/service_manager.hpp"
 #include "actors/runtime/on_air.hpp"
 #include "actors/runtime/time.hpp"
-#include "base/drawn_phase.hpp"
 #include "base/protocol.hpp"
-#include "messages/v2x/reception.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "base/random_phase.hpp"
+#include "messages/v2x/decode_broadcast.hpp"
+#include "network/flow/token_bucket.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -25,9 +25,9 @@ namespace {
 
 using provider_impl = roadside_provider_actor::extend<
     // Has the station fallen silent, whose record has this number?
-    takes<tick_atom, station_id, std::uint64_t>,
+    reacts_to<tick_atom, station_id, std::uint64_t>,
     // An epoch of the policy is over.
-    takes<tick_atom>>;
+    reacts_to<tick_atom>>;
 
 /// Records of doubted stations.
 constexpr double doubts_per_s = 5;
@@ -35,7 +35,7 @@ constexpr double doubts_at_once = 50;
 
 // One running service.
 struct service_session {
-  running_service running;
+  session_id running;
   provider_manager_actor manager;
   time_point since;
   periodic_task task;
@@ -72,8 +72,8 @@ struct provider_state {
 
   provider_impl::stateful_pointer<provider_state> self;
   provider_setup setup;
-  std::shared_ptr<fifo_servers> workers;
-  std::vector<std::shared_ptr<service_site>> sites; // of each kind, or null
+  std::shared_ptr<multi_server_queue> workers;
+  std::vector<std::shared_ptr<provider_context>> sites; // of each kind, or null
   std::map<station_id, station_record> stations;
   std::uint32_t counter = 0;
   std::uint64_t records = 0;
@@ -81,7 +81,7 @@ struct provider_state {
   duration epoch{};                  // of the policy; 0: none
   bool in_epoch = false;             // one has begun
   std::vector<open_request> waiting; // for its end
-  rate_limit doubts{doubts_per_s, doubts_at_once};
+  token_bucket doubts{doubts_per_s, doubts_at_once};
 
   // -- what is known beyond a vehicle's input -----------------------------
 
@@ -91,7 +91,7 @@ struct provider_state {
           setup_of(*kind, 0, setup.seed.part(kind->name()).part("site"))));
   }
 
-  service_setup setup_of(const service_kind& kind, station_id station,
+  service_setup setup_of(const service_type& kind, station_id station,
                          random_stream noise) const {
     const auto number = find_kind(kind.name());
     return {.world = setup.world,
@@ -134,7 +134,7 @@ struct provider_state {
     const auto heard = understand(message, *setup.where, now(self));
     if (const auto* c = std::get_if<cam>(&heard))
       take(*c, message.sender, requester);
-    else if (const auto* seen = std::get_if<sighting>(&heard))
+    else if (const auto* seen = std::get_if<object_list>(&heard))
       take(*seen, message.sender, requester);
   }
 
@@ -143,9 +143,9 @@ struct provider_state {
     return told == 0 ? station : told;
   }
 
-  void take(const sighting& seen, sender_id sender,
+  void take(const object_list& seen, sender_id sender,
             const requester_actor& requester) {
-    tell_sites([&](service_site& site) {
+    tell_sites([&](provider_context& site) {
       site.hear(seen, sender_of(sender, seen.from));
     });
     const auto known = stations.find(seen.from);
@@ -154,7 +154,7 @@ struct provider_state {
   }
 
   void take(const cam& c, sender_id sender, const requester_actor& requester) {
-    tell_sites([&](service_site& site) {
+    tell_sites([&](provider_context& site) {
       site.hear(c, sender_of(sender, c.station));
     });
     const auto known = stations.find(c.station);
@@ -333,7 +333,7 @@ struct provider_state {
   std::vector<central_decision>
   ask_codm(std::span<const request_view> requests) {
     std::vector<session_view> sessions;
-    std::vector<running_service> running;
+    std::vector<session_id> running;
     for (const auto& [id, other] : stations)
       for (const auto& s : other.sessions) {
         const auto kind = s.running.kind.view();
@@ -413,7 +413,7 @@ struct provider_state {
   }
 
   provider_manager_actor start(station_record& station,
-                               const running_service& running,
+                               const session_id& running,
                                const open_request& open,
                                const central_decision& how) {
     const auto& kind = *setup.kinds[find_kind(running.kind.view()).value()];
@@ -424,7 +424,7 @@ struct provider_state {
         kind.make_function(setup_of(kind, running.station, noise));
     remote.period = kind.common.period;
     remote.phase = how.offset.value_or(
-        drawn_phase(noise.part("remote phase"), remote.period));
+        random_phase(noise.part("remote phase"), remote.period));
     remote.keeps_phase = how.offset.has_value();
     auto task = task_of(kind.name());
     task.offset = remote.phase;
@@ -438,7 +438,7 @@ struct provider_state {
   }
 
   std::function<time_point(time_point, std::uint64_t)>
-  computing_time(const service_kind& kind, station_id station) const {
+  computing_time(const service_type& kind, station_id station) const {
     if (!setup.virtual_time)
       return [](time_point start, std::uint64_t) { return start; };
     const channel draws{setup.profile, setup.seed, station, setup.number};
@@ -496,7 +496,7 @@ struct provider_state {
   }
 
   // Closes a running service, once; unknown ones have been closed before.
-  void end(station_record& station, running_service running, end_reason reason,
+  void end(station_record& station, session_id running, end_reason reason,
            bool tell) {
     auto i =
         std::ranges::find(station.sessions, running, &service_session::running);
@@ -507,7 +507,7 @@ struct provider_state {
     self->send(i->manager, e);
     if (tell) {
       if (const auto kind = find_kind(running.kind.view()))
-        e.what = setup.kinds[*kind]->farewell(
+        e.what = setup.kinds[*kind]->termination_message(
             setup_of(*setup.kinds[*kind], running.station, setup.seed), e,
             now(self), nullptr);
       note_on_air(self, setup.recorder, e.what);
@@ -537,7 +537,8 @@ provider(provider_impl::stateful_pointer<provider_state> self,
   state.setup = std::move(setup);
   state.make_sites();
   state.epoch = from_seconds(state.setup.codm->epoch_s());
-  state.workers = std::make_shared<fifo_servers>(state.setup.profile->workers);
+  state.workers =
+      std::make_shared<multi_server_queue>(state.setup.profile->workers);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.lost(down); });
   self->set_exit_handler([self](const caf::exit_msg& exit) {
@@ -552,8 +553,8 @@ provider(provider_impl::stateful_pointer<provider_state> self,
         self->state.take(request, requester);
       },
       [self](const service_end& e) { self->state.take(e); },
-      [self](const site_view& view) {
-        self->state.tell_sites([&](service_site& site) { site.see(view); });
+      [self](const roadside_detections& view) {
+        self->state.tell_sites([&](provider_context& site) { site.see(view); });
       },
       [self](tick_atom, station_id station, std::uint64_t number) {
         self->state.check(station, number);

@@ -1,9 +1,9 @@
 // SP: the edge server's side of offloading.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "channel/channel.hpp"
-#include "channel/fifo_servers.hpp"
+#include "channel/multi_server_queue.hpp"
 #include "messages/type_ids.hpp"
 #include "policies/api/context.hpp"
 
@@ -16,12 +16,12 @@ namespace sofof {
 
 /// What a provider is made of.
 struct provider_setup {
-  boot_id boot = 0;
+  provider_id boot = 0;
   point position; ///< m, east-north.
   polygon area;
   streets_ptr world;
-  datum_ptr where;                     ///< Where that is on Earth.
-  std::vector<service_kind_ptr> kinds; ///< Offered.
+  georeference_ptr where;              ///< Where that is on Earth.
+  std::vector<service_type_ptr> kinds; ///< Offered.
   std::unique_ptr<central_policy> codm;
   recorder_actor recorder;
   std::shared_ptr<const channel_profile> profile; ///< Computing times.

@@ -2,7 +2,7 @@
 #include "actors/offloading/service_requester.hpp"
 
 #include "actors/offloading/onboard_service.hpp"
-#include "actors/offloading/service_slot.hpp"
+#include "actors/offloading/service_state.hpp"
 #include "actors/runtime/cpu_accounts.hpp"
 #include "actors/runtime/on_air.hpp"
 #include "actors/runtime/time.hpp"
@@ -23,11 +23,11 @@ namespace {
 
 using requester_impl = onboard_requester_actor::extend<
     // The request with this number has been open for too long.
-    takes<tick_atom, boot_id, std::uint32_t>,
+    reacts_to<tick_atom, provider_id, std::uint32_t>,
     // This running service should have given its first data by now.
-    takes<tick_atom, running_service>,
+    reacts_to<tick_atom, session_id>,
     // An epoch of the policy is over.
-    takes<tick_atom>>;
+    reacts_to<tick_atom>>;
 
 // A provider's clock, GHz, where it tells itself how long it computes.
 constexpr auto takes_no_time = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ struct requester_state {
 
   requester_impl::stateful_pointer<requester_state> self;
   requester_setup setup;
-  std::vector<service_slot> slots;
+  std::vector<service_state> slots;
   known_providers providers;
   ego_state ego;
   std::uint32_t last_request = 0;
@@ -57,17 +57,17 @@ struct requester_state {
   // For whom it works, in case somebody keeps accounts.
   void charge_self() {
     const auto any_remote =
-        std::ranges::any_of(slots, &service_slot::is_remote);
+        std::ranges::any_of(slots, &service_state::is_remote);
     charge(self->system(), self->id(), {setup.station, {}, any_remote});
   }
 
   // -- services of this vehicle -------------------------------------------
 
-  service_setup setup_of(const service_kind& kind) const {
+  service_setup setup_of(const service_type& kind) const {
     return onboard_setup(setup, kind, clock_of(self));
   }
 
-  void add(const service_kind_ptr& kind) {
+  void add(const service_type_ptr& kind) {
     auto own = spawn_onboard_service(self->system(), setup, kind, self,
                                      setup_of(*kind));
     if (own.client != setup.vehicle)
@@ -87,20 +87,20 @@ struct requester_state {
          {}});
   }
 
-  service_slot* find(std::string_view kind) {
+  service_state* find(std::string_view kind) {
     auto i = std::ranges::find(
-        slots, kind, [](const service_slot& s) { return s.kind->name(); });
+        slots, kind, [](const service_state& s) { return s.kind->name(); });
     return i == slots.end() ? nullptr : &*i;
   }
 
   struct found {
-    service_slot* slot = nullptr;
+    service_state* slot = nullptr;
     offloading* at = nullptr;
     explicit operator bool() const { return at != nullptr; }
   };
 
   // Where `running` is starting or remote.
-  found find(const running_service& running) {
+  found find(const session_id& running) {
     auto* slot = find(running.kind.view());
     auto* at = slot ? slot->find(running.provider) : nullptr;
     if (!at || at->at == phase::requested || at->running != running)
@@ -121,7 +121,7 @@ struct requester_state {
     if (provider.open_request)
       return;
     weigh(
-        [&](const service_slot& slot) {
+        [&](const service_state& slot) {
           return provider.offers(slot.kind->name());
         },
         offer.provider);
@@ -148,14 +148,14 @@ struct requester_state {
             t, slot.kind->name(), 0, slot.on_board.time_s, false,
             slot.on_board.energy_j,
             to_seconds(epoch) / to_seconds(slot.kind->common.period)});
-    weigh([](const service_slot&) { return true; }, 0);
+    weigh([](const service_state&) { return true; }, 0);
   }
 
   // Decides about the services for which `is_due`.
   // @param offering  Who offers them just now; 0: nobody.
   template <class Predicate>
-  void weigh(Predicate is_due, boot_id offering) {
-    std::map<boot_id, std::vector<service_name>> wanted;
+  void weigh(Predicate is_due, provider_id offering) {
+    std::map<provider_id, std::vector<service_name>> wanted;
     const auto path = path_ahead();
     for (auto& slot : slots)
       if (!slot.is_moving() && is_due(slot))
@@ -170,7 +170,7 @@ struct requester_state {
                                 protocol::route_spacing_m);
   }
 
-  known_provider& meet(boot_id id, const provider_actor& from) {
+  known_provider& meet(provider_id id, const provider_actor& from) {
     if (const auto i = providers.find(id); i != providers.end())
       return i->second;
     // Behind a handle is one provider, which has booted since.
@@ -194,21 +194,22 @@ struct requester_state {
         .first->second;
   }
 
-  bool is_in_use(boot_id id) {
+  bool is_in_use(provider_id id) {
     return std::ranges::any_of(
         slots, [id](auto& slot) { return slot.find(id) != nullptr; });
   }
 
   // @param only  Beside where it runs, who comes into question; 0: all.
   // @returns who shall be asked for a service.
-  std::vector<boot_id> decide(service_slot& slot, boot_id offering,
-                              std::span<const point> path, boot_id only = 0) {
+  std::vector<provider_id> decide(service_state& slot, provider_id offering,
+                                  std::span<const point> path,
+                                  provider_id only = 0) {
     auto all = slot.views(providers, offering, now(self));
     if (only != 0)
       std::erase_if(all, [&](const provider_view& x) {
         return x.id != only && !slot.find(x.id);
       });
-    const auto knows = [&all](boot_id id) {
+    const auto knows = [&all](provider_id id) {
       return std::ranges::find(all, id, &provider_view::id) != all.end();
     };
     if (all.empty() || (offering != 0 && !knows(offering)))
@@ -235,7 +236,7 @@ struct requester_state {
     }
     if (decision.source == 0 && decision.second != 0)
       decision.source = slot.current();
-    std::vector<boot_id> wanted;
+    std::vector<provider_id> wanted;
     for (const auto id : {decision.source, decision.second})
       if (id != 0 && knows(id) && !std::ranges::count(wanted, id))
         wanted.push_back(id);
@@ -246,14 +247,14 @@ struct requester_state {
     }
     slot.wanted = wanted;
     set_hedge(slot, wanted.size() > 1 ? decision.hedge_after : duration{0});
-    std::erase_if(wanted, [&](boot_id id) { return slot.find(id); });
+    std::erase_if(wanted, [&](provider_id id) { return slot.find(id); });
     if (wanted.empty())
       leave_others(slot);
     return wanted;
   }
 
   // Whom the policy wants beside the first, it may want on call only.
-  void set_hedge(service_slot& slot, duration after) {
+  void set_hedge(service_state& slot, duration after) {
     const auto hedge = after > duration{0} ? slot.wanted.back() : 0;
     if (hedge == slot.hedge && after == slot.hedge_after)
       return;
@@ -262,7 +263,7 @@ struct requester_state {
     self->send(slot.manager, hedge, after);
   }
 
-  void request(boot_id id, std::vector<service_name> wanted,
+  void request(provider_id id, std::vector<service_name> wanted,
                const std::vector<point>& path) {
     auto& provider = providers.at(id);
     const auto number = ++last_request;
@@ -282,7 +283,7 @@ struct requester_state {
     send_after(self, self, protocol::request_timeout, tick_atom_v, id, number);
   }
 
-  void request_timed_out(boot_id id, std::uint32_t number) {
+  void request_timed_out(provider_id id, std::uint32_t number) {
     auto i = providers.find(id);
     if (i == providers.end() || i->second.open_request != number)
       return;
@@ -290,7 +291,7 @@ struct requester_state {
     refuse_requested(id, "no answer");
   }
 
-  void refuse_requested(boot_id provider, std::string_view why) {
+  void refuse_requested(provider_id provider, std::string_view why) {
     for (auto& slot : slots)
       if (const auto* at = slot.find(provider);
           at && at->at == phase::requested)
@@ -332,7 +333,7 @@ struct requester_state {
            && v.running.station == setup.station && v.running.counter != 0;
   }
 
-  void accepted(service_slot& slot, offloading& at, const verdict& v,
+  void accepted(service_state& slot, offloading& at, const verdict& v,
                 const provider_manager_actor& manager) {
     at.at = phase::starting;
     at.running = v.running;
@@ -344,8 +345,8 @@ struct requester_state {
 
   // @param instead  Whom the provider would have asked; 0: nobody. The vehicle
   // decides about that one anew.
-  void refused(service_slot& slot, boot_id provider, std::string_view why,
-               boot_id instead = 0) {
+  void refused(service_state& slot, provider_id provider, std::string_view why,
+               provider_id instead = 0) {
     decided(slot, provider, false, 0, why);
     setup.lodm->observe(
         refusal_outcome{now(self), slot.kind->name(), provider, why});
@@ -359,7 +360,7 @@ struct requester_state {
       request(id, {service_name{slot.kind->name()}}, path);
   }
 
-  void decided(const service_slot& slot, boot_id provider, bool yes,
+  void decided(const service_state& slot, provider_id provider, bool yes,
                std::uint32_t counter, std::string_view why) {
     const service_name kind{slot.kind->name()};
     self->send(setup.recorder,
@@ -391,7 +392,7 @@ struct requester_state {
   }
 
   // A provider that sends what nobody wants has missed a service_end.
-  void complain(const running_service& running) {
+  void complain(const session_id& running) {
     auto i = providers.find(running.provider);
     if (i == providers.end())
       return;
@@ -403,7 +404,7 @@ struct requester_state {
     tell_provider({running, end_reason::no_data, side::requester});
   }
 
-  void first_data(const running_service& running) {
+  void first_data(const session_id& running) {
     const auto at = find(running);
     if (!at || at.at->at != phase::starting)
       return;
@@ -423,16 +424,16 @@ struct requester_state {
     leave_others(*slot);
   }
 
-  void note_remote(const running_service& running) {
+  void note_remote(const session_id& running) {
     note("switch", running.provider, running.kind, running.counter, "remote");
   }
 
   // Ends a service where it runs, at those providers of whom that is true.
   // @returns at whom.
   template <class Predicate>
-  std::vector<boot_id> leave(service_slot& slot, end_reason reason,
-                             Predicate is_meant) {
-    std::vector<boot_id> left;
+  std::vector<provider_id> leave(service_state& slot, end_reason reason,
+                                 Predicate is_meant) {
+    std::vector<provider_id> left;
     for (const auto& at : slot.elsewhere)
       if (at.at == phase::remote && is_meant(at.provider))
         left.push_back(at.provider);
@@ -441,19 +442,19 @@ struct requester_state {
     return left;
   }
 
-  void leave_others(service_slot& slot) {
+  void leave_others(service_state& slot) {
     const auto left =
         leave(slot, end_reason::handed_over,
-              [&slot](boot_id provider) { return !slot.wants(provider); });
+              [&slot](provider_id provider) { return !slot.wants(provider); });
     if (!left.empty())
       slot.since = now(self);
   }
 
-  void come_home(service_slot& slot) {
-    leave(slot, end_reason::released, [](boot_id) { return true; });
+  void come_home(service_state& slot) {
+    leave(slot, end_reason::released, [](provider_id) { return true; });
   }
 
-  void start_timed_out(const running_service& running) {
+  void start_timed_out(const session_id& running) {
     const auto at = find(running);
     if (at && at.at->at == phase::starting)
       end(*at.slot, running.provider, end_reason::no_data, true);
@@ -500,7 +501,7 @@ struct requester_state {
   }
 
   // For all services: they come from one computer, under one key.
-  void distrust_it(boot_id provider) {
+  void distrust_it(provider_id provider) {
     const auto liar = providers.find(provider);
     if (liar == providers.end())
       return;
@@ -510,10 +511,11 @@ struct requester_state {
   }
 
   // Nothing usable has come from the others either; but it is one violation.
-  void leave_beside(service_slot& slot, boot_id violator) {
+  void leave_beside(service_state& slot, provider_id violator) {
     const auto left =
-        leave(slot, end_reason::released,
-              [violator](boot_id provider) { return provider != violator; });
+        leave(slot, end_reason::released, [violator](provider_id provider) {
+          return provider != violator;
+        });
     for (const auto id : left)
       slot.cool_until[id] = now(self) + protocol::cool_down;
   }
@@ -551,14 +553,16 @@ struct requester_state {
   // Closes a running service, once. The manager activates the local service,
   // unless another provider runs it too, in the turn after this one, at the
   // same time.
-  void end(service_slot& slot, boot_id provider, end_reason reason, bool tell) {
+  void end(service_state& slot, provider_id provider, end_reason reason,
+           bool tell) {
     const auto at = *slot.find(provider);
     slot.drop(provider);
     service_end e{at.running, reason, side::requester};
     self->send(slot.manager, e);
     const auto t = now(self);
     if (tell) {
-      e.what = slot.kind->farewell(setup_of(*slot.kind), e, t, &ego.own);
+      e.what =
+          slot.kind->termination_message(setup_of(*slot.kind), e, t, &ego.own);
       note_on_air(self, setup.recorder, e.what);
       tell_provider(e);
     }
@@ -605,7 +609,7 @@ struct requester_state {
     }
   }
 
-  void note(std::string what, boot_id provider, service_name kind,
+  void note(std::string what, provider_id provider, service_name kind,
             std::uint32_t counter, std::string_view detail) {
     self->send(setup.recorder,
                event_record{now(self), std::move(what), setup.station, provider,
@@ -640,14 +644,12 @@ requester(requester_impl::stateful_pointer<requester_state> self,
       },
       [self](const service_end& e) { self->state.take(e); },
       [self](const ego_state& ego) { self->state.ego = ego; },
-      [self](const running_service& running) {
-        self->state.first_data(running);
-      },
+      [self](const session_id& running) { self->state.first_data(running); },
       [self](const qos_violation& violation) { self->state.take(violation); },
-      [self](tick_atom, boot_id provider, std::uint32_t number) {
+      [self](tick_atom, provider_id provider, std::uint32_t number) {
         self->state.request_timed_out(provider, number);
       },
-      [self](tick_atom, const running_service& running) {
+      [self](tick_atom, const session_id& running) {
         self->state.start_timed_out(running);
       },
       [self](tick_atom) { self->state.take_epoch(); },

@@ -1,7 +1,7 @@
 // SR: the vehicle's side of offloading.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "messages/type_ids.hpp"
 #include "policies/api/context.hpp"
 #include "world/vehicle/cycle_cost.hpp"
@@ -18,8 +18,8 @@ struct requester_setup {
   station_id station = 0;
   route_ptr way; ///< The planned route.
   streets_ptr world;
-  datum_ptr where; ///< Where that is on Earth.
-  std::vector<service_kind_ptr> kinds;
+  georeference_ptr where; ///< Where that is on Earth.
+  std::vector<service_type_ptr> kinds;
   std::unique_ptr<local_policy> lodm;
   vehicle_actor vehicle;
   recorder_actor recorder;
@@ -28,7 +28,7 @@ struct requester_setup {
   bool crossings_granted = true; ///< As functions are told.
   computer_options computer = {};
   /// What is to come, where a run can tell; else null.
-  std::shared_ptr<const foresight> future{};
+  std::shared_ptr<const channel_oracle> future{};
   bool record_margins = false; ///< Of results that are used.
 };
 

@@ -5,7 +5,7 @@
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "base/text/printable.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "network/flow/token_bucket.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -52,7 +52,7 @@ sender_id sender_of(const std::string& name) {
 }
 
 using admissions_impl =
-    admissions_actor::extend<takes<tick_atom, entrance_actor>>;
+    admissions_actor::extend<reacts_to<tick_atom, entrance_actor>>;
 
 struct admissions_state {
   static inline const char* name = "admissions";
@@ -60,8 +60,8 @@ struct admissions_state {
   admissions_impl::stateful_pointer<admissions_state> self;
   std::shared_ptr<const gate_setup> setup;
   std::vector<admitted_peer> peers;
-  std::map<std::string, rate_limit> arrivals; // by name
-  rate_limit chatter{news_per_second, news_at_once};
+  std::map<std::string, token_bucket> arrivals; // by name
+  token_bucket chatter{news_per_second, news_at_once};
   std::uint64_t refused = 0;
   time_point next_note;
 

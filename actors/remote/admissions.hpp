@@ -16,10 +16,10 @@ using admissions_actor = caf::typed_actor<
     // why not.
     caf::result<peer_welcome, session_actor>(admission),
     // A peer was refused for this reason.
-    takes<std::string>,
+    reacts_to<std::string>,
     // This entrance has opened; it is closed protocol::introduction_timeout
     // later.
-    takes<entrance_actor>>;
+    reacts_to<entrance_actor>>;
 
 /// Gives each peer a session of its own. One that comes in again with a station
 /// takes the place of the session of its name that spoke for it; a name has a

@@ -4,7 +4,7 @@
 #include "actors/remote/frame_allowance.hpp"
 #include "actors/remote/public_messages.hpp"
 #include "actors/runtime/time.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "network/flow/token_bucket.hpp"
 
 #include <caf/binary_serializer.hpp>
 #include <caf/io/basp/frame_filter.hpp>
@@ -27,7 +27,7 @@ struct shared_setup {
   filter_setup given;
   std::shared_ptr<peer_nodes> nodes;
   frame_allowances allowances{};
-  rate_limit reports{reports_s, reports_at_once};
+  token_bucket reports{reports_s, reports_at_once};
   std::uint64_t left_out = 0;
 
   void report(std::string why, time_point at) {

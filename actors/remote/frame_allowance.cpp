@@ -12,7 +12,7 @@ constexpr double frames_per_station_s = 400;
 constexpr double octets_per_station_s = 512 * 1024;
 constexpr std::chrono::seconds backlog{2};
 
-rate_limit limit_of(double per_second) {
+token_bucket limit_of(double per_second) {
   return {per_second, per_second * to_seconds(backlog)};
 }
 

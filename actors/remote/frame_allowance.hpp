@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/time.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "network/flow/token_bucket.hpp"
 
 #include <cstddef>
 #include <map>
@@ -37,8 +37,8 @@ public:
   bool is_whole(time_point now) const;
 
 private:
-  rate_limit frames_;
-  rate_limit octets_;
+  token_bucket frames_;
+  token_bucket octets_;
   time_point last_ = time_point::min();
 };
 

@@ -23,7 +23,7 @@ struct peer_finding {
 /// What a gate is made of. The functions are called from its threads.
 struct gate_setup {
   provider_actor provider;
-  boot_id boot = 0;
+  provider_id boot = 0;
   std::string name;        ///< Of the provider.
   std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
   etsi::its_clock clock;

@@ -147,8 +147,8 @@ connection(uplink_actor::stateful_pointer<connection_state> self,
         if (end.from == side::provider)
           self->state.pass_on(end);
       },
-      [self](const life_sign& sign) { self->state.pass_on(sign); },
-      [self](const life_echo& echo) { self->state.pass_on(echo); },
+      [self](const ping& sign) { self->state.pass_on(sign); },
+      [self](const pong& echo) { self->state.pass_on(echo); },
       [self](const stream_id& stream) { self->state.pass_on(stream); },
   };
 }

@@ -15,9 +15,9 @@ namespace sofof {
 /// the process.
 using connection_user = uplink_actor::extend<
     // The provider has let us in.
-    takes<peer_welcome, session_actor>,
+    reacts_to<peer_welcome, session_actor>,
     // It has not, for this reason; whether it will never do so.
-    takes<std::string, bool>>;
+    reacts_to<std::string, bool>>;
 
 /// Introduces us at a gate. If it lets us in, passes on what its session says
 /// and is whom that session hears; if not, tells why and ends. Ends with its

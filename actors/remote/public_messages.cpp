@@ -34,8 +34,7 @@ message_form form_of() {
     longest = longest_hello;
   if (has(std::type_identity<service_request>{}))
     longest = longest_request;
-  if (has(std::type_identity<life_sign>{})
-      || has(std::type_identity<life_echo>{})
+  if (has(std::type_identity<ping>{}) || has(std::type_identity<pong>{})
       || has(std::type_identity<stream_id>{}))
     longest = longest_life_sign;
   return {{caf::type_id_v<Ts>...}, longest};

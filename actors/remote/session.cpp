@@ -35,8 +35,8 @@ session_actor::behavior_type session(session_actor::pointer self,
         if (end.from == side::requester)
           pass_on(end);
       },
-      [=](const life_sign& sign) { pass_on(sign); },
-      [=](const life_echo& echo) { pass_on(echo); },
+      [=](const ping& sign) { pass_on(sign); },
+      [=](const pong& echo) { pass_on(echo); },
       [=](const stream_id& stream) { pass_on(stream); },
   };
 }

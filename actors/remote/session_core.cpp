@@ -1,11 +1,11 @@
 // What a session does with what its peer says, and with what the provider says.
 #include "actors/remote/session_core.hpp"
 
-#include "actors/remote/far_requester.hpp"
-#include "actors/remote/pulse.hpp"
+#include "actors/remote/heartbeat.hpp"
+#include "actors/remote/requester_proxy.hpp"
 #include "actors/runtime/time.hpp"
-#include "network/flow/latest_value.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "network/flow/conflating_queue.hpp"
+#include "network/flow/token_bucket.hpp"
 #include "network/keys/identity.hpp"
 
 #include <caf/send.hpp>
@@ -24,7 +24,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-using session_impl = session_core_actor::extend<takes<tick_atom>>;
+using session_impl = session_core_actor::extend<reacts_to<tick_atom>>;
 
 /// What a station may say a second: CAMs, CPMs and inputs at 10 Hz or 20. The
 /// protocol's few words go beside that.
@@ -49,13 +49,13 @@ struct session_state {
   session_impl::stateful_pointer<session_state> self;
   session_setup setup;
   session_actor endpoint; // what the peer sends to, and hears
-  std::optional<pulse> life;
-  std::map<station_id, rate_limit> allowances;
+  std::optional<heartbeat> life;
+  std::map<station_id, token_bucket> allowances;
   std::map<station_id, requester_actor> voices;
-  std::map<running_service, provider_manager_actor> managers;
-  std::optional<latest_values<stream_id, service_result>> results;
-  std::optional<rate_limit> attention; // for all that the peer says
-  std::optional<time_point> ends_at;   // once the provider has
+  std::map<session_id, provider_manager_actor> managers;
+  std::optional<conflating_queue<stream_id, service_result>> results;
+  std::optional<token_bucket> attention; // for all that the peer says
+  std::optional<time_point> ends_at;     // once the provider has
   time_point next_complaint;
   std::uint64_t dropped = 0;
 
@@ -215,7 +215,7 @@ struct session_state {
     tell_peer(e);
   }
 
-  void forget(const running_service& running) {
+  void forget(const session_id& running) {
     managers.erase(running);
     results->forget(stream_of(running, stream_id::what::result));
   }
@@ -289,11 +289,11 @@ session_core(session_impl::stateful_pointer<session_state> self,
         else
           self->state.tell_end(e);
       },
-      [self](const life_sign& sign) {
+      [self](const ping& sign) {
         if (self->state.is_heard())
-          self->state.tell_peer(pulse::answer(sign, now(self)));
+          self->state.tell_peer(heartbeat::answer(sign, now(self)));
       },
-      [self](const life_echo& echo) {
+      [self](const pong& echo) {
         if (self->state.is_heard())
           self->state.life->take(echo, now(self));
       },

@@ -1,12 +1,12 @@
 // The vehicles' end of a connection to a provider on another host.
 #include "actors/remote/uplink.hpp"
 
+#include "actors/remote/heartbeat.hpp"
 #include "actors/remote/provider_connection.hpp"
-#include "actors/remote/pulse.hpp"
 #include "actors/runtime/time.hpp"
-#include "network/flow/back_off.hpp"
-#include "network/flow/latest_value.hpp"
-#include "network/flow/rate_limit.hpp"
+#include "network/flow/conflating_queue.hpp"
+#include "network/flow/exponential_backoff.hpp"
+#include "network/flow/token_bucket.hpp"
 
 #include <caf/event_based_actor.hpp>
 #include <caf/send.hpp>
@@ -25,15 +25,16 @@ namespace {
 
 // Its handle never leaves the process. It is an uplink_mouth, too.
 using uplink_impl = connection_user::extend<
-    takes<station_id, its_pdu>, takes<service_request>, takes<service_input>,
+    reacts_to<station_id, its_pdu>, reacts_to<service_request>,
+    reacts_to<service_input>,
     // This station's messages go there.
-    takes<station_id, link_actor>,
+    reacts_to<station_id, link_actor>,
     // Something may be due.
-    takes<tick_atom>,
+    reacts_to<tick_atom>,
     // It is this station's turn to speak.
-    takes<tick_atom, station_id>,
+    reacts_to<tick_atom, station_id>,
     // An attempt has got through, or has failed for this reason.
-    takes<tick_atom, gate_actor>, takes<tick_atom, std::string>>;
+    reacts_to<tick_atom, gate_actor>, reacts_to<tick_atom, std::string>>;
 
 constexpr std::size_t streams_of_station = 8;
 
@@ -62,22 +63,22 @@ struct uplink_state {
   uplink_actor connection; // while we introduce ourselves, and afterwards
   // -- while connected
   session_actor session;
-  boot_id boot = 0; // of the provider, the last one
-  std::optional<pulse> life;
+  provider_id boot = 0; // of the provider, the last one
+  std::optional<heartbeat> life;
   bool is_heard = false;                  // it has asked for our clock
   std::map<station_id, time_point> turns; // those that have not come
-  std::set<running_service> running;
+  std::set<session_id> running;
   using word = std::variant<its_pdu, service_input>;
-  std::optional<latest_values<stream_id, word>> words;
+  std::optional<conflating_queue<stream_id, word>> words;
   // -- while not
-  back_off pauses;
+  exponential_backoff pauses;
   std::uint64_t attempts = 0;
   time_point next_attempt;
   std::optional<time_point> trying_since;
   bool was_connected = false;
   time_point began;
   std::string last_news;
-  rate_limit allowance{told_s, told_at_once}; // a provider may come and go
+  token_bucket allowance{told_s, told_at_once}; // a provider may come and go
 
   void start() {
     words.emplace(streams_of_station * setup->stations.size(),
@@ -244,7 +245,7 @@ struct uplink_state {
       tell_session(e);
   }
 
-  void forget(const running_service& x) {
+  void forget(const session_id& x) {
     running.erase(x);
     words->forget(stream_of(x, stream_id::what::input));
   }
@@ -270,9 +271,9 @@ struct uplink_state {
   }
 
   // By the answer the session knows our clock, and thus how old CAMs are.
-  void answer(const life_sign& sign) {
+  void answer(const ping& sign) {
     const auto t = now(self);
-    tell_session(pulse::answer(sign, t));
+    tell_session(heartbeat::answer(sign, t));
     if (std::exchange(is_heard, true))
       return;
     auto turn = std::max(t, began + setup->rest);
@@ -296,7 +297,7 @@ struct uplink_state {
   }
 
   // Who accepts at once and hangs up again has not succeeded.
-  void take(const life_echo& echo) {
+  void take(const pong& echo) {
     life->take(echo, now(self));
     pauses.succeeded();
   }
@@ -394,11 +395,11 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
         else if (e.from == side::requester)
           self->state.end(e);
       },
-      [self](const life_sign& sign) {
+      [self](const ping& sign) {
         if (self->state.is_from_connection())
           self->state.answer(sign);
       },
-      [self](const life_echo& echo) {
+      [self](const pong& echo) {
         if (self->state.is_from_connection())
           self->state.take(echo);
       },
@@ -443,8 +444,8 @@ uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup) {
 }
 
 void introduce(const uplink_mouth& uplink, station_id station,
-               const link_actor& far_provider) {
-  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, far_provider);
+               const link_actor& provider_proxy) {
+  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, provider_proxy);
 }
 
 } // namespace sofof

@@ -1,7 +1,7 @@
 // The vehicles' end of a connection to a provider on another host.
 #pragma once
 
-#include "actors/remote/far_provider.hpp"
+#include "actors/remote/provider_proxy.hpp"
 #include "base/random.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
@@ -58,6 +58,6 @@ uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
 
 /// Tells an uplink who speaks and listens for a station.
 void introduce(const uplink_mouth& uplink, station_id station,
-               const link_actor& far_provider);
+               const link_actor& provider_proxy);
 
 } // namespace sofof

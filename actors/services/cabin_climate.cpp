@@ -1,6 +1,6 @@
 // Cabin climate as a service: a thermal model of the cabin is its client, the
 // choice of heating or cooling power its function.
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "actors/runtime/time.hpp"
 #include "messages/type_ids.hpp"
 #include "planners/judges/climate_judge.hpp"
@@ -106,7 +106,7 @@ private:
 };
 
 // The air in the car, warmed with whatever power came last.
-using cabin_impl = client_actor::extend<takes<tick_atom>>;
+using cabin_impl = client_actor::extend<reacts_to<tick_atom>>;
 
 struct cabin_actor_state {
   static inline const char* name = "cabin";
@@ -162,7 +162,7 @@ cabin(cabin_impl::stateful_pointer<cabin_actor_state> self,
   };
 }
 
-class cabin_climate final : public service_kind {
+class cabin_climate final : public service_type {
 public:
   cabin_climate() {
     common.limits = {2s, 5s};
@@ -178,7 +178,7 @@ public:
   std::string_view name() const override { return "cabin_climate"; }
 
   void fields(settings& s) override {
-    service_kind::fields(s);
+    service_type::fields(s);
     options_.fields(s);
   }
 
@@ -203,7 +203,7 @@ private:
 
 } // namespace
 
-service_kind_ptr make_cabin_climate() {
+service_type_ptr make_cabin_climate() {
   return std::make_shared<cabin_climate>();
 }
 

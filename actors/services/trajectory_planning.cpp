@@ -1,12 +1,12 @@
 // Trajectory planning as a service: the vehicle is its client; the planner at
 // a provider may plan farther and more thoroughly than the vehicle's own.
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "messages/v2x/mcm/coordination.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/judges/plan_judge.hpp"
 #include "policies/algorithms/forecast/continuity.hpp"
 
@@ -129,11 +129,11 @@ etsi::termination_status status_of(end_reason why) {
   return reason_unknown;
 }
 
-maneuver_name name_of_maneuver(const running_service& running) {
+maneuver_name name_of_maneuver(const session_id& running) {
   return {static_cast<std::uint16_t>(running.counter), 0};
 }
 
-class trajectory_planning final : public service_kind {
+class trajectory_planning final : public service_type {
 public:
   trajectory_planning() {
     // Limits: Dehler & Buchholz 2025. Run time: its table "CPU", simulation
@@ -149,7 +149,7 @@ public:
   std::string_view name() const override { return "trajectory_planning"; }
 
   void fields(settings& s) override {
-    service_kind::fields(s);
+    service_type::fields(s);
     s.table("planner", [this](settings& t) { planner_.fields(t); });
   }
 
@@ -160,13 +160,13 @@ public:
       return make_onboard_planning(setup, planner_, std::move(roads));
     return make_mec_planning(
         setup, planner_, std::move(roads),
-        std::dynamic_pointer_cast<planning_site>(setup.site));
+        std::dynamic_pointer_cast<edge_perception>(setup.site));
   }
 
-  std::shared_ptr<service_site>
+  std::shared_ptr<provider_context>
   make_site(const service_setup& setup) const override {
-    return std::make_shared<planning_site>(setup.clock,
-                                           setup.world->map.buildings());
+    return std::make_shared<edge_perception>(setup.clock,
+                                             setup.world->map.buildings());
   }
 
   client_actor spawn_client(caf::actor_system&, const service_setup&,
@@ -184,7 +184,7 @@ public:
       return {};
     const auto ahead =
         authority(*way, request->from.s_m, request->seen.stop_at_m);
-    road_user_word word{request->own, ahead, nullptr, {}};
+    mcm_uplink word{request->own, ahead, nullptr, {}};
     const auto plan = takes_over ? input.in_use.as<trajectory>() : nullptr;
     word.plan = plan.get();
     if (!takes_over)
@@ -221,8 +221,9 @@ public:
     return sofof::continues(here, there, step);
   }
 
-  payload farewell(const service_setup& setup, const service_end& end,
-                   time_point now, const cam* own) const override {
+  payload termination_message(const service_setup& setup,
+                              const service_end& end, time_point now,
+                              const cam* own) const override {
     const auto name = name_of_maneuver(end.running);
     if (setup.remote)
       return payload::of(encoded(
@@ -231,7 +232,7 @@ public:
                            now, status_of(end.reason), *setup.where)));
     if (!own)
       return {};
-    road_user_word word{*own, {}, nullptr, {}};
+    mcm_uplink word{*own, {}, nullptr, {}};
     word.answer.emplace(name, etsi::maneuver_response::reject);
     return payload::of(encoded(make_word(word, setup.car, *setup.where)));
   }
@@ -252,7 +253,7 @@ private:
 
 } // namespace
 
-service_kind_ptr make_trajectory_planning() {
+service_type_ptr make_trajectory_planning() {
   return std::make_shared<trajectory_planning>();
 }
 

@@ -7,16 +7,17 @@ namespace sofof {
 
 namespace {
 
-bool is_remote(const running_service& x) {
+bool is_remote(const session_id& x) {
   return x.counter != 0;
 }
 
 } // namespace
 
-std::optional<plan_switch_record>
-drive_figures::take(const trajectory& in_use, const trajectory& next,
-                    const plan_report& report, const running_service& running,
-                    time_point now) {
+std::optional<plan_switch_record> drive_figures::take(const trajectory& in_use,
+                                                      const trajectory& next,
+                                                      const plan_report& report,
+                                                      const session_id& running,
+                                                      time_point now) {
   stops_ = false;
   emergency_ = report.emergency;
   ++plans_.count;

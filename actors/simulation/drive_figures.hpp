@@ -3,7 +3,7 @@
 
 #include "messages/protocol/record.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
-#include "world/vehicle/ride_meter.hpp"
+#include "world/vehicle/ride_comfort.hpp"
 
 #include <optional>
 
@@ -25,11 +25,9 @@ public:
   /// @param report   How `next` came about.
   /// @param running  Who made `next`; counter 0 is the vehicle itself.
   /// @returns the jump, if `in_use` is from another source.
-  std::optional<plan_switch_record> take(const trajectory& in_use,
-                                         const trajectory& next,
-                                         const plan_report& report,
-                                         const running_service& running,
-                                         time_point now);
+  std::optional<plan_switch_record>
+  take(const trajectory& in_use, const trajectory& next,
+       const plan_report& report, const session_id& running, time_point now);
 
   /// A plan of the vehicle's own to stop takes over. It is a safe stop unless
   /// the vehicle stops already, or has not set off.
@@ -43,11 +41,11 @@ public:
 
 private:
   station_id station_;
-  std::optional<running_service> source_; // none: a plan of its own is in use
-  bool stops_;             // by a plan of its own, or has not set off
-  bool emergency_ = false; // so is the plan in use
+  std::optional<session_id> source_; // none: a plan of its own is in use
+  bool stops_;                       // by a plan of its own, or has not set off
+  bool emergency_ = false;           // so is the plan in use
   plan_figures plans_;
-  ride_meter ride_;
+  ride_comfort ride_;
 };
 
 } // namespace sofof

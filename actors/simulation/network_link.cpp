@@ -41,7 +41,7 @@ struct link_state {
   requester_actor near;
   std::optional<link_setup> setup;
   // Who feeds the running services at the far end.
-  std::vector<std::pair<running_service, provider_manager_actor>> managers;
+  std::vector<std::pair<session_id, provider_manager_actor>> managers;
   std::uint64_t carried = 0;
 
   template <class Receiver, class Message, class... Ts>

@@ -3,8 +3,8 @@
 
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
-#include "world/traffic/free_place.hpp"
 #include "world/traffic/near_miss.hpp"
+#include "world/traffic/spawn_clearance.hpp"
 #include "world/traffic/traffic.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -20,7 +20,7 @@ namespace sofof {
 
 namespace {
 
-using road_impl = road_actor::extend<takes<tick_atom>>;
+using road_impl = road_actor::extend<reacts_to<tick_atom>>;
 
 std::vector<road_body> standing(const std::vector<oriented_box>& obstacles) {
   std::vector<road_body> bodies;
@@ -39,7 +39,7 @@ struct road_state {
   std::map<station_id, vehicle_actor> vehicles;
   std::map<station_id, std::pair<motion_report, vehicle_actor>> waiting;
   std::vector<std::pair<station_id, station_id>> touching;
-  near_miss_watch encounters;
+  near_miss_watch conflict_sides;
 
   void take(const motion_report& report, const vehicle_actor& vehicle) {
     const auto way = setup.ways.find(report.station);
@@ -91,7 +91,8 @@ struct road_state {
     show_vehicles(t);
     for (std::uint32_t k = 0; k < setup.beside.size(); ++k) {
       const auto& [provider, is] = setup.beside[k];
-      self->send(provider, site_view{t, visible.seen_by(is, t), k, is.view()});
+      self->send(provider,
+                 roadside_detections{t, visible.seen_by(is, t), k, is.view()});
     }
     record_collisions(t);
     record_near_misses(t);
@@ -124,7 +125,7 @@ struct road_state {
   void record_near_misses(time_point t) {
     const auto all = users->bodies();
     for (const auto& x :
-         encounters.look(all.first(all.size() - setup.obstacles.size()), t))
+         conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
       self->send(setup.recorder,
                  event_record{t,
                               "near_miss",

@@ -1,7 +1,7 @@
 // What a vehicle tells everybody.
 #include "actors/simulation/v2x_broadcast.hpp"
 
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/perception.hpp"
 
@@ -26,7 +26,8 @@ perceived_object object_of(const track& x) {
 
 v2x_broadcast::v2x_broadcast(const v2x_options& options,
                              const vehicle_params& car,
-                             const sensor_params& sensor, datum_ptr where)
+                             const sensor_params& sensor,
+                             georeference_ptr where)
     : options_{options}, car_{car}, sensor_{sensor}, where_{std::move(where)},
       cam_due_{options.cam_rule()}, cpm_due_{options.cpm_rule()} {}
 

@@ -5,10 +5,10 @@
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/cam_rules.hpp"
 #include "messages/v2x/cpm_rules.hpp"
-#include "messages/v2x/datum.hpp"
+#include "messages/v2x/georeference.hpp"
 #include "messages/v2x/path_history.hpp"
 #include "messages/v2x/v2x_options.hpp"
-#include "planners/scene/environment_model.hpp"
+#include "planners/scene/object_tracker.hpp"
 #include "world/sensing/perception.hpp"
 #include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -24,7 +24,7 @@ namespace sofof {
 class v2x_broadcast {
 public:
   v2x_broadcast(const v2x_options& options, const vehicle_params& car,
-                const sensor_params& sensor, datum_ptr where);
+                const sensor_params& sensor, georeference_ptr where);
 
   /// The vehicle is here now; every protocol::ego_period.
   /// @returns its CAM, if one is due.
@@ -39,11 +39,11 @@ private:
   v2x_options options_;
   vehicle_params car_;
   sensor_params sensor_;
-  datum_ptr where_;
+  georeference_ptr where_;
   cam_trigger cam_due_;
   cpm_trigger cpm_due_;
   path_history been_;
-  environment_model model_;
+  object_tracker model_;
   std::vector<known_object> known_, told_; // one after the other
 };
 

@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-using vehicle_impl = vehicle_actor::extend<takes<tick_atom>>;
+using vehicle_impl = vehicle_actor::extend<reacts_to<tick_atom>>;
 
 /// A plan that ends sooner than this is replaced by a safe stop.
 constexpr duration reserve = 1s;

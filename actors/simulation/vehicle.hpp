@@ -2,7 +2,7 @@
 #pragma once
 
 #include "messages/type_ids.hpp"
-#include "messages/v2x/datum.hpp"
+#include "messages/v2x/georeference.hpp"
 #include "messages/v2x/v2x_options.hpp"
 #include "world/roads/road_map.hpp"
 #include "world/sensing/sensors.hpp"
@@ -35,7 +35,7 @@ struct vehicle_setup {
   sensor_params sensor; ///< As its CPMs tell it.
   /// What it tells everybody; nothing if it is not connected.
   std::optional<v2x_options> v2x;
-  datum_ptr where;         ///< Where the map is on Earth.
+  georeference_ptr where;  ///< Where the map is on Earth.
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
   std::vector<antenna> antennas;

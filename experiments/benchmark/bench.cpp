@@ -9,7 +9,7 @@
 #include "experiments/benchmark/criteria.hpp"
 #include "experiments/benchmark/decision_costs.hpp"
 #include "experiments/benchmark/leaderboard.hpp"
-#include "experiments/dehler2025/swept.hpp"
+#include "experiments/dehler2025/sweep_results.hpp"
 #include "experiments/report/html.hpp"
 #include "scenario/load.hpp"
 
@@ -96,7 +96,7 @@ public:
     for (const auto& one : options.entrants)
       expected_.entrants.push_back(one.name);
     for (const auto& file : options.scenarios) // before any run
-      yardsticks_.push_back(yardstick_of(load_scenario(file, options.set)));
+      baselines_.push_back(baseline_of(load_scenario(file, options.set)));
   }
 
   bench_outcome carry_out() {
@@ -144,7 +144,7 @@ private:
     all_good_ &= outcome.all_good();
     const auto runs = study::runs_of(plan, outcome);
     for (const auto& run : runs) {
-      judged_.push_back(judge(run, yardsticks_[number]));
+      judged_.push_back(judge(run, baselines_[number]));
       judged_.back().scenario = plan.name;
     }
     for (const auto& entrant : expected_.entrants) {
@@ -174,7 +174,7 @@ private:
   std::ostream& console_;
   std::vector<sweep_plan> plans_; ///< One for each scenario.
   expected_runs expected_;
-  std::vector<yardstick> yardsticks_; ///< One for each scenario.
+  std::vector<baseline> baselines_; ///< One for each scenario.
   std::vector<judged_run> judged_;
   std::vector<timed_runs> timed_;
   bool all_good_ = true;

@@ -1,7 +1,7 @@
 // A leaderboard on a console.
 #include "experiments/benchmark/board_text.hpp"
 
-#include "base/text/painter.hpp"
+#include "base/text/terminal_style.hpp"
 
 #include <fmt/format.h>
 
@@ -93,7 +93,7 @@ std::string padded(const std::string& text, std::size_t width, bool first) {
 
 std::string board_text(const leaderboard& board,
                        std::span<const decision_cost> costs, bool colour) {
-  const painter paint{colour};
+  const terminal_style paint{colour};
   const auto columns = columns_of(board, costs);
   std::string head;
   for (const auto& one : columns)

@@ -88,7 +88,7 @@ private:
 };
 
 /// @returns the share of all workers' time that running services took.
-double utilisation(const run_figures& run, const yardstick& by) {
+double utilisation(const run_figures& run, const baseline& by) {
   double worker_s = 0;
   for (const auto& [kind, share] : by.utilisation_by) {
     const auto served = "services." + kind + ".served.";
@@ -108,7 +108,7 @@ double signalling(const run_figures& run) {
 }
 
 /// @returns the mean cost of a planning cycle.
-double score(const run_figures& run, const yardstick& by) {
+double score(const run_figures& run, const baseline& by) {
   const auto share = run.offloaded_share();
   const auto latency_s = run.may("latency_ms.mean").value_or(0) * 1e-3;
   const auto time = share * latency_s + (1 - share) * by.local_s;
@@ -142,8 +142,8 @@ std::span<const criterion> criteria() {
   return all_criteria;
 }
 
-yardstick yardstick_of(const scenario& s) {
-  yardstick by;
+baseline baseline_of(const scenario& s) {
+  baseline by;
   const auto& channel = *s.network.channel;
   for (const auto& kind : s.services) {
     const auto& options = kind->common;
@@ -161,7 +161,7 @@ yardstick yardstick_of(const scenario& s) {
   return by;
 }
 
-judged_run judge(const study::measured_run& measured, const yardstick& by) {
+judged_run judge(const study::measured_run& measured, const baseline& by) {
   const run_figures run{measured};
   judged_run judged;
   judged.seed = measured.point.seed;

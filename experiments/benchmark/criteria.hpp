@@ -33,7 +33,7 @@ inline constexpr std::string_view regret_name = "regret_percent";
 inline constexpr std::string_view than_location_name = "than_location_percent";
 
 /// What a scenario says about its runs, whoever decides.
-struct yardstick {
+struct baseline {
   double limit_s = 0;  ///< τ: longest latency of trajectory planning.
   double period_s = 0; ///< T_p: of its cycles.
   double local_s = 0;  ///< T_loc: of a cycle on board, mean.
@@ -43,7 +43,7 @@ struct yardstick {
 };
 
 /// @param s  Loaded, so that it has trajectory planning.
-yardstick yardstick_of(const scenario& s);
+baseline baseline_of(const scenario& s);
 
 /// A run of an entrant, judged.
 struct judged_run {
@@ -57,7 +57,7 @@ struct judged_run {
 
 /// @param run  Of a scenario that `by` is of.
 /// @throws input_error when its summary lacks what every run writes.
-judged_run judge(const study::measured_run& run, const yardstick& by);
+judged_run judge(const study::measured_run& run, const baseline& by);
 
 /// Adds to each run how much worse its score is than those of the entrants
 /// called "oracle" and "location", in the same scenario with the same seed,

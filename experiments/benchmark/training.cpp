@@ -28,7 +28,7 @@ constexpr duration a_moment = std::chrono::seconds{1};
 std::vector<std::string> learners() {
   std::vector<std::string> names;
   for (const auto& notes : lodm_notes())
-    if (std::ranges::find(notes.parameters, "learning", &parameter_note::name)
+    if (std::ranges::find(notes.parameters, "learning", &option_info::name)
         != notes.parameters.end())
       names.emplace_back(notes.name);
   return names;

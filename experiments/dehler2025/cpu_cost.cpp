@@ -29,7 +29,7 @@ cpu_shares with_their_planner(cpu_shares ours, const cpu_shares& theirs) {
   return ours;
 }
 
-report::table shares(const evidence& e) {
+report::table shares(const paper_runs& e) {
   report::table t;
   t.title = "Computing time in the vehicle, percent of one core";
   t.columns = {"who, at what rate",    "planner active",
@@ -56,7 +56,7 @@ report::table shares(const evidence& e) {
   return t;
 }
 
-report::table balance(const evidence& e) {
+report::table balance(const paper_runs& e) {
   report::table t;
   t.title = "With and without offloading, for the share of time of these runs";
   t.columns = {"at what rate", "vehicles",  "t_d / t_total",
@@ -77,7 +77,7 @@ report::table balance(const evidence& e) {
   return t;
 }
 
-report::table energy(const evidence& e) {
+report::table energy(const paper_runs& e) {
   report::table t;
   t.title = "What that is in energy, J/km";
   t.columns = {"at what rate", "never offloaded", "a third of the time",
@@ -116,7 +116,7 @@ std::string verdict(const cpu_figures& c, const char* rate) {
 
 } // namespace
 
-report::section cpu_cost(const evidence& e) {
+report::section cpu_cost(const paper_runs& e) {
   report::section s{"Computing time", {}};
   s.blocks.emplace_back(paragraph{
       "Wall-clock runs of 20 s at 20 Hz and at 100 Hz, with vehicles in the "

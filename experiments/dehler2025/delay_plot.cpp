@@ -15,7 +15,7 @@ using report::paragraph;
 
 constexpr int most_vehicles = 6;
 
-report::figure means(const evidence& e) {
+report::figure means(const paper_runs& e) {
   figure f;
   f.title = "Latency of trajectories";
   f.x_label = "vehicles";
@@ -44,7 +44,7 @@ report::figure means(const evidence& e) {
   return f;
 }
 
-report::table numbers(const evidence& e) {
+report::table numbers(const paper_runs& e) {
   report::table t;
   t.title = "Latency and inter-arrival";
   t.columns = {"vehicles",    "results",           "latency, ms", "paper",
@@ -72,7 +72,7 @@ report::table numbers(const evidence& e) {
   return t;
 }
 
-figure distribution_of(const evidence& e, const char* what, const char* title,
+figure distribution_of(const paper_runs& e, const char* what, const char* title,
                        double limit_ms, const char* limit) {
   figure f;
   f.title = title;
@@ -91,7 +91,7 @@ figure distribution_of(const evidence& e, const char* what, const char* title,
 
 } // namespace
 
-report::section delay_plot(const evidence& e) {
+report::section delay_plot(const paper_runs& e) {
   report::section s{"Latency", {}};
   s.blocks.emplace_back(paragraph{
       "The paper's delay plot has mean and standard deviation of the latency "

@@ -3,7 +3,7 @@
 
 #include "base/input_error.hpp"
 #include "base/options/units.hpp"
-#include "experiments/dehler2025/swept.hpp"
+#include "experiments/dehler2025/sweep_results.hpp"
 
 #include <fmt/format.h>
 
@@ -91,7 +91,7 @@ std::optional<double> number_of(const std::string& label) {
 
 /// @returns the axis with most values that are all numbers; nullopt if none
 /// has two.
-std::optional<std::size_t> axis_to_draw(const swept& s) {
+std::optional<std::size_t> axis_to_draw(const sweep_results& s) {
   std::optional<std::size_t> best;
   std::size_t most = 1;
   for (std::size_t axis = 0; axis < s.axes.size(); ++axis) {
@@ -113,7 +113,7 @@ struct point_runs {
 };
 
 /// @returns the points in the order of the table.
-std::vector<point_runs> points_in(const swept& s) {
+std::vector<point_runs> points_in(const sweep_results& s) {
   std::vector<point_runs> all;
   std::map<std::vector<std::string>, std::size_t> places;
   for (const auto& run : s.runs) {
@@ -126,7 +126,7 @@ std::vector<point_runs> points_in(const swept& s) {
   return all;
 }
 
-report::figure figure_of(const swept& s, const measure& what,
+report::figure figure_of(const sweep_results& s, const measure& what,
                          std::size_t axis) {
   report::figure f;
   f.title = what.title;
@@ -159,7 +159,7 @@ report::figure figure_of(const swept& s, const measure& what,
   return f;
 }
 
-report::table table_of(const swept& s) {
+report::table table_of(const sweep_results& s) {
   report::table t;
   t.title = "All points";
   t.columns = s.axes;
@@ -178,7 +178,7 @@ report::table table_of(const swept& s) {
   return t;
 }
 
-report::section section_of(const swept& s) {
+report::section section_of(const sweep_results& s) {
   report::section all{s.name, {}};
   all.blocks.emplace_back(
       report::paragraph{fmt::format("{} runs, {} of them unsafe; {} failed.",

@@ -39,7 +39,7 @@ std::string name_of(const std::string& vehicles) {
   return vehicles == "1" ? "1 vehicle" : vehicles + " vehicles";
 }
 
-report::figure offloading_times(const evidence& e) {
+report::figure offloading_times(const paper_runs& e) {
   report::figure f;
   f.title = "Offloading time against the longest allowed gap";
   f.x_label = "Δt_max, ms";
@@ -57,7 +57,7 @@ report::figure offloading_times(const evidence& e) {
   return f;
 }
 
-report::table all_means(const evidence& e) {
+report::table all_means(const paper_runs& e) {
   report::table t;
   t.title = "t_off in seconds: mean and its 95 % interval";
   t.columns = {"vehicles"};
@@ -76,7 +76,7 @@ report::table all_means(const evidence& e) {
   return t;
 }
 
-report::table saturation(const evidence& e) {
+report::table saturation(const paper_runs& e) {
   report::table t;
   t.title = "Where the curves saturate";
   t.columns = {"vehicles", "time in the area, s", "t_off at 150 ms, s",
@@ -104,7 +104,7 @@ report::table saturation(const evidence& e) {
   return t;
 }
 
-report::figure other_reading(const evidence& e) {
+report::figure other_reading(const paper_runs& e) {
   report::figure f;
   f.title = "The other reading: a narrow latency with rare stalls";
   f.x_label = "Δt_max, ms";
@@ -157,7 +157,7 @@ paragraph about_the_ends(const interval& one, const interval& six) {
       with_interval(one), with_interval(six), 100 * (1 - six.mean / one.mean))};
 }
 
-paragraph about_more_vehicles(const evidence& e) {
+paragraph about_more_vehicles(const paper_runs& e) {
   return {fmt::format(
       "Results of all vehicles wait for one worker at the edge server. What "
       "ends offloadings of many vehicles early is a latency above 50 ms, not a "
@@ -172,7 +172,7 @@ paragraph about_more_vehicles(const evidence& e) {
       with_interval(early_ends_per_hour(those(e.apart, 0, "equal"))))};
 }
 
-paragraph about_stalls(const evidence& e) {
+paragraph about_stalls(const paper_runs& e) {
   const auto latency = pooled(those(e.stalls, "1", "150ms"), "latency_ms");
   const auto early = [](std::span<const measured_run> runs, const char* n) {
     return with_interval(early_ends_per_hour(those(runs, n, "150ms")));
@@ -194,7 +194,7 @@ paragraph about_stalls(const evidence& e) {
 
 } // namespace
 
-report::section latency_plot(const evidence& e) {
+report::section latency_plot(const paper_runs& e) {
   report::section s{"Offloading time", {}};
   s.blocks.emplace_back(what_the_paper_says());
   s.blocks.emplace_back(offloading_times(e));

@@ -28,7 +28,7 @@ double largest(std::span<const measured_run* const> runs,
   return all;
 }
 
-report::table driving(const evidence& e) {
+report::table driving(const paper_runs& e) {
   const auto offloaded = those(e.quality, 0, "location");
   const auto local = those(e.quality, 0, "never");
   report::table t;
@@ -67,7 +67,7 @@ report::table driving(const evidence& e) {
   return t;
 }
 
-report::table switches(const evidence& e) {
+report::table switches(const paper_runs& e) {
   const auto runs = those(e.quality, 0, "location");
   report::table t;
   t.title = "Where the source of the plan changes";
@@ -90,7 +90,7 @@ report::table switches(const evidence& e) {
   return t;
 }
 
-report::table deviations(const evidence& e) {
+report::table deviations(const paper_runs& e) {
   report::table t;
   t.title = "How far the offloaded drive is from the local one";
   t.columns = {"seed", "path, rms, m", "path, largest, m", "speed, rms, m/s",
@@ -116,7 +116,7 @@ report::table deviations(const evidence& e) {
 
 } // namespace
 
-report::section quality(const evidence& e) {
+report::section quality(const paper_runs& e) {
   report::section s{"Quality of the offloaded result", {}};
   s.blocks.emplace_back(paragraph{
       "The paper leaves this to future work: does the result of the edge "

@@ -19,7 +19,7 @@ using report::figure;
 using report::paragraph;
 
 /// How many of the drives of each seed ended early.
-std::map<std::int64_t, int> early_ends(const evidence& e) {
+std::map<std::int64_t, int> early_ends(const paper_runs& e) {
   std::map<std::int64_t, int> by_seed;
   for (const auto& run : e.real_world)
     by_seed[run.point.seed] += run.ended_early > 0 ? 1 : 0;
@@ -33,7 +33,7 @@ std::vector<const measured_run*> all_of(std::span<const measured_run> runs) {
   return all;
 }
 
-report::table comparison(const evidence& e) {
+report::table comparison(const paper_runs& e) {
   const auto all = all_of(e.real_world);
   const auto latency = pooled(all, "latency_ms");
   const auto early = early_ends(e);
@@ -78,7 +78,7 @@ report::table comparison(const evidence& e) {
 }
 
 /// When each drive of the first seed was offloaded.
-figure timelines(const evidence& e) {
+figure timelines(const paper_runs& e) {
   constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
   figure f;
   f.title = "The drives of seed 1";
@@ -119,7 +119,7 @@ figure timelines(const evidence& e) {
   return f;
 }
 
-histogram latencies(const evidence& e) {
+histogram latencies(const paper_runs& e) {
   histogram all;
   for (const auto& run : e.real_world)
     all.add(read_histogram(run.folder, planning, "latency"));
@@ -136,7 +136,7 @@ figure distribution_of(const histogram& latencies) {
   return f;
 }
 
-std::string about_the_tail(const evidence& e, const histogram& latencies) {
+std::string about_the_tail(const paper_runs& e, const histogram& latencies) {
   const auto late = latencies.share_above(paper::max_latency_ms);
   auto text = std::string{"How many drives end early hangs on a tail that mean "
                           "and deviation do not tell"};
@@ -153,7 +153,7 @@ std::string about_the_tail(const evidence& e, const histogram& latencies) {
 
 } // namespace
 
-report::section real_world(const evidence& e) {
+report::section real_world(const paper_runs& e) {
   report::section s{"Real drives", {}};
   s.blocks.emplace_back(paragraph{
       "The paper drove 15 times on three routes over the pilot crossing, "

@@ -5,7 +5,7 @@
 #include "base/stopwatch.hpp"
 #include "experiments/dehler2025/cpu_run.hpp"
 #include "experiments/dehler2025/sections.hpp"
-#include "experiments/dehler2025/swept.hpp"
+#include "experiments/dehler2025/sweep_results.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/markdown.hpp"
 
@@ -69,8 +69,8 @@ public:
       : options_{options}, interrupted_{interrupted}, console_{console},
         plans_{plans_of(options)} {}
 
-  evidence gather() {
-    evidence e;
+  paper_runs gather() {
+    paper_runs e;
     e.latency_plot = next_runs();
     e.delay_plot = next_runs();
     e.in_area = next_runs();

@@ -18,7 +18,7 @@ struct measured_cpu {
 };
 
 /// The runs of all sweeps in config/paper.
-struct evidence {
+struct paper_runs {
   std::vector<measured_run> latency_plot; ///< Axes: vehicles, max_interarrival.
   std::vector<measured_run> delay_plot;   ///< Axis: vehicles.
   std::vector<measured_run> in_area;      ///< Axis: vehicles; with tracks.
@@ -31,19 +31,19 @@ struct evidence {
 };
 
 /// How long vehicles stay offloaded, against the longest gap that they accept.
-report::section latency_plot(const evidence& e);
+report::section latency_plot(const paper_runs& e);
 
 /// How long results are on their way, against the number of vehicles; their
 /// distribution.
-report::section delay_plot(const evidence& e);
+report::section delay_plot(const paper_runs& e);
 
 /// The real drives as an emulation.
-report::section real_world(const evidence& e);
+report::section real_world(const paper_runs& e);
 
 /// Computing time in the vehicle, and whether offloading pays.
-report::section cpu_cost(const evidence& e);
+report::section cpu_cost(const paper_runs& e);
 
 /// What offloading does to the driving.
-report::section quality(const evidence& e);
+report::section quality(const paper_runs& e);
 
 } // namespace sofof::study

@@ -1,7 +1,7 @@
 // Packs a results folder.
 #include "experiments/report/drive_json.hpp"
 
-#include "experiments/report/packed.hpp"
+#include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/scenery_json.hpp"
 
@@ -64,12 +64,12 @@ json vehicles_json(std::span<const track_line> lines) {
   auto all = json::array();
   for (const auto& [station, one] : tracks)
     all.push_back({{"station", station},
-                   {"t", packed(one.t_s, second_places)},
-                   {"x", packed(one.x_m, metre_places)},
-                   {"y", packed(one.y_m, metre_places)},
-                   {"heading", packed(one.heading_rad, heading_places)},
-                   {"speed", packed(one.speed_mps, metre_places)},
-                   {"remote", packed(one.remote, 0)}});
+                   {"t", delta_encoding(one.t_s, second_places)},
+                   {"x", delta_encoding(one.x_m, metre_places)},
+                   {"y", delta_encoding(one.y_m, metre_places)},
+                   {"heading", delta_encoding(one.heading_rad, heading_places)},
+                   {"speed", delta_encoding(one.speed_mps, metre_places)},
+                   {"remote", delta_encoding(one.remote, 0)}});
   return all;
 }
 

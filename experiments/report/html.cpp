@@ -2,8 +2,8 @@
 #include "experiments/report/html.hpp"
 
 #include "base/files/output_file.hpp"
+#include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/drive_json.hpp"
-#include "experiments/report/packed.hpp"
 #include "experiments/report/page.hpp"
 
 #include <nlohmann/json.hpp>
@@ -21,13 +21,13 @@ constexpr std::string_view style_names[]{"line", "points", "steps"};
 
 json to_json(const curve& x) {
   json all{{"name", x.name},
-           {"x", packed(x.x)},
-           {"y", packed(x.y)},
+           {"x", delta_encoding(x.x)},
+           {"y", delta_encoding(x.y)},
            {"style", style_names[static_cast<std::size_t>(x.drawn)]},
            {"dashed", x.dashed}};
   if (!x.low.empty() && !x.high.empty()) {
-    all["low"] = packed(x.low);
-    all["high"] = packed(x.high);
+    all["low"] = delta_encoding(x.low);
+    all["high"] = delta_encoding(x.high);
   }
   return all;
 }

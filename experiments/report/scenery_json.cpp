@@ -1,7 +1,7 @@
 // Streets, houses and areas as numbers.
 #include "experiments/report/scenery_json.hpp"
 
-#include "experiments/report/packed.hpp"
+#include "experiments/report/delta_encoding.hpp"
 #include "world/roads/path.hpp"
 
 #include <nlohmann/json.hpp>
@@ -68,10 +68,10 @@ json lanes_json(const road_map& map) {
       y_m.push_back(p.y_m);
     }
   }
-  return {{"counts", packed(counts, 0)},
-          {"half_widths", packed(half_widths_m, street_places)},
-          {"x", packed(x_m, street_places)},
-          {"y", packed(y_m, street_places)}};
+  return {{"counts", delta_encoding(counts, 0)},
+          {"half_widths", delta_encoding(half_widths_m, street_places)},
+          {"x", delta_encoding(x_m, street_places)},
+          {"y", delta_encoding(y_m, street_places)}};
 }
 
 json houses_json(const scenario& what) {

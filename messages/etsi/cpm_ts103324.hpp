@@ -2,7 +2,7 @@
 // Source: ETSI TS 103 324 v2.1.1.
 #pragma once
 
-#include "messages/etsi/common_2.hpp"
+#include "messages/etsi/common_release2.hpp"
 
 namespace sofof::etsi::ts103324 {
 

@@ -5,7 +5,7 @@
 // the MCM of the LUKAS project. Not the MCM of ETSI TS 103 561.
 #pragma once
 
-#include "messages/etsi/common_2.hpp"
+#include "messages/etsi/common_release2.hpp"
 
 namespace sofof::etsi {
 

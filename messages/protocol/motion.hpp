@@ -26,7 +26,7 @@ struct ego_state {
 };
 
 /// What a sensor at the roadside sees, for the provider that it belongs to.
-struct site_view {
+struct roadside_detections {
   time_point at;
   std::vector<perceived_object> objects; ///< As `scene::seen_by` gives them.
   std::uint32_t sensor = 0;              ///< Which of its sensors it is.
@@ -88,7 +88,7 @@ bool inspect(Inspector& f, viewpoint& x) {
 }
 
 template <class Inspector>
-bool inspect(Inspector& f, site_view& x) {
+bool inspect(Inspector& f, roadside_detections& x) {
   return f.object(x).fields(f.field("at", x.at), f.field("objects", x.objects),
                             f.field("sensor", x.sensor),
                             f.field("from", x.from));

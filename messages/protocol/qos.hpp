@@ -15,7 +15,7 @@ struct qos_limits {
 
 /// A remote result came in.
 struct arrival {
-  running_service running;
+  session_id running;
   time_point created; ///< Start of the cycle that made the result.
   time_point received;
 };
@@ -24,7 +24,7 @@ enum class qos_breach : std::uint8_t { latency, gap, implausible };
 
 /// A running service broke its limits.
 struct qos_violation {
-  running_service running;
+  session_id running;
   qos_breach breach = qos_breach::gap;
   time_point at;
   /// Another provider runs the service as it should, or the manager has left

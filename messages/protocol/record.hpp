@@ -5,7 +5,7 @@
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
 #include "world/vehicle/comfort.hpp"
-#include "world/vehicle/ride_meter.hpp"
+#include "world/vehicle/ride_comfort.hpp"
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ struct event_record {
   time_point at;
   std::string what; ///< offer, request, switch, …: docs/results.md.
   station_id station = 0;
-  boot_id provider = 0;
+  provider_id provider = 0;
   service_name kind; ///< Empty when it concerns no single service.
   std::uint32_t counter = 0;
   std::string detail; ///< Why, or how.
@@ -41,7 +41,7 @@ struct cycle_record {
     double left = 0;
   };
 
-  running_service running;
+  session_id running;
   std::uint64_t cycle = 0;
   time_point created;
   time_point received;
@@ -53,7 +53,7 @@ struct cycle_record {
 
 /// One side has closed a running service.
 struct episode_record {
-  running_service running;
+  session_id running;
   side of = side::requester;
   time_point accepted;   ///< When the service was accepted.
   time_point first_data; ///< Requester: the switch to remote; else accepted.
@@ -91,8 +91,8 @@ struct drive_record {
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
-  running_service running; ///< Its remote side, the new or the former one.
-  bool remote = false;     ///< Where the new plan comes from.
+  session_id running;  ///< Its remote side, the new or the former one.
+  bool remote = false; ///< Where the new plan comes from.
   plan_jump jump;
 };
 

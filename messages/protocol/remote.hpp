@@ -15,7 +15,7 @@ namespace sofof {
 
 /// Whose messages these are. Raised whenever their meaning changes; the types
 /// themselves are compared by a fingerprint of all their names.
-inline constexpr std::uint32_t remote_protocol = 6;
+inline constexpr std::uint32_t remote_protocol = 7;
 
 /// @returns whether a stranger's Unix time can be reckoned with.
 constexpr bool is_time_of_day(std::int64_t unix_ms) {
@@ -36,19 +36,19 @@ struct peer_hello {
 
 /// Which boot of the provider this is.
 struct peer_welcome {
-  boot_id boot = 0;
+  provider_id boot = 0;
   std::int64_t epoch_unix_ms = 0;
 };
 
 /// "Are you there?" Sent at a fixed rate by both sides.
-struct life_sign {
+struct ping {
   std::uint64_t number = 0;
   time_point sent; ///< On the sender's clock.
 };
 
 /// The answer, at once.
-struct life_echo {
-  life_sign of;
+struct pong {
+  ping of;
   time_point received; ///< On the answerer's clock, as is
   time_point answered;
 };
@@ -75,8 +75,7 @@ inline stream_id stream_of(station_id station, const its_pdu& message) {
 }
 
 /// @returns the stream of a running service's inputs, or of its results.
-inline stream_id stream_of(const running_service& running,
-                           stream_id::what which) {
+inline stream_id stream_of(const session_id& running, stream_id::what which) {
   return {running.station, which, running.counter};
 }
 
@@ -106,13 +105,13 @@ bool inspect(Inspector& f, peer_welcome& x) {
 }
 
 template <class Inspector>
-bool inspect(Inspector& f, life_sign& x) {
+bool inspect(Inspector& f, ping& x) {
   return f.object(x).fields(f.field("number", x.number),
                             f.field("sent", x.sent));
 }
 
 template <class Inspector>
-bool inspect(Inspector& f, life_echo& x) {
+bool inspect(Inspector& f, pong& x) {
   return f.object(x).fields(f.field("of", x.of),
                             f.field("received", x.received),
                             f.field("answered", x.answered));

@@ -18,13 +18,12 @@ namespace sofof {
 
 /// One offloading, from acceptance to its end. Both sides and all data name
 /// it, so that duplicates and leftovers of earlier ones are told apart.
-struct running_service {
-  boot_id provider = 0;
+struct session_id {
+  provider_id provider = 0;
   station_id station = 0;
   service_name kind;
   std::uint32_t counter = 0; ///< Rising per provider; 0: the local service.
-  friend auto operator<=>(const running_service&,
-                          const running_service&) = default;
+  friend auto operator<=>(const session_id&, const session_id&) = default;
 };
 
 /// A vehicle's own motion, as its CAMs tell it.
@@ -42,7 +41,7 @@ struct cam {
 
 /// A provider has seen a station in its area and offers its services.
 struct service_offer {
-  boot_id provider = 0;
+  provider_id provider = 0;
   point position; ///< Of the provider, m, east-north.
   std::vector<service_name> kinds;
   /// What runs there needs this share of its workers, ≥ 0; above 1 it falls
@@ -56,7 +55,7 @@ struct service_offer {
 
 /// A requester asks for some of the offered services.
 struct service_request {
-  boot_id provider = 0;
+  provider_id provider = 0;
   station_id station = 0;
   std::uint32_t number = 0; ///< Rising per requester.
   std::vector<service_name> kinds;
@@ -68,15 +67,15 @@ struct service_request {
 
 /// What a provider says to one requested service.
 struct verdict {
-  running_service running; ///< Counter 0 when refused.
+  session_id running; ///< Counter 0 when refused.
   bool accepted = false;
-  std::string why;     ///< Short; for records.
-  boot_id instead = 0; ///< If refused: who should be asked; 0: nobody.
+  std::string why;         ///< Short; for records.
+  provider_id instead = 0; ///< If refused: who should be asked; 0: nobody.
 };
 
 /// A provider's answer to one request: a verdict for each requested service.
 struct service_response {
-  boot_id provider = 0;
+  provider_id provider = 0;
   station_id station = 0;
   std::uint32_t number = 0; ///< Of the request.
   std::vector<verdict> verdicts;
@@ -85,7 +84,7 @@ struct service_response {
 /// What a running service works on next; newer input replaces older. Whoever is
 /// on call gives one result at once, and the next one when it is called again.
 struct service_input {
-  running_service running;
+  session_id running;
   time_point at;
   payload what;
   /// The result in use, for a source that takes over from another one, which
@@ -96,7 +95,7 @@ struct service_input {
 
 /// What one cycle of a running service gave.
 struct service_result {
-  running_service running;
+  session_id running;
   std::uint64_t cycle = 0;
   time_point created; ///< Start of the cycle (t_creation).
   payload what;
@@ -133,14 +132,14 @@ enum class side : std::uint8_t { requester, provider };
 
 /// One side has ended a running service; saying it twice does no harm.
 struct service_end {
-  running_service running;
+  session_id running;
   end_reason reason = end_reason::shutdown;
   side from = side::requester;
   payload what{}; ///< The same in the service's own terms, if it has any.
 };
 
 template <class Inspector>
-bool inspect(Inspector& f, running_service& x) {
+bool inspect(Inspector& f, session_id& x) {
   return f.object(x).fields(
       f.field("provider", x.provider), f.field("station", x.station),
       f.field("kind", x.kind), f.field("counter", x.counter));

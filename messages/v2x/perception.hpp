@@ -5,8 +5,8 @@
 #include "messages/etsi/cpm_ts103324.hpp"
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/cpm_rules.hpp"
-#include "messages/v2x/datum.hpp"
-#include "messages/v2x/sighting.hpp"
+#include "messages/v2x/georeference.hpp"
+#include "messages/v2x/object_list.hpp"
 #include "world/sensing/perception.hpp"
 #include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -33,7 +33,7 @@ struct perceived_scene {
 /// Objects are where they were when they were seen.
 etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
                                       const vehicle_params& car,
-                                      const datum& where);
+                                      const georeference& where);
 
 /// @param now  The message tells its time modulo 65.536 s: the nearest to now
 ///             is meant.
@@ -41,18 +41,18 @@ etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
 /// at which the last of them was seen, and how the sender's sensor looks, if it
 /// tells of one; nullopt if the sender does not say where it is or which way it
 /// is heading.
-std::optional<sighting> read_cpm(const etsi::tr103562::cpm& message,
-                                 const datum& where, time_point now);
+std::optional<object_list> read_cpm(const etsi::tr103562::cpm& message,
+                                    const georeference& where, time_point now);
 
 /// The same in release 2: from the middle of the sender's front, x geographic
 /// east, y north; objects 2 s old at most.
 etsi::ts103324::cpm make_cpm_ts103324(const perceived_scene& scene,
                                       const vehicle_params& car,
-                                      const datum& where);
+                                      const georeference& where);
 
 /// @returns as `read_cpm` of TR 103 562; what is told relative to lanes of a
 /// map is left out.
-std::optional<sighting> read_cpm(const etsi::ts103324::cpm& message,
-                                 const datum& where);
+std::optional<object_list> read_cpm(const etsi::ts103324::cpm& message,
+                                    const georeference& where);
 
 } // namespace sofof

@@ -1,8 +1,8 @@
 // What a CPM of TR 103 562 says of the bodies that a vehicle perceives.
 #include "messages/etsi/units.hpp"
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
+#include "messages/v2x/object_list.hpp"
 #include "messages/v2x/perception.hpp"
-#include "messages/v2x/sighting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +133,8 @@ std::optional<timed_object> understand(const tr::perceived_object& told,
 } // namespace
 
 tr::cpm make_cpm_tr103562(const perceived_scene& scene,
-                          const vehicle_params& car, const datum& where) {
+                          const vehicle_params& car,
+                          const georeference& where) {
   const auto& own = scene.own;
   const auto place = where.frame.to_wgs84(front_of(own, car));
   const auto heading =
@@ -167,8 +168,8 @@ tr::cpm make_cpm_tr103562(const perceived_scene& scene,
   return message;
 }
 
-std::optional<sighting> read_cpm(const tr::cpm& message, const datum& where,
-                                 time_point now) {
+std::optional<object_list> read_cpm(const tr::cpm& message,
+                                    const georeference& where, time_point now) {
   const auto& body = message.body.parameters;
   const auto at = where.frame.to_map(to_geo(body.management.position));
   const auto* sender =

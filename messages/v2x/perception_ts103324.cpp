@@ -1,6 +1,6 @@
 // What a CPM of TS 103 324 says of the bodies that a vehicle perceives.
 #include "messages/etsi/units.hpp"
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/perception.hpp"
 
 #include <algorithm>
@@ -144,7 +144,8 @@ std::optional<timed_object> understand(const ts::perceived_object& told,
 } // namespace
 
 ts::cpm make_cpm_ts103324(const perceived_scene& scene,
-                          const vehicle_params& car, const datum& where) {
+                          const vehicle_params& car,
+                          const georeference& where) {
   const auto& own = scene.own;
   const auto place = where.frame.to_wgs84(front_of(own, car));
   ts::cpm message;
@@ -181,7 +182,8 @@ ts::cpm make_cpm_ts103324(const perceived_scene& scene,
   return message;
 }
 
-std::optional<sighting> read_cpm(const ts::cpm& message, const datum& where) {
+std::optional<object_list> read_cpm(const ts::cpm& message,
+                                    const georeference& where) {
   const auto& management = message.body.management;
   const auto at = where.frame.to_map(to_geo(management.position));
   if (!at)

@@ -2,8 +2,8 @@
 #include "network/keys/key_store.hpp"
 
 #include "base/files/regular_file.hpp"
+#include "network/keys/atomic_file.hpp"
 #include "network/keys/certificate.hpp"
-#include "network/keys/new_file.hpp"
 #include "network/keys/revocation_list.hpp"
 #include "network/keys/secret_file.hpp"
 #include "network/keys/station_list.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/objection.hpp"
-#include "planners/scene/ego_estimate.hpp"
+#include "planners/scene/ego_estimator.hpp"
 #include "planners/scene/foreseen_bodies.hpp"
 #include "planners/scene/planning_input.hpp"
 #include "world/roads/route.hpp"
@@ -23,12 +23,12 @@ namespace sofof {
 /// A plan, and what the vehicle itself knows about its situation.
 struct judged_plan {
   const route& way;
-  const trajectory& plan;   ///< Sound, `s_m` on that route.
-  const trajectory* in_use; ///< The plan followed until now; null: none.
-  const told_state& own;    ///< The vehicle's motion as it measured it.
-  double s_m;               ///< Its rear axle on the route.
-  const perception& seen;   ///< By the vehicle, and granted to it.
-  bool crossings_granted;   ///< Else drivers judge crossings.
+  const trajectory& plan;    ///< Sound, `s_m` on that route.
+  const trajectory* in_use;  ///< The plan followed until now; null: none.
+  const reported_state& own; ///< The vehicle's motion as it measured it.
+  double s_m;                ///< Its rear axle on the route.
+  const perception& seen;    ///< By the vehicle, and granted to it.
+  bool crossings_granted;    ///< Else drivers judge crossings.
   time_point now;
   /// Of what was received, times left out; 0: none.
   std::uint64_t fingerprint = 0;

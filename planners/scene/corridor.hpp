@@ -3,8 +3,8 @@
 #pragma once
 
 #include "planners/problems/path_ocp.hpp"
+#include "planners/scene/driving_scene.hpp"
 #include "planners/scene/reference_line.hpp"
-#include "planners/scene/surroundings.hpp"
 
 #include <array>
 #include <span>

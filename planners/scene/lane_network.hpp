@@ -4,7 +4,7 @@
 
 #include "base/cell_grid.hpp"
 #include "planners/scene/track.hpp"
-#include "world/roads/encounter.hpp"
+#include "world/roads/conflict_side.hpp"
 #include "world/roads/path.hpp"
 #include "world/roads/road_map.hpp"
 
@@ -18,7 +18,7 @@ namespace sofof {
 
 /// When a body is on one side of a conflict, if its speed stays as it is.
 struct conflict_visit {
-  std::uint32_t side = 0; ///< As in `encounter`.
+  std::uint32_t side = 0; ///< As in `conflict_side`.
   int rank = 0;           ///< Of its lane.
   double way_m = 0;       ///< From its front to the stretch; 0: on it.
   double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
@@ -33,7 +33,7 @@ public:
 
   explicit lane_network(const road_map& map);
 
-  const encounters& meetings() const { return meetings_; }
+  const conflict_sides& meetings() const { return meetings_; }
 
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
@@ -77,7 +77,7 @@ private:
   void meet(const driver& who, std::size_t lane, double start_m) const;
   void drive(const driver& who, std::size_t lane, double start_m) const;
 
-  encounters meetings_;
+  conflict_sides meetings_;
   std::vector<int> ranks_; // of all sides
   std::vector<path> paths_;
   std::vector<double> half_widths_m_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/time.hpp"
-#include "planners/scene/surroundings.hpp"
+#include "planners/scene/driving_scene.hpp"
 #include "world/roads/route.hpp"
 
 namespace sofof {
@@ -18,7 +18,7 @@ struct planning_input {
   double curvature_1pm = 0;     ///< Of the way it drives, left positive.
   double speed_mps = 0;
   double accel_mps2 = 0;
-  surroundings others;
+  driving_scene others;
 };
 
 /// @returns `x` with what no car's own motion can be cut off (10 000 km, 5 m

@@ -12,7 +12,7 @@ namespace sofof {
 /// A route as it is sampled, and how fast it may be driven. It takes
 /// milliseconds to compute and never changes: all planners share one.
 struct route_profile {
-  route_profile(route_ptr way, const driving_style& style)
+  route_profile(route_ptr way, const comfort_limits& style)
       : line{std::move(way)}, envelope{line.way(), style} {}
 
   reference_line line;

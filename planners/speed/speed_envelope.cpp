@@ -29,7 +29,7 @@ struct way_table {
 };
 
 /// v²/2 that limits and bends allow at a place.
-double allowed_at(const route& way, double s_m, const driving_style& params) {
+double allowed_at(const route& way, double s_m, const comfort_limits& params) {
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
   const auto limit = std::max(min_speed_mps, way.limit_mps(s_m));
   return std::min(limit * limit, params.max_lateral_accel_mps2
@@ -41,7 +41,7 @@ double allowed_at(const route& way, double s_m, const driving_style& params) {
 /// to the entries beside it, so that the line between two entries stays below
 /// what is allowed between them.
 way_table allowed(const route& way, double step_m, long size,
-                  const driving_style& params) {
+                  const comfort_limits& params) {
   way_table half{{}, way.closed()}; // in half steps
   for (long i = 0; i < 2 * size; ++i)
     half.values.push_back(
@@ -86,7 +86,7 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 
 } // namespace
 
-speed_envelope::speed_envelope(const route& way, const driving_style& params)
+speed_envelope::speed_envelope(const route& way, const comfort_limits& params)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   const auto steps =
       std::max(2L, std::lround(std::ceil(length_m_ / longest_step_m)));

@@ -1,7 +1,7 @@
 // How fast a route may be driven where.
 #pragma once
 
-#include "planners/speed/driving_style.hpp"
+#include "planners/speed/comfort_limits.hpp"
 #include "world/roads/route.hpp"
 
 #include <vector>
@@ -20,7 +20,7 @@ public:
   };
 
   /// @param way  Its limits must be positive.
-  speed_envelope(const route& way, const driving_style& params);
+  speed_envelope(const route& way, const comfort_limits& params);
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.

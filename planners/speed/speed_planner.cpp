@@ -1,7 +1,7 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
-#include "planners/speed/plain_motion.hpp"
+#include "planners/speed/closed_form_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace sofof {
 namespace {
 
-constexpr double never = speed_task::never;
+constexpr double never = speed_constraints::never;
 
 // Where to stop before a line, and what must be kept in any case.
 constexpr double wanted_line_gap_m = 0.3;
@@ -81,8 +81,8 @@ double decel_to_be_late(double v, double way_m, double time_s) {
   return v < decel * time_s ? square(v) / (2 * way) : decel; // or at rest
 }
 
-bool keeps_windows(const time_motion& motion, double step_s,
-                   const speed_task& task) {
+bool keeps_windows(const speed_profile& motion, double step_s,
+                   const speed_constraints& task) {
   for (std::size_t i = 1; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     for (const auto& window : task.windows)
@@ -96,14 +96,15 @@ bool keeps_windows(const time_motion& motion, double step_s,
 
 } // namespace
 
-speed_planner::speed_planner(route_profile_ptr way, const driving_style& style,
+speed_planner::speed_planner(route_profile_ptr way, const comfort_limits& style,
                              grid horizon)
     : way_{std::move(way)}, style_{style}, grid_{horizon},
       steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
   motion_.reserve(static_cast<std::size_t>(steps_) + 1);
 }
 
-speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
+speed_planner::stop
+speed_planner::find_stop(const speed_constraints& task) const {
   stop end{task.stop_m - wanted_line_gap_m, task.stop_m - least_line_gap_m};
   if (task.ahead) {
     const auto& lead = task.ahead->lead;
@@ -119,7 +120,7 @@ speed_planner::stop speed_planner::find_stop(const speed_task& task) const {
   return end;
 }
 
-double speed_planner::needed_decel(const speed_task& task) const {
+double speed_planner::needed_decel(const speed_constraints& task) const {
   auto needed = 0.0;
   if (std::isfinite(task.stop_m))
     needed =
@@ -136,7 +137,7 @@ double speed_planner::needed_decel(const speed_task& task) const {
   return needed;
 }
 
-bool speed_planner::comes_too_late(const speed_task& task,
+bool speed_planner::comes_too_late(const speed_constraints& task,
                                    const stop& end) const {
   return task.speed_mps > halted_mps
          && stopping_m(task.speed_mps, task.accel_mps2,
@@ -146,7 +147,8 @@ bool speed_planner::comes_too_late(const speed_task& task,
 }
 
 speed_planner::result speed_planner::plan(const planned_path& path,
-                                          double way_m, const speed_task& task,
+                                          double way_m,
+                                          const speed_constraints& task,
                                           const ocp::budget& go_on) {
   const auto end = find_stop(task);
   result r;
@@ -171,10 +173,10 @@ speed_planner::result speed_planner::plan(const planned_path& path,
   return r;
 }
 
-speed_planner::result speed_planner::brake_only(const speed_task& task) {
+speed_planner::result speed_planner::brake_only(const speed_constraints& task) {
   const auto decel =
       std::clamp(reserve * needed_decel(task),
-                 driving_style::least_emergency_mps2, style_.max_decel_mps2);
+                 comfort_limits::least_emergency_mps2, style_.max_decel_mps2);
   brake({0, task.speed_mps, task.accel_mps2}, decel,
         emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
         steps_, motion_);
@@ -186,8 +188,8 @@ speed_planner::result speed_planner::brake_only(const speed_task& task) {
 }
 
 bool speed_planner::drive(const planned_path& path, double way_m,
-                          const speed_task& task, const stop& end, result& r,
-                          const ocp::budget& go_on) {
+                          const speed_constraints& task, const stop& end,
+                          result& r, const ocp::budget& go_on) {
   lane_motion from{0, task.speed_mps, task.accel_mps2};
   auto from_s = 0.0;
   motion_.assign(1, from);
@@ -294,7 +296,7 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
       std::min(w_max_.back(), square(way_->envelope.limit_mps(s)) / 2);
 }
 
-void speed_planner::be_cautious(const speed_task& task, double from_m,
+void speed_planner::be_cautious(const speed_constraints& task, double from_m,
                                 double ds_m) {
   const auto w = square(task.caution_mps) / 2;
   for (std::size_t k = 0; k < w_max_.size(); ++k)
@@ -302,8 +304,8 @@ void speed_planner::be_cautious(const speed_task& task, double from_m,
       w_max_[k] = std::min(w_max_[k], w);
 }
 
-void speed_planner::set_windows(const speed_task& task, const lane_motion& from,
-                                double ds_m) {
+void speed_planner::set_windows(const speed_constraints& task,
+                                const lane_motion& from, double ds_m) {
   const auto knots = w_max_.size();
   earliest_.assign(knots, -never);
   latest_.assign(knots, never);
@@ -396,8 +398,8 @@ double speed_planner::price(const planned_path& path, double way_m) const {
   return sum * style_.step_s;
 }
 
-bool is_clear(const time_motion& motion, double step_s,
-              const speed_task& task) {
+bool is_clear(const speed_profile& motion, double step_s,
+              const speed_constraints& task) {
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     const auto& x = motion[i];

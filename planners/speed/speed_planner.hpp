@@ -4,10 +4,10 @@
 
 #include "planners/path/planned_path.hpp"
 #include "planners/problems/velocity_ocp.hpp"
-#include "planners/speed/driving_style.hpp"
+#include "planners/speed/comfort_limits.hpp"
 #include "planners/speed/route_profile.hpp"
-#include "planners/speed/speed_task.hpp"
-#include "planners/speed/time_motion.hpp"
+#include "planners/speed/speed_constraints.hpp"
+#include "planners/speed/speed_profile.hpp"
 
 #include <vector>
 
@@ -39,50 +39,51 @@ public:
   };
 
   /// @param way  Kept.
-  speed_planner(route_profile_ptr way, const driving_style& style,
+  speed_planner(route_profile_ptr way, const comfort_limits& style,
                 grid horizon);
 
   /// @param path   Where the car drives.
   /// @param way_m  Where on the path it is.
-  result plan(const planned_path& path, double way_m, const speed_task& task,
-              const ocp::budget& go_on = {});
+  result plan(const planned_path& path, double way_m,
+              const speed_constraints& task, const ocp::budget& go_on = {});
 
   /// The plan, seen from the car: ways begin at 0.
-  const time_motion& motion() const { return motion_; }
+  const speed_profile& motion() const { return motion_; }
 
   /// Plans the next one from scratch.
   void forget() { solved_ = false; }
 
   /// The last resort on a path: braking, as firmly as needed.
-  result brake_only(const speed_task& task);
+  result brake_only(const speed_constraints& task);
 
 private:
   struct stop { // of the rear axle, from the car on
     double wanted_m, last_m;
   };
-  stop find_stop(const speed_task& task) const;
-  double needed_decel(const speed_task& task) const;
-  bool drive(const planned_path& path, double way_m, const speed_task& task,
-             const stop& end, result& r, const ocp::budget& go_on);
+  stop find_stop(const speed_constraints& task) const;
+  double needed_decel(const speed_constraints& task) const;
+  bool drive(const planned_path& path, double way_m,
+             const speed_constraints& task, const stop& end, result& r,
+             const ocp::budget& go_on);
   void set_limits(const planned_path& path, double from_m, double ds_m,
                   int steps);
-  void be_cautious(const speed_task& task, double from_m, double ds_m);
-  void set_windows(const speed_task& task, const lane_motion& from,
+  void be_cautious(const speed_constraints& task, double from_m, double ds_m);
+  void set_windows(const speed_constraints& task, const lane_motion& from,
                    double ds_m);
-  bool comes_too_late(const speed_task& task, const stop& end) const;
+  bool comes_too_late(const speed_constraints& task, const stop& end) const;
   bool too_fast_for_bends() const;
   bool yield_to_braking(const lane_motion& from, double from_s, double ds_m,
                         double decel_mps2);
   double price(const planned_path& path, double way_m) const;
 
   route_profile_ptr way_;
-  driving_style style_;
+  comfort_limits style_;
   grid grid_;
   velocity_ocp solver_;
   bool solved_ = false;      // the solver has a plan that can be carried over
   bool solved_stop_ = false; // and it ends at rest
   double solved_s_m_ = 0;    // it begins here
-  time_motion motion_;
+  speed_profile motion_;
   int steps_ = 0; // of the motion
   // The velocity problem, knot by knot.
   std::vector<double> w_max_, wanted_, bends_, earliest_, latest_;
@@ -90,6 +91,7 @@ private:
 
 /// @returns whether a motion keeps off lines and the car ahead, by less than
 /// what a plan keeps: to judge plans that were made before, or badly.
-bool is_clear(const time_motion& motion, double step_s, const speed_task& task);
+bool is_clear(const speed_profile& motion, double step_s,
+              const speed_constraints& task);
 
 } // namespace sofof

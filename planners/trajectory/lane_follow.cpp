@@ -28,7 +28,7 @@ constexpr double jerk_per_braking_1ps = 5.0;
 // On the way to a place, less jerk than allowed: the rest is for corrections.
 constexpr double share_of_jerk = 0.8;
 
-braking_style style_of(const driving_style& params) {
+braking_style style_of(const comfort_limits& params) {
   return {params.comfort_decel_mps2, share_of_jerk * params.max_jerk_mps3,
           params.time_gap_s};
 }
@@ -53,10 +53,10 @@ struct lane_follow::mind {
   }
 };
 
-lane_follow::lane_follow(route_profile_ptr way, driving_style params)
+lane_follow::lane_follow(route_profile_ptr way, comfort_limits params)
     : way_{std::move(way)}, params_{params}, style_{style_of(params)} {}
 
-lane_follow::lane_follow(route_ptr way, const driving_style& params)
+lane_follow::lane_follow(route_ptr way, const comfort_limits& params)
     : lane_follow{std::make_shared<const route_profile>(std::move(way), params),
                   params} {}
 

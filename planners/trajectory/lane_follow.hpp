@@ -3,7 +3,7 @@
 
 #include "planners/scene/lane_motion.hpp"
 #include "planners/speed/braking.hpp"
-#include "planners/speed/driving_style.hpp"
+#include "planners/speed/comfort_limits.hpp"
 #include "planners/speed/route_profile.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 
@@ -15,10 +15,10 @@ namespace sofof {
 class lane_follow final : public trajectory_planner {
 public:
   /// @param way  Made with the same style.
-  lane_follow(route_profile_ptr way, driving_style params);
+  lane_follow(route_profile_ptr way, comfort_limits params);
 
   /// The same, with a profile of its own.
-  lane_follow(route_ptr way, const driving_style& params);
+  lane_follow(route_ptr way, const comfort_limits& params);
 
   plan_report plan(time_point now, const planning_input& input,
                    const trajectory* previous, trajectory& out,
@@ -31,7 +31,7 @@ private:
   double next_accel(const lane_motion& x, const mind& others) const;
 
   route_profile_ptr way_;
-  driving_style params_;
+  comfort_limits params_;
   braking_style style_;
 };
 

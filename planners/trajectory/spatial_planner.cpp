@@ -51,7 +51,7 @@ void spatial_params::fields(settings& s) {
 }
 
 spatial_planner::spatial_planner(route_profile_ptr way,
-                                 const driving_style& style,
+                                 const comfort_limits& style,
                                  const spatial_params& params)
     : way_{std::move(way)}, style_{style}, params_{params},
       path_{std::make_unique<path_planner>(way_->line,
@@ -162,7 +162,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
 void spatial_planner::list_bodies(const scene& at) {
   const auto front_s = at.start.s_m + style_.front_m;
   bodies_.clear();
-  blocked_s_m_ = speed_task::never;
+  blocked_s_m_ = speed_constraints::never;
   for (const auto& body : at.others.beside) {
     const auto where = met(body, at.age_s);
     if (where.from_m > where.to_m)
@@ -202,8 +202,8 @@ lane_obstacle spatial_planner::met(const lane_obstacle& body,
   if (!is_moving(body) || path_->path().empty() || speed_->motion().empty())
     return body;
   auto where = body;
-  where.from_m = speed_task::never;
-  where.to_m = -speed_task::never;
+  where.from_m = speed_constraints::never;
+  where.to_m = -speed_constraints::never;
   const auto& motion = speed_->motion();
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * style_.step_s;
@@ -225,8 +225,8 @@ double spatial_planner::way_from_car(double s_m) const {
   return path_->path().empty() ? s_m - s_m_ : path_->path().way_m(s_m) - way_m_;
 }
 
-speed_task spatial_planner::task(const scene& at) const {
-  speed_task t;
+speed_constraints spatial_planner::task(const scene& at) const {
+  speed_constraints t;
   t.speed_mps = at.start.speed_mps;
   t.accel_mps2 = at.start.accel_mps2;
   auto stop_s = blocked_s_m_;

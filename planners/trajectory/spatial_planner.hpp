@@ -5,7 +5,7 @@
 #include "base/options/settings.hpp"
 #include "planners/path/path_planner.hpp"
 #include "planners/speed/speed_planner.hpp"
-#include "planners/trajectory/homotopy.hpp"
+#include "planners/trajectory/maneuver_candidates.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 
 #include <memory>
@@ -34,7 +34,7 @@ struct spatial_params {
 class spatial_planner final : public trajectory_planner {
 public:
   /// @param way  Of the same style.
-  spatial_planner(route_profile_ptr way, const driving_style& style,
+  spatial_planner(route_profile_ptr way, const comfort_limits& style,
                   const spatial_params& params);
 
   plan_report plan(time_point now, const planning_input& input,
@@ -46,7 +46,7 @@ private:
   struct scene {
     time_point now;
     planning_input start;
-    const surroundings& others;
+    const driving_scene& others;
     double age_s; ///< Of what is known of them.
   };
 
@@ -55,7 +55,7 @@ private:
                  const ocp::budget& go_on);
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
-  speed_task task(const scene& at) const;
+  speed_constraints task(const scene& at) const;
   bool keep(const trajectory& previous, const scene& at, trajectory& out);
   bool avoids_crossings() const;
   bool passes(const trajectory& plan,
@@ -73,7 +73,7 @@ private:
   const route& lane() const { return way_->line.way(); }
 
   route_profile_ptr way_;
-  driving_style style_;
+  comfort_limits style_;
   spatial_params params_;
   vehicle_params car_;
   // The plan in use and one to try others with.
@@ -87,7 +87,7 @@ private:
   std::vector<crossing_user> users_;
   std::vector<passing_order> all_sides_;
   std::vector<crossing_order> all_orders_;
-  time_motion kept_;
+  speed_profile kept_;
   std::optional<time_point> made_;      // start of the last plan
   std::optional<time_point> kept_from_; // start of the plan that is kept
 };

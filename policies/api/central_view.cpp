@@ -27,15 +27,15 @@ double computing_s(double utilisation, const periodic_task& task,
 }
 
 std::optional<double> told_gain(std::span<const candidate> told,
-                                boot_id provider) {
+                                provider_id provider) {
   const auto i = std::ranges::find(told, provider, &candidate::provider);
   if (i == told.end())
     return std::nullopt;
   return std::clamp(i->gain, -greatest_gain, greatest_gain);
 }
 
-double gain_here(std::span<const candidate> told, boot_id self,
-                 double utilisation, double price) {
+double local_gain(std::span<const candidate> told, provider_id self,
+                  double utilisation, double price) {
   const auto least = price + little / (1 + utilisation);
   return std::max(told_gain(told, self).value_or(least), least);
 }

@@ -33,19 +33,19 @@ inline constexpr double greatest_gain = 10;
 /// @returns what a vehicle says it wins at a provider, within `greatest_gain`;
 /// of several the first; nullopt if it does not say.
 std::optional<double> told_gain(std::span<const candidate> told,
-                                boot_id provider);
+                                provider_id provider);
 
 /// What being here counts for. Who asks wants it, so it is at least `price` and
 /// a little more, the less it takes the more: also where a vehicle knows
 /// nothing of the link yet, and tells a gain below zero, or tells none.
 /// @param utilisation  What it takes of this provider, ≥ 0.
 /// @param price        Of a change, ≥ 0, in units of gains.
-double gain_here(std::span<const candidate> told, boot_id self,
-                 double utilisation, double price);
+double local_gain(std::span<const candidate> told, provider_id self,
+                  double utilisation, double price);
 
 /// Another provider, as requests tell of it.
 struct other_provider {
-  boot_id id = 0;
+  provider_id id = 0;
   double utilisation = 0; ///< The highest that is told, in [0, 1].
 };
 

@@ -31,7 +31,7 @@ struct link_quality {
 
 /// What a vehicle knows of a provider.
 struct provider_view {
-  boot_id id = 0;
+  provider_id id = 0;
   point at; ///< m, east-north.
   /// What runs there needs this share of its workers, as it says, ≥ 0; above 1
   /// it falls behind.
@@ -57,13 +57,13 @@ struct foreseen_results {
 
 /// What is to come, for who wants to know what the best would have been. What
 /// others do meanwhile is not foreseen.
-class foresight {
+class channel_oracle {
 public:
-  virtual ~foresight() = default;
+  virtual ~channel_oracle() = default;
 
   /// @returns what is foreseen of results that are created from `from` on and
   /// before `until`.
-  virtual foreseen_results look(boot_id provider, std::string_view kind,
+  virtual foreseen_results look(provider_id provider, std::string_view kind,
                                 time_point from, time_point until) const = 0;
 };
 
@@ -79,12 +79,12 @@ struct local_context {
   random_stream noise{0, ""}; ///< Of this vehicle's decisions.
   std::uint64_t number = 0;   ///< Of this decision: the counter of `noise`.
 
-  boot_id current = 0; ///< Where it runs; 0: in the vehicle itself.
-  time_point since{};  ///< When it came there.
+  provider_id current = 0; ///< Where it runs; 0: in the vehicle itself.
+  time_point since{};      ///< When it came there.
   service_needs needs{};
   cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
   /// Only where a run can tell; null elsewhere.
-  const foresight* future = nullptr;
+  const channel_oracle* future = nullptr;
   /// Where it runs, in case a filter keeps that from `providers`:
   /// `where_it_runs`.
   const provider_view* here = nullptr;
@@ -104,11 +104,11 @@ inline const provider_view* where_it_runs(const local_context& context) {
 struct local_decision {
   /// The provider that shall run it; 0: it stays where it is. Where it runs
   /// already it goes on until it has come to the new one (hand-over).
-  boot_id source = 0;
+  provider_id source = 0;
   std::string_view why; ///< A short literal, for the records.
   /// Another one that shall run it at the same time; 0: none. Of each cycle the
   /// first result is used.
-  boot_id second = 0;
+  provider_id second = 0;
   bool release = false; ///< It shall come home, and nobody is asked.
   double advantage = 1; ///< Over where it runs: a normalised gain, if known.
   /// The second one plans only cycles that the first has not answered for so
@@ -123,8 +123,8 @@ constexpr local_decision as_it_is(std::string_view why) {
 
 /// @param place  A provider; 0: the vehicle itself.
 /// @returns a decision to have the service there, and nowhere else.
-constexpr local_decision at_place(const local_context& context, boot_id place,
-                                  std::string_view why) {
+constexpr local_decision at_place(const local_context& context,
+                                  provider_id place, std::string_view why) {
   return {place, why, 0, place == 0 && context.current != 0};
 }
 
@@ -163,7 +163,7 @@ struct central_context {
   std::size_t workers = 1;
   const polygon& area;
   const road_map& map;
-  boot_id self = 0;           ///< The provider.
+  provider_id self = 0;       ///< The provider.
   random_stream noise{0, ""}; ///< Of its decisions.
   std::uint64_t number = 0;   ///< Of this one: the counter of `noise`.
 };
@@ -175,7 +175,7 @@ struct central_decision {
   /// When in the period its cycles begin; drawn if nobody assigns it.
   std::optional<duration> offset{};
   /// If it does not accept: who should be asked instead; 0: nobody.
-  boot_id instead = 0;
+  provider_id instead = 0;
 };
 
 /// LODM: local offloading decision making, in the vehicle.

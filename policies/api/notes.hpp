@@ -7,13 +7,13 @@
 namespace sofof {
 
 /// One option of it.
-struct parameter_note {
+struct option_info {
   std::string_view name;
   std::string_view unit; ///< "1" for a number without; of words, what they are.
   std::string_view meaning;
 };
 
-struct policy_notes {
+struct policy_info {
   std::string_view name;
   std::string_view summary; ///< What it does, in a line.
   std::string_view rule;    ///< What it decides by.
@@ -21,14 +21,14 @@ struct policy_notes {
   std::string_view source;
   /// Its options, without those of the filter before it and the governors after
   /// it.
-  std::vector<parameter_note> parameters{};
+  std::vector<option_info> parameters{};
 };
 
 /// Part of a table that knows things by name.
 /// @returns the notes of each.
 template <class Table>
-std::vector<policy_notes> notes_of(const Table& table) {
-  std::vector<policy_notes> all;
+std::vector<policy_info> notes_of(const Table& table) {
+  std::vector<policy_info> all;
   for (const auto& entry : table)
     all.push_back(entry.notes);
   return all;

@@ -9,9 +9,8 @@ void list_weights(settings& s, cost_weights& weights) {
   s.field("violation_weight", weights.violation, {0, 1e3});
 }
 
-std::vector<parameter_note>
-weights_and(const std::vector<parameter_note>& others) {
-  std::vector<parameter_note> all{
+std::vector<option_info> weights_and(const std::vector<option_info>& others) {
+  std::vector<option_info> all{
       {"time_weight", "1", "lambda_T, of latency in parts of its limit"},
       {"energy_weight", "1", "lambda_E, of energy in parts of that on board"},
       {"violation_weight", "1", "lambda_V, of the probability to be late"}};

@@ -13,7 +13,6 @@ namespace sofof {
 void list_weights(settings& s, cost_weights& weights);
 
 /// @returns what is said of them, then `others`.
-std::vector<parameter_note>
-weights_and(const std::vector<parameter_note>& others);
+std::vector<option_info> weights_and(const std::vector<option_info>& others);
 
 } // namespace sofof

@@ -7,7 +7,7 @@ namespace sofof {
 codm_entry codm_always() {
   return {{"always", "Accepts everybody.", "yes", "nothing",
            "ours, to compare with"},
-          alone<central_policy, same_for_all<true>>};
+          unfiltered<central_policy, same_for_all<true>>};
 }
 
 } // namespace sofof

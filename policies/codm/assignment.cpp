@@ -101,7 +101,7 @@ codm_entry codm_assignment() {
              "is built in, \"cbc\"",
              "that seeks the best"},
             {"nodes", "1", "partial assignments that a search looks at"}}},
-          behind_codm_filter<best_assignment>};
+          filtered_by_request<best_assignment>};
 }
 
 } // namespace sofof

@@ -45,9 +45,9 @@ private:
 };
 
 /// @returns where a request would win most, and still finds room; 0: nowhere.
-boot_id best_other(const request_view& request,
-                   std::span<const other_provider> others) {
-  boot_id best = 0;
+provider_id best_other(const request_view& request,
+                       std::span<const other_provider> others) {
+  provider_id best = 0;
   double most = 0;
   for (const auto& other : others) {
     const auto gain = told_gain(request.candidates, other.id).value_or(0);
@@ -104,7 +104,7 @@ codm_entry codm_best_response() {
             {"price", "1", "of a change, in units of gains"},
             {"model", "\"contention\" or \"interference\"",
              "of those who share a worker"}}},
-          behind_codm_filter<equilibrium>};
+          filtered_by_request<equilibrium>};
 }
 
 } // namespace sofof

@@ -41,7 +41,7 @@ codm_entry codm_capacity() {
            "what runs, the mean computing time of a result",
            "Liu & Layland, J. ACM 20(1), 1973, for a pool of workers",
            {{"most", "1", "utilisation, of all services together"}}},
-          behind_codm_filter<capacity>};
+          filtered_by_request<capacity>};
 }
 
 } // namespace sofof

@@ -58,7 +58,7 @@ codm_entry codm_cross_entropy() {
             {"samples", "1", "drawn in each iteration"},
             {"elite", "1", "share of the samples that is learned from"},
             {"iterations", "1", "of drawing and learning"}}},
-          behind_codm_filter<sampled_assignment>};
+          filtered_by_request<sampled_assignment>};
 }
 
 } // namespace sofof

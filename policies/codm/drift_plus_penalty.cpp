@@ -116,7 +116,7 @@ codm_entry codm_drift_plus_penalty() {
             {"V", "1/J", "what energy counts beside debts"},
             {"violation_budget", "1", "missed cycles per cycle"},
             {"unit_j", "J", "what a gain of 1 counts as: a cycle on board"}}},
-          behind_codm_filter<least_debts>};
+          filtered_by_request<least_debts>};
 }
 
 } // namespace sofof

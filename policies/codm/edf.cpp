@@ -36,13 +36,13 @@ admission_test test_of(std::string_view name) {
 /// either, all else is as near as the jobs are alike.
 ///
 /// Source: Liu & Layland 1973; Baruah, Rosier & Howell 1990; phases are ours.
-class deadline_admission final : public central_policy {
+class edf final : public central_policy {
 public:
   std::vector<central_decision> decide(const central_context& context) override;
   void fields(settings& s) override;
   std::string_view name() const override { return "edf"; }
   std::unique_ptr<central_policy> clone() const override {
-    return std::make_unique<deadline_admission>(*this);
+    return std::make_unique<edf>(*this);
   }
 
 private:
@@ -53,15 +53,14 @@ private:
   double margin_ = 0.1; // of the computing time, to be safe
 };
 
-periodic_task deadline_admission::to_schedule(const periodic_task& told) const {
+periodic_task edf::to_schedule(const periodic_task& told) const {
   auto task = told;
   task.wcet = from_seconds(to_seconds(told.wcet) * (1 + margin_));
   task.deadline -= network_;
   return task;
 }
 
-std::vector<central_decision>
-deadline_admission::decide(const central_context& context) {
+std::vector<central_decision> edf::decide(const central_context& context) {
   std::vector<std::vector<periodic_task>> workers(context.workers);
   for (const auto& session : context.sessions)
     workers[std::min(session.worker, context.workers - 1)].push_back(
@@ -89,7 +88,7 @@ deadline_admission::decide(const central_context& context) {
   return all;
 }
 
-void deadline_admission::fields(settings& s) {
+void edf::fields(settings& s) {
   s.field("test", test_);
   if (std::ranges::find(tests, test_) == tests.end())
     s.refuse("test", unknown_word("test", test_, tests));
@@ -111,7 +110,7 @@ codm_entry codm_edf() {
              "that a worker must pass"},
             {"network", "time", "part of the time limit that the way takes"},
             {"margin", "1", "part of the computing time added, to be safe"}}},
-          behind_codm_filter<deadline_admission>};
+          filtered_by_request<edf>};
 }
 
 } // namespace sofof

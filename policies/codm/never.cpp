@@ -7,7 +7,7 @@ namespace sofof {
 codm_entry codm_never() {
   return {
       {"never", "Accepts nobody.", "no", "nothing", "ours, to compare with"},
-      alone<central_policy, same_for_all<false>>};
+      unfiltered<central_policy, same_for_all<false>>};
 }
 
 } // namespace sofof

@@ -10,7 +10,7 @@ namespace {
 
 template <class Filter>
 struct filter_entry {
-  policy_notes notes;
+  policy_info notes;
   std::unique_ptr<Filter> (*make)();
 };
 
@@ -19,8 +19,8 @@ std::unique_ptr<Filter> made() {
   return std::make_unique<Whole>();
 }
 
-const policy_notes none{"none", "Lets everything through.", "yes", "nothing",
-                        "ours"};
+const policy_info none{"none", "Lets everything through.", "yes", "nothing",
+                       "ours"};
 
 const std::vector<filter_entry<local_filter>>& local_filters() {
   static const std::vector<filter_entry<local_filter>> all{
@@ -69,11 +69,11 @@ void list_filter(settings& s, std::unique_ptr<central_filter>& filter) {
 
 } // namespace
 
-std::vector<policy_notes> local_filter_notes() {
+std::vector<policy_info> local_filter_notes() {
   return notes_of(local_filters());
 }
 
-std::vector<policy_notes> central_filter_notes() {
+std::vector<policy_info> central_filter_notes() {
   return notes_of(central_filters());
 }
 

@@ -14,8 +14,8 @@
 namespace sofof {
 
 /// @returns what is said of each filter.
-std::vector<policy_notes> local_filter_notes();
-std::vector<policy_notes> central_filter_notes();
+std::vector<policy_info> local_filter_notes();
+std::vector<policy_info> central_filter_notes();
 
 /// @returns the filter with its default options; null for an unknown name.
 std::unique_ptr<local_filter> make_local_filter(std::string_view name);

@@ -55,7 +55,7 @@ void near_provider::fields(settings& s) {
   s.field("min_distance_m", min_distance_m_, {0, 1e6});
 }
 
-std::vector<parameter_note> near_provider::parameters() {
+std::vector<option_info> near_provider::parameters() {
   return {{"radius_m", "m", "r_off, of the disc round the provider"},
           {"min_distance_m", "m",
            "d_min; the way ahead must stay longer than this within r_off"}};
@@ -84,7 +84,7 @@ void stays_in_area::fields(settings& s) {
   s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
 }
 
-std::vector<parameter_note> stays_in_area::parameters() {
+std::vector<option_info> stays_in_area::parameters() {
   return {{"min_time", "time",
            "t_min; the vehicle must stay at least this long in the area"},
           {"map_tolerance_m", "m",

@@ -44,7 +44,7 @@ public:
   std::string_view objection(const local_context& context,
                              const provider_view& provider) const override;
   void fields(settings& s) override;
-  static std::vector<parameter_note> parameters();
+  static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<local_filter> clone() const override;
 
@@ -60,7 +60,7 @@ public:
   std::string_view objection(const central_context& context,
                              const request_view& request) const override;
   void fields(settings& s) override;
-  static std::vector<parameter_note> parameters();
+  static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<central_filter> clone() const override;
 

@@ -1,16 +1,16 @@
 // Governors by name.
 #include "policies/governors/governors.hpp"
 
-#include "policies/governors/dwelling.hpp"
-#include "policies/governors/forecasting.hpp"
-#include "policies/governors/redundant.hpp"
+#include "policies/governors/hysteresis_governor.hpp"
+#include "policies/governors/predictive_gate_governor.hpp"
+#include "policies/governors/redundancy_governor.hpp"
 
 namespace sofof {
 
 namespace {
 
 struct governor_entry {
-  policy_notes notes;
+  policy_info notes;
   std::unique_ptr<governor> (*make)();
 };
 
@@ -19,7 +19,7 @@ std::unique_ptr<governor> made() {
   return std::make_unique<Governor>();
 }
 
-const parameter_note epoch{"epoch_s", "s", "between two looks"};
+const option_info epoch{"epoch_s", "s", "between two looks"};
 
 const std::vector<governor_entry>& governors() {
   static const std::vector<governor_entry> all{
@@ -31,7 +31,7 @@ const std::vector<governor_entry>& governors() {
         {{"on", "1", "probability to be late up to which a provider is asked"},
          {"off", "1", "probability above which the service comes home"},
          epoch}},
-       made<forecasting>},
+       made<predictive_gate_governor>},
       {{"hysteresis",
         "No hasty changes of where a service runs.",
         "advantage > margin for time_to_trigger without a break, and the last "
@@ -42,7 +42,7 @@ const std::vector<governor_entry>& governors() {
          {"time_to_trigger", "time", "so long must it last"},
          {"min_dwell", "time", "between two changes"},
          epoch}},
-       made<dwelling>},
+       made<hysteresis_governor>},
       {{"redundancy",
         "Two providers plan the same cycles; the first result is used.",
         "with another one of least P(latency > limit), if that of the first is "
@@ -55,13 +55,13 @@ const std::vector<governor_entry>& governors() {
           "the second plans only cycles that the first has not answered for so "
           "long, well below max_interarrival - period, at most \"10s\"; 0: "
           "all"}}},
-       made<redundant>}};
+       made<redundancy_governor>}};
   return all;
 }
 
 } // namespace
 
-std::vector<policy_notes> governor_notes() {
+std::vector<policy_info> governor_notes() {
   return notes_of(governors());
 }
 

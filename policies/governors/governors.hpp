@@ -11,7 +11,7 @@
 namespace sofof {
 
 /// @returns what is said of each.
-std::vector<policy_notes> governor_notes();
+std::vector<policy_info> governor_notes();
 
 /// @returns the governor with its default options; null for an unknown name.
 std::unique_ptr<governor> make_governor(std::string_view name);

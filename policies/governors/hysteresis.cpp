@@ -3,7 +3,7 @@
 
 namespace sofof {
 
-boot_id hysteresis::next(const wish& wanted, time_point now) {
+provider_id hysteresis::next(const wish& wanted, time_point now) {
   if (wanted.must_fall_back) {
     better_since_.reset();
     if (source_ != local)
@@ -25,7 +25,7 @@ boot_id hysteresis::next(const wish& wanted, time_point now) {
   return source_;
 }
 
-void hysteresis::switch_to(boot_id source, time_point now) {
+void hysteresis::switch_to(provider_id source, time_point now) {
   source_ = source;
   switched_ = now;
   better_since_.reset();

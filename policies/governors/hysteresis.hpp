@@ -23,10 +23,10 @@ struct hysteresis_options {
 class hysteresis {
 public:
   /// The vehicle itself as a source; others are called by their provider.
-  static constexpr boot_id local = 0;
+  static constexpr provider_id local = 0;
 
   struct wish {
-    boot_id source = local;
+    provider_id source = local;
     double advantage = 0;        ///< Over the present source, normalised.
     bool must_fall_back = false; ///< To local at once, whatever is better.
   };
@@ -36,23 +36,23 @@ public:
 
   /// @param now  Not before the last call's.
   /// @returns the source from now on.
-  boot_id next(const wish& wanted, time_point now);
+  provider_id next(const wish& wanted, time_point now);
 
-  boot_id source() const { return source_; }
+  provider_id source() const { return source_; }
 
   /// The source has changed without being asked, or not changed though asked.
   /// @param since  When it came there.
-  void is_at(boot_id source, time_point since) {
+  void is_at(provider_id source, time_point since) {
     if (source != source_)
       switch_to(source, since);
   }
 
 private:
-  void switch_to(boot_id source, time_point now);
+  void switch_to(provider_id source, time_point now);
 
   hysteresis_options options_;
-  boot_id source_ = local;
-  boot_id challenger_ = local;
+  provider_id source_ = local;
+  provider_id challenger_ = local;
   std::optional<time_point> better_since_; // of the challenger
   std::optional<time_point> switched_;
 };

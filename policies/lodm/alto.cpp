@@ -1,7 +1,7 @@
 // LODM "alto": learns which provider is quickest.
 #include "policies/algorithms/learning/alto.hpp"
 
-#include "policies/algorithms/learning/trying.hpp"
+#include "policies/algorithms/learning/bandit_lodm.hpp"
 #include "policies/entry.hpp"
 
 #include <algorithm>
@@ -12,32 +12,32 @@ namespace {
 
 /// The providers that come into question. There is no arm for the vehicle: it
 /// is quicker than any of them, and what ALTO learns is delay.
-class quickest final : public arms {
+class quickest final : public bandit {
 public:
   quickest(const alto_options& options, double task_bits)
       : bandit_{options}, task_bits_{task_bits},
         worst_s_{options.worst_delay_s_per_bit * task_bits} {}
 
-  std::optional<boot_id> choose(const local_context& context) override {
-    std::vector<boot_id> present;
+  std::optional<provider_id> choose(const local_context& context) override {
+    std::vector<provider_id> present;
     for (const auto& provider : context.providers)
       present.push_back(provider.id);
     return bandit_.choose(task_bits_, present);
   }
   std::optional<double> value(const cycle_outcome& outcome,
-                              boot_id place) const override {
+                              provider_id place) const override {
     if (outcome.provider != place)
       return std::nullopt;
     return std::min(outcome.latency_s, worst_s_); // what is lost as well
   }
-  void learn(boot_id place, std::optional<double> mean) override {
+  void learn(provider_id place, std::optional<double> mean) override {
     bandit_.learn(place, task_bits_, mean.value_or(worst_s_));
   }
   std::string snapshot() const override { return bandit_.snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
     return bandit_.restore(text);
   }
-  std::unique_ptr<arms> clone() const override {
+  std::unique_ptr<bandit> clone() const override {
     return std::make_unique<quickest>(*this);
   }
 
@@ -47,10 +47,10 @@ private:
   double worst_s_;
 };
 
-class alto_lodm final : public trying_lodm {
+class alto_lodm final : public bandit_lodm {
 public:
   void fields(settings& s) override {
-    trying_lodm::fields(s);
+    bandit_lodm::fields(s);
     s.field("beta", beta_, {0, 1e3});
     s.field("task_bits", task_bits_, {1, 1e12});
     s.field("worst_delay", worst_delay_, std::chrono::microseconds{1});
@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  std::unique_ptr<arms> make_arms() const override {
+  std::unique_ptr<bandit> make_bandit() const override {
     alto_options options;
     options.beta = beta_;
     options.worst_delay_s_per_bit = to_seconds(worst_delay_) / task_bits_;
@@ -90,7 +90,7 @@ lodm_entry lodm_alto() {
                     "nothing is tried out"},
                    {"worst_delay", "time",
                     "of such a task; what is lost counts as this"}})},
-      behind_lodm_filter<alto_lodm>};
+      filtered_by_provider<alto_lodm>};
 }
 
 } // namespace sofof

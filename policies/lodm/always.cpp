@@ -9,7 +9,7 @@ class always final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
-    return {all.empty() ? boot_id{0} : all.front().id, name()};
+    return {all.empty() ? provider_id{0} : all.front().id, name()};
   }
   std::string_view name() const override { return "always"; }
   std::unique_ptr<local_policy> clone() const override {
@@ -22,7 +22,7 @@ public:
 lodm_entry lodm_always() {
   return {{"always", "Asks whoever offers.", "yes", "nothing",
            "ours, to compare with"},
-          alone<local_policy, always>};
+          unfiltered<local_policy, always>};
 }
 
 } // namespace sofof

@@ -22,7 +22,7 @@ public:
     const auto kept = here ? cost_at(*here, context) : at_home;
     auto best = context.current;
     auto least = kept - margin_;
-    const auto consider = [&](boot_id place, double cost) {
+    const auto consider = [&](provider_id place, double cost) {
       if (place == context.current || !(cost < least))
         return;
       best = place;
@@ -105,7 +105,7 @@ lodm_entry lodm_best_response() {
        weights_and({{"margin", "1", "cost that a move must save"},
                     {"probability", "1", "to move in a slot"},
                     {"slot_s", "s", "between two decisions"}})},
-      behind_lodm_filter<best_response>};
+      filtered_by_provider<best_response>};
 }
 
 } // namespace sofof

@@ -11,7 +11,7 @@ class network_lodm final : public learning_lodm {
 public:
   network_lodm()
       : learning_lodm{
-          make_network_mind, {0.95, {1, 0.01, 10'000}}, snapshot_of("dqn")} {}
+          make_q_network, {0.95, {1, 0.01, 10'000}}, snapshot_of("dqn")} {}
   std::string_view name() const override { return "dqn"; }
   std::unique_ptr<local_policy> clone() const override {
     return std::make_unique<network_lodm>(*this);
@@ -29,7 +29,7 @@ lodm_entry lodm_dqn() {
        "Mnih et al., Nature 518, 2015; van Hasselt et al., AAAI 2016; Wang et "
        "al., ICML 2016",
        learning_notes()},
-      behind_lodm_filter<network_lodm>};
+      filtered_by_provider<network_lodm>};
 }
 
 } // namespace sofof

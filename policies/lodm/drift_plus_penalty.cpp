@@ -14,7 +14,7 @@ namespace {
 
 /// Each epoch has every service where its price is least. Of equal prices the
 /// first is taken: to stay, then to come home.
-class least_energy final : public local_policy {
+class drift_plus_penalty_lodm final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     places_.clear();
@@ -46,7 +46,7 @@ public:
   double epoch_s() const override { return epoch_s_; }
   std::string_view name() const override { return "drift_plus_penalty"; }
   std::unique_ptr<local_policy> clone() const override {
-    return std::make_unique<least_energy>(*this);
+    return std::make_unique<drift_plus_penalty_lodm>(*this);
   }
 
 private:
@@ -75,7 +75,7 @@ private:
   double energy_budget_j_ = 0; // 0: there is none
   double epoch_s_ = 0.1;
   std::map<std::string, service, std::less<>> services_;
-  std::vector<boot_id> places_; // of the choices
+  std::vector<provider_id> places_; // of the choices
   std::vector<planning_option> choices_;
 };
 
@@ -93,7 +93,7 @@ lodm_entry lodm_drift_plus_penalty() {
             {"violation_budget", "1", "missed cycles per cycle"},
             {"energy_budget_j", "J", "mean of a cycle at most; 0: any"},
             {"epoch_s", "s", "between two decisions"}}},
-          behind_lodm_filter<least_energy>};
+          filtered_by_provider<drift_plus_penalty_lodm>};
 }
 
 } // namespace sofof

@@ -67,7 +67,7 @@ lodm_entry lodm_greedy_gain() {
        "the risk is ours",
        weights_and({{"margin", "1", "gain that is worth a change"},
                     {"epoch_s", "s", "between two decisions"}})},
-      behind_lodm_filter<greedy_gain>};
+      filtered_by_provider<greedy_gain>};
 }
 
 } // namespace sofof

@@ -52,7 +52,7 @@ lodm_entry lodm_least_loaded() {
            "the utilisation that offers tell",
            "Mitzenmacher, IEEE TPDS 12(10), 2001 (two choices)",
            {{"most", "1", "utilisation from which on nobody is asked"}}},
-          behind_lodm_filter<least_loaded>};
+          filtered_by_provider<least_loaded>};
 }
 
 } // namespace sofof

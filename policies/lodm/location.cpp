@@ -42,7 +42,7 @@ lodm_entry lodm_location() {
            "the planned path, where providers are",
            "Dehler & Buchholz, IEEE RA-L 10(5), 2025",
            near_provider::parameters()},
-          alone<local_policy, location>};
+          unfiltered<local_policy, location>};
 }
 
 } // namespace sofof

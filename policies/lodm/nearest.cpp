@@ -30,7 +30,7 @@ public:
 lodm_entry lodm_nearest() {
   return {{"nearest", "Asks the nearest provider.", "min |x_provider - x|",
            "where providers are", "ours, to compare with"},
-          behind_lodm_filter<nearest>};
+          filtered_by_provider<nearest>};
 }
 
 } // namespace sofof

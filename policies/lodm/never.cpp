@@ -19,7 +19,7 @@ public:
 lodm_entry lodm_never() {
   return {{"never", "Plans on board, whatever is offered.", "no", "nothing",
            "ours, to compare with"},
-          alone<local_policy, never>};
+          unfiltered<local_policy, never>};
 }
 
 } // namespace sofof

@@ -91,7 +91,7 @@ lodm_entry lodm_oracle() {
                     {"horizon", "time", "so far it looks"},
                     {"margin", "1", "gain that is worth a change"},
                     {"epoch_s", "s", "between two decisions"}})},
-      behind_lodm_filter<oracle>};
+      filtered_by_provider<oracle>};
 }
 
 } // namespace sofof

@@ -10,7 +10,7 @@ namespace {
 class table_lodm final : public learning_lodm {
 public:
   table_lodm()
-      : learning_lodm{make_table_mind,
+      : learning_lodm{make_q_table,
                       {0.95, {0.1, 0.01, 100'000}},
                       snapshot_of("q_learning")} {}
   std::string_view name() const override { return "q_learning"; }
@@ -29,7 +29,7 @@ lodm_entry lodm_q_learning() {
            "time left in the area, forecast of the latency, utilisation, where "
            "it runs",
            "Watkins & Dayan, Machine Learning 8, 1992", learning_notes()},
-          behind_lodm_filter<table_lodm>};
+          filtered_by_provider<table_lodm>};
 }
 
 } // namespace sofof

@@ -41,7 +41,7 @@ lodm_entry lodm_random() {
            "nothing",
            "ours, to compare with",
            {{"probability", "1", "of asking anybody"}}},
-          behind_lodm_filter<random_choice>};
+          filtered_by_provider<random_choice>};
 }
 
 } // namespace sofof

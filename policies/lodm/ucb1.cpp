@@ -1,8 +1,8 @@
 // LODM "ucb1": tries what is promising or little known.
 #include "policies/algorithms/learning/ucb1.hpp"
 
+#include "policies/algorithms/learning/bandit_lodm.hpp"
 #include "policies/algorithms/learning/state_text.hpp"
-#include "policies/algorithms/learning/trying.hpp"
 #include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
 
@@ -17,11 +17,11 @@ constexpr std::size_t most_arms = 32;
 
 /// The vehicle itself is an arm, and every provider that it has met, up to 31.
 /// A cycle is worth 1 − K, at least 0.
-class places final : public arms {
+class places final : public bandit {
 public:
   explicit places(const cost_weights& weights) : weights_{weights} {}
 
-  std::optional<boot_id> choose(const local_context& context) override {
+  std::optional<provider_id> choose(const local_context& context) override {
     needs_ = context.needs;
     reference_j_ = context.on_board.energy_j;
     action_set allowed{1}; // on board
@@ -32,13 +32,13 @@ public:
     return chosen ? std::optional{known_[*chosen]} : std::nullopt;
   }
   std::optional<double> value(const cycle_outcome& outcome,
-                              boot_id) const override {
+                              provider_id) const override {
     const auto cost =
         weighed({outcome.latency_s, outcome.energy_j}, outcome.missed ? 1 : 0,
                 needs_, reference_j_, weights_);
     return cost < 1 ? 1 - cost : 0; // also when it is no number
   }
-  void learn(boot_id place, std::optional<double> mean) override {
+  void learn(provider_id place, std::optional<double> mean) override {
     if (place == 0 && !mean)
       return;
     if (const auto arm = arm_of(place); arm < most_arms)
@@ -53,12 +53,12 @@ public:
     return out.text() + bandit_.snapshot();
   }
   std::optional<std::string> restore(std::string_view text) override;
-  std::unique_ptr<arms> clone() const override {
+  std::unique_ptr<bandit> clone() const override {
     return std::make_unique<places>(*this);
   }
 
 private:
-  std::size_t arm_of(boot_id place) {
+  std::size_t arm_of(provider_id place) {
     const auto found = std::ranges::find(known_, place);
     const auto arm = static_cast<std::size_t>(found - known_.begin());
     if (arm == known_.size() && arm < most_arms)
@@ -69,7 +69,7 @@ private:
   cost_weights weights_;
   service_needs needs_;
   double reference_j_ = 0;
-  std::vector<boot_id> known_{0}; // by arm
+  std::vector<provider_id> known_{0}; // by arm
   ucb1 bandit_{most_arms};
 };
 
@@ -78,7 +78,7 @@ std::optional<std::string> places::restore(std::string_view text) {
   in.expect("providers");
   places read{weights_};
   for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left)
-    if (read.arm_of(in.count(~boot_id{0})) + 1 != read.known_.size())
+    if (read.arm_of(in.count(~provider_id{0})) + 1 != read.known_.size())
       in.refuse("expected each provider once.");
   const auto rest = in.after_end();
   if (in.failed())
@@ -89,10 +89,10 @@ std::optional<std::string> places::restore(std::string_view text) {
   return std::nullopt;
 }
 
-class ucb1_lodm final : public trying_lodm {
+class ucb1_lodm final : public bandit_lodm {
 public:
   void fields(settings& s) override {
-    trying_lodm::fields(s);
+    bandit_lodm::fields(s);
     list_weights(s, weights_);
   }
   std::string_view name() const override { return "ucb1"; }
@@ -101,7 +101,7 @@ public:
   }
 
 private:
-  std::unique_ptr<arms> make_arms() const override {
+  std::unique_ptr<bandit> make_bandit() const override {
     return std::make_unique<places>(weights_);
   }
 
@@ -118,7 +118,7 @@ lodm_entry lodm_ucb1() {
            "latency, energy and punctuality of what it has tried",
            "Auer, Cesa-Bianchi & Fischer, Machine Learning 47, 2002",
            trials_and(weights_and({}))},
-          behind_lodm_filter<ucb1_lodm>};
+          filtered_by_provider<ucb1_lodm>};
 }
 
 } // namespace sofof

@@ -14,8 +14,8 @@ constexpr station_id station = 101;
 /// Plans of a car at 10 m/s, and who made them.
 struct driver {
   drive_figures figures{station, vehicle_params{}};
-  running_service local{0, station, "trajectory_planning", 0};
-  running_service remote{7, station, "trajectory_planning", 3};
+  session_id local{0, station, "trajectory_planning", 0};
+  session_id remote{7, station, "trajectory_planning", 3};
   trajectory in_use = plan(0);
 
   static trajectory plan(double accel_mps2) {
@@ -24,7 +24,7 @@ struct driver {
     x.points.push_back({1, 10, {10, 0}, 0, 0.001, 10, accel_mps2});
     return x;
   }
-  auto take(const running_service& from, double accel_mps2 = 0) {
+  auto take(const session_id& from, double accel_mps2 = 0) {
     const auto next = plan(accel_mps2);
     plan_report report;
     report.emergency = accel_mps2 < -2.6;

@@ -3,7 +3,7 @@
 
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/simulation/vehicle.hpp"
-#include "messages/v2x/mcm/coordination.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/trajectory/lane_follow.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
@@ -35,7 +35,7 @@ struct driving_world : virtual_world {
   route_ptr way = street();
   lane_follow planner{way, {}};
   vehicle_actor car = spawn();
-  running_service source{0, station, "trajectory_planning", 0};
+  session_id source{0, station, "trajectory_planning", 0};
   std::uint64_t cycle = 0;
 
   explicit driving_world(double starts_at_mps = 0,

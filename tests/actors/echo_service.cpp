@@ -27,7 +27,7 @@ struct echo_world : virtual_world {
   probe<vehicle_actor> vehicle = listen<vehicle_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
   streets_ptr world = one_street();
-  std::vector<service_kind_ptr> kinds{
+  std::vector<service_type_ptr> kinds{
       std::make_shared<echo_service>("never_heard_of")};
   provider_actor provider = own(spawn_provider());
   link_actor link = own(spawn_link());

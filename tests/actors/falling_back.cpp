@@ -154,9 +154,9 @@ TEST_CASE_FIXTURE(requester_world,
                   "the end of an older or a strange running service does not "
                   "concern the present one") {
   start_remote({one});
-  for (const auto& r : {at_here(one, 6), at_here(one, 8), at_here(two, 7),
-                        running_service{elsewhere, station, one, 7},
-                        running_service{here, 102, one, 7}})
+  for (const auto& r :
+       {at_here(one, 6), at_here(one, 8), at_here(two, 7),
+        session_id{elsewhere, station, one, 7}, session_id{here, 102, one, 7}})
     tell(requester, service_end{r, end_reason::left_area, side::provider});
   CHECK(is_remote(one));
   CHECK(episodes().empty());
@@ -245,9 +245,9 @@ TEST_CASE_FIXTURE(requester_world,
                   "a provider that has booted anew is not known "
                   "by its earlier boots any more") {
   offer({});
-  for (boot_id next = 40; next < 50; ++next)
+  for (provider_id next = 40; next < 50; ++next)
     offer_from(provider, next, {});
-  for (boot_id next = 40; next < 49; ++next)
+  for (provider_id next = 40; next < 49; ++next)
     result({next, station, one, 99}, 1);
   result(at_here(one, 99), 1);
   CHECK(ends().empty());
@@ -451,7 +451,7 @@ TEST_CASE_FIXTURE(polite_requester_world,
 namespace {
 
 /// Says, as a result of cycle 2, what no vehicle believes.
-void lie(requester_world& world, const running_service& running) {
+void lie(requester_world& world, const session_id& running) {
   world.run_for(50ms);
   world.tell(world.requester, service_result{running, 2, world.now(),
                                              payload::of(echo{echo::lie})});

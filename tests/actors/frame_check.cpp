@@ -99,7 +99,7 @@ struct at_vehicles : connection {
 };
 
 const std::string unknown = "its message is none that it may send";
-const running_service running{11, 101, "trajectory_planning", 3};
+const session_id running{11, 101, "trajectory_planning", 3};
 
 } // namespace
 
@@ -121,8 +121,8 @@ TEST_CASE("what vehicles say to a provider is admitted") {
   CHECK(at.take(direct, message_of(service_input{running, {}, {}}), told)
         == "");
   CHECK(at.take(direct, message_of(service_end{running}), told) == "");
-  CHECK(at.take(direct, message_of(life_sign{}), told) == "");
-  CHECK(at.take(direct, message_of(life_echo{}), told) == "");
+  CHECK(at.take(direct, message_of(ping{}), told) == "");
+  CHECK(at.take(direct, message_of(pong{}), told) == "");
   CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
 }
 
@@ -134,8 +134,8 @@ TEST_CASE("what a provider says to vehicles is admitted") {
   CHECK(at.take(direct, message_of(service_result{running, 1, {}, {}}), told)
         == "");
   CHECK(at.take(direct, message_of(service_end{running}), told) == "");
-  CHECK(at.take(direct, message_of(life_sign{}), told) == "");
-  CHECK(at.take(direct, message_of(life_echo{}), told) == "");
+  CHECK(at.take(direct, message_of(ping{}), told) == "");
+  CHECK(at.take(direct, message_of(pong{}), told) == "");
   CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
   CHECK(at.take(direct,
                 message_of(std::uint32_t{6}, std::uint64_t{1}, std::string{"n"},
@@ -165,7 +165,7 @@ TEST_CASE("the largest hello that is possible is admitted") {
 TEST_CASE("each message goes its own way alone") {
   at_provider provider;
   at_vehicles vehicles;
-  const auto sign = message_of(life_sign{});
+  const auto sign = message_of(ping{});
   const auto result = message_of(service_result{running, 1, {}, {}});
   const auto greeting = message_of(std::uint32_t{6}, std::uint64_t{1});
   const auto welcome = message_of(peer_welcome{}, session_actor{});
@@ -198,7 +198,7 @@ TEST_CASE("words of the process itself are none of a peer's") {
   refused(message_of(event_record{}));
   refused(message_of(caf::make_message(caf::make_message())));
   refused(message_of(caf::exit_msg{{}, caf::exit_reason::kill}));
-  refused(message_of(life_sign{}, life_sign{}));
+  refused(message_of(ping{}, ping{}));
   refused(message_of());
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("an error is a code of a known kind and a sentence at most") {
 
 TEST_CASE("a message has no actor to be forwarded to") {
   at_provider at;
-  auto message = message_of(life_sign{});
+  auto message = message_of(ping{});
   message.front() = std::byte{1};
   CHECK(at.take(direct, message, told) == unknown);
 }
@@ -245,7 +245,7 @@ TEST_CASE("a message of more octets than its kind needs is refused") {
 TEST_CASE("the first frame is the handshake, and there is no second one") {
   const auto first = "its first frame is not its handshake";
   const auto twice = "it introduces its node twice";
-  const auto sign = message_of(life_sign{});
+  const auto sign = message_of(ping{});
   connection accepted{true, messages_to_provider()};
   CHECK(accepted.take(direct, sign, told) == first);
   CHECK(accepted.take(heartbeat, {}) == first);
@@ -287,7 +287,7 @@ TEST_CASE("frames of no known operation, with flags or of odd sizes are "
   CHECK(at.take(down, octets(49)) == none);
   CHECK(at.take(down, octets(9000)) == none);
   CHECK(at.take(direct, {}, told) == none);
-  CHECK(at.take(direct, message_of(life_sign{}), told, 1) == none);
+  CHECK(at.take(direct, message_of(ping{}), told, 1) == none);
 }
 
 TEST_CASE("whatever part of a frame comes, nothing past its end is read") {

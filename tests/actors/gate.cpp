@@ -197,7 +197,7 @@ TEST_CASE_FIXTURE(gate_world, "who is welcome gets a session and is told which "
   CHECK(in.welcome->boot == 11);
   CHECK(in.welcome->epoch_unix_ms == etsi::virtual_epoch_unix_ms);
   CHECK(in.session);
-  CHECK(peer->count<life_sign>() == 1);
+  CHECK(peer->count<ping>() == 1);
   CHECK(proofs == std::vector<std::string>{"nonce 1"});
   CHECK(refusals().empty());
 }

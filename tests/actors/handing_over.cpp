@@ -18,7 +18,7 @@ struct remote_service_world : requester_world {
     lodm->preferred = elsewhere;
     offer_from(other, elsewhere, {one});
   }
-  running_service at_other() const { return {elsewhere, station, one, 70}; }
+  session_id at_other() const { return {elsewhere, station, one, 70}; }
   void accept_at_other() {
     answer(other->all<service_request>().back(), {{one, 70}});
   }

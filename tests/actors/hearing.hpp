@@ -99,8 +99,8 @@ struct hearing_session : session_world {
             payload_of(request),
             payload_of(service_input{one, now(), payload::of(echo{1})}),
             payload_of(service_end{one}),
-            payload_of(life_sign{1, now()}),
-            payload_of(life_echo{{1, now()}, now(), now()}),
+            payload_of(ping{1, now()}),
+            payload_of(pong{{1, now()}, now(), now()}),
             payload_of(stream_id{station})};
   }
 
@@ -139,8 +139,8 @@ struct hearing_uplink : uplink_world {
             payload_of(service_response{boot, station, 1, {{one, true, ""}}}),
             payload_of(service_result{one, 1, now(), payload::of(echo{1})}),
             payload_of(service_end{one, end_reason::left_area, side::provider}),
-            payload_of(life_sign{1, now()}),
-            payload_of(life_echo{{1, now()}, now(), now()}),
+            payload_of(ping{1, now()}),
+            payload_of(pong{{1, now()}, now(), now()}),
             payload_of(stream_id{station})};
   }
 

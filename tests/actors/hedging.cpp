@@ -32,7 +32,7 @@ struct hedged_world : requester_world {
          std::vector{second.handle});
   }
 
-  running_service at_other() const { return {elsewhere, station, one, 70}; }
+  session_id at_other() const { return {elsewhere, station, one, 70}; }
   void join() { result(at_other(), 1); }
   /// The first answers the next cycle, 40 ms after its last answer.
   void answer_next() {
@@ -218,7 +218,7 @@ TEST_CASE_FIXTURE(hedged_world, "whoever takes over alone is told the plan in "
 TEST_CASE("whoever came first and shall be on call is told so") {
   requester_world w;
   auto second = w.listen<provider_manager_actor>();
-  const running_service there{w.elsewhere, w.station, w.one, 70};
+  const session_id there{w.elsewhere, w.station, w.one, 70};
   w.lodm->preferred = w.here;
   w.lodm->second = w.elsewhere;
   w.lodm->hedge_after = 20ms;

@@ -1,5 +1,5 @@
 // Planning at a provider, from CAMs and MCMs alone.
-#include "messages/v2x/mcm/coordination.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "tests/actors/planning_world.hpp"
 
 #include <doctest/doctest.h>

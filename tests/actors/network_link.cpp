@@ -18,7 +18,7 @@ namespace {
 /// A link between a probe that stands for the requester (near) and one that
 /// stands for the provider (far). Every message takes exactly 20 ms.
 struct linked_world : virtual_world {
-  const running_service one{11, 101, "one", 7}, two{11, 101, "two", 8};
+  const session_id one{11, 101, "one", 7}, two{11, 101, "two", 8};
   probe<provider_actor> far = listen<provider_actor>();
   probe<requester_actor> near = listen<requester_actor>();
   probe<provider_manager_actor> first = listen<provider_manager_actor>();
@@ -27,7 +27,7 @@ struct linked_world : virtual_world {
 
   static channel_profile steady() {
     channel_profile p;
-    p.network = delay_law::uniform(20ms, 20ms);
+    p.network = delay_distribution::uniform(20ms, 20ms);
     return p;
   }
 
@@ -40,7 +40,7 @@ struct linked_world : virtual_world {
 
   link_actor join(std::optional<link_fault_options> faults,
                   const channel_profile& profile = steady(),
-                  const std::shared_ptr<fifo_servers>& cell = nullptr) {
+                  const std::shared_ptr<multi_server_queue>& cell = nullptr) {
     const random_stream seed{1, "network"};
     const channel draws{std::make_shared<const channel_profile>(profile), seed,
                         101, 0};
@@ -285,7 +285,7 @@ TEST_CASE_FIXTURE(linked_world,
 
 TEST_CASE_FIXTURE(linked_world, "who shares a cell waits for the other's "
                                 "octets") {
-  const auto cell = std::make_shared<fifo_servers>(1);
+  const auto cell = std::make_shared<multi_server_queue>(1);
   link = join({}, slow(), cell);
   const auto other = join({}, slow(), cell);
   const auto sent = now();

@@ -192,7 +192,7 @@ TEST_CASE_FIXTURE(provider_world, "the CODM sees what runs, of all stations") {
 TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
                                   "workers is needed by what runs") {
   // Every 50 ms 10 ms on one of two workers.
-  profile->service = delay_law::uniform(5ms, 15ms);
+  profile->service = delay_distribution::uniform(5ms, 15ms);
   profile->workers = 2;
   hear(inside);
   CHECK(offers().back().utilisation == 0);
@@ -238,7 +238,7 @@ TEST_CASE_FIXTURE(provider_world, "a request is answered at once, a verdict "
   CHECK(r.station == station);
   CHECK(r.number == last_number);
   REQUIRE(r.verdicts.size() == 2);
-  CHECK(r.verdicts[0].running == running_service{boot, station, one, 0});
+  CHECK(r.verdicts[0].running == session_id{boot, station, one, 0});
   CHECK(!r.verdicts[0].accepted);
   CHECK(r.verdicts[0].why == "as told");
   CHECK(r.verdicts[1].accepted);

@@ -2,9 +2,9 @@
 // time that a test sets.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/plan_request.hpp"
-#include "messages/v2x/reception.hpp"
+#include "messages/v2x/decode_broadcast.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 
@@ -69,7 +69,7 @@ public:
     const auto heard = understand(message, *setup.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
       setup.site->hear(*own, own->station);
-    if (const auto* seen = std::get_if<sighting>(&heard))
+    if (const auto* seen = std::get_if<object_list>(&heard))
       setup.site->hear(*seen, seen->from);
   }
 
@@ -117,8 +117,8 @@ public:
   }
 
   std::shared_ptr<time_point> now = std::make_shared<time_point>(start);
-  running_service running{11, station, "trajectory_planning", 7};
-  service_kind_ptr kind = make_service_kind("trajectory_planning");
+  session_id running{11, station, "trajectory_planning", 7};
+  service_type_ptr kind = make_service_kind("trajectory_planning");
   service_setup setup{.world = blocks(), .where = in_ulm()};
   std::shared_ptr<service_function> function;
 };

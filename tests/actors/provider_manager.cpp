@@ -11,7 +11,7 @@ using namespace sofof::test;
 namespace {
 
 struct provider_manager_world : virtual_world {
-  const running_service running{1, 101, "echo", 7};
+  const session_id running{1, 101, "echo", 7};
   probe<requester_actor> requester = listen<requester_actor>();
   probe<provider_actor> provider = listen<provider_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();

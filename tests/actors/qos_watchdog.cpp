@@ -10,7 +10,7 @@ using namespace sofof::test;
 
 namespace {
 
-const running_service running{1, 101, "trajectory_planning", 7};
+const session_id running{1, 101, "trajectory_planning", 7};
 
 struct watchdog_world : virtual_world {
   probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();

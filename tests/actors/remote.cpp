@@ -53,7 +53,7 @@ TEST_CASE_FIXTURE(fleet_world, "to the provider each station behind a "
                                "connection is a vehicle of its own") {
   drive(2s);
   CHECK(all_remote());
-  std::set<running_service> running;
+  std::set<session_id> running;
   for (const auto& c : cars) {
     for (const auto& r : remote_results(c)) {
       CHECK(r.running.station == c.station);

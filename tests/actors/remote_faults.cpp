@@ -31,9 +31,9 @@ struct troubled_world : remote_world {
     return x;
   }
   /// Half of it looks true.
-  running_service some_service() {
+  session_id some_service() {
     if (once_in(2))
-      return nonsense<running_service>();
+      return nonsense<session_id>();
     return {boot, some_station(), once_in(2) ? one : two,
             static_cast<std::uint32_t>(random.below(60))};
   }
@@ -94,9 +94,9 @@ struct troubled_world : remote_world {
       case 3:
         return say(some_end(side::requester));
       case 4:
-        return say(nonsense<life_sign>());
+        return say(nonsense<ping>());
       case 5:
-        return say(nonsense<life_echo>());
+        return say(nonsense<pong>());
       default:
         return say(some_stream());
     }
@@ -120,9 +120,9 @@ struct troubled_world : remote_world {
       case 3:
         return say(some_end(side::provider));
       case 4:
-        return say(nonsense<life_sign>());
+        return say(nonsense<ping>());
       case 5:
-        return say(nonsense<life_echo>());
+        return say(nonsense<pong>());
       default:
         return say(some_stream());
     }

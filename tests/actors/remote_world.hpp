@@ -4,8 +4,8 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
-#include "actors/remote/far_provider.hpp"
 #include "actors/remote/gate.hpp"
+#include "actors/remote/provider_proxy.hpp"
 #include "actors/remote/uplink.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
@@ -25,7 +25,7 @@
 namespace sofof::test {
 
 struct remote_world : virtual_world {
-  static constexpr boot_id first_boot = 11;
+  static constexpr provider_id first_boot = 11;
 
   /// A vehicle that stands still and wants its services run elsewhere.
   struct car {
@@ -43,7 +43,7 @@ struct remote_world : virtual_world {
   streets_ptr world = one_street();
   std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
-  boot_id boot = first_boot - 1;
+  provider_id boot = first_boot - 1;
   roadside_provider_actor provider;
   gate_actor inner_gate, gate; ///< Empty while the provider's host is down.
   uplink_mouth uplink;
@@ -70,7 +70,7 @@ struct remote_world : virtual_world {
         "street", std::vector<std::string>{"street"}, false));
     return world;
   }
-  static std::vector<service_kind_ptr> kinds() {
+  static std::vector<service_type_ptr> kinds() {
     return {std::make_shared<echo_service>("one"),
             std::make_shared<echo_service>("two")};
   }

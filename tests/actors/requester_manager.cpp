@@ -30,8 +30,8 @@ struct echo_judge final : result_judge {
 /// A manager whose local service runs every 50 ms and takes 5 ms; its clients
 /// and peers are probes.
 struct managed_world : virtual_world {
-  const running_service running{1, 101, "echo", 7};
-  const running_service next_running{1, 101, "echo", 8};
+  const session_id running{1, 101, "echo", 7};
+  const session_id next_running{1, 101, "echo", 8};
   echo_service kind{"echo"};
   std::shared_ptr<echo_service> speak; // on the air, if not so
   probe<client_actor> client = listen<client_actor>();
@@ -65,11 +65,11 @@ struct managed_world : virtual_world {
   void feed(std::uint64_t number) {
     tell(manager, service_input{{}, now(), payload::of(echo{number})});
   }
-  void accept(const running_service& r) { tell(manager, r, there.handle); }
+  void accept(const session_id& r) { tell(manager, r, there.handle); }
   void result(std::uint64_t cycle, duration latency = 10ms) {
     result_of(running, cycle, latency);
   }
-  void result_of(const running_service& r, std::uint64_t cycle,
+  void result_of(const session_id& r, std::uint64_t cycle,
                  duration latency = 10ms) {
     tell(manager, service_result{r, cycle, now() - latency,
                                  payload::of(echo{1000 + cycle})});
@@ -121,7 +121,7 @@ TEST_CASE_FIXTURE(managed_world, "at first the local service is used") {
   CHECK(results(false) == 19); // that of 1 s is under way
   CHECK(!source());
   for (const auto& r : client->all<service_result>()) {
-    CHECK(r.running == running_service{0, 101, "echo", 0});
+    CHECK(r.running == session_id{0, 101, "echo", 0});
     CHECK(r.what.as<echo>()->number == 1);
   }
 }
@@ -179,11 +179,11 @@ TEST_CASE_FIXTURE(managed_world, "with the first remote result the source "
 TEST_CASE_FIXTURE(managed_world,
                   "with the first remote result the requester is told, once") {
   go_remote();
-  REQUIRE(requester->count<running_service>() == 1);
-  CHECK(requester->all<running_service>().front() == running);
-  CHECK(requester->times<running_service>().front() == now());
+  REQUIRE(requester->count<session_id>() == 1);
+  CHECK(requester->all<session_id>().front() == running);
+  CHECK(requester->times<session_id>().front() == now());
   result(2);
-  CHECK(requester->count<running_service>() == 1);
+  CHECK(requester->count<session_id>() == 1);
 }
 
 TEST_CASE_FIXTURE(managed_world, "while the remote source is in use, the local "
@@ -394,7 +394,7 @@ TEST_CASE_FIXTURE(managed_world, "the next running service starts afresh") {
   CHECK(source() == false);
   result_of(next_running, 1); // cycles may start anywhere again
   CHECK(source() == true);
-  CHECK(requester->all<running_service>().back() == next_running);
+  CHECK(requester->all<session_id>().back() == next_running);
 }
 
 TEST_CASE_FIXTURE(managed_world,

@@ -19,7 +19,7 @@ namespace sofof::test {
 
 struct requester_world : virtual_world {
   static constexpr station_id station = 101;
-  static constexpr boot_id here = 11, elsewhere = 22;
+  static constexpr provider_id here = 11, elsewhere = 22;
   const service_name one{"one"}, two{"two"};
 
   std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
@@ -79,7 +79,7 @@ struct requester_world : virtual_world {
   void offer(std::vector<service_name> kinds) {
     offer_from(provider, here, std::move(kinds));
   }
-  void offer_from(const probe<provider_actor>& from, boot_id id,
+  void offer_from(const probe<provider_actor>& from, provider_id id,
                   std::vector<service_name> kinds) {
     tell_as(from.handle, requester,
             service_offer{id, {500, 20}, std::move(kinds)});
@@ -98,14 +98,13 @@ struct requester_world : virtual_world {
     }
     tell(requester, response, managers);
   }
-  void result(const running_service& r, std::uint64_t cycle,
+  void result(const session_id& r, std::uint64_t cycle,
               duration latency = 10ms) {
     tell(requester,
          service_result{r, cycle, now() - latency, payload::of(echo{cycle})});
   }
 
-  running_service at_here(const service_name& kind,
-                          std::uint32_t counter) const {
+  session_id at_here(const service_name& kind, std::uint32_t counter) const {
     return {here, station, kind, counter};
   }
 

@@ -98,7 +98,7 @@ TEST_CASE_FIXTURE(requester_world, "the LODM sees all who offer a service, the "
   offer({one});
   offer_from(other, elsewhere, {one, two});
   const auto ids = [](const auto& question) {
-    std::vector<boot_id> all;
+    std::vector<provider_id> all;
     for (const auto& provider : question.providers)
       all.push_back(provider.id);
     return all;
@@ -428,7 +428,7 @@ TEST_CASE_FIXTURE(requester_world,
 
 TEST_CASE_FIXTURE(requester_world,
                   "an acceptance in somebody else's name is not believed") {
-  const running_service lies[] = {
+  const session_id lies[] = {
       {here, station, one, 0}, // the local service goes by this name
       {elsewhere, station, one, 7},
       {here, station + 1, one, 7},
@@ -475,7 +475,7 @@ TEST_CASE_FIXTURE(requester_world, "of more providers than a request may name "
   lodm->wanted = {};
   drive_to(0);
   std::vector<probe<provider_actor>> all;
-  for (boot_id k = 1; k <= 2 * protocol::most_candidates; ++k) {
+  for (provider_id k = 1; k <= 2 * protocol::most_candidates; ++k) {
     all.push_back(listen<provider_actor>());
     // Those with odd ids are near.
     tell_as(all.back().handle, requester,
@@ -507,7 +507,7 @@ TEST_CASE_FIXTURE(requester_world, "who asks to leave a provider does not tell "
 namespace {
 
 void refuse_and_name(requester_world& world, const service_request& request,
-                     boot_id instead) {
+                     provider_id instead) {
   service_response response{
       request.provider, world.station, request.number, {}};
   for (const auto& kind : request.kinds)
@@ -555,7 +555,7 @@ TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is not asked if "
 
 TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "
                                    "is not asked") {
-  for (const boot_id name : {boot_id{0}, boot_id{99}, here}) {
+  for (const provider_id name : {provider_id{0}, provider_id{99}, here}) {
     offer({one});
     const auto before = requests();
     refuse_and_name(*this, last_request(), name);

@@ -286,14 +286,14 @@ TEST_CASE_FIXTURE(road_world, "a provider is told what each of its sensors "
               {provider.handle, exact_sensor({210, 30})}};
   road = own(spawn_road(system(), s));
   run_for(100ms);
-  for (const auto& view : provider->all<site_view>())
+  for (const auto& view : provider->all<roadside_detections>())
     CHECK(view.objects.empty());
   report(1, 206, 5, behind); // behind the house, seen from the second one
   provider->clear();
   run_for(1s);
-  const auto views = provider->all<site_view>();
+  const auto views = provider->all<roadside_detections>();
   REQUIRE(views.size() == 40);
-  const auto times = provider->times<site_view>();
+  const auto times = provider->times<roadside_detections>();
   for (std::size_t k = 0; k < views.size(); k += 2) {
     CHECK(views[k].at == times[k]);
     CHECK(times[k + 1] == times[k]);

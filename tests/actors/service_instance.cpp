@@ -27,7 +27,7 @@ struct counting_function final : service_function {
 };
 
 struct instance_world : virtual_world {
-  const running_service running{1, 101, "echo", 7};
+  const session_id running{1, 101, "echo", 7};
   std::shared_ptr<counting_function> function =
       std::make_shared<counting_function>();
   probe<result_actor> results = listen<result_actor>();

@@ -120,10 +120,10 @@ TEST_CASE_FIXTURE(session_world, "a stranger is not heard, and noted") {
     say_strangely(service_end{one});
   }
   SUBCASE("with life signs") {
-    say_strangely(life_sign{1, now()});
+    say_strangely(ping{1, now()});
   }
   SUBCASE("with echoes") {
-    say_strangely(life_echo{{1, now()}, now(), now()});
+    say_strangely(pong{{1, now()}, now(), now()});
   }
   SUBCASE("with credit") {
     say_strangely(stream_of(one, stream_id::what::result));
@@ -141,7 +141,7 @@ TEST_CASE_FIXTURE(session_world, "strangers do not keep a connection alive") {
   live(1s);
   for (int k = 0; k < 30; ++k) {
     run_for(50ms);
-    say_strangely(life_sign{1, now()});
+    say_strangely(ping{1, now()});
     say_strangely(station, cam_of(station));
   }
   CHECK(is_gone(session));
@@ -218,8 +218,8 @@ TEST_CASE_FIXTURE(session_world,
   const auto polite = listen<uplink_actor>();
   const auto other = join(polite, {201});
   live(500ms);
-  for (const auto& sign : polite->all<life_sign>())
-    tell_as(polite.handle, other, life_echo{sign, sign.sent, sign.sent});
+  for (const auto& sign : polite->all<ping>())
+    tell_as(polite.handle, other, pong{sign, sign.sent, sign.sent});
   forget();
   for (int k = 0; k < 1000; ++k) {
     say_cam();
@@ -251,10 +251,10 @@ TEST_CASE_FIXTURE(session_world,
 TEST_CASE_FIXTURE(session_world, "life signs go out at 20 Hz, and are answered "
                                  "at once") {
   live(1s);
-  CHECK(peer->count<life_sign>() == 20);
-  CHECK(peer->count<life_echo>() == 20);
-  CHECK(peer->all<life_echo>().back().of.number == 1);
-  CHECK(peer->all<life_echo>().back().received == now());
+  CHECK(peer->count<ping>() == 20);
+  CHECK(peer->count<pong>() == 20);
+  CHECK(peer->all<pong>().back().of.number == 1);
+  CHECK(peer->all<pong>().back().received == now());
 }
 
 TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
@@ -277,12 +277,12 @@ TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
 TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
                                  "was asked within a second, is lost") {
   live(1s);
-  const auto last = peer->all<life_sign>().back();
+  const auto last = peer->all<ping>().back();
   const auto speak = [&](duration d, const auto& answer) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
       say_cam();
-      say(life_sign{1, now()});
+      say(ping{1, now()});
       answer();
     }
   };
@@ -292,13 +292,13 @@ TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
     speak(100ms, [] {});
   }
   SUBCASE("it answers the same again and again") {
-    const auto answer = [&] { say(life_echo{last, now(), now()}); };
+    const auto answer = [&] { say(pong{last, now(), now()}); };
     speak(1s, answer);
     CHECK(!is_gone(session));
     speak(100ms, answer);
   }
   SUBCASE("it has answered what was not asked yet") {
-    say(life_echo{{9, now() + 1h}, now(), now()});
+    say(pong{{9, now() + 1h}, now(), now()});
     speak(1s, [] {});
     CHECK(!is_gone(session));
     speak(100ms, [] {});
@@ -364,7 +364,7 @@ TEST_CASE_FIXTURE(session_world, "while the peer acknowledges nothing, one "
   const auto first = voice();
   accept(two);
   const auto second = voice();
-  const auto result = [&](const requester_actor& to, const running_service& r,
+  const auto result = [&](const requester_actor& to, const session_id& r,
                           std::uint64_t cycle) {
     tell_as(manager.handle, to,
             service_result{r, cycle, now(), payload::of(echo{cycle})});
@@ -446,7 +446,7 @@ TEST_CASE_FIXTURE(session_world, "what has ended without its credit does not "
                                  "hold up what runs next") {
   for (std::uint32_t k = 1; k <= 100; ++k) {
     live(50ms);
-    const running_service next{boot, station, "one", k};
+    const session_id next{boot, station, "one", k};
     accept(next);
     tell_as(manager.handle, voice(),
             service_result{next, 1, now(), payload::of(echo{1})});

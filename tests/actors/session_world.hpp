@@ -16,12 +16,12 @@ namespace sofof::test {
 
 struct session_world : virtual_world {
   static constexpr sender_id certificate = 77;
-  static constexpr boot_id boot = 11;
+  static constexpr provider_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102, foreign = 999;
   /// How much later the peer's clock stood at 0, by its time of day.
   static constexpr auto gap = 200ms;
-  const running_service one{boot, station, "one", 7};
-  const running_service two{boot, neighbour, "one", 8};
+  const session_id one{boot, station, "one", 7};
+  const session_id two{boot, neighbour, "one", 8};
 
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<provider_actor> provider = listen<provider_actor>();
@@ -77,22 +77,22 @@ struct session_world : virtual_world {
 
   /// The peer answers the latest life sign, which took these ways.
   void answer(duration up = {}, duration down = {}) {
-    const auto signs = peer->all<life_sign>();
+    const auto signs = peer->all<ping>();
     REQUIRE(!signs.empty());
     const auto there = signs.back().sent + up + ahead;
     run_for(up + down);
-    say(life_echo{signs.back(), there, there});
+    say(pong{signs.back(), there, there});
   }
   /// Life signs and answers to them, without any delay.
   void live(duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
-      say(life_sign{1, now() + ahead});
+      say(ping{1, now() + ahead});
       answer();
     }
   }
   /// The provider accepts a service of a station that has asked.
-  void accept(const running_service& running) {
+  void accept(const session_id& running) {
     say(request_of(running.station));
     tell_as(provider.handle, voice(),
             service_response{boot, running.station, 1, {{running, true, ""}}},

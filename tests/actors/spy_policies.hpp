@@ -21,13 +21,13 @@ struct lodm_script {
     std::vector<point> path;
     double speed_mps = 0;
     std::vector<provider_view> providers;
-    boot_id current = 0;
+    provider_id current = 0;
     time_point since;
   };
   std::vector<question> asked;
   std::set<std::string, std::less<>> wanted{"one", "two"};
-  boot_id preferred = 0; ///< Whom it shall ask; 0: who stands first.
-  boot_id second = 0;
+  provider_id preferred = 0; ///< Whom it shall ask; 0: who stands first.
+  provider_id second = 0;
   duration hedge_after{};
   bool release = false;
   double epoch_s = 0;
@@ -101,7 +101,7 @@ struct codm_script {
   std::set<std::string, std::less<>> accepted{"one", "two"};
   std::size_t worker = 0;         ///< Assigned to all.
   std::optional<duration> offset; ///< Likewise.
-  boot_id instead = 0;            ///< Told to all who are refused.
+  provider_id instead = 0;        ///< Told to all who are refused.
   double epoch_s = 0;             ///< Read when a provider begins.
   /// If there are any, it decides about sessions too: those go.
   std::set<std::string, std::less<>> revoked{};

@@ -25,7 +25,7 @@ TEST_CASE_FIXTURE(uplink_world,
             "connected to provider server at 10.0.0.5:4711"});
   CHECK(notes("provider_connected") == 1);
   CHECK(refusals.empty());
-  CHECK(session->count<life_sign>() == 1);
+  CHECK(session->count<ping>() == 1);
 }
 
 TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
@@ -268,7 +268,7 @@ TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
   const auto speak = [&](duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
-      say(life_sign{1, now()});
+      say(ping{1, now()});
       result(one, 1, now());
     }
   };
@@ -360,8 +360,8 @@ TEST_CASE_FIXTURE(uplink_world, "what vehicles say while there is no "
   host->session = session.handle;
   reachable = true;
   run_for(1050ms);
-  CHECK(session->count<life_sign>() > 0);
-  CHECK(session->entries().size() == session->count<life_sign>());
+  CHECK(session->count<ping>() > 0);
+  CHECK(session->entries().size() == session->count<ping>());
 }
 
 TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
@@ -378,16 +378,16 @@ TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
   say_cam(4); // would be lost, too: nobody knows how old it is
   CHECK(session->seconds<its_pdu>().empty());
   session->clear();
-  say(life_sign{1, now()});
+  say(ping{1, now()});
   run_for(turns);
   REQUIRE(session->entries().size() == 3);
-  CHECK(session->count<life_echo>() == 1);
-  CHECK(session->entries().front().what.match_elements<life_echo>());
+  CHECK(session->count<pong>() == 1);
+  CHECK(session->entries().front().what.match_elements<pong>());
   std::map<station_id, double> speeds;
   for (const auto& pdu : session->seconds<its_pdu>())
     speeds[pdu.station().value()] = motion_in(pdu, now()).speed_mps;
   CHECK(speeds == std::map<station_id, double>{{station, 4}, {neighbour, 7}});
-  say(life_sign{2, now()});
+  say(ping{2, now()});
   CHECK(session->seconds<its_pdu>().size() == 2); // once
   acknowledge({station, stream_id::what::cam, 0});
   say_cam(5);
@@ -407,7 +407,7 @@ TEST_CASE_FIXTURE(uplink_world, "of a vehicle whose CAM is older than two "
   while (notes("provider_connected") == 0 && now() < end)
     run_for(protocol::life_sign_period);
   forget();
-  say(life_sign{1, now()});
+  say(ping{1, now()});
   run_for(turns);
   const auto told = session->seconds<its_pdu>();
   REQUIRE(told.size() == 1);
@@ -431,7 +431,7 @@ TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
                  world.requester.handle);
   };
   const auto heard = [&] { return world.session->seconds<its_pdu>().size(); };
-  world.say(life_sign{1, world.now()});
+  world.say(ping{1, world.now()});
   std::size_t before = 0;
   for (int k = 0; k < 10; ++k) {
     all_speak();
@@ -447,7 +447,7 @@ TEST_CASE_FIXTURE(uplink_world, "whose turn has not come asks nobody") {
   auto later = setup();
   later.rest = 1s;
   start(later);
-  say(life_sign{1, now()});
+  say(ping{1, now()});
   const auto ask = [&] {
     tell(far, service_request{boot, station, 1, {"one"}, {}, 5},
          requester.handle);
@@ -471,12 +471,12 @@ TEST_CASE_FIXTURE(uplink_world, "a turn that a lost connection left is none in "
     tell(other_far, cam_of(neighbour), other.handle);
     return !session->seconds<its_pdu>().empty();
   };
-  say(life_sign{1, now()});
+  say(ping{1, now()});
   live(700ms);
   lose();
   run_for(150ms);
   REQUIRE(notes("provider_connected") == 2);
-  say(life_sign{2, now()});
+  say(ping{2, now()});
   for (int k = 0; k < 18; ++k) { // the old turn would come meanwhile
     run_for(50ms);
     answer();
@@ -492,7 +492,7 @@ TEST_CASE_FIXTURE(uplink_world, "while an uplink rests it connects, and no "
   later.rest = 1s;
   start(later);
   CHECK(notes("provider_connected") == 1);
-  say(life_sign{1, now()});
+  say(ping{1, now()});
   say_cam();
   run_for(990ms);
   CHECK(session->seconds<its_pdu>().empty());

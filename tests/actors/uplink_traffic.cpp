@@ -17,13 +17,13 @@ TEST_CASE_FIXTURE(uplink_world, "only its session speaks for the provider") {
   answer_as(who, service_response{boot, station, 1, {{one, true, ""}}});
   answer_as(who, service_result{one, 1, now(), payload::of(echo{1})});
   answer_as(who, service_end{one, end_reason::left_area, side::provider});
-  answer_as(who, life_sign{1, now()});
-  answer_as(who, life_echo{{1, now()}, now(), now()});
+  answer_as(who, ping{1, now()});
+  answer_as(who, pong{{1, now()}, now(), now()});
   CHECK(requester->entries().empty());
   CHECK(stranger->entries().empty());
   for (int k = 0; k < 30; ++k) {
     run_for(50ms);
-    answer_as(who, life_sign{1, now()});
+    answer_as(who, ping{1, now()});
   }
   CHECK(notes("provider_lost") == 1);
 }
@@ -153,7 +153,7 @@ TEST_CASE_FIXTURE(uplink_world, "what has ended without its credit does not "
                                 "hold up what runs next") {
   connect();
   for (std::uint32_t k = 1; k <= 100; ++k) {
-    const running_service next{boot, station, "one", k};
+    const session_id next{boot, station, "one", k};
     tell(far, service_input{next, now(), payload::of(echo{1})});
     CHECK(session->count<service_input>() == k);
     if (k % 2 == 0)

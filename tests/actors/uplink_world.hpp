@@ -2,7 +2,7 @@
 // test plays.
 #pragma once
 
-#include "actors/remote/far_provider.hpp"
+#include "actors/remote/provider_proxy.hpp"
 #include "actors/remote/type_block.hpp"
 #include "actors/remote/uplink.hpp"
 #include "tests/support/echo_service.hpp"
@@ -76,12 +76,12 @@ played_gate(gate_actor::pointer self, std::shared_ptr<host_script> script) {
 }
 
 struct uplink_world : virtual_world {
-  static constexpr boot_id boot = 11;
+  static constexpr provider_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102;
   /// By then each of them may speak.
   static constexpr duration turns = std::chrono::milliseconds{10};
-  const running_service one{boot, station, "one", 7};
-  const running_service two{boot, neighbour, "one", 8};
+  const session_id one{boot, station, "one", 7};
+  const session_id two{boot, neighbour, "one", 8};
 
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<session_actor> session = listen<session_actor>();
@@ -145,7 +145,7 @@ struct uplink_world : virtual_world {
   void connect() {
     start();
     REQUIRE(host->peer);
-    say(life_sign{1, now() + ahead});
+    say(ping{1, now() + ahead});
     run_for(protocol::life_sign_period);
     say_cam();
     tell(other_far, cam_of(neighbour), other.handle);
@@ -191,26 +191,25 @@ struct uplink_world : virtual_world {
     tell_as(session.handle, host->peer, xs...);
   }
   void acknowledge(const stream_id& stream) { say(stream); }
-  void result(const running_service& r, std::uint64_t cycle,
-              time_point created) {
+  void result(const session_id& r, std::uint64_t cycle, time_point created) {
     say(service_result{r, cycle, created, payload::of(echo{cycle})});
   }
-  void accept(const running_service& r) {
+  void accept(const session_id& r) {
     say(service_response{boot, r.station, 1, {{r, true, ""}}});
   }
   /// The provider answers the latest life sign, which took these ways.
   void answer(duration up = {}, duration down = {}) {
-    const auto signs = session->all<life_sign>();
+    const auto signs = session->all<ping>();
     REQUIRE(!signs.empty());
     const auto there = signs.back().sent + up + ahead;
     run_for(up + down);
-    say(life_echo{signs.back(), there, there});
+    say(pong{signs.back(), there, there});
   }
   /// Life signs and answers to them, without any delay.
   void live(duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
-      say(life_sign{1, now() + ahead});
+      say(ping{1, now() + ahead});
       answer();
     }
   }

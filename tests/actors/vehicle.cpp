@@ -285,7 +285,7 @@ TEST_CASE_FIXTURE(flying_start_world,
 TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
                                  "to it is recorded") {
   const auto local = source;
-  const running_service remote{7, station, "trajectory_planning", 3};
+  const session_id remote{7, station, "trajectory_planning", 3};
   drive(5s);
   tell(car, source_change{source.kind, true});
   CHECK(recorder->count<plan_switch_record>() == 0); // no plan has come yet

@@ -60,7 +60,7 @@ void optimise(benchmark::State& state, const spatial_params& params,
               bool with_lead) {
   const auto s = bench::ulm_lehr();
   spatial_planner planner{std::make_shared<route_profile>(
-                              s.world->find("round_trip"), driving_style{}),
+                              s.world->find("round_trip"), comfort_limits{}),
                           {},
                           params};
   drive_round(state, planner, with_lead);

@@ -1,7 +1,7 @@
 // What a connection between two processes costs: an input there and its result
 // back, beside a bare round trip of the same octets between two CAF systems.
-#include "actors/remote/far_provider.hpp"
 #include "actors/remote/gate.hpp"
+#include "actors/remote/provider_proxy.hpp"
 #include "actors/remote/uplink.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "messages/protocol/no_records.hpp"
@@ -25,7 +25,7 @@ constexpr std::size_t octets_of_a_plan = 440; // as docs/v2x.md has it
 constexpr station_id first_station = 101;
 /// They take turns: each may say but so much a second.
 constexpr std::size_t stations = 200;
-constexpr boot_id boot = 1;
+constexpr provider_id boot = 1;
 
 using arrivals = std::binary_semaphore;
 
@@ -35,7 +35,7 @@ payload plan() {
   return payload::of(std::move(message));
 }
 
-running_service running(station_id station = first_station) {
+session_id running(station_id station = first_station) {
   return {boot, station, "trajectory_planning", 1};
 }
 

@@ -26,7 +26,7 @@ channel phase_channel(const channel_profile& p, station_id station = 1,
 /// 10 ms for everything, but for what a test adds.
 channel_profile constant() {
   channel_profile p;
-  p.network = delay_law::uniform(10ms, 10ms);
+  p.network = delay_distribution::uniform(10ms, 10ms);
   return p;
 }
 

@@ -63,7 +63,7 @@ TEST_CASE("an ideal link takes no time") {
 
 TEST_CASE("no message overtakes another") {
   auto p = named("paper-5g");
-  p.network = delay_law::uniform(0ms, 200ms);
+  p.network = delay_distribution::uniform(0ms, 200ms);
   for (const auto direction : {way::up, way::down}) {
     link_direction link{link_channel(p), direction, nullptr};
     auto last = time_point{};
@@ -160,8 +160,8 @@ TEST_CASE("stalls without time in between are refused") {
 
 TEST_CASE("messages of all vehicles queue for the radio cell") {
   auto p = named("ideal");
-  p.airtime = delay_law::uniform(2ms, 2ms);
-  const auto cell = std::make_shared<fifo_servers>(1);
+  p.airtime = delay_distribution::uniform(2ms, 2ms);
+  const auto cell = std::make_shared<multi_server_queue>(1);
   link_direction a{link_channel(p, 1), way::up, cell};
   link_direction b{link_channel(p, 2), way::up, cell};
   link_direction elsewhere{link_channel(p, 3), way::up, nullptr};

@@ -48,7 +48,7 @@ study::measured_run one_hour() {
   return run;
 }
 
-yardstick usual() {
+baseline usual() {
   return {0.05, 0.1, 0.01, {{"trajectory_planning", 0.08}}, 2};
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("every figure of a run is of a criterion, and each has one name") {
 
 TEST_CASE("a scenario tells limits, periods and what a service takes") {
   const auto s = parse_scenario(test::bench_town, "town.toml");
-  const auto by = yardstick_of(s);
+  const auto by = baseline_of(s);
   CHECK(by.limit_s == near(0.05, 1e-12));
   CHECK(by.period_s == near(0.1, 1e-12));
   CHECK(by.local_s > 0);

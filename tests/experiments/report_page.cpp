@@ -1,8 +1,8 @@
 // The page: a document as JSON that nothing breaks out of, numbers in few
 // characters.
+#include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/drive_json.hpp"
 #include "experiments/report/html.hpp"
-#include "experiments/report/packed.hpp"
 #include "experiments/report/page.hpp"
 #include "tests/experiments/report_folder.hpp"
 
@@ -90,7 +90,7 @@ TEST_CASE("packed numbers come back to their last digit") {
     steps.push_back(std::floor(i * 0.01));
   }
   for (const auto& column : {line, wave, noise, steps}) {
-    const auto back = unpacked(packed(column, 3));
+    const auto back = unpacked(delta_encoding(column, 3));
     REQUIRE(back.size() == column.size());
     for (std::size_t i = 0; i < column.size(); ++i)
       CHECK(back[i] == doctest::Approx(column[i]).epsilon(1e-12));
@@ -101,13 +101,14 @@ TEST_CASE("what hardly changes packs into little more than nothing") {
   std::vector<double> even(64000);
   for (std::size_t i = 0; i < even.size(); ++i)
     even[i] = 0.05 * static_cast<double>(i);
-  CHECK(packed(even, 3).at(3).get<std::string>().size() < 1500);
+  CHECK(delta_encoding(even, 3).at(3).get<std::string>().size() < 1500);
 }
 
-TEST_CASE("no numbers, gaps, and numbers of any size can be packed") {
-  CHECK(unpacked(packed({}, 3)).empty());
+TEST_CASE("no numbers, gaps, and numbers of any size can be delta_encoding") {
+  CHECK(unpacked(delta_encoding({}, 3)).empty());
   constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
-  const auto gaps = unpacked(packed(std::vector{gap, 1.5, gap, 2.5}, 1));
+  const auto gaps =
+      unpacked(delta_encoding(std::vector{gap, 1.5, gap, 2.5}, 1));
   CHECK(std::isnan(gaps[0]));
   CHECK(gaps[1] == 1.5);
   CHECK(std::isnan(gaps[2]));
@@ -115,7 +116,7 @@ TEST_CASE("no numbers, gaps, and numbers of any size can be packed") {
   for (const auto size : {1e-9, 1.0, 1e9, 1e200}) {
     CAPTURE(size);
     const std::vector column{-size, size * std::numbers::pi, 0., size, -size};
-    const auto back = unpacked(packed(column));
+    const auto back = unpacked(delta_encoding(column));
     for (std::size_t i = 0; i < column.size(); ++i)
       CHECK(std::abs(back[i] - column[i]) <= size * 1e-6);
   }

@@ -107,7 +107,7 @@ TEST_CASE("two drives are compared at the same places, where one was remote") {
 }
 
 TEST_CASE("computing time is shown beside the paper's, which does not add up") {
-  evidence e;
+  paper_runs e;
   e.cpu_20_hz.figures = {{0.2, 0, 0.02, 0.12}, 0.07, 6, 60, 40, 0.001};
   e.cpu_20_hz.speed_mps = 10;
   e.cpu_100_hz.figures = {{0.2, 0, 0.02, 0.3}, 0.07, 6, 60, 40, 0.001};

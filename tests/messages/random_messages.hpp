@@ -22,7 +22,7 @@ inline constexpr std::size_t arity = 0;
 template <>
 inline constexpr std::size_t arity<point> = 2;
 template <>
-inline constexpr std::size_t arity<running_service> = 4;
+inline constexpr std::size_t arity<session_id> = 4;
 template <>
 inline constexpr std::size_t arity<cam> = 9;
 template <>
@@ -60,7 +60,7 @@ inline constexpr std::size_t arity<perceived_object> = 6;
 template <>
 inline constexpr std::size_t arity<perception> = 3;
 template <>
-inline constexpr std::size_t arity<site_view> = 4;
+inline constexpr std::size_t arity<roadside_detections> = 4;
 template <>
 inline constexpr std::size_t arity<viewpoint> = 4;
 template <>
@@ -98,22 +98,22 @@ inline constexpr std::size_t arity<peer_hello> = 6;
 template <>
 inline constexpr std::size_t arity<peer_welcome> = 2;
 template <>
-inline constexpr std::size_t arity<life_sign> = 2;
+inline constexpr std::size_t arity<ping> = 2;
 template <>
-inline constexpr std::size_t arity<life_echo> = 3;
+inline constexpr std::size_t arity<pong> = 3;
 template <>
 inline constexpr std::size_t arity<stream_id> = 3;
 
 /// Everything that travels and is not a handle.
 using all_messages =
-    std::tuple<time_point, point, service_name, payload, running_service, cam,
+    std::tuple<time_point, point, service_name, payload, session_id, cam,
                service_offer, service_request, service_response, service_input,
                service_result, service_end, qos_limits, arrival, qos_violation,
                lifecycle_step, motion_report, ego_state, source_change,
                perception, event_record, decision_record, cycle_record,
                episode_record, track_record, safety_record, collision_record,
-               drive_record, plan_switch_record, site_view, its_pdu, air_record,
-               peer_hello, peer_welcome, life_sign, life_echo, stream_id>;
+               drive_record, plan_switch_record, roadside_detections, its_pdu,
+               air_record, peer_hello, peer_welcome, ping, pong, stream_id>;
 
 /// @returns references to all members.
 template <class T>

@@ -18,7 +18,7 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::point",
       "sofof::service_name",
       "sofof::payload",
-      "sofof::running_service",
+      "sofof::session_id",
       "sofof::cam",
       "sofof::service_offer",
       "sofof::service_request",
@@ -58,13 +58,13 @@ TEST_CASE("type ids are where they have always been") {
       "sofof::tick_atom",
       "sofof::drive_record",
       "sofof::plan_switch_record",
-      "sofof::site_view",
+      "sofof::roadside_detections",
       "sofof::its_pdu",
       "sofof::air_record",
       "sofof::peer_hello",
       "sofof::peer_welcome",
-      "sofof::life_sign",
-      "sofof::life_echo",
+      "sofof::ping",
+      "sofof::pong",
       "sofof::stream_id",
       "sofof::uplink_actor",
       "sofof::session_actor",
@@ -93,7 +93,7 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<service_end> == 211);
   CHECK(caf::type_id_v<provider_manager_actor> == 230);
   CHECK(caf::type_id_v<tick_atom> == 241);
-  CHECK(caf::type_id_v<site_view> == 244);
+  CHECK(caf::type_id_v<roadside_detections> == 244);
   CHECK(caf::type_id_v<its_pdu> == 245);
   CHECK(caf::type_id_v<peer_hello> == 247);
   CHECK(caf::type_id_v<gate_actor> == 255);

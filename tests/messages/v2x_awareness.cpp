@@ -1,6 +1,6 @@
 // What a CAM says of a vehicle, and what is understood of it.
 #include "messages/etsi/units.hpp"
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/near.hpp"

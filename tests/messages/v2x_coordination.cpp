@@ -1,6 +1,6 @@
 // What vehicles and whoever plans for them say to each other, and what each
 // understands.
-#include "messages/v2x/mcm/coordination.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/trajectory/lane_follow.hpp"
 #include "tests/messages/v2x_sender.hpp"
 #include "tests/support/dice.hpp"
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const running_service running{11, 101, "trajectory_planning", 7};
+const session_id running{11, 101, "trajectory_planning", 7};
 
 route_ptr round() {
   static const auto map = toy::grid(2, 100);
@@ -176,7 +176,7 @@ TEST_CASE("an answer names the suggestion that it answers") {
   for (const auto followed :
        {etsi::maneuver_response::accept, etsi::maneuver_response::reject}) {
     const auto way = round()->waypoints(5, 50, 10);
-    road_user_word word{at(5, 8), way, nullptr, {}};
+    mcm_uplink word{at(5, 8), way, nullptr, {}};
     word.answer.emplace(maneuver_name{65535, 12}, followed);
     const auto got =
         read_word(sent(make_word(word, car, *in_ulm())), *in_ulm(), start);
@@ -189,7 +189,7 @@ TEST_CASE("an answer names the suggestion that it answers") {
 }
 
 TEST_CASE("who has nowhere to go, says nothing of its way") {
-  road_user_word word{at(5, 8), {}, nullptr, {}};
+  mcm_uplink word{at(5, 8), {}, nullptr, {}};
   word.answer.emplace(maneuver_name{7, 0}, etsi::maneuver_response::reject);
   const auto got =
       read_word(sent(make_word(word, car, *in_ulm())), *in_ulm(), start);

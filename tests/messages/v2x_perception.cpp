@@ -30,14 +30,14 @@ struct release_1 {
     REQUIRE(etsi::decode(encoded(x).view(), got));
     return got;
   }
-  static std::optional<sighting> read(const message& x, time_point now) {
+  static std::optional<object_list> read(const message& x, time_point now) {
     return read_cpm(sent(x), *in_ulm(), now);
   }
 };
 
 /// From a scene to what somebody else knows of it.
-std::optional<sighting> retold(const perceived_scene& scene,
-                               duration age = 30ms) {
+std::optional<object_list> retold(const perceived_scene& scene,
+                                  duration age = 30ms) {
   return release_1::read(release_1::make(scene), scene.own.at + age);
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("who reads a CPM of either release knows who looked, how far, and at "
   can.range_m = 80;
   can.field_of_view_deg = 120;
   const perceived_scene scene{own, start, seen, 5, &can};
-  const auto check = [&](const std::optional<sighting>& got,
+  const auto check = [&](const std::optional<object_list>& got,
                          std::uint32_t last_id) {
     REQUIRE(got);
     CHECK(got->perceived == 5);

@@ -2,7 +2,7 @@
 // whose delays and clocks are known.
 #include "network/flow/clock_estimate.hpp"
 
-#include "channel/delay_law.hpp"
+#include "channel/delay_distribution.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/at.hpp"
 
@@ -42,25 +42,29 @@ struct other_clock {
 /// How messages travel, each way by itself.
 struct message_link {
   std::string_view name;
-  delay_law there;
-  delay_law back;
+  delay_distribution there;
+  delay_distribution back;
   duration floor = 5ms;        // added to both
   duration longest_hold = 2ms; // until the other side answers
   double loss = 0.01;
   double copies = 0.01;
 };
 
-message_link even(std::string_view name, delay_law law, duration floor = 5ms) {
+message_link even(std::string_view name, delay_distribution law,
+                  duration floor = 5ms) {
   return {name, law, law, floor};
 }
 
-const auto lognormal =
-    even("5 ms + lognormal", delay_law::lognormal(0ms, 3740us, 2800us));
-const auto jitter = even("5 ms + 30 ms jitter", delay_law::uniform(0ms, 30ms));
+const auto lognormal = even("5 ms + lognormal",
+                            delay_distribution::lognormal(0ms, 3740us, 2800us));
+const auto jitter =
+    even("5 ms + 30 ms jitter", delay_distribution::uniform(0ms, 30ms));
 const auto bare_jitter =
-    even("30 ms jitter", delay_law::uniform(0ms, 30ms), 0ms);
-const auto wire = even("1 ms + exponential", delay_law::exponential(1ms), 1ms);
-const auto loopback = even("loopback", delay_law::exponential(20us), 10us);
+    even("30 ms jitter", delay_distribution::uniform(0ms, 30ms), 0ms);
+const auto wire =
+    even("1 ms + exponential", delay_distribution::exponential(1ms), 1ms);
+const auto loopback =
+    even("loopback", delay_distribution::exponential(20us), 10us);
 
 /// Exchanges from `from` to `to` as they come in: late ones after others,
 /// copies, and gaps where any message was lost.
@@ -211,10 +215,11 @@ TEST_CASE("after 5 s the offset is right within 2 ms, and the truth always "
 TEST_CASE(
     "the truth lies within the doubt, however uneven the ways and however "
     "far the clocks drift") {
-  const std::array laws{delay_law{}, delay_law::uniform(0ms, 30ms),
-                        delay_law::exponential(10ms),
-                        delay_law::lognormal(20ms, 40ms, 60ms),
-                        delay_law::lognormal(0ms, 4ms, 3ms)};
+  const std::array laws{delay_distribution{},
+                        delay_distribution::uniform(0ms, 30ms),
+                        delay_distribution::exponential(10ms),
+                        delay_distribution::lognormal(20ms, 40ms, 60ms),
+                        delay_distribution::lognormal(0ms, 4ms, 3ms)};
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
     const random_stream random{seed, "uneven"};
@@ -301,7 +306,7 @@ TEST_CASE("a way that becomes longer misleads by half of it at most, and is no "
   for (const auto& e : exchanges(theirs, lognormal, 1, 0s, 20s))
     estimate.add(e);
   auto longer = lognormal;
-  longer.there = delay_law::lognormal(10ms, 3740us, 2800us);
+  longer.there = delay_distribution::lognormal(10ms, 3740us, 2800us);
   for (const auto& e : exchanges(theirs, longer, 2, 20s, 60s)) {
     estimate.add(e);
     const auto [error, doubt] =

@@ -36,9 +36,10 @@ TEST_CASE("who comes while there is no memory for TLS is refused, and not who "
   const key_folder keys;
   server inner{echo};
   sentences heard;
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port(), &heard)};
+  const tls_acceptor door{keys.credentials_for(mec),
+                          door_to(inner.port(), &heard)};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   std::uint16_t port = 0;
   SUBCASE("by the door") {
     port = door.port();

@@ -39,9 +39,9 @@ TEST_CASE("a carried connection is known by its port before it says anything, "
   }};
   auto options = door_to(inner.port());
   options.peers = peers;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   {
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "a"));
@@ -74,9 +74,9 @@ TEST_CASE("a peer whose provider cannot be reached leaves nothing behind") {
   }
   auto options = door_to(closed);
   options.peers = peers;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   CHECK(line.is_closed());
   int known = 0;

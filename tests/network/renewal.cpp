@@ -31,7 +31,7 @@ struct car_host {
                                                         dialer.port())} {}
 
   credentials own;
-  tls_dialer dialer;
+  tls_connector dialer;
   plug line;
 };
 
@@ -49,7 +49,7 @@ struct door_with_thief {
   sentences heard;
   fs::path provider = keys.issue(mec);
   fs::path stolen = keys.issue(car);
-  tls_door door{credentials{provider}, door_to(inner.port(), &heard)};
+  tls_acceptor door{credentials{provider}, door_to(inner.port(), &heard)};
   car_host thief{stolen, door.port()};
 };
 
@@ -98,7 +98,7 @@ TEST_CASE("vehicles leave a provider that is revoked") {
   server inner{echo};
   const auto provider = keys.issue(mec);
   const auto folder = keys.issue(car);
-  const tls_door door{credentials{provider}, door_to(inner.port())};
+  const tls_acceptor door{credentials{provider}, door_to(inner.port())};
   car_host vehicle{folder, door.port()};
   REQUIRE(echoes(vehicle.line, "here"));
   write_text(folder / "revoked", serial_in(provider));
@@ -120,10 +120,10 @@ TEST_CASE("a line does not outlive the certificate of either side") {
     });
     return folder;
   };
-  const tls_door lasting{keys.credentials_for(mec),
-                         door_to(inner.port(), &heard)};
-  const tls_door ending{credentials{shorten(keys.issue(mec))},
-                        door_to(inner.port())};
+  const tls_acceptor lasting{keys.credentials_for(mec),
+                             door_to(inner.port(), &heard)};
+  const tls_acceptor ending{credentials{shorten(keys.issue(mec))},
+                            door_to(inner.port())};
   const car_host old_car{shorten(keys.issue(car)), lasting.port()};
   const car_host new_car{keys.issue(car), lasting.port()};
   const car_host car_at_old{keys.issue(car), ending.port()};
@@ -141,7 +141,7 @@ TEST_CASE("twenty renewals end no line") {
   const key_folder keys;
   server inner{echo};
   const auto provider = keys.issue(mec);
-  tls_door door{credentials{provider}, door_to(inner.port())};
+  tls_acceptor door{credentials{provider}, door_to(inner.port())};
   std::list<car_host> cars;
   for (int k = 0; k < 8; ++k)
     REQUIRE(echoes(cars.emplace_back(keys.issue(car), door.port()).line, "in"));
@@ -162,7 +162,7 @@ TEST_CASE("a CA is rolled over while lines are open") {
   server inner{echo};
   const auto provider = old_keys.issue(mec);
   const auto folder = old_keys.issue(car);
-  tls_door door{credentials{provider}, door_to(inner.port())};
+  tls_acceptor door{credentials{provider}, door_to(inner.port())};
   car_host vehicle{folder, door.port()};
   const auto check = [&] {
     CHECK(echoes(vehicle.line, "the same line"));
@@ -205,7 +205,7 @@ TEST_CASE("a renewal that cannot be leaves all as it was") {
                   if (own.identity() != mec)
                     throw network_error{"that is another one"};
                 }};
-  tls_door door{ring.now(), door_to(inner.port())};
+  tls_acceptor door{ring.now(), door_to(inner.port())};
   ring.add_user([&door](const credentials& own) { door.renew(own); });
   const car_host vehicle{keys.issue(car), door.port()};
   const auto check = [&](std::string_view said) {

@@ -71,7 +71,8 @@ TEST_CASE("a door refuses whom it does not know, and says why") {
   const key_folder others;
   server inner{echo};
   sentences heard;
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port(), &heard)};
+  const tls_acceptor door{keys.credentials_for(mec),
+                          door_to(inner.port(), &heard)};
   SUBCASE("a certificate of another CA") {
     knock(door.port(), *stranger(others.issue(car)));
     CHECK(heard.heard("was refused: its certificate is not signed by this CA"));
@@ -129,7 +130,7 @@ TEST_CASE("a dialer refuses who is no provider of its CA, and says why") {
   const auto error_with = [&](const std::filesystem::path& folder) {
     const auto context = stranger(folder);
     server false_door{[&](const plug& line) { answer(line, *context); }};
-    const tls_dialer dialer{&own, dialer_to(false_door.port())};
+    const tls_connector dialer{&own, dialer_to(false_door.port())};
     CHECK(plug_into(dialer.port()).is_closed());
     return dialer.last_error();
   };
@@ -158,7 +159,7 @@ TEST_CASE("a dialer hears that it is not accepted itself") {
                      SSL_VERIFY_PEER | SSL_VERIFY_FAIL_IF_NO_PEER_CERT,
                      nullptr);
   server door{[&](const plug& line) { answer(line, *context); }};
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   CHECK(plug_into(dialer.port()).is_closed());
   CHECK(contains(dialer.last_error(),
                  "it does not trust the CA of our certificate"));
@@ -170,7 +171,7 @@ TEST_CASE("who does not finish the handshake in time is shown out") {
   sentences heard;
   auto options = door_to(inner.port(), &heard);
   options.handshake_timeout = 50ms;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   std::vector<plug> idle;
   for (int k = 0; k < 50; ++k)
     idle.push_back(plug_into(door.port()));
@@ -188,13 +189,13 @@ TEST_CASE("a crowd at the door does not keep an honest vehicle out") {
   sentences heard;
   auto options = door_to(inner.port(), &heard);
   options.most_handshakes = 8;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   std::vector<plug> idle;
   for (int k = 0; k < 20; ++k)
     idle.push_back(plug_into(door.port()));
   CHECK(wait_until([&] { return door.counts().refused == 12; }));
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   CHECK(echoes(plug_into(dialer.port()), "honest"));
   CHECK(door.counts().refused == 13);
   CHECK(heard.heard("8 handshakes of its network are unfinished"));
@@ -217,8 +218,8 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
   REQUIRE(hello.size() > 100);
   const auto files_before = open_files();
   {
-    const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
-    const tls_dialer dialer{&own, dialer_to(door.port())};
+    const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
+    const tls_connector dialer{&own, dialer_to(door.port())};
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "before"));
     test::dice dice{2025};
@@ -247,9 +248,9 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
 TEST_CASE("idle strangers and a flood of garbage do not slow a line down") {
   const key_folder keys;
   server inner{echo};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   const auto p99_us = [&] {
     std::vector<double> times_us;

@@ -29,9 +29,9 @@ bytes random_bytes(std::size_t size) {
 TEST_CASE("bytes come through both ways unchanged") {
   const key_folder keys;
   server inner{echo};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   CHECK(echoes(line, "a"));
   const auto sent = random_bytes(10'000'000);
@@ -48,7 +48,7 @@ TEST_CASE("bytes come through both ways unchanged") {
 
 TEST_CASE("without credentials bytes come through as they are") {
   server inner{echo};
-  const tls_dialer dialer{nullptr, dialer_to(inner.port())};
+  const tls_connector dialer{nullptr, dialer_to(inner.port())};
   const auto line = plug_into(dialer.port());
   CHECK(echoes(line, "plain"));
 }
@@ -56,9 +56,9 @@ TEST_CASE("without credentials bytes come through as they are") {
 TEST_CASE("many lines carry at once") {
   const key_folder keys;
   server inner{echo};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   std::vector<plug> lines;
   for (int k = 0; k < 16; ++k)
     lines.push_back(plug_into(dialer.port()));
@@ -73,9 +73,9 @@ TEST_CASE("what was sent before the end arrives before the end") {
   const key_folder keys;
   const auto sent = random_bytes(1'000'000);
   server inner{[&](const plug& line) { line.send(sent); }};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   CHECK(line.receive(sent.size() + 1) == sent);
   CHECK(contains(dialer.last_error(), "it closed the connection"));
@@ -89,9 +89,9 @@ TEST_CASE("when our side closes, the far side hears of it") {
     echo(line);
     ++over;
   }};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   CHECK(echoes(plug_into(dialer.port()), "short"));
   CHECK(wait_until([&] { return over == 1; }));
   CHECK(wait_until([&] { return door.counts().open == 0; }));
@@ -104,19 +104,19 @@ TEST_CASE("a line through which nothing crosses is closed") {
   SUBCASE("by the door") {
     auto options = door_to(inner.port());
     options.idle = 200ms;
-    const tls_door door{keys.credentials_for(mec), options};
+    const tls_acceptor door{keys.credentials_for(mec), options};
     const auto own = keys.credentials_for(car);
-    const tls_dialer dialer{&own, dialer_to(door.port())};
+    const tls_connector dialer{&own, dialer_to(door.port())};
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "and then silence"));
     CHECK(line.is_closed());
   }
   SUBCASE("by the dialer") {
-    const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+    const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
     const auto own = keys.credentials_for(car);
     auto options = dialer_to(door.port());
     options.idle = 200ms;
-    const tls_dialer dialer{&own, options};
+    const tls_connector dialer{&own, options};
     const auto line = plug_into(dialer.port());
     CHECK(echoes(line, "and then silence"));
     CHECK(line.is_closed());
@@ -129,9 +129,9 @@ TEST_CASE("a line with something crossing now and then stays") {
   server inner{echo};
   auto options = door_to(inner.port());
   options.idle = 500ms;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   for (int k = 0; k < 16; ++k) {
     CHECK(echoes(line, "still here"));
@@ -143,9 +143,9 @@ TEST_CASE("while nobody reads, nobody can send without end") {
   const key_folder keys;
   std::atomic<bool> over = false;
   server inner{[&](const plug&) { wait_until([&] { return over.load(); }); }};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_dialer dialer{&own, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
   const auto line = plug_into(dialer.port());
   const timeval wait{0, 300'000};
   setsockopt(line.fd(), SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
@@ -162,10 +162,10 @@ TEST_CASE("while nobody reads, nobody can send without end") {
 TEST_CASE("an end with a line open leaves nothing behind") {
   const key_folder keys;
   server inner{echo};
-  std::optional<tls_door> door;
+  std::optional<tls_acceptor> door;
   door.emplace(keys.credentials_for(mec), door_to(inner.port()));
   const auto own = keys.credentials_for(car);
-  std::optional<tls_dialer> dialer;
+  std::optional<tls_connector> dialer;
   dialer.emplace(&own, dialer_to(door->port()));
   const auto line = plug_into(dialer->port());
   CHECK(echoes(line, "open"));
@@ -184,9 +184,9 @@ TEST_CASE("an end with a line open leaves nothing behind") {
 TEST_CASE("a dialer that hangs up closes its lines, and takes new ones") {
   const key_folder keys;
   server inner{echo};
-  const tls_door door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  tls_dialer dialer{&own, dialer_to(door.port())};
+  tls_connector dialer{&own, dialer_to(door.port())};
   const auto one = plug_into(dialer.port());
   const auto two = plug_into(dialer.port());
   CHECK(echoes(one, "one"));
@@ -209,21 +209,21 @@ TEST_CASE("a resolver that never answers holds up neither lines nor the end") {
   };
   SUBCASE("lines are given up in time") {
     options.lookup_timeout = 50ms;
-    const tls_dialer dialer{nullptr, options};
+    const tls_connector dialer{nullptr, options};
     for (int k = 0; k < 3; ++k)
       CHECK(plug_into(dialer.port()).is_closed());
     CHECK(contains(dialer.last_error(), "its name was not "
                                         "found in time"));
   }
   SUBCASE("they are given up at once when the dialer hangs up") {
-    tls_dialer dialer{nullptr, options};
+    tls_connector dialer{nullptr, options};
     const auto line = plug_into(dialer.port());
     std::this_thread::sleep_for(20ms);
     dialer.hang_up();
     CHECK(line.is_closed());
   }
   SUBCASE("the dialer ends") {
-    std::optional<tls_dialer> dialer;
+    std::optional<tls_connector> dialer;
     dialer.emplace(nullptr, options);
     const auto line = plug_into(dialer->port());
     std::this_thread::sleep_for(20ms);
@@ -245,7 +245,7 @@ TEST_CASE("who does not answer is called again before the system would") {
   auto options = dialer_to(port_of(full));
   options.turn = 50ms;
   const auto began = std::chrono::steady_clock::now();
-  const tls_dialer dialer{nullptr, options};
+  const tls_connector dialer{nullptr, options};
   const auto line = plug_into(dialer.port());
   std::this_thread::sleep_for(200ms);
   REQUIRE(accept_from(full).socket);
@@ -268,7 +268,7 @@ TEST_CASE("an address that is silent does not keep us from the next") {
     return std::vector{loopback_port(port_of(silent)),
                        loopback_port(inner.port())};
   };
-  const tls_dialer dialer{nullptr, options};
+  const tls_connector dialer{nullptr, options};
   CHECK(echoes(plug_into(dialer.port()), "found"));
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("who never answers is called for so long, and no longer") {
   auto options = dialer_to(port_of(silent));
   options.turn = 20ms;
   options.connect_timeout = 100ms;
-  const tls_dialer dialer{nullptr, options};
+  const tls_connector dialer{nullptr, options};
   CHECK(plug_into(dialer.port()).is_closed());
   CHECK(dialer.last_error() == "it does not answer");
 }
@@ -295,7 +295,7 @@ TEST_CASE("a name is looked up once for all that wait for it") {
     until.wait();
     return resolve(host);
   };
-  const tls_dialer dialer{nullptr, options};
+  const tls_connector dialer{nullptr, options};
   std::vector<plug> lines;
   for (int k = 0; k < 5; ++k)
     lines.push_back(plug_into(dialer.port()));
@@ -310,12 +310,12 @@ TEST_CASE("doors are for providers, and dialers for vehicles") {
   const key_folder keys;
   const auto vehicle = keys.credentials_for(car);
   const auto provider = keys.credentials_for(mec);
-  CHECK_THROWS_WITH_AS((tls_door{vehicle, door_to(1)}),
+  CHECK_THROWS_WITH_AS((tls_acceptor{vehicle, door_to(1)}),
                        "the certificate names stations 101-102, but a provider "
                        "needs one of a provider: `sofof keys issue --provider` "
                        "makes it",
                        network_error);
-  CHECK_THROWS_WITH_AS((tls_dialer{&provider, dialer_to(1)}),
+  CHECK_THROWS_WITH_AS((tls_connector{&provider, dialer_to(1)}),
                        "the certificate names provider mec, but vehicles need "
                        "one of their stations: `sofof keys issue --station` "
                        "makes it",
@@ -328,7 +328,7 @@ TEST_CASE("a port that is taken has its sentence") {
   auto options = door_to(1);
   options.listen.port = port_of(taken);
   CHECK_THROWS_WITH_AS(
-      (tls_door{keys.credentials_for(mec), options}),
+      (tls_acceptor{keys.credentials_for(mec), options}),
       ("cannot listen on 127.0.0.1:" + std::to_string(port_of(taken))
        + ": Address already in use; choose another port or address")
           .c_str(),
@@ -340,8 +340,8 @@ TEST_CASE("a dialer says why there is no connection") {
   const key_folder others;
   server inner{echo};
   const auto own = keys.credentials_for(car);
-  const auto error_of = [&](const dialer_options& options) {
-    const tls_dialer dialer{&own, options};
+  const auto error_of = [&](const connector_options& options) {
+    const tls_connector dialer{&own, options};
     const auto line = plug_into(dialer.port());
     line.send("hello");
     CHECK(line.is_closed());
@@ -372,12 +372,12 @@ TEST_CASE("a dialer says why there is no connection") {
     CHECK(contains(error_of(dialer_to(rude.port())), "it hung up"));
   }
   SUBCASE("a provider of another CA") {
-    const tls_door door{others.credentials_for(mec), door_to(inner.port())};
+    const tls_acceptor door{others.credentials_for(mec), door_to(inner.port())};
     CHECK(contains(error_of(dialer_to(door.port())),
                    "its certificate is not signed by this CA"));
   }
   SUBCASE("the provider itself is not there") {
-    const tls_door door{keys.credentials_for(mec), door_to(1)};
+    const tls_acceptor door{keys.credentials_for(mec), door_to(1)};
     CHECK(contains(error_of(dialer_to(door.port())),
                    "it closed the connection before it said anything"));
   }
@@ -390,11 +390,11 @@ TEST_CASE("the number of lines per peer has a limit") {
   auto options = door_to(inner.port(), &heard);
   options.most_per_peer = 2;
   options.most_connections = 3;
-  const tls_door door{keys.credentials_for(mec), options};
+  const tls_acceptor door{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
   const auto other = keys.credentials_for({{7}, {}});
-  const tls_dialer dialer{&own, dialer_to(door.port())};
-  const tls_dialer other_dialer{&other, dialer_to(door.port())};
+  const tls_connector dialer{&own, dialer_to(door.port())};
+  const tls_connector other_dialer{&other, dialer_to(door.port())};
   std::optional<plug> first = plug_into(dialer.port());
   CHECK(echoes(*first, "one"));
   const auto second = plug_into(dialer.port());

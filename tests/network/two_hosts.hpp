@@ -2,8 +2,8 @@
 #pragma once
 
 #include "network/tls/tls.hpp"
-#include "network/tls/tls_dialer.hpp"
-#include "network/tls/tls_door.hpp"
+#include "network/tls/tls_acceptor.hpp"
+#include "network/tls/tls_connector.hpp"
 #include "tests/network/key_folder.hpp"
 #include "tests/network/loopback.hpp"
 #include "tests/support/contains.hpp"
@@ -14,9 +14,9 @@
 namespace sofof::test {
 
 /// Timeouts that nobody meets who does not hang.
-inline door_options door_to(std::uint16_t inner_port,
-                            sentences* heard = nullptr) {
-  door_options options;
+inline acceptor_options door_to(std::uint16_t inner_port,
+                                sentences* heard = nullptr) {
+  acceptor_options options;
   options.listen = {"127.0.0.1", 0};
   options.inner_port = inner_port;
   options.handshake_timeout = patience;
@@ -26,8 +26,8 @@ inline door_options door_to(std::uint16_t inner_port,
   return options;
 }
 
-inline dialer_options dialer_to(std::uint16_t port) {
-  dialer_options options;
+inline connector_options dialer_to(std::uint16_t port) {
+  connector_options options;
   options.remote = {"127.0.0.1", port};
   options.connect_timeout = patience;
   options.handshake_timeout = patience;

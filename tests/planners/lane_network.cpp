@@ -54,14 +54,15 @@ std::vector<conflict_visit> foresee(const track& x, double within_m) {
 }
 
 /// @returns the conflict of two lanes, from the side of the first.
-encounter find_encounter(const std::string& lane, const std::string& other) {
+conflict_side find_encounter(const std::string& lane,
+                             const std::string& other) {
   const auto index = [](const std::string& name) {
     const auto all = cross_roads().lanes();
     return static_cast<std::size_t>(std::ranges::find(all, name, &lane::name)
                                     - all.begin());
   };
   const auto& all = lanes().meetings()[index(lane)];
-  return *std::ranges::find(all, index(other), &encounter::other_lane);
+  return *std::ranges::find(all, index(other), &conflict_side::other_lane);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // A planning cycle takes nothing from the heap.
 #include "planners/problems/practice.hpp"
-#include "planners/scene/environment_model.hpp"
-#include "planners/scene/outlook.hpp"
+#include "planners/scene/object_tracker.hpp"
+#include "planners/scene/scene_interpreter.hpp"
 #include "planners/trajectory/spatial_planner.hpp"
 #include "tests/planners/test_drive.hpp"
 #include "tests/support/allocations.hpp"
@@ -45,9 +45,10 @@ TEST_CASE("planning takes nothing from the heap") {
 TEST_CASE("a round in traffic takes nothing from the heap but at its start") {
   using namespace std::chrono_literals;
   const auto way = test::oval({{0, 13.9}});
-  spatial_planner planner{std::make_shared<route_profile>(way, driving_style{}),
-                          {},
-                          {.candidates = 16, .alternations = 2}};
+  spatial_planner planner{
+      std::make_shared<route_profile>(way, comfort_limits{}),
+      {},
+      {.candidates = 16, .alternations = 2}};
   trajectory plan, before;
   planning_input x;
   auto replaced = 0;
@@ -86,7 +87,7 @@ TEST_CASE("a round in traffic takes nothing from the heap but at its start") {
 
 TEST_CASE("following bodies takes nothing from the heap") {
   using namespace std::chrono_literals;
-  environment_model model;
+  object_tracker model;
   std::vector<perceived_object> queue;
   for (auto i = 0; i < 40; ++i)
     queue.push_back({{8.0 * i, 0}, 0, 0, 0, 5.1, 1.89});
@@ -104,16 +105,16 @@ TEST_CASE("looking round takes nothing from the heap but the first time") {
   const auto map = toy::cross_roads();
   outlook_params params;
   params.judges_crossings = true;
-  outlook eyes{std::make_shared<const lane_network>(map),
-               toy::make_route(map, {4, 0, 2}), params};
-  environment_model model;
+  scene_interpreter eyes{std::make_shared<const lane_network>(map),
+                         toy::make_route(map, {4, 0, 2}), params};
+  object_tracker model;
   std::vector<perceived_object> all;
   for (auto i = 0; i < 12; ++i) {
     all.push_back({{-8.0 * i, -1.75}, 0, 10, 0, 5.1, 1.89});
     all.push_back({{1.75, -90 + 8.0 * i}, 1.57, 10, 0, 5.1, 1.89});
   }
   model.update(time_point{}, all);
-  surroundings seen;
+  driving_scene seen;
   eyes.describe(time_point{}, {{}, 80}, model.tracks(), seen);
   const auto before = test::allocations;
   for (auto s_m = 20.0; s_m < 100; s_m += 5)

@@ -53,7 +53,7 @@ void check_all_listed(std::size_t hidden = 0) {
 } // namespace
 
 TEST_CASE("every option is listed once, its default within its range") {
-  check_all_listed<driving_style>(1); // the car's front
+  check_all_listed<comfort_limits>(1); // the car's front
   check_all_listed<cabin_params>();
   check_all_listed<spatial_params>();
 }

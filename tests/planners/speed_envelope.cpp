@@ -14,7 +14,7 @@ using test::town;
 
 namespace {
 
-const driving_style params;
+const comfort_limits params;
 
 } // namespace
 

@@ -39,10 +39,10 @@ struct planned_street {
                                                             style,
                                                             {1, 80}} {}
 
-  speed_planner::result plan(const speed_task& task, double way_m = 5) {
+  speed_planner::result plan(const speed_constraints& task, double way_m = 5) {
     return planner.plan(path, way_m, task);
   }
-  const time_motion& motion() const { return planner.motion(); }
+  const speed_profile& motion() const { return planner.motion(); }
 
   route_profile_ptr way;
   planned_path path;
@@ -53,14 +53,14 @@ planned_street town_street(double limit_mps = 14) {
   return planned_street{test::straight(600, {{0, limit_mps}})};
 }
 
-speed_task speed_task_at(double speed_mps, double accel_mps2 = 0) {
-  speed_task t;
+speed_constraints speed_task_at(double speed_mps, double accel_mps2 = 0) {
+  speed_constraints t;
   t.speed_mps = speed_mps;
   t.accel_mps2 = accel_mps2;
   return t;
 }
 
-void check_whole(const time_motion& motion, const speed_task& task) {
+void check_whole(const speed_profile& motion, const speed_constraints& task) {
   REQUIRE(motion.size() > 1);
   CHECK(motion[0].s_m == 0);
   CHECK(motion[0].speed_mps == Approx(task.speed_mps));
@@ -70,7 +70,7 @@ void check_whole(const time_motion& motion, const speed_task& task) {
   }
 }
 
-double worst_jerk(const time_motion& motion) {
+double worst_jerk(const speed_profile& motion) {
   auto worst = 0.0;
   for (std::size_t i = 1; i < motion.size(); ++i)
     if (motion[i].speed_mps > 0)
@@ -79,20 +79,20 @@ double worst_jerk(const time_motion& motion) {
   return worst / style.step_s;
 }
 
-double least_accel(const time_motion& motion) {
+double least_accel(const speed_profile& motion) {
   return std::ranges::min_element(motion, {}, &lane_motion::accel_mps2)
       ->accel_mps2;
 }
 
 /// When a motion comes to a place; infinite if never.
-double when_s(const time_motion& motion, double way_m) {
+double when_s(const speed_profile& motion, double way_m) {
   for (std::size_t i = 1; i < motion.size(); ++i)
     if (motion[i].s_m > way_m) {
       const auto &a = motion[i - 1], &b = motion[i];
       return style.step_s
              * (static_cast<double>(i) - 1 + (way_m - a.s_m) / (b.s_m - a.s_m));
     }
-  return speed_task::never;
+  return speed_constraints::never;
 }
 
 } // namespace
@@ -254,13 +254,14 @@ TEST_CASE("a standing car without way to go stands, with a little it moves "
           "up, with more it drives") {
   auto here = town_street();
   auto task = speed_task_at(0);
-  for (const auto& [stop_m, how] : {std::pair{-2.0, speed_mode::stands},
-                                    {0.1, speed_mode::stands},
-                                    {0.6, speed_mode::stands},
-                                    {2.0, speed_mode::moves_up},
-                                    {4.0, speed_mode::moves_up},
-                                    {12.0, speed_mode::optimal},
-                                    {speed_task::never, speed_mode::optimal}}) {
+  for (const auto& [stop_m, how] :
+       {std::pair{-2.0, speed_mode::stands},
+        {0.1, speed_mode::stands},
+        {0.6, speed_mode::stands},
+        {2.0, speed_mode::moves_up},
+        {4.0, speed_mode::moves_up},
+        {12.0, speed_mode::optimal},
+        {speed_constraints::never, speed_mode::optimal}}) {
     task.stop_m = stop_m;
     CAPTURE(stop_m);
     const auto r = here.plan(task);
@@ -287,8 +288,8 @@ TEST_CASE("a place that opens later is not passed before, one that closes is "
     const auto free_s = when_s(here.motion(), place);
     if (free_s > 5)
       continue;
-    const std::array later{
-        speed_task::window{place, free_s + 0.5, speed_task::never}};
+    const std::array later{speed_constraints::window{place, free_s + 0.5,
+                                                     speed_constraints::never}};
     task.windows = later;
     CAPTURE(v);
     CAPTURE(place);
@@ -297,8 +298,8 @@ TEST_CASE("a place that opens later is not passed before, one that closes is "
     if (!here.motion().empty() && !r.emergency
         && ocp::publishable(r.report.status))
       CHECK(when_s(here.motion(), place) > later[0].earliest_s - 0.05);
-    const std::array sooner{
-        speed_task::window{place, -speed_task::never, free_s + 0.3}};
+    const std::array sooner{speed_constraints::window{
+        place, -speed_constraints::never, free_s + 0.3}};
     task.windows = sooner;
     here.planner.forget();
     r = here.plan(task);
@@ -356,10 +357,10 @@ TEST_CASE("the last resort comes to rest, firm enough and no firmer than the "
 
 TEST_CASE("a motion is clear when it keeps off the line, the car ahead and "
           "the windows") {
-  time_motion steady;
+  speed_profile steady;
   for (auto i = 0; i <= 60; ++i)
     steady.push_back({0.1 * i * 10, 10, 0});
-  const auto clear = [&](const speed_task& task) {
+  const auto clear = [&](const speed_constraints& task) {
     return is_clear(steady, 0.1, task);
   };
   auto task = speed_task_at(10);
@@ -376,11 +377,11 @@ TEST_CASE("a motion is clear when it keeps off the line, the car ahead and "
   task.ahead = {40, {10, -3}};
   CHECK(!clear(task));
   task = speed_task_at(10);
-  std::array window{speed_task::window{30, 2.5, 3.5}};
+  std::array window{speed_constraints::window{30, 2.5, 3.5}};
   task.windows = window;
   CHECK(clear(task));
-  window[0] = {30, 3.6, speed_task::never};
+  window[0] = {30, 3.6, speed_constraints::never};
   CHECK(!clear(task));
-  window[0] = {30, -speed_task::never, 2.5};
+  window[0] = {30, -speed_constraints::never, 2.5};
   CHECK(!clear(task));
 }

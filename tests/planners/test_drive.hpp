@@ -94,12 +94,12 @@ struct extremes {
 
 using planner_ptr = std::unique_ptr<trajectory_planner>;
 
-inline planner_ptr follower(route_ptr way, driving_style style = {}) {
+inline planner_ptr follower(route_ptr way, comfort_limits style = {}) {
   return std::make_unique<lane_follow>(std::move(way), style);
 }
 
 inline planner_ptr optimiser(route_ptr way, spatial_params params = {},
-                             driving_style style = {}) {
+                             comfort_limits style = {}) {
   return std::make_unique<spatial_planner>(
       std::make_shared<route_profile>(std::move(way), style), style, params);
 }
@@ -107,7 +107,7 @@ inline planner_ptr optimiser(route_ptr way, spatial_params params = {},
 class test_drive {
 public:
   explicit test_drive(route_ptr way, double s_m = 0, double speed_mps = 0,
-                      driving_style params = {})
+                      comfort_limits params = {})
       : test_drive{way, s_m, speed_mps, follower(way, params)} {}
 
   test_drive(route_ptr way, double s_m, double speed_mps, planner_ptr planner)
@@ -161,7 +161,7 @@ public:
   trajectory plan;
   plan_report report;
   time_point now;
-  surroundings others;
+  driving_scene others;
   duration staleness{}; ///< Of the planner's input.
   extremes worst;
   int emergencies = 0; ///< Plans that were.

@@ -7,7 +7,7 @@
 
 namespace sofof::test {
 
-inline const driving_style style;
+inline const comfort_limits style;
 
 /// Limits as in a town, and beyond its end.
 inline const std::vector<speed_zone> town{

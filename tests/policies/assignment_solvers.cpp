@@ -1,8 +1,8 @@
 // Tests of solvers against each other and against trying everything.
 #include "policies/algorithms/assignment/branch_and_bound.hpp"
-#include "policies/algorithms/assignment/capacity_prices.hpp"
 #include "policies/algorithms/assignment/cbc.hpp"
 #include "policies/algorithms/assignment/greedy_regret.hpp"
+#include "policies/algorithms/assignment/lagrangian_bound.hpp"
 #include "policies/algorithms/assignment/min_cost_flow.hpp"
 #include "policies/algorithms/assignment/sampled.hpp"
 #include "tests/support/assignments.hpp"

@@ -58,12 +58,12 @@ class neighbourhood {
 public:
   explicit neighbourhood(std::uint64_t seed) : draws_{seed, "delays"} {}
 
-  std::map<boot_id, double> means;
-  std::map<boot_id, int> chosen;
+  std::map<provider_id, double> means;
+  std::map<provider_id, int> chosen;
 
   void offload(alto& bandit, int tasks, double task_bits) {
     for (int k = 0; k < tasks; ++k) {
-      std::vector<boot_id> present;
+      std::vector<provider_id> present;
       for (const auto& [provider, mean] : means)
         present.push_back(provider);
       const auto provider = *bandit.choose(task_bits, present);
@@ -123,8 +123,8 @@ TEST_CASE("ALTO gives a provider that appears late a clock of its own") {
   // Two that are alike, one of which appears after 10 000 tasks. Heard of once
   // each, the one that was there has the wider doubt: ln 10 002 against ln 1.
   alto bandit{{}};
-  constexpr boot_id newcomer = 1;
-  constexpr boot_id old_one = 2;
+  constexpr provider_id newcomer = 1;
+  constexpr provider_id old_one = 2;
   const std::array both{newcomer, old_one};
   for (int k = 0; k < 10'000; ++k)
     bandit.choose(small, std::array{old_one});
@@ -149,16 +149,17 @@ TEST_CASE("ALTO chooses among those present only") {
   alto bandit{{}};
   CHECK(!bandit.choose(small, {}));
   bandit.learn(5, small, 0.01); // nobody knows it
-  CHECK(bandit.choose(small, std::array{boot_id{9}, boot_id{4}}) == boot_id{4});
+  CHECK(bandit.choose(small, std::array{provider_id{9}, provider_id{4}})
+        == provider_id{4});
   bandit.learn(4, small, 0.001);
-  CHECK(bandit.choose(small, std::array{boot_id{9}}) == boot_id{9});
+  CHECK(bandit.choose(small, std::array{provider_id{9}}) == provider_id{9});
 }
 
 TEST_CASE("to ALTO a loss is no worse than the worst delay") {
   alto lost{{}};
   alto late{{}};
   for (auto* bandit : {&lost, &late})
-    bandit->choose(small, std::array{boot_id{1}});
+    bandit->choose(small, std::array{provider_id{1}});
   lost.learn(1, small, 1e9);
   late.learn(1, small, worst_s_per_bit * small);
   CHECK(lost.snapshot() == late.snapshot());

@@ -71,7 +71,7 @@ TEST_CASE_FIXTURE(roadside, "in a slot one in five moves, and a slot that is "
 
 TEST_CASE("vehicles that play it come to rest, spread over two providers") {
   constexpr std::size_t vehicles = 20;
-  std::vector<boot_id> at(vehicles);
+  std::vector<provider_id> at(vehicles);
   const auto lodm = make_lodm("best_response");
   std::size_t moved_last = 0;
   for (std::size_t slot = 0; slot < 400; ++slot)
@@ -79,7 +79,7 @@ TEST_CASE("vehicles that play it come to rest, spread over two providers") {
       roadside one;
       one.seen.noise = random_stream{1, "vehicles"}.part(n);
       one.seen.number = slot;
-      for (const boot_id id : {1, 2})
+      for (const provider_id id : {1, 2})
         one.add(id).utilisation =
             0.08 * static_cast<double>(std::ranges::count(at, id));
       one.runs_at(at[n]);

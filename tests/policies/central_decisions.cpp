@@ -19,14 +19,14 @@ const auto policies = {"assignment", "cross_entropy", "best_response"};
 
 // -- the assignment, as its formula is written -------------------------------
 
-std::optional<double> gain_of(std::span<const candidate> told, boot_id id) {
+std::optional<double> gain_of(std::span<const candidate> told, provider_id id) {
   for (const auto& c : told)
     if (c.provider == id)
       return c.gain;
   return std::nullopt;
 }
 
-double gain_here(std::span<const candidate> told, double share) {
+double local_gain(std::span<const candidate> told, double share) {
   const auto least = price + 0.05 / (1 + share);
   return std::max(gain_of(told, self).value_or(least), least);
 }
@@ -67,7 +67,7 @@ double best_by_trying(const scene& at, room left, std::size_t from = 0) {
     const auto& s = at.sessions[from - at.requests.size()];
     auto best = best_by_trying(at, left, from + 1) - price;
     if (s.utilisation <= left.here + rounding)
-      best = std::max(best, gain_here(s.candidates, s.utilisation)
+      best = std::max(best, local_gain(s.candidates, s.utilisation)
                                 + rest(&room::here, s.utilisation));
     return best;
   }
@@ -77,7 +77,7 @@ double best_by_trying(const scene& at, room left, std::size_t from = 0) {
     if (gain && r.utilisation <= left.*where + rounding)
       best = std::max(best, *gain - price + rest(where, r.utilisation));
   };
-  go(&room::here, gain_here(r.candidates, r.utilisation));
+  go(&room::here, local_gain(r.candidates, r.utilisation));
   go(&room::at_second, gain_of(r.candidates, second));
   go(&room::at_third, gain_of(r.candidates, third));
   return best;
@@ -92,7 +92,7 @@ double value_of(const scene& at, const std::vector<central_decision>& all) {
     const auto& r = at.requests[k];
     if (all[k].accept) {
       left.here -= r.utilisation;
-      sum += gain_here(r.candidates, r.utilisation) - price;
+      sum += local_gain(r.candidates, r.utilisation) - price;
     } else if (all[k].instead != 0) {
       (all[k].instead == second ? left.at_second : left.at_third) -=
           r.utilisation;
@@ -103,7 +103,7 @@ double value_of(const scene& at, const std::vector<central_decision>& all) {
     const auto& s = at.sessions[k];
     if (all[at.requests.size() + k].accept) {
       left.here -= s.utilisation;
-      sum += gain_here(s.candidates, s.utilisation);
+      sum += local_gain(s.candidates, s.utilisation);
     } else {
       sum -= price;
     }
@@ -288,7 +288,7 @@ TEST_CASE("absurd numbers of one do the others no harm") {
   at.ask(0.3, {{self, 0.2, 0}});
   at.ask(0.3, {{self, 0.4, 0}});
   std::vector<candidate> many;
-  for (boot_id id = 100; id < 5000; ++id)
+  for (provider_id id = 100; id < 5000; ++id)
     many.push_back({id, -1, 0.5});
   at.ask(0.3, many);
   CHECK(at.verdicts(*codm_of("assignment", {}, {{"wait", 50ms}})) == "h--h-");

@@ -22,8 +22,8 @@ std::vector<provider_view> three(double a = 0, double b = 0, double c = 0) {
   return {{1, {100, 0}, a}, {2, {20, 10}, b}, {3, {150, 20}, c}};
 }
 
-boot_id choose(local_policy& lodm, const std::vector<provider_view>& among,
-               std::uint64_t number = 0) {
+provider_id choose(local_policy& lodm, const std::vector<provider_view>& among,
+                   std::uint64_t number = 0) {
   return lodm
       .decide(
           {time_point{}, "any", among, path, 10, random_stream{1, "x"}, number})
@@ -31,9 +31,9 @@ boot_id choose(local_policy& lodm, const std::vector<provider_view>& among,
 }
 
 /// How often each is chosen in 3000 decisions.
-std::map<boot_id, int> choices(local_policy& lodm,
-                               const std::vector<provider_view>& among) {
-  std::map<boot_id, int> counts;
+std::map<provider_id, int> choices(local_policy& lodm,
+                                   const std::vector<provider_view>& among) {
+  std::map<provider_id, int> counts;
   for (std::uint64_t k = 0; k < 3000; ++k)
     ++counts[choose(lodm, among, k)];
   return counts;
@@ -53,7 +53,7 @@ TEST_CASE("the random choice asks as often as it is told, everybody alike") {
   lodm->fields(options);
   auto counts = choices(*lodm, three());
   CHECK(counts[0] == doctest::Approx(750).epsilon(0.1));
-  for (boot_id id = 1; id <= 3; ++id)
+  for (provider_id id = 1; id <= 3; ++id)
     CHECK(counts[id] == doctest::Approx(750).epsilon(0.1));
 }
 

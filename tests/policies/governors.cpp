@@ -16,8 +16,8 @@ using test::dice;
 
 namespace {
 
-constexpr boot_id near_one = 7;
-constexpr boot_id far_one = 8;
+constexpr provider_id near_one = 7;
+constexpr provider_id far_one = 8;
 
 } // namespace
 
@@ -105,7 +105,7 @@ TEST_CASE("no fallback is delayed, and no two other switches come closer than "
     auto now = at(0s);
     for (int k = 0; k < 500; ++k) {
       now += from_seconds(random.between(0, 0.2));
-      const auto source = static_cast<boot_id>(random.between(0, 1.2) * 2);
+      const auto source = static_cast<provider_id>(random.between(0, 1.2) * 2);
       const auto falls_back = random.between(0, 1) < 0.02;
       const auto before = governor.source();
       const auto after =

@@ -15,7 +15,7 @@ namespace {
 
 using words = std::set<std::string, std::less<>>;
 
-words described(const policy_notes& notes) {
+words described(const policy_info& notes) {
   words names;
   for (const auto& one : notes.parameters) {
     CAPTURE(one.name);
@@ -28,7 +28,7 @@ words described(const policy_notes& notes) {
 
 /// @param make  From a name to what has options.
 template <class Make>
-void check(const std::vector<policy_notes>& all, Make make) {
+void check(const std::vector<policy_info>& all, Make make) {
   CHECK(!all.empty());
   words names;
   for (const auto& notes : all) {

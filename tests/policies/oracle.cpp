@@ -10,11 +10,11 @@ using test::roadside;
 namespace {
 
 /// What is said of each provider, of one kind of service.
-struct foretold final : foresight {
-  std::map<boot_id, time_point> late;
-  std::map<boot_id, double> latency_s; // 20 ms of others
+struct foretold final : channel_oracle {
+  std::map<provider_id, time_point> late;
+  std::map<provider_id, double> latency_s; // 20 ms of others
 
-  foreseen_results look(boot_id provider, std::string_view kind,
+  foreseen_results look(provider_id provider, std::string_view kind,
                         time_point from, time_point until) const override {
     CHECK(kind == "any");
     const auto time = latency_s.find(provider);
@@ -31,7 +31,9 @@ struct with_foresight : roadside {
   std::unique_ptr<local_policy> lodm = make_lodm("oracle");
 
   with_foresight() { seen.future = &future; }
-  void late_in(boot_id id, duration time) { future.late[id] = seen.now + time; }
+  void late_in(provider_id id, duration time) {
+    future.late[id] = seen.now + time;
+  }
 };
 
 } // namespace

@@ -19,7 +19,7 @@ namespace sofof::test {
 
 using namespace std::chrono_literals;
 
-inline constexpr boot_id self = 11, second = 22, third = 33;
+inline constexpr provider_id self = 11, second = 22, third = 33;
 /// What moving a service that runs must win.
 inline constexpr double price = 0.05;
 /// Of sums of gains.

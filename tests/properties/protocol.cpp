@@ -6,7 +6,7 @@
 #include "actors/offloading/service_requester.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/simulation/network_link.hpp"
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/dice.hpp"
@@ -29,8 +29,8 @@ namespace {
 constexpr station_id station = 101;
 
 /// In Ulm-Lehr, in 2026.
-datum_ptr somewhere() {
-  static const auto where = std::make_shared<const datum>();
+georeference_ptr somewhere() {
+  static const auto where = std::make_shared<const georeference>();
   return where;
 }
 
@@ -66,7 +66,7 @@ struct client_diary {
   }
 };
 
-using moving_client = vehicle_actor::extend<takes<tick_atom>>;
+using moving_client = vehicle_actor::extend<reacts_to<tick_atom>>;
 
 struct client_state {
   static inline const char* name = "moving_client";
@@ -121,8 +121,8 @@ drive(moving_client::stateful_pointer<client_state> self,
 
 /// Counts how often each side closed each running service.
 struct ledger final : record_sink {
-  std::map<running_service, int> closed_by_requester, closed_by_provider;
-  std::map<running_service, duration> provider_side; // how long it ran
+  std::map<session_id, int> closed_by_requester, closed_by_provider;
+  std::map<session_id, duration> provider_side; // how long it ran
   std::set<end_reason> reasons;
   int remote_episodes = 0;
 
@@ -159,7 +159,7 @@ struct faulty_world : virtual_world {
   std::uint64_t seed;
   link_fault_options faults;
   streets_ptr world = one_street();
-  std::vector<service_kind_ptr> kinds{std::make_shared<echo_service>("one"),
+  std::vector<service_type_ptr> kinds{std::make_shared<echo_service>("one"),
                                       std::make_shared<echo_service>("two")};
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
   recorder_actor recorder = own(spawn_recorder(system(), book));
@@ -190,7 +190,7 @@ struct faulty_world : virtual_world {
 
   void add_provider(int k) {
     provider_setup setup;
-    setup.boot = static_cast<boot_id>(k + 1);
+    setup.boot = static_cast<provider_id>(k + 1);
     setup.where = somewhere();
     setup.area = polygon::regular({100.0 * k, 0}, 300, 24);
     setup.world = world;

@@ -28,7 +28,7 @@ public:
   void fields(settings& s) override {
     auto wanted = static_cast<std::int64_t>(wanted_);
     s.field("wanted", wanted, {0, 9});
-    wanted_ = static_cast<boot_id>(wanted);
+    wanted_ = static_cast<provider_id>(wanted);
   }
   std::string_view name() const override { return "picky"; }
   std::unique_ptr<local_policy> clone() const override {
@@ -37,7 +37,7 @@ public:
 
 private:
   told& to_;
-  boot_id wanted_ = 7;
+  provider_id wanted_ = 7;
 };
 
 local_context nothing_offered() {

@@ -1,10 +1,10 @@
 // A connected stranger tells of cars that are not there: whom that delays, and
 // for how long. All actors are the real ones, in virtual time.
 #include "base/random.hpp"
-#include "messages/v2x/awareness.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
+#include "messages/v2x/object_list.hpp"
 #include "messages/v2x/perception.hpp"
-#include "messages/v2x/sighting.hpp"
 #include "scenario/build.hpp"
 #include "scenario/load.hpp"
 #include "scenario/runtime.hpp"
@@ -69,7 +69,7 @@ requester_actor::behavior_type deaf(requester_actor::pointer) {
 /// Sends in the attacker's name.
 class attacker {
 public:
-  attacker(caf::actor_system& sys, const datum& where, provider_actor to)
+  attacker(caf::actor_system& sys, const georeference& where, provider_actor to)
       : where_{where}, to_{std::move(to)}, ear_{sys.spawn(deaf)} {}
   ~attacker() { caf::anon_send_exit(ear_, caf::exit_reason::user_shutdown); }
   attacker(const attacker&) = delete;
@@ -99,7 +99,7 @@ private:
     caf::anon_send(to_, std::move(message), ear_);
   }
 
-  const datum& where_;
+  const georeference& where_;
   provider_actor to_;
   requester_actor ear_;
 };
@@ -121,7 +121,7 @@ outcome drive(const scenario& s, const attack& says) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, time->clock(), true);
-  const datum where{geo_frame{s.world->map.origin()}, time->clock()};
+  const georeference where{geo_frame{s.world->map.origin()}, time->clock()};
   const auto start = time->now();
   {
     attacker liar{time->system(), where, actors.providers.front()};

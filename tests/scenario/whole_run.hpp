@@ -1,7 +1,7 @@
 // A scenario played in virtual time, and trajectory planning to look into.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "scenario/build.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/support/memory_sink.hpp"
@@ -23,7 +23,7 @@ inline memory_sink play(const scenario& s) {
 }
 
 /// Trajectory planning with its default options.
-class plain_planning : public service_kind {
+class plain_planning : public service_type {
 public:
   plain_planning() { common = real_->common; }
 
@@ -39,7 +39,7 @@ public:
     return real_->spawn_client(sys, setup, vehicle);
   }
 
-  std::shared_ptr<service_site>
+  std::shared_ptr<provider_context>
   make_site(const service_setup& setup) const override {
     return real_->make_site(setup);
   }
@@ -49,13 +49,14 @@ public:
     return real_->on_air(setup, std::move(input), takes_over);
   }
 
-  payload farewell(const service_setup& setup, const service_end& end,
-                   time_point now, const cam* own) const override {
-    return real_->farewell(setup, end, now, own);
+  payload termination_message(const service_setup& setup,
+                              const service_end& end, time_point now,
+                              const cam* own) const override {
+    return real_->termination_message(setup, end, now, own);
   }
 
 private:
-  service_kind_ptr real_ = make_service_kind("trajectory_planning");
+  service_type_ptr real_ = make_service_kind("trajectory_planning");
 };
 
 } // namespace sofof::test

@@ -27,19 +27,19 @@ memory_sink drive(const std::vector<std::string>& overrides) {
 /// Trajectory planning whose providers write down what they get to know.
 class watched_planning final : public plain_planning {
 public:
-  struct notebook final : service_site {
+  struct notebook final : provider_context {
     std::size_t heard = 0, seen = 0;
     std::vector<point> where;
-    std::shared_ptr<service_site> real;
+    std::shared_ptr<provider_context> real;
     void hear(const cam& c, sender_id from) override {
       ++heard;
       real->hear(c, from);
     }
-    void hear(const sighting& told, sender_id from) override {
+    void hear(const object_list& told, sender_id from) override {
       real->hear(told, from);
       note(told.objects);
     }
-    void see(const site_view& view) override {
+    void see(const roadside_detections& view) override {
       real->see(view);
       note(view.objects);
     }
@@ -50,7 +50,7 @@ public:
     }
   };
 
-  std::shared_ptr<service_site>
+  std::shared_ptr<provider_context>
   make_site(const service_setup& setup) const override {
     notes->real = plain_planning::make_site(setup);
     return notes;
@@ -168,7 +168,7 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
              "policies.lodm=always", "policies.codm=always",
              "service.0.planner.name=lane_follow"});
   check_safety(records);
-  std::set<boot_id> boots;
+  std::set<provider_id> boots;
   auto lost = 0;
   for (const auto& e : records.episodes) {
     if (e.of != side::requester)
@@ -181,7 +181,7 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
     CHECK(e.ended == time_point{60s});
   }
   CHECK(lost == 8); // either service of each vehicle
-  CHECK(boots == std::set<boot_id>{boot_of(1, 0), boot_of(1, 1)});
+  CHECK(boots == std::set<provider_id>{boot_of(1, 0), boot_of(1, 1)});
   for (const auto& c : records.cycles) {
     const auto t = c.received.time_since_epoch();
     CHECK((t <= 60s || t >= 90s));

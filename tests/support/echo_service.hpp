@@ -1,7 +1,7 @@
 // The smallest service there is, for tests of the framework.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "messages/protocol/payload.hpp"
 
 #include <memory>
@@ -34,7 +34,7 @@ inline constexpr std::string_view sofof::payload_name<sofof::test::echo> =
 namespace sofof::test {
 
 /// Gives back its input, period by period. Its client is the vehicle's actor.
-class echo_service : public service_kind {
+class echo_service : public service_type {
 public:
   explicit echo_service(std::string name) : name_{std::move(name)} {
     using namespace std::chrono_literals;
@@ -101,8 +101,8 @@ public:
     input.in_use = {};
     return input;
   }
-  payload farewell(const service_setup& setup, const service_end&, time_point,
-                   const cam* own) const override {
+  payload termination_message(const service_setup& setup, const service_end&,
+                              time_point, const cam* own) const override {
     return octets(setup.remote, own != nullptr);
   }
 

@@ -2,8 +2,8 @@
 // what a channel profile does to latency, gaps and offloading durations.
 #pragma once
 
-#include "channel/fifo_servers.hpp"
 #include "channel/link_direction.hpp"
+#include "channel/multi_server_queue.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
   const random_stream seed{f.seed, "fleet"};
   std::vector<channel> channels;
   std::vector<link_direction> links;
-  const auto cell = std::make_shared<fifo_servers>(1);
+  const auto cell = std::make_shared<multi_server_queue>(1);
   std::vector<job> jobs;
   const auto cycles = static_cast<std::uint64_t>(f.length / f.period);
   jobs.reserve(f.vehicles * cycles);
@@ -52,7 +52,7 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
       jobs.push_back({v, c, time_point{phase + c * f.period}, {}});
   }
   std::ranges::stable_sort(jobs, {}, &job::created);
-  fifo_servers workers{static_cast<unsigned>(f.profile->workers)};
+  multi_server_queue workers{static_cast<unsigned>(f.profile->workers)};
   for (auto& j : jobs)
     j.computed =
         workers.finish(j.created, channels[j.vehicle].service_time(j.cycle));

@@ -24,7 +24,7 @@ struct leader {
 class lane_users {
 public:
   explicit lane_users(const road_map& map)
-      : all_{std::make_unique<const encounters>(list_encounters(map))},
+      : all_{std::make_unique<const conflict_sides>(list_encounters(map))},
         order_{*all_} {}
 
   /// Sorts these into the lanes, instead of those before.
@@ -33,7 +33,7 @@ public:
     for (const auto& u : users) {
       auto& way = ways_[u.on];
       if (!way)
-        way = std::make_shared<const itinerary>(u.on, *all_);
+        way = std::make_shared<const unrolled_route>(u.on, *all_);
       drivers_.emplace_back(u, way).leg = way->leg_at(u.s_m);
     }
     order_.sort(drivers_);
@@ -51,9 +51,9 @@ public:
   }
 
 private:
-  std::unique_ptr<const encounters> all_; // stays where it is
+  std::unique_ptr<const conflict_sides> all_; // stays where it is
   lane_order order_;
-  std::map<route_ptr, std::shared_ptr<const itinerary>> ways_;
+  std::map<route_ptr, std::shared_ptr<const unrolled_route>> ways_;
   std::vector<driver> drivers_;
 };
 

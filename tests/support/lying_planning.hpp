@@ -1,9 +1,9 @@
 // Trajectory planning at a provider that lies: what vehicles must survive.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "messages/v2x/mcm/coordination.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "world/roads/route_finder.hpp"
 
 #include <algorithm>
@@ -264,9 +264,9 @@ private:
 };
 
 /// Another kind of service, whose functions at providers lie.
-class lying_kind : public service_kind {
+class lying_kind : public service_type {
 public:
-  lying_kind(service_kind_ptr honest, lie what)
+  lying_kind(service_type_ptr honest, lie what)
       : honest_{std::move(honest)}, all_{std::make_shared<liars>()} {
     common = honest_->common;
     all_->what = what;
@@ -286,7 +286,7 @@ public:
                             const vehicle_actor& vehicle) const override {
     return honest_->spawn_client(sys, setup, vehicle);
   }
-  std::shared_ptr<service_site>
+  std::shared_ptr<provider_context>
   make_site(const service_setup& setup) const override {
     return honest_->make_site(setup);
   }
@@ -302,13 +302,14 @@ public:
   make_judge(const service_setup& setup) const override {
     return honest_->make_judge(setup);
   }
-  payload farewell(const service_setup& setup, const service_end& end,
-                   time_point now, const cam* own) const override {
-    return honest_->farewell(setup, end, now, own);
+  payload termination_message(const service_setup& setup,
+                              const service_end& end, time_point now,
+                              const cam* own) const override {
+    return honest_->termination_message(setup, end, now, own);
   }
 
 private:
-  service_kind_ptr honest_;
+  service_type_ptr honest_;
   std::shared_ptr<liars> all_;
 };
 

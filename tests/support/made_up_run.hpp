@@ -12,7 +12,7 @@ namespace sofof::made_up {
 using namespace std::chrono_literals;
 
 inline constexpr auto planning = "trajectory_planning";
-inline constexpr boot_id provider = 18'000'000'000'000'000'000u;
+inline constexpr provider_id provider = 18'000'000'000'000'000'000u;
 
 /// The run's second 0, which is not the clock's.
 inline constexpr time_point start{5s};
@@ -35,14 +35,12 @@ inline run_info run() {
   return info;
 }
 
-inline running_service running(station_id station = 101,
-                               std::uint32_t counter = 1,
-                               service_name kind = planning) {
+inline session_id running(station_id station = 101, std::uint32_t counter = 1,
+                          service_name kind = planning) {
   return {provider, station, kind, counter};
 }
 
-inline event_record switched(const running_service& id, bool remote,
-                             duration when) {
+inline event_record switched(const session_id& id, bool remote, duration when) {
   return {at(when),
           "switch",
           id.station,
@@ -56,22 +54,21 @@ inline decision_record decision(bool accepted, service_name kind = planning) {
   return {at(1s), 101, kind, accepted};
 }
 
-inline cycle_record result(const running_service& id, std::uint64_t cycle,
+inline cycle_record result(const session_id& id, std::uint64_t cycle,
                            duration created, duration latency,
                            std::optional<duration> interarrival) {
   return {id, cycle, at(created), at(created + latency), interarrival, true};
 }
 
 /// A requester's episode with first data.
-inline episode_record episode(const running_service& id, duration from,
-                              duration to, end_reason reason,
-                              bool fallback = false) {
+inline episode_record episode(const session_id& id, duration from, duration to,
+                              end_reason reason, bool fallback = false) {
   return {id,   side::requester, at(from - 100ms), at(from),
           true, at(to),          reason,           fallback};
 }
 
 /// The same for a service that never sent anything.
-inline episode_record without_data(const running_service& id, duration from) {
+inline episode_record without_data(const session_id& id, duration from) {
   return {id,
           side::requester,
           at(from),

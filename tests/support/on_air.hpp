@@ -4,9 +4,9 @@
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/mcm.hpp"
-#include "messages/v2x/awareness.hpp"
-#include "messages/v2x/datum.hpp"
+#include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
+#include "messages/v2x/georeference.hpp"
 #include "messages/v2x/perception.hpp"
 
 #include <doctest/doctest.h>
@@ -18,8 +18,8 @@
 namespace sofof::test {
 
 /// @returns where made-up maps lie.
-inline datum_ptr in_ulm() {
-  static const auto here = std::make_shared<const datum>();
+inline georeference_ptr in_ulm() {
+  static const auto here = std::make_shared<const georeference>();
   return here;
 }
 

@@ -34,7 +34,7 @@ struct roadside {
 
   /// Adds one that is near: results take 20 ms and are not late, a cycle costs
   /// 10 mJ, computing takes 8 ms on one of two workers.
-  provider_view& add(boot_id id, point at = {100, 0}) {
+  provider_view& add(provider_id id, point at = {100, 0}) {
     using namespace std::chrono_literals;
     provider_view one{.id = id, .at = at};
     one.workers = 2;
@@ -52,7 +52,7 @@ struct roadside {
   }
 
   /// Has the service run somewhere; providers that do so stand first.
-  void runs_at(boot_id place) {
+  void runs_at(provider_id place) {
     seen.current = place;
     seen.since = seen.now;
     const auto i = std::ranges::find(providers, place, &provider_view::id);

@@ -121,7 +121,7 @@ private:
     lodm.observe(episode_outcome{"any", 7, 1, reason});
   }
 
-  void change(boot_id to) {
+  void change(provider_id to) {
     current_ = to;
     since_ = now_;
     cost_ += 0.2;
@@ -140,7 +140,7 @@ private:
   time_point now_;
   time_point since_;
   time_point cool_until_;
-  boot_id current_ = 0;
+  provider_id current_ = 0;
   std::uint64_t decisions_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 #include "base/random.hpp"
 #include "planners/plausibility/plausibility.hpp"
-#include "planners/scene/environment_model.hpp"
+#include "planners/scene/object_tracker.hpp"
 #include "world/sensing/sensors.hpp"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ public:
   random_stream air{20, "air"};
   scene truth;
   plausibility doubts;
-  environment_model model{{}, {4, 1s}};
+  object_tracker model{{}, {4, 1s}};
   time_point now{100s};
   std::vector<station_doubt> news;
 

@@ -3,7 +3,7 @@
 #include "base/random.hpp"
 #include "tests/support/toy_drivers.hpp"
 #include "tests/support/toy_streets.hpp"
-#include "world/roads/itinerary.hpp"
+#include "world/roads/unrolled_route.hpp"
 
 #include <doctest/doctest.h>
 
@@ -62,8 +62,8 @@ TEST_CASE("nowhere there are no zones, on a round either") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   constexpr auto inf = std::numeric_limits<double>::infinity();
   const auto map = grid(3, 100);
-  const itinerary round{make_route(map, {0, 1, 4, 3}, true),
-                        list_encounters(map)};
+  const unrolled_route round{make_route(map, {0, 1, 4, 3}, true),
+                             list_encounters(map)};
   const auto count = [&](double from_m, double to_m) {
     auto zones = 0;
     round.for_zones(from_m, to_m, [&](const zone&) { return ++zones < 1000; });

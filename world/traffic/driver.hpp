@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/time.hpp"
-#include "world/roads/itinerary.hpp"
+#include "world/roads/unrolled_route.hpp"
 #include "world/traffic/traffic.hpp"
 
 #include <limits>
@@ -23,7 +23,7 @@ struct driver {
     wait, ///< Somebody else goes first.
   };
 
-  driver(const road_user& user, std::shared_ptr<const itinerary> on)
+  driver(const road_user& user, std::shared_ptr<const unrolled_route> on)
       : known{user}, way{std::move(on)}, granted_to_m{front_m()} {
     seen.stop_at_m = front_m();
   }
@@ -31,8 +31,8 @@ struct driver {
   station_id station() const { return known.station; }
 
   road_user known;
-  std::shared_ptr<const itinerary> way;
-  itinerary::leg leg = 0; ///< Of the rear axle, as of the last update.
+  std::shared_ptr<const unrolled_route> way;
+  unrolled_route::leg leg = 0; ///< Of the rear axle, as of the last update.
 
   /// It has, or had, the right to all zones that begin before.
   double granted_to_m;

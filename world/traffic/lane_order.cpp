@@ -12,7 +12,7 @@ struct lane_order::gaze {
   const driver& self;
   double after_m;
   station_id station;
-  std::optional<sighting> nearest;
+  std::optional<object_list> nearest;
 
   bool is_ahead(double ahead_m, station_id other) const {
     return ahead_m > 0 || (ahead_m == 0 && other < station);
@@ -25,7 +25,7 @@ struct lane_order::gaze {
     });
   }
 
-  void take(const occupant& o, double axle_m, itinerary::leg own,
+  void take(const occupant& o, double axle_m, unrolled_route::leg own,
             double at_least_m = -1e300) {
     const auto rear_m = std::max(axle_m - o.rear_m, at_least_m);
     const auto is_own_tail = o.station == self.known.station; // a lap ahead
@@ -34,7 +34,8 @@ struct lane_order::gaze {
   }
 };
 
-lane_order::lane_order(const encounters& all) : all_{all}, lanes_(all.size()) {}
+lane_order::lane_order(const conflict_sides& all)
+    : all_{all}, lanes_(all.size()) {}
 
 void lane_order::sort(std::span<const driver> drivers) {
   drivers_ = drivers;
@@ -43,7 +44,7 @@ void lane_order::sort(std::span<const driver> drivers) {
   for (std::uint32_t who = 0; who < drivers.size(); ++who) {
     const auto& d = drivers[who];
     const auto& way = *d.way;
-    const auto enter = [&](itinerary::leg i) {
+    const auto enter = [&](unrolled_route::leg i) {
       lanes_[way.lane(i)].push_back({d.known.s_m - way.start_m(i),
                                      way.start_m(i + 1) - d.known.s_m,
                                      d.known.rear_m, d.known.station, who, i});
@@ -60,17 +61,17 @@ void lane_order::sort(std::span<const driver> drivers) {
     });
 }
 
-std::optional<sighting> lane_order::ahead_of(std::size_t i) const {
+std::optional<object_list> lane_order::ahead_of(std::size_t i) const {
   const auto& d = drivers_[i];
   return find({d, d.known.s_m, d.known.station, {}});
 }
 
-std::optional<sighting> lane_order::beyond(std::size_t i,
-                                           const sighting& seen) const {
+std::optional<object_list> lane_order::beyond(std::size_t i,
+                                              const object_list& seen) const {
   return find({drivers_[i], seen.axle_m, drivers_[seen.who].known.station, {}});
 }
 
-std::optional<sighting> lane_order::find(gaze from) const {
+std::optional<object_list> lane_order::find(gaze from) const {
   const auto& way = *from.self.way;
   const auto end_m = from.self.front_m() + sight_m;
   for (auto i = from.self.leg; way.has(i); ++i) {
@@ -87,7 +88,7 @@ std::optional<sighting> lane_order::find(gaze from) const {
                                                        : std::nullopt;
 }
 
-void lane_order::look_along(gaze& from, itinerary::leg i) const {
+void lane_order::look_along(gaze& from, unrolled_route::leg i) const {
   const auto start_m = from.self.way->start_m(i);
   const auto& lane = lanes_[from.self.way->lane(i)];
   const auto o = from.first_ahead(lane, start_m);
@@ -95,8 +96,8 @@ void lane_order::look_along(gaze& from, itinerary::leg i) const {
     from.take(*o, start_m + o->s_m, i);
 }
 
-void lane_order::look_at_forking(gaze& from, itinerary::leg i,
-                                 const encounter& e) const {
+void lane_order::look_at_forking(gaze& from, unrolled_route::leg i,
+                                 const conflict_side& e) const {
   const auto start_m = from.self.way->start_m(i);
   if (from.self.rear_m() >= start_m + e.to_m)
     return;
@@ -108,8 +109,8 @@ void lane_order::look_at_forking(gaze& from, itinerary::leg i,
     from.take(*o, start_m + o->s_m, i);
 }
 
-void lane_order::look_at_joining(gaze& from, itinerary::leg i,
-                                 const encounter& e) const {
+void lane_order::look_at_joining(gaze& from, unrolled_route::leg i,
+                                 const conflict_side& e) const {
   const auto& way = *from.self.way;
   const auto end_m = way.start_m(i + 1);
   for (const auto& o : lanes_[e.other_lane] | std::views::reverse) {
@@ -127,7 +128,7 @@ void lane_order::look_at_joining(gaze& from, itinerary::leg i,
   }
 }
 
-double lane_order::shared_to_m(std::size_t i, const sighting& seen,
+double lane_order::shared_to_m(std::size_t i, const object_list& seen,
                                double limit_m) const {
   const auto &own = *drivers_[i].way, &its = *drivers_[seen.who].way;
   for (auto a = seen.own_leg, b = seen.its_leg;; ++a, ++b) {
@@ -136,7 +137,8 @@ double lane_order::shared_to_m(std::size_t i, const sighting& seen,
     if (own.lane(a) == its.lane(b))
       continue;
     const auto& list = all_[own.lane(a)];
-    const auto e = std::ranges::find(list, its.lane(b), &encounter::other_lane);
+    const auto e =
+        std::ranges::find(list, its.lane(b), &conflict_side::other_lane);
     if (e == list.end() || e->how == conflict::kind::crossing)
       return std::min(limit_m, own.start_m(a));
     if (e->how == conflict::kind::diverge)

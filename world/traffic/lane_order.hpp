@@ -12,11 +12,11 @@
 namespace sofof {
 
 /// A road user ahead, as seen from another one's route.
-struct sighting {
+struct object_list {
   std::uint32_t who = 0; ///< Index of the driver seen.
   double axle_m = 0;     ///< Its rear axle, arc length on the other's route.
   double rear_m = 0;     ///< Its rear bumper, likewise.
-  itinerary::leg own_leg = 0, its_leg = 0; ///< Where the two meet.
+  unrolled_route::leg own_leg = 0, its_leg = 0; ///< Where the two meet.
 };
 
 /// The road users of every lane. A body is on all lanes that it reaches into.
@@ -25,7 +25,7 @@ struct sighting {
 class lane_order {
 public:
   /// @param all  Must outlive this.
-  explicit lane_order(const encounters& all);
+  explicit lane_order(const conflict_sides& all);
 
   /// Sorts everybody into the lanes.
   /// @param drivers  Must stay where they are while this is asked about them.
@@ -34,14 +34,16 @@ public:
   /// @returns the nearest road user ahead of driver number `i`, within
   /// `sight_m`: on its way, or on a lane that begins or ends together with
   /// one of its own, as long as the bodies could touch there.
-  std::optional<sighting> ahead_of(std::size_t i) const;
+  std::optional<object_list> ahead_of(std::size_t i) const;
 
   /// @returns the next one ahead of `i` after `seen`.
-  std::optional<sighting> beyond(std::size_t i, const sighting& seen) const;
+  std::optional<object_list> beyond(std::size_t i,
+                                    const object_list& seen) const;
 
   /// @returns up to where on the route of `i` the one seen stays in the way
   /// when it drives on, m; at most `limit_m`.
-  double shared_to_m(std::size_t i, const sighting& seen, double limit_m) const;
+  double shared_to_m(std::size_t i, const object_list& seen,
+                     double limit_m) const;
 
 private:
   struct occupant {
@@ -50,16 +52,18 @@ private:
     double rear_m;   // rear axle to rear bumper
     station_id station;
     std::uint32_t who;
-    itinerary::leg leg;
+    unrolled_route::leg leg;
   };
   struct gaze; // a search along a driver's way
 
-  std::optional<sighting> find(gaze from) const;
-  void look_along(gaze& from, itinerary::leg i) const;
-  void look_at_forking(gaze& from, itinerary::leg i, const encounter& e) const;
-  void look_at_joining(gaze& from, itinerary::leg i, const encounter& e) const;
+  std::optional<object_list> find(gaze from) const;
+  void look_along(gaze& from, unrolled_route::leg i) const;
+  void look_at_forking(gaze& from, unrolled_route::leg i,
+                       const conflict_side& e) const;
+  void look_at_joining(gaze& from, unrolled_route::leg i,
+                       const conflict_side& e) const;
 
-  const encounters& all_;
+  const conflict_sides& all_;
   std::span<const driver> drivers_;
   std::vector<std::vector<occupant>> lanes_;
 };

@@ -44,11 +44,11 @@ struct traffic::state {
   }
 
   /// Road users of one route share what is known of it.
-  std::shared_ptr<const itinerary> find_way(const route_ptr& on) const {
+  std::shared_ptr<const unrolled_route> find_way(const route_ptr& on) const {
     for (const auto& d : drivers)
       if (d.way->on() == on)
         return d.way;
-    return std::make_shared<const itinerary>(on, all);
+    return std::make_shared<const unrolled_route>(on, all);
   }
 
   void grant(time_point now);
@@ -56,7 +56,7 @@ struct traffic::state {
   void list_bodies();
   void find_touching();
 
-  const encounters all;
+  const conflict_sides all;
   const bool grants;
   lane_order order;
   right_of_way crossings;

@@ -3,7 +3,7 @@
 
 namespace sofof {
 
-known_roads::known_roads(const road_map& map, const driving_style& style)
+known_roads::known_roads(const road_map& map, const comfort_limits& style)
     : lanes_{std::make_shared<const lane_network>(map)}, style_{style} {}
 
 route_profile_ptr known_roads::profile(const route_ptr& way) {

@@ -14,7 +14,7 @@ namespace sofof {
 /// vehicles make their planners in their own.
 class known_roads {
 public:
-  known_roads(const road_map& map, const driving_style& style);
+  known_roads(const road_map& map, const comfort_limits& style);
 
   const std::shared_ptr<const lane_network>& lanes() const { return lanes_; }
 
@@ -22,7 +22,7 @@ public:
 
 private:
   std::shared_ptr<const lane_network> lanes_;
-  driving_style style_;
+  comfort_limits style_;
   std::mutex mutex_;
   // Each keeps its route, so that no other takes its place in memory.
   std::map<const route*, route_profile_ptr> profiles_;

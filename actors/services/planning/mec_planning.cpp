@@ -5,8 +5,8 @@
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "messages/v2x/mcm/coordination.hpp"
-#include "planners/scene/ego_estimate.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
+#include "planners/scene/ego_estimator.hpp"
 #include "world/roads/route_finder.hpp"
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace {
 class mec_planning final : public service_function {
 public:
   mec_planning(service_setup setup, planner_options options,
-               known_roads_ptr roads, std::shared_ptr<planning_site> site)
+               known_roads_ptr roads, std::shared_ptr<edge_perception> site)
       : setup_{std::move(setup)}, options_{std::move(options)},
         roads_{std::move(roads)}, site_{std::move(site)} {}
 
@@ -110,7 +110,7 @@ private:
     return plan;
   }
 
-  void take_over(const understood_word& word, double from_m, time_point now) {
+  void take_over(const decoded_mcm& word, double from_m, time_point now) {
     const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
     trajectory plan;
     const auto fault =
@@ -150,13 +150,13 @@ private:
   service_setup setup_;
   planner_options options_;
   known_roads_ptr roads_;
-  std::shared_ptr<planning_site> site_;
+  std::shared_ptr<edge_perception> site_;
   std::shared_ptr<const its_pdu> heard_; // last, ...
   time_point heard_at_;                  // and when it was said
   std::optional<plan_cycle> cycle_;
-  std::optional<ego_estimate> ego_; // whenever there is a cycle
-  double from_m_ = 0;               // of the last word
-  double stop_at_m_ = 0;            // the end of the vehicle's authority
+  std::optional<ego_estimator> ego_; // whenever there is a cycle
+  double from_m_ = 0;                // of the last word
+  double stop_at_m_ = 0;             // the end of the vehicle's authority
   std::uint16_t update_ = 0;
   // Room that is used again.
   etsi::mcm word_, said_;
@@ -168,7 +168,8 @@ private:
 
 std::shared_ptr<service_function>
 make_mec_planning(service_setup setup, planner_options options,
-                  known_roads_ptr roads, std::shared_ptr<planning_site> site) {
+                  known_roads_ptr roads,
+                  std::shared_ptr<edge_perception> site) {
   return std::make_shared<mec_planning>(std::move(setup), std::move(options),
                                         std::move(roads), std::move(site));
 }

@@ -1,10 +1,10 @@
 // Planning at a provider: from what vehicles and its own sensors tell it.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
+#include "actors/services/planning/edge_perception.hpp"
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
-#include "actors/services/planning/planning_site.hpp"
 
 #include <memory>
 
@@ -17,6 +17,6 @@ namespace sofof {
 /// suggests a plan, about it a `plan_report`.
 std::shared_ptr<service_function>
 make_mec_planning(service_setup setup, planner_options options,
-                  known_roads_ptr roads, std::shared_ptr<planning_site> site);
+                  known_roads_ptr roads, std::shared_ptr<edge_perception> site);
 
 } // namespace sofof

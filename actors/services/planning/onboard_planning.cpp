@@ -4,7 +4,7 @@
 #include "actors/services/planning/plan_cycle.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
-#include "planners/scene/environment_model.hpp"
+#include "planners/scene/object_tracker.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -62,7 +62,7 @@ private:
   service_setup setup_;
   planner_options options_;
   known_roads_ptr roads_;
-  environment_model model_;
+  object_tracker model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
 };

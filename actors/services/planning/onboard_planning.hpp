@@ -1,7 +1,7 @@
 // Planning in the vehicle: from what it sees itself.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
 

@@ -19,7 +19,7 @@ plan_cycle::plan_cycle(const service_setup& setup,
                        route_ptr way)
     : setup_{setup}, way_{std::move(way)}, planner_{options.make(way_, roads,
                                                                  setup.remote)},
-      outlook_{
+      scene_{
           roads.lanes(), way_, {.judges_crossings = !setup.crossings_granted}} {
 }
 
@@ -27,7 +27,7 @@ plan_report plan_cycle::run(time_point now, planning_input from,
                             std::span<const track> others) {
   const auto stop_at_m = from.others.stop_at_m;
   const own_place me{setup_.station, from.s_m, from.d_m};
-  outlook_.describe(now, me, others, from.others);
+  scene_.describe(now, me, others, from.others);
   from.others.stop_at_m = stop_at_m;
   const auto start = setup_.clock();
   const auto in_time = [&](int) { return setup_.clock() - start < deadline; };

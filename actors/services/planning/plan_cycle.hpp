@@ -1,10 +1,10 @@
 // One planner at work, cycle by cycle, along one route.
 #pragma once
 
-#include "actors/offloading/service_kind.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
-#include "planners/scene/outlook.hpp"
+#include "planners/scene/scene_interpreter.hpp"
 #include "planners/scene/track.hpp"
 
 #include <memory>
@@ -38,7 +38,7 @@ private:
   const service_setup& setup_;
   route_ptr way_;
   std::unique_ptr<trajectory_planner> planner_;
-  outlook outlook_;
+  scene_interpreter scene_;
   trajectory plan_, next_;
 };
 

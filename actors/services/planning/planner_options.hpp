@@ -3,7 +3,7 @@
 
 #include "actors/services/planning/known_roads.hpp"
 #include "base/options/settings.hpp"
-#include "planners/speed/driving_style.hpp"
+#include "planners/speed/comfort_limits.hpp"
 #include "planners/trajectory/spatial_planner.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 #include "world/roads/route.hpp"
@@ -16,7 +16,7 @@ namespace sofof {
 /// Of both sides; only the optimal planner plans differently at a provider.
 struct planner_options {
   std::string name = "al_ilqr"; ///< Or "lane_follow", a simple one.
-  driving_style style;
+  comfort_limits style;
   spatial_params onboard;
   spatial_params mec{
       .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};

@@ -2,8 +2,8 @@
 #include "messages/v2x/mcm/maneuver.hpp"
 
 #include "messages/etsi/units.hpp"
-#include "messages/v2x/mcm/course.hpp"
-#include "messages/v2x/mcm/pace.hpp"
+#include "messages/v2x/mcm/lateral_fit.hpp"
+#include "messages/v2x/mcm/longitudinal_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,7 +125,7 @@ private:
     return true;
   }
 
-  void see_slope(course::sight& sight, double heading_rad) {
+  void see_slope(lateral_fit::sight& sight, double heading_rad) {
     const auto centre = way_.path().at(sight.at.s_m);
     const auto turned = wrap_angle(heading_rad - centre.heading_rad);
     constexpr double steepest_rad = 1;
@@ -139,32 +139,34 @@ private:
 
   bool fit(const trajectory_point* before) {
     const auto n = seen_.size();
-    course::joint joint;
-    pace::motion motion;
+    lateral_fit::joint joint;
+    longitudinal_fit::motion motion;
     if (before != nullptr) {
       joint = {before->at, before->heading_rad, before->curvature_1pm};
       motion = {0, before->speed_mps, before->accel_mps2};
     }
-    if (!course_.fit(way_.path(), {sights_.data(), n},
-                     before != nullptr ? &joint : nullptr))
+    if (!lateral_.fit(way_.path(), {sights_.data(), n},
+                      before != nullptr ? &joint : nullptr))
       return false;
-    std::array<pace::moment, most_waypoints> moments;
+    std::array<longitudinal_fit::moment, most_waypoints> moments;
     for (std::size_t i = 0; i < n; ++i)
-      moments[i] = {seen_[i].t_s, course_.way_m(sights_[i].at.s_m),
+      moments[i] = {seen_[i].t_s, lateral_.way_m(sights_[i].at.s_m),
                     seen_[i].speed_mps};
-    const auto steps = std::clamp(std::round(seen_.back().t_s / usual_step_s),
-                                  1.0, static_cast<double>(pace::most_steps));
-    return pace_.fit({moments.data(), n}, before != nullptr ? &motion : nullptr,
-                     static_cast<std::size_t>(steps));
+    const auto steps =
+        std::clamp(std::round(seen_.back().t_s / usual_step_s), 1.0,
+                   static_cast<double>(longitudinal_fit::most_steps));
+    return longitudinal_.fit({moments.data(), n},
+                             before != nullptr ? &motion : nullptr,
+                             static_cast<std::size_t>(steps));
   }
 
   void write(trajectory& out) const {
-    out.points.resize(pace_.steps() + 1);
-    for (std::size_t k = 0; k <= pace_.steps(); ++k) {
-      const auto& x = pace_[k];
-      const auto s_m = course_.s_m(x.way_m);
-      const auto place = course_.at(s_m);
-      out.points[k] = {static_cast<double>(k) * pace_.step_s(),
+    out.points.resize(longitudinal_.steps() + 1);
+    for (std::size_t k = 0; k <= longitudinal_.steps(); ++k) {
+      const auto& x = longitudinal_[k];
+      const auto s_m = lateral_.s_m(x.way_m);
+      const auto place = lateral_.at(s_m);
+      out.points[k] = {static_cast<double>(k) * longitudinal_.step_s(),
                        s_m,
                        place.at,
                        place.heading_rad,
@@ -176,9 +178,9 @@ private:
 
   std::span<const sample> seen_;
   const route& way_;
-  std::array<course::sight, most_waypoints> sights_;
-  course course_;
-  pace pace_;
+  std::array<lateral_fit::sight, most_waypoints> sights_;
+  lateral_fit lateral_;
+  longitudinal_fit longitudinal_;
 };
 
 } // namespace

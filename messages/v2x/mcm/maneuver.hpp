@@ -102,9 +102,10 @@ enum class maneuver_fault : std::uint8_t {
 std::string_view to_string(maneuver_fault fault);
 
 /// Makes a plan of waypoints again: they are projected onto the route, then a
-/// smooth line beside it is laid through them (messages/v2x/mcm/course.hpp),
-/// then a smooth motion along that line (messages/v2x/mcm/pace.hpp). Safe with
-/// any numbers. No heap after the first time.
+/// smooth line beside it is laid through them
+/// (messages/v2x/mcm/lateral_fit.hpp), then a smooth motion along that line
+/// (messages/v2x/mcm/longitudinal_fit.hpp). Safe with any numbers. No heap
+/// after the first time.
 /// @param way        The car's route.
 /// @param s_guess_m  Arc length of the first point to within 20 m; laps count.
 /// @param before     The plan in use. Where it agrees with the beginning to

@@ -1,8 +1,8 @@
 // The best assignment, with a proof.
 #include "policies/algorithms/assignment/branch_and_bound.hpp"
 
-#include "policies/algorithms/assignment/capacity_prices.hpp"
 #include "policies/algorithms/assignment/greedy_regret.hpp"
+#include "policies/algorithms/assignment/lagrangian_bound.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -30,7 +30,7 @@ struct decision {
   }
 };
 
-decision decision_of(const stakes& s, const Eigen::ArrayXXd& prices,
+decision decision_of(const reduced_problem& s, const Eigen::ArrayXXd& prices,
                      int vehicle) {
   decision result{vehicle, {option{}}};
   for (int i = 0; i < s.providers(); ++i)
@@ -43,7 +43,7 @@ decision decision_of(const stakes& s, const Eigen::ArrayXXd& prices,
 }
 
 /// @returns all decisions, the clearest first.
-std::vector<decision> decisions_of(const stakes& s,
+std::vector<decision> decisions_of(const reduced_problem& s,
                                    const Eigen::ArrayXXd& prices) {
   std::vector<decision> result;
   for (int v = 0; v < s.vehicles(); ++v)
@@ -73,7 +73,7 @@ struct outlook {
 };
 
 /// @returns the outlook before each decision, and the one after the last.
-std::vector<outlook> outlooks(const stakes& s,
+std::vector<outlook> outlooks(const reduced_problem& s,
                               const std::vector<decision>& decisions) {
   constexpr auto nobody = std::numeric_limits<double>::infinity();
   std::vector<outlook> result(
@@ -97,8 +97,8 @@ std::vector<outlook> outlooks(const stakes& s,
 class search {
 public:
   /// @param reached  Only what has advantages of a greater sum is looked for.
-  search(const stakes& s, const Eigen::ArrayXXd& prices, double reached,
-         std::int64_t node_limit);
+  search(const reduced_problem& s, const Eigen::ArrayXXd& prices,
+         double reached, std::int64_t node_limit);
 
   void run() { visit(0, 0); }
 
@@ -112,7 +112,7 @@ private:
   void visit(int depth, double reached);
   void keep(double reached);
 
-  const stakes& stakes_;
+  const reduced_problem& problem_;
   const Eigen::ArrayXXd& prices_;
   std::vector<decision> decisions_;
   std::vector<outlook> outlooks_;
@@ -126,9 +126,9 @@ private:
   bool gave_up_ = false;
 };
 
-search::search(const stakes& s, const Eigen::ArrayXXd& prices, double reached,
-               std::int64_t node_limit)
-    : stakes_{s}, prices_{prices},
+search::search(const reduced_problem& s, const Eigen::ArrayXXd& prices,
+               double reached, std::int64_t node_limit)
+    : problem_{s}, prices_{prices},
       decisions_{decisions_of(s, prices)}, outlooks_{outlooks(s, decisions_)},
       rooms_(s.vehicles() + 1, room{s.shares, s.providers()}),
       choices_(s.vehicles()), best_reached_{reached}, node_limit_{node_limit} {}
@@ -146,13 +146,13 @@ void search::visit(int depth, double reached) {
     return;
   }
   ++nodes_;
-  if (depth == stakes_.vehicles())
+  if (depth == problem_.vehicles())
     return keep(reached);
   const auto& d = decisions_[depth];
   const auto& before = rooms_[depth];
   const auto most = reached + outlooks_[depth].bound(prices_, before);
   for (const auto& o : d.options) {
-    if (most - d.margin() + o.margin <= best_reached_ + stakes_.rounding)
+    if (most - d.margin() + o.margin <= best_reached_ + problem_.rounding)
       return;
     if (o.taken && !before.fits(d.vehicle, *o.taken))
       continue;

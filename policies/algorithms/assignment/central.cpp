@@ -58,8 +58,8 @@ central_problem problem_of(const central_context& context,
   const auto fill = [&](int vehicle, const auto& view) {
     needs.demand.row(vehicle) = view.utilisation;
     p.eligible(vehicle, here) = true;
-    p.gains(vehicle, here) = gain_here(view.candidates, context.self,
-                                       view.utilisation, options.price);
+    p.gains(vehicle, here) = local_gain(view.candidates, context.self,
+                                        view.utilisation, options.price);
   };
   int vehicle = 0;
   for (const auto& request : context.requests) {

@@ -22,7 +22,7 @@ struct assignment_options : central_options {
 struct central_problem {
   problem what; ///< Of the requests and then the sessions.
   /// Of each index, this one first.
-  std::vector<boot_id> providers;
+  std::vector<provider_id> providers;
 };
 
 /// Who asks may be served by any provider that it names; who is served stays or

@@ -1,7 +1,7 @@
 // A good assignment at once: first those who would lose most by waiting.
 #include "policies/algorithms/assignment/greedy_regret.hpp"
 
-#include "policies/algorithms/assignment/capacity_prices.hpp"
+#include "policies/algorithms/assignment/lagrangian_bound.hpp"
 
 #include <algorithm>
 
@@ -9,14 +9,14 @@ namespace sofof::assignment {
 
 namespace {
 
-pair_table advantage_per_share(const stakes& s) {
+pair_table advantage_per_share(const reduced_problem& s) {
   pair_table size = pair_table::Constant(s.vehicles(), s.providers(), 1e-9);
   for (const auto& shares : s.shares)
     size += shares;
   return s.advantage / size;
 }
 
-pair_table margins(const stakes& s) {
+pair_table margins(const reduced_problem& s) {
   const auto prices = price_capacities(s, 0).prices;
   pair_table result = pair_table::Zero(s.vehicles(), s.providers());
   for (int v = 0; v < s.vehicles(); ++v)
@@ -28,8 +28,8 @@ pair_table margins(const stakes& s) {
 
 class attempt {
 public:
-  explicit attempt(const stakes& s)
-      : stakes_{s}, room_{s.shares, s.providers()},
+  explicit attempt(const reduced_problem& s)
+      : problem_{s}, room_{s.shares, s.providers()},
         choices_(s.vehicles(), local) {}
 
   /// @param desire  How much a vehicle wants a provider; 0: not at all.
@@ -47,14 +47,14 @@ private:
 
   bool allowed(int vehicle, choice c) const {
     return !c
-           || (stakes_.advantage(vehicle, *c) > 0 && room_.fits(vehicle, *c));
+           || (problem_.advantage(vehicle, *c) > 0 && room_.fits(vehicle, *c));
   }
   void leave(int vehicle);
   void enter(int vehicle, choice c);
   bool move(int vehicle, choice c);
   bool exchange(int one, int other);
 
-  const stakes& stakes_;
+  const reduced_problem& problem_;
   room room_;
   std::vector<choice> choices_;
 };
@@ -64,7 +64,7 @@ attempt::candidate attempt::next_best(int vehicle,
   candidate result;
   double best = 0;
   double second = 0;
-  for (int i = 0; i < stakes_.providers(); ++i) {
+  for (int i = 0; i < problem_.providers(); ++i) {
     const auto desired = desire(vehicle, i);
     if (desired <= second || !room_.fits(vehicle, i))
       continue;
@@ -81,8 +81,8 @@ attempt::candidate attempt::next_best(int vehicle,
 }
 
 void attempt::serve_by(const pair_table& desire) {
-  std::vector<int> waiting(stakes_.vehicles());
-  for (int v = 0; v < stakes_.vehicles(); ++v)
+  std::vector<int> waiting(problem_.vehicles());
+  for (int v = 0; v < problem_.vehicles(); ++v)
     waiting[v] = v;
   while (!waiting.empty()) {
     auto next = waiting.end();
@@ -115,8 +115,8 @@ void attempt::enter(int vehicle, choice c) {
 
 bool attempt::move(int vehicle, choice c) {
   const auto before = choices_[vehicle];
-  if (stakes_.advantage_of(vehicle, c)
-      <= stakes_.advantage_of(vehicle, before) + stakes_.rounding)
+  if (problem_.advantage_of(vehicle, c)
+      <= problem_.advantage_of(vehicle, before) + problem_.rounding)
     return false;
   if (!allowed(vehicle, c))
     return false;
@@ -128,11 +128,11 @@ bool attempt::move(int vehicle, choice c) {
 bool attempt::exchange(int one, int other) {
   const auto of_one = choices_[one];
   const auto of_other = choices_[other];
-  const auto before =
-      stakes_.advantage_of(one, of_one) + stakes_.advantage_of(other, of_other);
-  const auto after =
-      stakes_.advantage_of(one, of_other) + stakes_.advantage_of(other, of_one);
-  if (of_one == of_other || after <= before + stakes_.rounding)
+  const auto before = problem_.advantage_of(one, of_one)
+                      + problem_.advantage_of(other, of_other);
+  const auto after = problem_.advantage_of(one, of_other)
+                     + problem_.advantage_of(other, of_one);
+  if (of_one == of_other || after <= before + problem_.rounding)
     return false;
   leave(one);
   leave(other);
@@ -150,8 +150,8 @@ void attempt::improve() {
   bool better = true;
   while (better) {
     better = false;
-    for (int v = 0; v < stakes_.vehicles(); ++v) {
-      for (int i = 0; i < stakes_.providers(); ++i)
+    for (int v = 0; v < problem_.vehicles(); ++v) {
+      for (int i = 0; i < problem_.providers(); ++i)
         better |= move(v, i);
       for (int other = 0; other < v; ++other)
         better |= exchange(v, other);

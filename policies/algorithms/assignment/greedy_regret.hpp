@@ -7,7 +7,7 @@ namespace sofof::assignment {
 
 /// Serves next whoever loses most if its best provider with room were gone:
 /// once by advantage, once by advantage per share of capacity, and once by what
-/// is left of it at the prices of capacity_prices.hpp. Improves each by moving
+/// is left of it at the prices of lagrangian_bound.hpp. Improves each by moving
 /// vehicles and by exchanging the choices of two as long as that helps, and
 /// returns the best. Ties go to the lower index.
 ///

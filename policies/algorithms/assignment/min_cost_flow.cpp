@@ -1,7 +1,7 @@
 // The best assignment in polynomial time, where vehicles want equal amounts.
 #include "policies/algorithms/assignment/min_cost_flow.hpp"
 
-#include "policies/algorithms/assignment/stakes.hpp"
+#include "policies/algorithms/assignment/reduced_problem.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 constexpr auto unreachable = std::numeric_limits<double>::infinity();
 
 /// @returns how many vehicles a provider can serve, if all want the same of it.
-std::optional<int> seats_at(const stakes& s, int provider) {
+std::optional<int> seats_at(const reduced_problem& s, int provider) {
   std::optional<int> first;
   room left{s.shares, s.providers()};
   int seats = 0;
@@ -36,7 +36,7 @@ std::optional<int> seats_at(const stakes& s, int provider) {
 /// a seat for everybody.
 class seating {
 public:
-  seating(const stakes& s, std::vector<int> seats);
+  seating(const reduced_problem& s, std::vector<int> seats);
 
   /// Seats one more; the places of others may change.
   void seat(int vehicle);
@@ -63,30 +63,30 @@ private:
   void settle(std::vector<step>& steps, int place) const;
   void displace(const std::vector<step>& steps, int free_place);
 
-  const stakes& stakes_;
+  const reduced_problem& problem_;
   std::vector<int> seats_;
   std::vector<std::vector<int>> seated_;
   /// ≤ 0, and 0 where a seat is free: nobody wins by a change at reduced costs.
   std::vector<double> potentials_;
 };
 
-seating::seating(const stakes& s, std::vector<int> seats)
-    : stakes_{s}, seats_{std::move(seats)} {
+seating::seating(const reduced_problem& s, std::vector<int> seats)
+    : problem_{s}, seats_{std::move(seats)} {
   seats_.push_back(s.vehicles());
   seated_.resize(seats_.size());
   potentials_.resize(seats_.size());
 }
 
 double seating::cost(int vehicle, int place) const {
-  if (place == stakes_.providers())
+  if (place == problem_.providers())
     return 0;
-  const auto advantage = stakes_.advantage(vehicle, place);
+  const auto advantage = problem_.advantage(vehicle, place);
   return advantage > 0 ? -advantage : unreachable;
 }
 
 std::vector<seating::step> seating::first_steps(int vehicle) const {
   std::vector<step> result(seats_.size());
-  for (int place = 0; place <= stakes_.providers(); ++place) {
+  for (int place = 0; place <= problem_.providers(); ++place) {
     result[place].length = reduced_cost(vehicle, place);
     result[place].vehicle = vehicle;
   }
@@ -96,7 +96,7 @@ std::vector<seating::step> seating::first_steps(int vehicle) const {
 void seating::settle(std::vector<step>& steps, int place) const {
   steps[place].settled = true;
   for (const auto vehicle : seated_[place])
-    for (int to = 0; to <= stakes_.providers(); ++to) {
+    for (int to = 0; to <= problem_.providers(); ++to) {
       const auto length = steps[place].length + reduced_cost(vehicle, to)
                           - reduced_cost(vehicle, place);
       if (!steps[to].settled && length < steps[to].length)
@@ -137,8 +137,8 @@ void seating::seat(int vehicle) {
 }
 
 std::vector<choice> seating::choices() const {
-  std::vector<choice> result(stakes_.vehicles(), local);
-  for (int place = 0; place < stakes_.providers(); ++place)
+  std::vector<choice> result(problem_.vehicles(), local);
+  for (int place = 0; place < problem_.providers(); ++place)
     for (const auto vehicle : seated_[place])
       result[vehicle] = place;
   return result;

@@ -1,7 +1,7 @@
 // Which provider serves which vehicle: what is given, and what an answer is.
 #include "policies/algorithms/assignment/problem.hpp"
 
-#include "policies/algorithms/assignment/stakes.hpp"
+#include "policies/algorithms/assignment/reduced_problem.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,14 +1,14 @@
 // An assignment found by sampling: a benchmark that knows everything.
 #include "policies/algorithms/assignment/sampled.hpp"
 
-#include "policies/algorithms/assignment/stakes.hpp"
+#include "policies/algorithms/assignment/reduced_problem.hpp"
 
 namespace sofof::assignment {
 
 namespace {
 
 /// For each vehicle what its categories mean; local is the first.
-std::vector<std::vector<choice>> meanings(const stakes& s) {
+std::vector<std::vector<choice>> meanings(const reduced_problem& s) {
   std::vector<std::vector<choice>> result(s.vehicles(), {local});
   for (int v = 0; v < s.vehicles(); ++v)
     for (int i = 0; i < s.providers(); ++i)

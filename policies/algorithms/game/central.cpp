@@ -37,7 +37,7 @@ central_game game_of(const central_context& context, double price,
   profile now;
   const auto add = [&](const auto& view, double bonus, choice at) {
     const auto gain =
-        gain_here(view.candidates, context.self, view.utilisation, price);
+        local_gain(view.candidates, context.self, view.utilisation, price);
     players.push_back(player_of(
         gain + bonus, computing_s(view.utilisation, view.task, workers),
         view.task.deadline));

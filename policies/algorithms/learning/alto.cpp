@@ -17,10 +17,10 @@ constexpr std::uint64_t alto_version = 1;
 
 } // namespace
 
-std::optional<boot_id> alto::choose(double task_bits,
-                                    std::span<const boot_id> present) {
+std::optional<provider_id> alto::choose(double task_bits,
+                                        std::span<const provider_id> present) {
   ++tasks_;
-  std::optional<std::pair<double, boot_id>> best;
+  std::optional<std::pair<double, provider_id>> best;
   for (const auto provider : present) {
     const auto known =
         known_.try_emplace(provider, record{tasks_, 0, 0}).first->second;
@@ -47,7 +47,7 @@ double alto::promise(const record& known, double task_bits) const {
          - std::sqrt(options_.beta * (1 - size) * std::log(age) / results);
 }
 
-void alto::learn(boot_id provider, double task_bits, double delay_s) {
+void alto::learn(provider_id provider, double task_bits, double delay_s) {
   const auto found = known_.find(provider);
   if (found == known_.end())
     return;
@@ -82,7 +82,7 @@ std::optional<std::string> alto::restore(std::string_view snapshot) {
   read.tasks_ = in.count();
   in.expect("providers");
   for (auto left = in.count(); left > 0 && !in.failed(); --left) {
-    const auto provider = in.count(~boot_id{0});
+    const auto provider = in.count(~provider_id{0});
     record known;
     known.appeared = in.count(read.tasks_);
     known.results = in.count();

@@ -48,15 +48,15 @@ public:
   /// @param present    Who may get it, in any order.
   /// @returns of these one without a result so far, the lowest id first; else
   /// the most promising; nullopt when none is present.
-  std::optional<boot_id> choose(double task_bits,
-                                std::span<const boot_id> present);
+  std::optional<provider_id> choose(double task_bits,
+                                    std::span<const provider_id> present);
 
   /// Learns from the end of a task; one that is lost took the worst delay, or
   /// its provider would be tried again and again. A provider that was never
   /// present is ignored.
   /// @param task_bits  Size of its input, > 0.
   /// @param delay_s    From input to result, ≥ 0.
-  void learn(boot_id provider, double task_bits, double delay_s);
+  void learn(provider_id provider, double task_bits, double delay_s);
 
   std::string snapshot() const;
   /// @returns why the text is no snapshot of a learner with the same worst
@@ -72,7 +72,7 @@ private:
   double promise(const record& known, double task_bits) const;
 
   alto_options options_;
-  std::map<boot_id, record> known_;
+  std::map<provider_id, record> known_;
   std::uint64_t tasks_ = 0;
 };
 

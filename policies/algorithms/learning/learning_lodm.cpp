@@ -13,14 +13,14 @@ namespace {
 /// After so many epochs without a decision nobody was there to go to.
 constexpr int longest_step_epochs = 5;
 
-bool is_there(const local_context& context, boot_id place) {
+bool is_there(const local_context& context, provider_id place) {
   return std::ranges::find(context.providers, place, &provider_view::id)
          != context.providers.end();
 }
 
 } // namespace
 
-learning_lodm::learning_lodm(make_mind make, const schooling& how,
+learning_lodm::learning_lodm(make_q_function make, const learner_options& how,
                              std::string_view frozen)
     : make_{make}, frozen_{frozen} {
   options_.how = how;
@@ -29,20 +29,20 @@ learning_lodm::learning_lodm(make_mind make, const schooling& how,
 
 learning_lodm::learning_lodm(const learning_lodm& other)
     : local_policy{}, make_{other.make_}, frozen_{other.frozen_},
-      options_{other.options_}, school_{other.school_} {
+      options_{other.options_}, shared_{other.shared_} {
   if (options_.learning)
     return;
-  const std::lock_guard lock{other.school_->busy};
-  school_ = std::make_shared<school>();
-  school_->taught = other.school_->taught->clone();
+  const std::lock_guard lock{other.shared_->busy};
+  shared_ = std::make_shared<shared_learner>();
+  shared_->taught = other.shared_->taught->clone();
 }
 
 void learning_lodm::renew_mind() {
-  school_ = std::make_shared<school>();
-  school_->taught = make_(options_.how);
+  shared_ = std::make_shared<shared_learner>();
+  shared_->taught = make_(options_.how);
   if (options_.learning || frozen_.empty())
     return;
-  if (const auto fault = school_->taught->restore(frozen_))
+  if (const auto fault = shared_->taught->restore(frozen_))
     throw std::logic_error{"a snapshot that came with the program: " + *fault};
 }
 
@@ -67,7 +67,7 @@ learning_lodm::best_way_out(const local_context& context) {
     if (provider.id == context.current)
       continue;
     const auto state = look(context, provider, false);
-    const auto pays = school_->taught->change_pays(state);
+    const auto pays = shared_->taught->change_pays(state);
     if (!best || pays > best->pays)
       best = way_out{provider.id, state, pays};
   }
@@ -75,7 +75,7 @@ learning_lodm::best_way_out(const local_context& context) {
 }
 
 local_decision learning_lodm::decide(const local_context& context) {
-  const std::lock_guard lock{school_->busy};
+  const std::lock_guard lock{shared_->busy};
   auto& seen = of(context.kind);
   seen.reference_j = context.on_board.energy_j;
   if (seen.open) {
@@ -104,7 +104,7 @@ local_decision learning_lodm::decide(const local_context& context) {
 
 std::size_t learning_lodm::act(service& seen, const local_context& context,
                                const mind_state& state) {
-  auto& taught = *school_->taught;
+  auto& taught = *shared_->taught;
   if (!options_.learning)
     return taught.change_pays(state) > 0 ? to_change : to_keep;
   conclude(seen, state);
@@ -120,7 +120,7 @@ void learning_lodm::conclude(service& seen,
   if (!was || !(was->cycles > 0))
     return;
   const auto cost = was->cost / was->cycles;
-  school_->taught->learn({was->state, was->action,
+  shared_->taught->learn({was->state, was->action,
                           -cost - options_.switch_weight * was->changes, next});
 }
 
@@ -142,7 +142,7 @@ void learning_lodm::observe(const episode_outcome& outcome) {
     return;
   constexpr std::array<std::string_view, 2> wanted{"released", "handed_over"};
   constexpr std::array<std::string_view, 2> over{"left_area", "shutdown"};
-  const std::lock_guard lock{school_->busy};
+  const std::lock_guard lock{shared_->busy};
   auto& seen = of(outcome.kind);
   if (std::ranges::find(over, outcome.end_reason) != over.end())
     conclude(seen, std::nullopt);
@@ -152,13 +152,13 @@ void learning_lodm::observe(const episode_outcome& outcome) {
 }
 
 std::string learning_lodm::snapshot() const {
-  const std::lock_guard lock{school_->busy};
-  return school_->taught->snapshot();
+  const std::lock_guard lock{shared_->busy};
+  return shared_->taught->snapshot();
 }
 
 std::optional<std::string> learning_lodm::restore(std::string_view text) {
-  const std::lock_guard lock{school_->busy};
-  return school_->taught->restore(text);
+  const std::lock_guard lock{shared_->busy};
+  return shared_->taught->restore(text);
 }
 
 void learning_lodm::fields(settings& s) {
@@ -180,7 +180,7 @@ void learning_lodm::fields(settings& s) {
     renew_mind();
 }
 
-std::vector<parameter_note> learning_notes() {
+std::vector<option_info> learning_notes() {
   return {
       {"learning", "true or false",
        "from nothing, all vehicles together; else by its snapshot"},

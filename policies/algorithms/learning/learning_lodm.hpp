@@ -1,7 +1,7 @@
 // A learner as the decision of a vehicle.
 #pragma once
 
-#include "policies/algorithms/learning/mind.hpp"
+#include "policies/algorithms/learning/q_function.hpp"
 #include "policies/api/context.hpp"
 #include "policies/api/notes.hpp"
 
@@ -34,11 +34,13 @@ namespace sofof {
 /// changes being its own and those by violations.
 class learning_lodm : public local_policy {
 public:
-  using make_mind = std::unique_ptr<mind> (*)(const schooling&);
+  using make_q_function =
+      std::unique_ptr<q_function> (*)(const learner_options&);
 
   /// @param frozen  Snapshot of such a mind, which stays where it is; empty for
   ///                one that knows nothing and keeps all as it is.
-  learning_lodm(make_mind make, const schooling& how, std::string_view frozen);
+  learning_lodm(make_q_function make, const learner_options& how,
+                std::string_view frozen);
   learning_lodm(const learning_lodm& other);
   learning_lodm& operator=(const learning_lodm&) = delete;
 
@@ -53,7 +55,7 @@ public:
 private:
   struct options {
     bool learning = false;
-    schooling how;
+    learner_options how;
     double energy_weight = 0.3;
     double violation_weight = 1;
     double switch_weight = 0.2;
@@ -61,8 +63,8 @@ private:
     double epoch_s = 0.5;
   };
   /// What a policy and its clones may have in common.
-  struct school {
-    std::unique_ptr<mind> taught;
+  struct shared_learner {
+    std::unique_ptr<q_function> taught;
     std::mutex busy;
   };
   /// What came since a decision.
@@ -80,7 +82,7 @@ private:
   };
   /// Where a service may go, and what the mind sees there.
   struct way_out {
-    boot_id place = 0;
+    provider_id place = 0;
     mind_state state;
     double pays = 0;
   };
@@ -94,14 +96,14 @@ private:
                   const mind_state& state);
   void conclude(service& seen, const std::optional<mind_state>& next);
 
-  make_mind make_;
+  make_q_function make_;
   std::string_view frozen_;
   options options_;
-  std::shared_ptr<school> school_;
+  std::shared_ptr<shared_learner> shared_;
   std::map<std::string, service, std::less<>> services_;
 };
 
 /// @returns what is said of the options of every `learning_lodm`.
-std::vector<parameter_note> learning_notes();
+std::vector<option_info> learning_notes();
 
 } // namespace sofof

@@ -1,0 +1,57 @@
+// Keeps a connection to another host alive, and knows how its clock stands.
+#pragma once
+
+#include "base/protocol.hpp"
+#include "messages/protocol/remote.hpp"
+#include "network/flow/clock_estimate.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace sofof {
+
+/// One side of a connection; both ask and answer alike.
+class heartbeat {
+public:
+  /// @param now              When the connection was made.
+  /// @param time_of_day_gap  How much later the peer's clock stood at 0 than
+  ///                         ours, as their times of day tell.
+  heartbeat(time_point now, duration time_of_day_gap)
+      : alive_{now}, time_of_day_gap_{time_of_day_gap} {}
+
+  ping beat(time_point now) { return {++beats_, now}; }
+  static pong answer(const ping& sign, time_point now) {
+    return {sign, now, now};
+  }
+
+  void take(const pong& echo, time_point now) {
+    // It lived when it heard the sign, and nobody answers before he is asked.
+    alive_ = std::max(alive_, std::min(echo.of.sent, now));
+    clocks_.add({echo.of.sent, echo.received, echo.answered, now});
+  }
+
+  /// Whether it has left unanswered, or answered too late, what was sent since
+  /// protocol::silence_limit: what else comes from it may be as old, or made
+  /// by what still works of it.
+  bool is_lost(time_point now) const {
+    return now - alive_ > protocol::silence_limit;
+  }
+
+  /// @returns how far the peer's clock is ahead of ours; nothing at first.
+  std::optional<clock_offset> clock(time_point now) const {
+    return clocks_.at(now);
+  }
+
+  /// @returns how far its time of day is ahead of ours, given the former.
+  duration time_of_day(const clock_offset& clock) const {
+    return clock.ahead + time_of_day_gap_;
+  }
+
+private:
+  time_point alive_;
+  duration time_of_day_gap_;
+  std::uint64_t beats_ = 0;
+  clock_estimate clocks_;
+};
+
+} // namespace sofof

@@ -1,0 +1,83 @@
+// A provider on another host, as one vehicle sees it.
+#include "actors/remote/provider_proxy.hpp"
+
+#include <caf/stateful_actor.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+struct far_provider_state {
+  static inline const char* name = "far_provider";
+
+  link_actor::pointer self = nullptr;
+  station_id station = 0;
+  uplink_mouth uplink;
+  requester_actor near; // once it has said something
+
+  template <class Message>
+  void down(const Message& message) {
+    if (near)
+      self->send(near, message);
+  }
+
+  // Inputs for its managers come here: there are as many of it.
+  void take(const service_response& response) {
+    if (!near)
+      return;
+    const auto accepted =
+        std::ranges::count_if(response.verdicts, &verdict::accepted);
+    self->send(near, response,
+               std::vector<provider_manager_actor>(
+                   static_cast<std::size_t>(accepted),
+                   provider_manager_actor{link_actor{self}}));
+  }
+
+  void take(const service_end& end) {
+    if (end.from == side::provider)
+      down(end);
+    else
+      self->send(uplink, end);
+  }
+};
+
+link_actor::behavior_type
+provider_proxy(link_actor::stateful_pointer<far_provider_state> self,
+               station_id station, uplink_mouth uplink) {
+  self->state.self = self;
+  self->state.station = station;
+  self->state.uplink = std::move(uplink);
+  return {
+      [self](const its_pdu& message, const requester_actor& requester) {
+        self->state.near = requester;
+        self->send(self->state.uplink, self->state.station, message);
+      },
+      [self](const service_request& request, const requester_actor& requester) {
+        self->state.near = requester;
+        self->send(self->state.uplink, request);
+      },
+      [self](const service_end& end) { self->state.take(end); },
+      [self](const service_result& result) { self->state.down(result); },
+      [self](const service_offer& offer) { self->state.down(offer); },
+      [self](const service_response& response,
+             const std::vector<provider_manager_actor>&) {
+        self->state.take(response);
+      },
+      [self](const service_input& input) {
+        self->send(self->state.uplink, input);
+      },
+  };
+}
+
+} // namespace
+
+link_actor spawn_far_provider(caf::actor_system& sys, station_id station,
+                              const uplink_mouth& uplink) {
+  return sys.spawn(provider_proxy, station, uplink);
+}
+
+} // namespace sofof

@@ -1,0 +1,22 @@
+// A provider on another host, as one vehicle sees it.
+#pragma once
+
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+namespace sofof {
+
+/// What an uplink takes from the vehicles of its process, besides what comes
+/// from the far end. Who ends a service is told by the message itself.
+using uplink_mouth =
+    caf::typed_actor<reacts_to<station_id, its_pdu>, reacts_to<service_request>,
+                     reacts_to<service_input>, reacts_to<service_end>>;
+
+/// Stands where a link to a provider of the same process would. Hands what the
+/// vehicle says to the uplink, and what comes from there to the vehicle.
+/// Outlives connections.
+link_actor spawn_far_provider(caf::actor_system& sys, station_id station,
+                              const uplink_mouth& uplink);
+
+} // namespace sofof

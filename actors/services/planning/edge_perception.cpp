@@ -1,0 +1,113 @@
+// What a provider knows of the road.
+#include "actors/services/planning/edge_perception.hpp"
+
+#include "base/protocol.hpp"
+#include "messages/v2x/object_list.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+/// Nobody has more vehicles round him; more are made up.
+constexpr std::size_t most_stations = 10'000;
+
+} // namespace
+
+perceived_object body_of(const cam& c) {
+  const vehicle_params ours;
+  const auto axle_share = ours.front_m / (ours.front_m + ours.rear_m);
+  const auto centre_ahead_m = (axle_share - 0.5) * c.length_m;
+  return {c.position + centre_ahead_m * unit_vector(c.heading_rad),
+          c.heading_rad,
+          c.speed_mps,
+          c.accel_mps2,
+          c.length_m,
+          c.width_m};
+}
+
+edge_perception::edge_perception(std::function<time_point()> clock,
+                                 std::span<const building> houses)
+    : clock_{std::move(clock)}, doubts_{houses} {}
+
+void edge_perception::hear(const cam& c, sender_id from) {
+  const auto now = clock_();
+  if (protocol::is_of_future(c.at, now))
+    return;
+  const std::lock_guard lock{mutex_};
+  if (doubts_.hear(c.station, from, {c.at, body_of(c)}))
+    model_.hear(c.at, c.station, body_of(c));
+  forget_silent(now);
+  if (told_.size() >= most_stations && !told_.contains(c.station))
+    return;
+  auto& newest = told_[c.station];
+  if (newest.at <= c.at)
+    newest = c;
+}
+
+void edge_perception::hear(const object_list& told, sender_id from) {
+  const auto now = clock_();
+  if (protocol::is_of_future(told.at, now)
+      || protocol::is_of_future(told.generated, now))
+    return;
+  const std::lock_guard lock{mutex_};
+  auto steady = told;
+  doubts_.sift(told.from, told.at, steady.ids, steady.objects);
+  model_.update(told.at, steady.objects);
+  if (steady.eye)
+    doubts_.judge({told.from, false, from}, look_of(steady), model_.tracks());
+}
+
+void edge_perception::see(const roadside_detections& view) {
+  if (protocol::is_of_future(view.at, clock_()))
+    return;
+  const std::lock_guard lock{mutex_};
+  model_.update(view.at, view.objects);
+  doubts_.judge(
+      {view.sensor, true, 0},
+      {view.at, view.from, 0, view.at, view.objects, {}, view.objects.size()},
+      model_.tracks());
+}
+
+std::vector<station_doubt> edge_perception::news() {
+  const std::lock_guard lock{mutex_};
+  return doubts_.news(clock_());
+}
+
+/// A vehicle's sensor is in the middle of its body, as far as CPMs tell; how
+/// long it is and how fast, its CAMs do.
+road_look edge_perception::look_of(const object_list& told) const {
+  road_look look{told.generated, *told.eye,     0, told.at, told.objects,
+                 told.ids,       told.perceived};
+  const auto own = told_.find(told.from);
+  const auto self = own == told_.end() ? cam{} : own->second;
+  look.speed_mps = self.speed_mps;
+  look.from.at =
+      look.from.at + -0.5 * self.length_m * unit_vector(look.from.heading_rad);
+  return look;
+}
+
+std::optional<cam> edge_perception::told_by(station_id who) const {
+  const std::lock_guard lock{mutex_};
+  const auto x = told_.find(who);
+  if (x == told_.end() || clock_() - x->second.at > protocol::cam_timeout)
+    return std::nullopt;
+  return x->second;
+}
+
+void edge_perception::tracks(std::vector<track>& out, station_id station) {
+  const std::lock_guard lock{mutex_};
+  doubts_.believed(clock_(), station, model_.tracks(), out);
+}
+
+void edge_perception::forget_silent(time_point now) {
+  if (now - tidied_ < protocol::cam_timeout)
+    return;
+  tidied_ = now;
+  std::erase_if(told_, [now](const auto& x) {
+    return now - x.second.at > protocol::cam_timeout;
+  });
+}
+
+} // namespace sofof

@@ -1,0 +1,56 @@
+// What a provider knows of the road: all CAMs and CPMs, and what its own
+// sensors see, put together.
+#pragma once
+
+#include "actors/offloading/service_type.hpp"
+#include "messages/v2x/generation_rules.hpp"
+#include "planners/plausibility/plausibility.hpp"
+#include "planners/scene/object_tracker.hpp"
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// @returns the body of a vehicle that has sent a CAM. Its rear axle is as far
+/// forward in it as in a car of ours.
+perceived_object body_of(const cam& c);
+
+/// What is told of later than now is not believed, nor is what `plausibility`
+/// doubts.
+class edge_perception final : public provider_context {
+public:
+  /// @param houses  Of the map; they hide what is behind them.
+  explicit edge_perception(std::function<time_point()> clock,
+                           std::span<const building> houses = {});
+
+  void hear(const cam& c, sender_id from) override;
+  void hear(const object_list& told, sender_id from) override;
+  void see(const roadside_detections& view) override;
+  std::vector<station_doubt> news() override;
+
+  /// @returns what a vehicle told of itself last, unless that is older than
+  /// protocol::cam_timeout.
+  std::optional<cam> told_by(station_id who) const;
+
+  /// Copies what is known now and believed by who plans for `station`.
+  void tracks(std::vector<track>& out, station_id station);
+
+private:
+  void forget_silent(time_point now);
+  road_look look_of(const object_list& told) const;
+
+  std::function<time_point()> clock_;
+  mutable std::mutex mutex_;
+  // Told by CAMs and CPMs, which come when there is news.
+  object_tracker model_{{}, {generation::moved_m, generation::longest}};
+  plausibility doubts_;
+  std::map<station_id, cam> told_; // the newest CAM of each
+  time_point tidied_;
+};
+
+} // namespace sofof

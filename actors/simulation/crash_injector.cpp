@@ -1,0 +1,32 @@
+// Ends an actor at a time, without goodbye.
+#include "actors/simulation/crash_injector.hpp"
+
+#include "actors/runtime/time.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/event_based_actor.hpp>
+#include <caf/exit_reason.hpp>
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+caf::behavior crash_injector(caf::event_based_actor* self,
+                             const caf::actor& victim, duration after) {
+  send_after(self, self, after, tick_atom_v);
+  return {[self, victim](tick_atom) {
+    self->send_exit(victim, caf::exit_reason::kill);
+    self->quit();
+  }};
+}
+
+} // namespace
+
+caf::actor spawn_power_cut(caf::actor_system& sys, caf::actor victim,
+                           duration after) {
+  return sys.spawn(crash_injector, std::move(victim), after);
+}
+
+} // namespace sofof

@@ -1,0 +1,85 @@
+// Distributions of durations, drawn by number.
+#include "channel/delay_distribution.hpp"
+
+#include <cmath>
+
+namespace sofof {
+
+delay_distribution delay_distribution::uniform(duration low, duration high) {
+  return {shape::uniform, low, to_seconds(high - low)};
+}
+
+delay_distribution delay_distribution::exponential(duration mean) {
+  return {shape::exponential, {}, to_seconds(mean)};
+}
+
+delay_distribution delay_distribution::lognormal(duration shift, duration mean,
+                                                 duration sd) {
+  const auto spread = to_seconds(sd) / to_seconds(mean);
+  const auto variance = std::log1p(spread * spread);
+  return {shape::lognormal, shift, std::log(to_seconds(mean)) - variance / 2,
+          std::sqrt(variance)};
+}
+
+delay_distribution delay_distribution::lognormal_about(duration shift,
+                                                       duration scale,
+                                                       double sigma) {
+  return {shape::lognormal, shift, std::log(to_seconds(scale)), sigma};
+}
+
+delay_distribution delay_distribution::beta(duration longest, double a,
+                                            double b) {
+  return {shape::beta, {}, to_seconds(longest), a, b};
+}
+
+double delay_distribution::draw_s(const random_stream& stream,
+                                  std::uint64_t number,
+                                  std::uint32_t lane) const {
+  switch (kind_) {
+    case shape::none:
+      return 0;
+    case shape::uniform:
+      return shift_s_ + p_ * stream.uniform(number, lane);
+    case shape::exponential:
+      return shift_s_ + stream.exponential(p_, number, lane);
+    case shape::lognormal:
+      return shift_s_ + std::exp(stream.normal(p_, q_, number, lane));
+    case shape::beta:
+      return shift_s_ + p_ * stream.beta(q_, r_, number, lane);
+  }
+  return 0;
+}
+
+double delay_distribution::mean_s() const {
+  switch (kind_) {
+    case shape::none:
+      return 0;
+    case shape::uniform:
+      return shift_s_ + p_ / 2;
+    case shape::exponential:
+      return shift_s_ + p_;
+    case shape::lognormal:
+      return shift_s_ + std::exp(p_ + q_ * q_ / 2);
+    case shape::beta:
+      return shift_s_ + p_ * q_ / (q_ + r_);
+  }
+  return 0;
+}
+
+double delay_distribution::deviation_s() const {
+  switch (kind_) {
+    case shape::none:
+      return 0;
+    case shape::uniform:
+      return p_ / std::sqrt(12.0);
+    case shape::exponential:
+      return p_;
+    case shape::lognormal:
+      return std::exp(p_ + q_ * q_ / 2) * std::sqrt(std::expm1(q_ * q_));
+    case shape::beta:
+      return p_ / (q_ + r_) * std::sqrt(q_ * r_ / (q_ + r_ + 1));
+  }
+  return 0;
+}
+
+} // namespace sofof

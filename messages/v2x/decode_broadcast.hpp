@@ -1,0 +1,22 @@
+// What a message of another station says.
+#pragma once
+
+#include "messages/protocol/its_pdu.hpp"
+#include "messages/protocol/service.hpp"
+#include "messages/v2x/georeference.hpp"
+#include "messages/v2x/perception.hpp"
+
+#include <variant>
+
+namespace sofof {
+
+/// A CAM, a CPM, or neither.
+using broadcast = std::variant<std::monostate, cam, object_list>;
+
+/// @param now  See read_cam, read_cpm.
+/// @returns nothing for what cannot be decoded, does not tell what it has to,
+/// or is of another kind.
+broadcast understand(const its_pdu& message, const georeference& where,
+                     time_point now);
+
+} // namespace sofof

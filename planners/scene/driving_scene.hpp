@@ -1,0 +1,52 @@
+// What the others mean on the own way: the world as a planner needs it.
+#pragma once
+
+#include "base/ids.hpp"
+#include "base/time.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// The nearest road user ahead on one's own way.
+struct lead_vehicle {
+  station_id station = 0;
+  double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
+                       ///< route, laps counted as the follower counts.
+  double speed_mps = 0;
+  double accel_mps2 = 0;
+};
+
+/// A stretch of the own way that another road user is going to cross, and
+/// when. Times are seconds after `surroundings::at`.
+struct crossing_user {
+  double from_m = 0, to_m = 0; ///< Arc length on the own route.
+  double enter_s = 0;          ///< Its front comes onto the stretch; 0: it is
+                               ///< there.
+  double leave_s = 0;          ///< Its rear has left; infinite: it stands.
+  bool goes_first = true;      ///< By right of way; else it gives way.
+};
+
+/// A body that reaches into the lane but leaves room to pass beside it.
+struct lane_obstacle {
+  double from_m = 0, to_m = 0;  ///< Of the body, arc length on the own route.
+  double low_m = 0, high_m = 0; ///< Its lateral extent, left positive.
+  double speed_mps = 0; ///< Along the own route; negative when it comes.
+};
+
+/// What a driver has to know about the others.
+struct driving_scene {
+  time_point at;
+  std::optional<lead_vehicle> lead;
+  /// The front bumper must not pass this arc length on the own route: a
+  /// crossing has not been granted yet.
+  std::optional<double> stop_at_m;
+  std::vector<crossing_user> crossings; ///< In order of `from_m`.
+  std::vector<lane_obstacle> beside;    ///< In order of `from_m`.
+  /// Where crossings begin at which others would go first, whether anybody is
+  /// seen or not: arc length on the own route, rising.
+  std::vector<double> yields_m;
+};
+
+} // namespace sofof

@@ -1,0 +1,213 @@
+// Everything on the road that somebody sees, as tracks.
+#include "planners/scene/object_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace sofof {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Who has not been seen for longer is forgotten, unless sightings are rare.
+constexpr duration memory = 1s;
+
+/// Sightings that arrive later than this are useless.
+constexpr duration max_delay = 500ms;
+
+/// Of the chi-square distribution with 4 degrees of freedom (two of position,
+/// two of velocity), the quantile 0.999.
+constexpr auto gate = 18.47;
+
+/// Bodies at one time; who was not seen for longest makes room for more. A
+/// provider hears far more than a vehicle sees.
+constexpr std::size_t max_tracks = 1024;
+/// There is room for as many without heap.
+constexpr std::size_t usual_tracks = 128;
+
+/// Of a new value in the low-passed ones, where values come at 10 Hz or more
+/// often; all of one that comes after twice as long.
+constexpr auto least_share = 0.5;
+constexpr auto whole_after_s = 0.2;
+
+/// Of one update, the first bodies count; no road shows more at once.
+constexpr std::size_t max_seen = 256;
+
+/// Nothing on a road is faster or longer, or farther away.
+constexpr auto max_speed_mps = 100.0;
+constexpr auto max_length_m = 30.0;
+constexpr auto most_distant_m = 1e7;
+constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
+
+bool is_sound(const perceived_object& o) {
+  // Comparisons with NaN are false.
+  return std::abs(o.centre.x_m) <= most_distant_m
+         && std::abs(o.centre.y_m) <= most_distant_m
+         && std::abs(o.heading_rad) <= max_heading_rad
+         && std::isfinite(o.accel_mps2)
+         && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0
+         && o.length_m >= o.width_m && o.length_m <= max_length_m;
+}
+
+} // namespace
+
+duration sighting_rhythm::silence(double speed_mps) const {
+  // Of numbers from outside: the comparison with NaN is false.
+  const auto way_s = moved_m / std::abs(speed_mps);
+  return way_s < to_seconds(at_latest) ? from_seconds(way_s) : at_latest;
+}
+
+object_tracker::object_tracker(sighting_noise noise, sighting_rhythm rhythm)
+    : noise_{noise}, rhythm_{rhythm} {
+  tracks_.reserve(usual_tracks);
+  sightings_.reserve(usual_tracks);
+  pairs_.reserve(4 * usual_tracks);
+  is_taken_.reserve(usual_tracks);
+}
+
+void object_tracker::update(time_point at,
+                            std::span<const perceived_object> seen) {
+  if (!pass_time(at))
+    return;
+  sightings_.clear();
+  for (const auto& o : seen.first(std::min(seen.size(), max_seen)))
+    if (is_sound(o))
+      sightings_.push_back(make_sighting(at, o));
+  pairs_.clear();
+  for (std::uint32_t t = 0; t < tracks_.size(); ++t)
+    for (std::uint32_t s = 0; s < sightings_.size(); ++s)
+      match(t, s);
+  pair_up(at);
+  for (const auto& s : sightings_)
+    if (!s.is_known)
+      give_birth(at, s);
+}
+
+void object_tracker::hear(time_point at, station_id who,
+                          const perceived_object& self) {
+  if (!pass_time(at) || !is_sound(self))
+    return;
+  sightings_.assign(1, make_sighting(at, self));
+  pairs_.clear();
+  const auto named =
+      std::ranges::find(tracks_, std::optional{who}, &track::station);
+  if (named != tracks_.end()) {
+    match(static_cast<std::uint32_t>(named - tracks_.begin()), 0);
+    if (pairs_.empty())
+      named->station.reset(); // it has followed somebody else
+  }
+  if (pairs_.empty())
+    for (std::uint32_t t = 0; t < tracks_.size(); ++t)
+      if (!tracks_[t].station)
+        match(t, 0);
+  pair_up(at);
+  if (pairs_.empty())
+    give_birth(at, sightings_.front());
+  auto& self_track =
+      pairs_.empty() ? tracks_.back() : tracks_[pairs_.front().track];
+  self_track.station = who;
+}
+
+/// Brings all tracks to `at`, if that is later, and forgets.
+/// @returns whether a sighting of that time is worth having.
+bool object_tracker::pass_time(time_point at) {
+  if (at > newest_) {
+    newest_ = at;
+    std::erase_if(tracks_, [&](const track& x) {
+      return newest_ - x.seen > lifetime(x);
+    });
+    for (auto& x : tracks_)
+      x = predict(x, newest_);
+  }
+  return newest_ - at <= max_delay;
+}
+
+/// Long enough for the message after a lost one, which may be late.
+duration object_tracker::lifetime(const track& x) const {
+  const auto silence = rhythm_.silence(x.speed_mps());
+  return std::max(memory, 2 * silence + max_delay);
+}
+
+object_tracker::object_list
+object_tracker::make_sighting(time_point at, const perceived_object& o) const {
+  const auto across_mps = o.speed_mps * noise_.heading_rad;
+  object_list s{o, {}, false, false};
+  s.motion.mean << o.centre.x_m, o.speed_mps * std::cos(o.heading_rad),
+      o.centre.y_m, o.speed_mps * std::sin(o.heading_rad);
+  s.motion.covariance.diagonal() << noise_.position_m * noise_.position_m,
+      noise_.speed_mps * noise_.speed_mps + across_mps * across_mps;
+  s.motion.advance(to_seconds(newest_ - at));
+  return s;
+}
+
+/// Enters a track and a sighting as a pair, if they may be of one body.
+void object_tracker::match(std::uint32_t t, std::uint32_t s) {
+  const auto& x = tracks_[t];
+  auto& other = sightings_[s];
+  const auto distance2_m2 =
+      (other.motion.mean.col(0) - x.motion.mean.col(0)).squaredNorm();
+  const auto variance_m2 =
+      x.motion.covariance(0, 0) + other.motion.covariance(0, 0);
+  const auto is_same =
+      in_one_place(distance2_m2, x.width_m, other.object.width_m);
+  if (distance2_m2 > gate * variance_m2 && !is_same)
+    return; // as far apart, they are outside the gate whatever their speeds
+  const auto [distance2, cost] = x.motion.compare(other.motion);
+  other.is_known = other.is_known || is_same;
+  if (distance2 <= gate || is_same)
+    pairs_.push_back({distance2 <= gate, cost, t, s});
+}
+
+/// Lets tracks take sightings, the likeliest pairs first.
+void object_tracker::pair_up(time_point at) {
+  std::ranges::sort(pairs_, {}, [](const pair& p) {
+    return std::tuple{!p.in_gate, p.cost, p.track, p.object_list};
+  });
+  is_taken_.assign(tracks_.size(), 0);
+  for (const auto& p : pairs_) {
+    auto& s = sightings_[p.object_list];
+    if (is_taken_[p.track] || s.is_taken)
+      continue;
+    is_taken_[p.track] = 1;
+    s.is_known = s.is_taken = true;
+    take(tracks_[p.track], at, s, p.in_gate);
+  }
+}
+
+/// @param fits  Else the track begins anew, unless the sighting is old.
+void object_tracker::take(track& x, time_point at, const object_list& s,
+                          bool fits) {
+  if (fits)
+    x.motion.fuse(s.motion);
+  else if (at == newest_)
+    x.motion = s.motion;
+  if (at < x.seen)
+    return;
+  const auto& o = s.object;
+  const auto share_of_new =
+      std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
+  x.seen = at;
+  x.heading_rad += share_of_new * wrap_angle(o.heading_rad - x.heading_rad);
+  x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
+  x.length_m += share_of_new * (o.length_m - x.length_m);
+  x.width_m += share_of_new * (o.width_m - x.width_m);
+}
+
+void object_tracker::give_birth(time_point at, const object_list& s) {
+  if (tracks_.size() == max_tracks)
+    tracks_.erase(std::ranges::min_element(tracks_, {}, &track::seen));
+  const auto& o = s.object;
+  tracks_.push_back({++last_id_,
+                     {},
+                     newest_,
+                     at,
+                     s.motion,
+                     o.heading_rad,
+                     o.accel_mps2,
+                     o.length_m,
+                     o.width_m});
+}
+
+} // namespace sofof

@@ -1,0 +1,228 @@
+// What the tracks on the road mean to one vehicle on its route.
+#include "planners/scene/scene_interpreter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+
+namespace sofof {
+
+namespace {
+
+/// Coarse samples of the way, m.
+constexpr auto coarse_m = 4.0;
+
+/// Outlines are measured at points this far apart at most, m: a side between
+/// two of them bulges less than 7 cm into a lane that bends with 12 m radius.
+constexpr auto outline_m = 2.6;
+
+/// Curvature changes by no more than this beneath a car, 1/m.
+constexpr auto curvature_change_1pm = 0.05;
+
+constexpr auto infinity = std::numeric_limits<double>::infinity();
+
+/// To be expected at once; more take more memory, once.
+constexpr std::size_t usual_cars = 128;
+
+double radius_m(const track& x) {
+  return 0.5 * std::sqrt(x.length_m * x.length_m + x.width_m * x.width_m);
+}
+
+/// @returns the point `offset` (along, to the left) from a path's point.
+point offset(const path_point& p, double along_m, double left_m) {
+  const auto c = std::cos(p.heading_rad), s = std::sin(p.heading_rad);
+  return p.at + point{along_m * c - left_m * s, along_m * s + left_m * c};
+}
+
+} // namespace
+
+scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
+                                     const route_ptr& way,
+                                     outlook_params params)
+    : way_{way}, params_{params}, crossings_{std::move(lanes), way,
+                                             params.car.width_m / 2
+                                                 + params.margin_m,
+                                             params.foresight_s} {
+  const auto& line = way->path();
+  const auto count = std::ceil(line.length_m() / coarse_m);
+  bead_m_ = line.length_m() / count;
+  for (auto i = 0.0; i < count; ++i)
+    beads_.push_back(line.at(i * bead_m_).at);
+  if (!way->closed())
+    beads_.push_back(line.at(line.length_m()).at);
+  for (std::size_t i = 0; i < way->sequence().size(); ++i)
+    half_lane_m_ =
+        std::max(half_lane_m_, way->half_width_m(way->start_of_m(i)));
+  others_.reserve(usual_cars);
+  near_.reserve(usual_cars);
+}
+
+void scene_interpreter::describe(time_point now, const own_place& me,
+                                 std::span<const track> tracks,
+                                 driving_scene& out) {
+  out.at = now;
+  out.lead.reset();
+  out.crossings.clear();
+  out.beside.clear();
+  out.yields_m.clear();
+  gather(now, me, tracks);
+  if (params_.judges_crossings) {
+    const auto rear_m = me.s_m - params_.car.rear_m;
+    const auto front_m = me.s_m + params_.car.front_m;
+    crossings_.judge(rear_m, front_m + params_.horizon_m, others_,
+                     out.crossings, out.yields_m);
+  }
+  find_near(me);
+  find_bodies(me, out);
+}
+
+/// Brings the others, without the own vehicle, to the present.
+void scene_interpreter::gather(time_point now, const own_place& me,
+                               std::span<const track> tracks) {
+  const auto& car = params_.car;
+  const auto own_centre =
+      offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
+  others_.clear();
+  for (const auto& known : tracks) {
+    if (me.station && known.station == me.station)
+      continue;
+    const auto x = predict(known, now);
+    const auto apart = x.centre() - own_centre;
+    if (!known.station
+        && in_one_place(dot(apart, apart), x.width_m, car.width_m))
+      continue;
+    others_.push_back({x, false});
+  }
+}
+
+/// Finds, by the beads, the places on the way ahead where bodies may reach
+/// into the lane; several of one body where the way returns to it.
+void scene_interpreter::find_near(const own_place& me) {
+  const auto count = static_cast<std::int64_t>(beads_.size());
+  const auto front_m = me.s_m + params_.car.front_m;
+  auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
+  auto last = static_cast<std::int64_t>(
+                  std::ceil((front_m + params_.horizon_m) / bead_m_))
+              + 1;
+  if (!way_->closed()) {
+    first = std::clamp<std::int64_t>(first, 0, count - 1);
+    last = std::clamp<std::int64_t>(last, 0, count - 1);
+  }
+  const auto start = (first % count + count) % count; // on the lap
+  near_.clear();
+  for (std::size_t who = 0; who < others_.size(); ++who) {
+    const auto& x = others_[who].x;
+    const auto reach_m =
+        radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
+    auto away_m = [&](std::int64_t i) {
+      const auto on_lap = start + (i - first);
+      return distance_m(x.centre(),
+                        beads_[static_cast<std::size_t>(
+                            on_lap < count ? on_lap : on_lap % count)]);
+    };
+    auto before_m = infinity;
+    for (auto i = first; i <= last;) {
+      const auto here_m = away_m(i);
+      if (here_m > reach_m) { // it takes so many beads to come near
+        i += 1 + static_cast<std::int64_t>((here_m - reach_m) / bead_m_);
+        before_m = infinity;
+        continue;
+      }
+      if (here_m < before_m && (i == last || here_m <= away_m(i + 1))) {
+        const auto guess_m = static_cast<double>(i) * bead_m_;
+        near_.push_back({guess_m - bead_m_ - radius_m(x), guess_m, who});
+      }
+      before_m = here_m;
+      ++i;
+    }
+  }
+  std::ranges::sort(near_, {}, [](const near& n) {
+    return std::tuple{n.low_m, n.who};
+  });
+}
+
+/// Measures a body from the way.
+/// @returns nothing when it stays out of the lane and the way of the car.
+std::optional<scene_interpreter::footprint>
+scene_interpreter::measure(const near& where) const {
+  const auto& x = others_[where.who].x;
+  const auto& line = way_->path();
+  const auto on = line.project(x.centre(), where.guess_m, bead_m_);
+  const auto here = line.at(on.s_m);
+  const auto turned_rad = x.heading_rad - here.heading_rad;
+  const auto c = std::cos(turned_rad), s = std::sin(turned_rad);
+  footprint print{infinity,
+                  -infinity,
+                  infinity,
+                  -infinity,
+                  c,
+                  x.speed_along_mps(here.heading_rad),
+                  way_->half_width_m(on.s_m)};
+
+  // Most stay in their own lanes, by far.
+  const auto wide_m = std::max(print.half_lane_m, corridor_m());
+  const auto bulge_m = (std::abs(here.curvature_1pm) + curvature_change_1pm)
+                       * (x.length_m * x.length_m + x.width_m * x.width_m) / 4;
+  const auto across_m =
+      (std::abs(s) * x.length_m + std::abs(c) * x.width_m) / 2;
+  if (std::abs(on.d_m) - across_m - bulge_m > wide_m)
+    return {};
+
+  const auto pieces = std::ceil(x.length_m / outline_m);
+  const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
+  const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
+  const point left{-ahead.y_m, ahead.x_m};
+  for (auto i = 0.0; i <= pieces; ++i)
+    for (const auto side : {-0.5, 0.5}) {
+      const auto along_m = (i / pieces - 0.5) * x.length_m;
+      const auto left_m = side * x.width_m;
+      const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
+      const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
+                                  guess_m, bead_m_);
+      print.from_m = std::min(print.from_m, p.s_m);
+      print.to_m = std::max(print.to_m, p.s_m);
+      print.low_m = std::min(print.low_m, p.d_m);
+      print.high_m = std::max(print.high_m, p.d_m);
+    }
+  if (print.low_m >= wide_m || print.high_m <= -wide_m)
+    return {};
+  return print;
+}
+
+void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
+  const auto front_m = me.s_m + params_.car.front_m;
+  const auto rear_m = me.s_m - params_.car.rear_m;
+  const auto need_m = 2 * corridor_m();
+  for (const auto& where : near_) {
+    if (out.lead && where.low_m > out.lead->rear_s_m)
+      break;
+    const auto print = measure(where);
+    if (!print || print->to_m <= rear_m
+        || print->from_m > front_m + params_.horizon_m)
+      continue;
+    const auto& b = *print;
+    const auto& [x, is_crossing] = others_[where.who];
+    if (is_crossing && !is_along(b.cosine))
+      continue;
+    const auto room_m =
+        b.half_lane_m + std::max(-b.high_m, b.low_m); // on its better side
+    const auto is_in_the_way =
+        b.low_m < corridor_m() && b.high_m > -corridor_m();
+    if (!is_in_the_way || room_m >= need_m)
+      out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps});
+    else if (b.to_m > front_m && (!out.lead || b.from_m < out.lead->rear_s_m))
+      out.lead = {x.station.value_or(0), b.from_m, std::max(b.speed_mps, 0.0),
+                  b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+  }
+  if (out.lead)
+    std::erase_if(out.beside, [&](const lane_obstacle& o) {
+      return o.from_m > out.lead->rear_s_m;
+    });
+  std::ranges::sort(out.beside, {}, [](const lane_obstacle& o) {
+    return std::tuple{o.from_m, o.low_m};
+  });
+}
+
+} // namespace sofof

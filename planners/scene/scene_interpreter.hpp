@@ -1,0 +1,93 @@
+// What the tracks on the road mean to one vehicle on its route.
+#pragma once
+
+#include "planners/scene/corridor.hpp"
+#include "planners/scene/crossing_predictor.hpp"
+#include "planners/scene/driving_scene.hpp"
+#include "planners/scene/lane_network.hpp"
+#include "planners/scene/track.hpp"
+#include "world/vehicle/vehicle.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sofof {
+
+/// How a vehicle looks at the others.
+struct outlook_params {
+  double horizon_m = 200; ///< Ahead of the own front.
+  /// To keep on either side of the own body.
+  double margin_m = (corridor::room_beside_m - vehicle_params{}.width_m) / 2;
+  bool judges_crossings = false; ///< Else they are granted by somebody else.
+  double foresight_s = 10;       ///< Others get so far at their present speed.
+  vehicle_params car{};
+};
+
+/// The vehicle that looks.
+struct own_place {
+  std::optional<station_id> station; ///< If it is heard by that name.
+  double s_m = 0;                    ///< Rear axle on the route, with laps.
+  double d_m = 0; ///< Offset from the centre line, left positive.
+};
+
+/// Finds out who leads, who stands in the lane, and who crosses. A body is
+/// * nobody's business while it stays out of the own lane, whatever its
+///   heading;
+/// * beside, when it reaches into the lane but leaves room for the own body
+///   and both margins on one side;
+/// * the lead, when it is the nearest that reaches into the way of the own
+///   body (and margins) on the centre line, and leaves no such room; bodies
+///   beyond it are not looked for;
+/// * crossing, when crossings are judged and it is on, or drives towards, the
+///   other side of a zone ahead. Who drives across the own way there is
+///   not a lead besides, and who drives along it is not crossing.
+class scene_interpreter {
+public:
+  /// @param lanes  Of the map that the route is on; not null.
+  scene_interpreter(std::shared_ptr<const lane_network> lanes,
+                    const route_ptr& way, outlook_params params);
+
+  /// Describes all but `stop_at_m`, which it leaves as it is: what is granted
+  /// is not seen.
+  /// * The lead: its speed along the own way, 0 when it comes; its
+  ///   acceleration only when it brakes; its station 0 when unknown.
+  /// * Crossings: of equal ranks, the other goes first. So does whoever is on
+  ///   the zone or cannot stop before it any more.
+  /// @param tracks  At most as new as `now`; the own one may be among them
+  ///                and is known by its station or its place.
+  /// @param out     Its vectors are reused.
+  void describe(time_point now, const own_place& me,
+                std::span<const track> tracks, driving_scene& out);
+
+private:
+  struct near { // part of the way
+    double low_m, guess_m;
+    std::size_t who;
+  };
+  struct footprint {
+    double from_m, to_m, low_m, high_m;
+    double cosine; // of the angle to the way
+    double speed_mps, half_lane_m;
+  };
+  void gather(time_point now, const own_place& me,
+              std::span<const track> tracks);
+  void find_near(const own_place& me);
+  std::optional<footprint> measure(const near& where) const;
+  void find_bodies(const own_place& me, driving_scene& out);
+  double corridor_m() const {
+    return params_.car.width_m / 2 + params_.margin_m;
+  }
+
+  route_ptr way_;
+  outlook_params params_;
+  crossing_predictor crossings_;
+  std::vector<point> beads_; // along the way, equidistant
+  double bead_m_ = 0;
+  double half_lane_m_ = 0; // at its widest
+  std::vector<other_body> others_;
+  std::vector<near> near_;
+};
+
+} // namespace sofof

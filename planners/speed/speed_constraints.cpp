@@ -1,0 +1,32 @@
+// How a car ahead goes on.
+#include "planners/speed/speed_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof {
+
+double speed_constraints::follower::way_left_m() const {
+  if (lead.speed_mps <= 0)
+    return 0;
+  return lead.accel_mps2 < 0
+             ? lead.speed_mps * lead.speed_mps / (-2 * lead.accel_mps2)
+             : never;
+}
+
+double speed_constraints::follower::at(double t_s) const {
+  const auto v = lead.speed_mps, b = std::max(0.0, -lead.accel_mps2);
+  const auto t = b > 0 ? std::min(t_s, v / b) : t_s;
+  return touch_m + t * (v - b * t / 2);
+}
+
+double speed_constraints::follower::when_s(double way_m) const {
+  const auto way = way_m - touch_m;
+  const auto v = lead.speed_mps, b = std::max(0.0, -lead.accel_mps2);
+  if (b == 0)
+    return v > 0 ? way / v : (way > 0 ? never : -never);
+  const auto rest = v * v - 2 * b * way;
+  return rest < 0 ? never : (v - std::sqrt(rest)) / b;
+}
+
+} // namespace sofof

@@ -1,0 +1,77 @@
+// A bandit as the decision of a vehicle.
+#pragma once
+
+#include "policies/algorithms/learning/bandit_trial.hpp"
+#include "policies/api/context.hpp"
+#include "policies/api/notes.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Where one service is tried.
+class bandit {
+public:
+  virtual ~bandit() = default;
+
+  /// @returns where it is tried next, 0 for the vehicle itself; nullopt: there
+  /// is no choice.
+  virtual std::optional<provider_id> choose(const local_context& context) = 0;
+  /// @returns what a cycle counts in a trial; nullopt: nothing.
+  virtual std::optional<double> value(const cycle_outcome& outcome,
+                                      provider_id place) const = 0;
+  /// @param mean  Of a cycle; nullopt: nothing came, or nobody would have it.
+  virtual void learn(provider_id place, std::optional<double> mean) = 0;
+
+  virtual std::string snapshot() const = 0;
+  virtual std::optional<std::string> restore(std::string_view text) = 0;
+  virtual std::unique_ptr<bandit> clone() const = 0;
+};
+
+/// Tries each service of a vehicle for a while where a bandit of its own says.
+/// A trial ends early when nobody would have it, when the service does not run
+/// there any more, or when the place does not come into question any more.
+class bandit_lodm : public local_policy {
+public:
+  bandit_lodm() = default;
+  bandit_lodm(const bandit_lodm& other) : local_policy{} { *this = other; }
+  bandit_lodm& operator=(const bandit_lodm& other);
+
+  local_decision decide(const local_context& context) override;
+  void observe(const cycle_outcome& outcome) override;
+  void observe(const refusal_outcome& outcome) override;
+  void observe(const episode_outcome& outcome) override;
+  double epoch_s() const override { return epoch_s_; }
+  std::string snapshot() const override;
+  std::optional<std::string> restore(std::string_view text) override;
+  void fields(settings& s) override;
+
+protected:
+  /// @returns a bandit that knows nothing.
+  virtual std::unique_ptr<bandit> make_bandit() const = 0;
+
+private:
+  struct service {
+    std::unique_ptr<bandit> learner;
+    bandit_trial now;
+  };
+  using services = std::map<std::string, service, std::less<>>;
+
+  service& of(std::string_view kind);
+  bandit_trial* running(std::string_view kind, provider_id place);
+  void conclude(service& tried, time_point now) const;
+
+  duration trial_ = std::chrono::seconds{2};
+  double epoch_s_ = 0.1;
+  services services_;
+};
+
+/// @returns what is said of the options of `bandit_lodm`, then `others`.
+std::vector<option_info> trials_and(const std::vector<option_info>& others);
+
+} // namespace sofof

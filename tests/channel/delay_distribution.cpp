@@ -1,0 +1,86 @@
+// Tests of the distributions of delays.
+#include "channel/delay_distribution.hpp"
+
+#include "channel/channel.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+TEST_CASE("mean and deviation of a law are those of its draws") {
+  const std::vector<std::pair<std::string, delay_distribution>> laws{
+      {"none", {}},
+      {"uniform", delay_distribution::uniform(5ms, 25ms)},
+      {"exponential", delay_distribution::exponential(7ms)},
+      {"lognormal", delay_distribution::lognormal(3ms, 10ms, 4ms)},
+      {"lognormal about", delay_distribution::lognormal_about(3ms, 10ms, 0.4)},
+      {"beta", delay_distribution::beta(45ms, 0.646, 2.11)}};
+  const random_stream noise{1, "means"};
+  constexpr int draws = 40000;
+  for (const auto& [name, law] : laws) {
+    CAPTURE(name);
+    double sum = 0, squares = 0;
+    for (std::uint64_t k = 0; k < draws; ++k) {
+      const auto x = law.draw_s(noise, k, 0);
+      sum += x;
+      squares += x * x;
+    }
+    const auto mean = sum / draws;
+    CHECK(law.mean_s() == doctest::Approx(mean).epsilon(0.015));
+    CHECK(law.deviation_s()
+          == doctest::Approx(std::sqrt(squares / draws - mean * mean))
+                 .epsilon(0.03));
+  }
+}
+
+TEST_CASE("a profile's constant parts are on top of all draws, each way") {
+  for (const auto name : channel_profile_names()) {
+    CAPTURE(name);
+    auto profile = *find_channel_profile(name);
+    profile.trace = {{0, 0.010}, {1, 0.020}};
+    const auto made = [&] {
+      return channel{std::make_shared<const channel_profile>(profile),
+                     random_stream{1, "network"}, 101, 0};
+    };
+    const auto plain = made();
+    const auto mean_s = profile.mean_service_s();
+    profile.more_computing = 8ms;
+    profile.more_delay = 30ms;
+    const auto more = made();
+    CHECK(profile.mean_service_s() == doctest::Approx(mean_s + 0.008));
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      CHECK(more.service_time(k) - plain.service_time(k) == 8ms);
+      for (const auto direction : {way::up, way::down}) {
+        const message_id id{direction, message_class::result, k};
+        CHECK(more.network_delay(id, {}) - plain.network_delay(id, {}) == 30ms);
+      }
+    }
+  }
+}
+
+TEST_CASE("what a profile says of its computing times is true of the draws") {
+  for (const auto name : {"paper-sim", "paper-5g"}) {
+    CAPTURE(name);
+    const auto profile = *find_channel_profile(name);
+    const channel draws{std::make_shared<const channel_profile>(profile),
+                        random_stream{1, "network"}, 101, 0};
+    constexpr int count = 40000;
+    double sum = 0, squares = 0;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const auto x = to_seconds(draws.service_time(k));
+      sum += x;
+      squares += x * x;
+    }
+    const auto mean = sum / count;
+    CHECK(profile.mean_service_s() == doctest::Approx(mean).epsilon(0.015));
+    CHECK(profile.service_deviation_s()
+          == doctest::Approx(std::sqrt(squares / count - mean * mean))
+                 .epsilon(0.03));
+  }
+}

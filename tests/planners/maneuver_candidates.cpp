@@ -1,0 +1,205 @@
+// The ways past the others: which there are, and which come first.
+#include "planners/trajectory/maneuver_candidates.hpp"
+
+#include "tests/support/dice.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace sofof;
+using doctest::Approx;
+
+namespace {
+
+constexpr crossing_car car{4, 1, 10, 14, 1.5};
+
+double straight_on(double s_m) {
+  return s_m;
+}
+
+std::vector<crossing_order> orders(std::vector<crossing_user> users,
+                                   std::uint32_t first = 0,
+                                   std::size_t most = 16,
+                                   crossing_car c = car) {
+  std::vector<crossing_order> out;
+  list_orders(users, c, straight_on, first, most, out);
+  return out;
+}
+
+std::vector<passing_order> sides(std::vector<lane_obstacle> bodies,
+                                 std::uint32_t first = 0, std::size_t most = 16,
+                                 double half_width_m = 1.75) {
+  std::vector<passing_order> out;
+  list_sides(bodies, half_width_m, first, most, out);
+  return out;
+}
+
+bool lists(const auto& all, std::uint32_t choice) {
+  return std::ranges::any_of(all,
+                             [=](const auto& x) { return x.choice == choice; });
+}
+
+} // namespace
+
+TEST_CASE("without anybody to mind there is one order, free of windows") {
+  const auto check_free = [](const std::vector<crossing_order>& all) {
+    REQUIRE(all.size() == 1);
+    CHECK(all[0].count == 0);
+    CHECK(all[0].choice == 0);
+    CHECK(all[0].stop_m == speed_constraints::never);
+  };
+  check_free(orders({}));
+  check_free(orders({}, crossing_order::waits));
+  // Who gives way is not minded, nor who crosses where the car has been.
+  check_free(orders({{50, 55, 3, 5, false}}));
+  check_free(orders({{2, 5, 0, 5, true}}));
+}
+
+TEST_CASE("who gives way but is already there is minded") {
+  const auto all = orders({{50, 55, 0, 4, false}});
+  REQUIRE(!all.empty());
+  CHECK(lists(all, 0));
+  CHECK(lists(all, crossing_order::waits));
+  CHECK(!lists(all, 1));
+}
+
+TEST_CASE("one who goes first can be passed after, or before when there is "
+          "time, or waited for") {
+  const auto all = orders({{40, 45, 9, 11, true}});
+  REQUIRE(all.size() == 3);
+  for (const auto& order : all) {
+    if (order.choice == crossing_order::waits) {
+      CHECK(order.stop_m == Approx(36)); // of the rear axle
+      CHECK(order.opens_s == 11);
+      CHECK(order.count == 0);
+      continue;
+    }
+    REQUIRE(order.count == 1);
+    const auto& w = order.windows[0];
+    if (order.choice == 0) { // after
+      CHECK(w.at_m == Approx(36));
+      CHECK(w.earliest_s > 11);
+      CHECK(w.latest_s == speed_constraints::never);
+    } else { // before
+      CHECK(w.at_m == Approx(46));
+      CHECK(w.latest_s < 9);
+      CHECK(w.earliest_s == -speed_constraints::never);
+    }
+  }
+}
+
+TEST_CASE("nobody can be first where the time is too short") {
+  CHECK(!lists(orders({{40, 45, 3, 5, true}}), 1));
+  CHECK(lists(orders({{40, 45, 8, 10, true}}), 1));
+  // From standstill it takes longer.
+  const crossing_car stands{4, 1, 0, 14, 1.5};
+  CHECK(!lists(orders({{40, 45, 8, 10, true}}, 0, 16, stands), 1));
+}
+
+TEST_CASE("somebody who stands on the crossing can only be waited for") {
+  const auto all = orders({{40, 45, 0, speed_constraints::never, true}});
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].choice == crossing_order::waits);
+  CHECK(all[0].stop_m == Approx(36));
+}
+
+TEST_CASE("waiting is always possible, among however few; the choice before "
+          "comes first") {
+  test::dice dice{1};
+  for (auto i = 0; i < 2000; ++i) {
+    std::vector<crossing_user> users;
+    const auto n = static_cast<int>(dice.between(1, 7));
+    for (auto k = 0; k < n; ++k) {
+      const auto from = dice.between(5, 80), enter = dice.between(-2, 15);
+      const auto stands = dice.between(0, 1) < 0.1;
+      users.push_back({from, from + 4, std::max(0.0, enter),
+                       stands ? speed_constraints::never
+                              : std::max(0.0, enter) + dice.between(0.5, 5),
+                       dice.between(0, 1) < 0.8});
+    }
+    std::ranges::sort(users, {}, &crossing_user::from_m);
+    const auto full = orders(users, 0, 100);
+    const auto minded = full.size() > 1 || full[0].count > 0
+                        || full[0].choice == crossing_order::waits;
+    for (const auto most : {1, 2, 4, 16, 17})
+      for (const auto first : {0U, 1U, 2U, crossing_order::waits}) {
+        CAPTURE(i);
+        CAPTURE(most);
+        CAPTURE(first);
+        const auto few = orders(users, first, static_cast<std::size_t>(most));
+        REQUIRE(!few.empty());
+        // To wait comes on top of them.
+        CHECK(few.size()
+              == std::min(full.size(),
+                          static_cast<std::size_t>(most) + (minded ? 1 : 0)));
+        if (lists(full, first))
+          CHECK(few.front().choice == first);
+        if (minded)
+          CHECK(lists(few, crossing_order::waits));
+        for (const auto& order : few) {
+          CHECK(lists(full, order.choice));
+          CHECK(std::ranges::count(few, order.choice, &crossing_order::choice)
+                == 1);
+        }
+      }
+    for (const auto& order : full)
+      for (std::size_t k = 0; k < order.count; ++k) {
+        const auto& w = order.windows[k];
+        CHECK(w.earliest_s < speed_constraints::never);
+        CHECK(w.latest_s > 0);
+        CHECK(w.earliest_s < w.latest_s);
+      }
+  }
+}
+
+TEST_CASE("a wait opens when those at its line have left, not those farther "
+          "on") {
+  const auto all = orders(
+      {{40, 45, 2, 5, true}, {40, 46, 6, 9, true}, {70, 75, 9, 14, true}});
+  const auto wait =
+      std::ranges::find(all, crossing_order::waits, &crossing_order::choice);
+  REQUIRE(wait != all.end());
+  CHECK(wait->stop_m == Approx(36));
+  CHECK(wait->opens_s == 9);
+}
+
+TEST_CASE("an empty lane has one way through") {
+  const auto all = sides({});
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].choice == 0);
+  CHECK(all[0].bodies.empty());
+}
+
+TEST_CASE("a body is passed where it leaves room") {
+  const auto left = sides({{50, 55, -1.9, -0.9, 0}});
+  REQUIRE(left.size() == 1);
+  REQUIRE(left[0].bodies.size() == 1);
+  CHECK(left[0].bodies[0].side == side_of_road::left);
+  const auto right = sides({{50, 55, 0.9, 1.9, 0}});
+  REQUIRE(right.size() == 1);
+  CHECK(right[0].bodies[0].side == side_of_road::right);
+  CHECK(right[0].choice == 1);
+  CHECK(sides({{50, 55, -0.2, 0.2, 0}}).empty());
+  // A wide lane leaves room on both sides.
+  CHECK(sides({{50, 55, -0.2, 0.2, 0}}, 0, 16, 3.5).size() == 2);
+}
+
+TEST_CASE("sides are combined, the ones before first, no more than wanted") {
+  const std::vector<lane_obstacle> bodies{
+      {50, 55, -0.2, 0.2, 0}, {80, 85, -1, 0.5, 0}, {99, 101, 0, 1, 0}};
+  const auto all = sides(bodies, 0, 16, 4);
+  CHECK(all.size() == 8);
+  for (std::uint32_t choice = 0; choice < 8; ++choice) {
+    CHECK(lists(all, choice));
+    const auto few = sides(bodies, choice, 2, 4);
+    REQUIRE(few.size() == 2);
+    CHECK(few[0].choice == choice);
+    CHECK(few[1].choice != choice);
+    for (const auto& order : few)
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        CHECK((order.bodies[i].side == side_of_road::right)
+              == ((order.choice >> i & 1U) != 0));
+  }
+}

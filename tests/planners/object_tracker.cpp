@@ -1,0 +1,534 @@
+// What many observers see becomes one track of each body.
+#include "planners/scene/object_tracker.hpp"
+
+#include "base/random.hpp"
+#include "tests/support/near.hpp"
+#include "world/vehicle/vehicle.hpp"
+
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <set>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr time_point first_sight{100s};
+
+/// As the rules for CPMs have it.
+constexpr sighting_rhythm rhythm{4, 1s};
+
+perceived_object perceived_car(point centre, double speed_mps = 0,
+                               double heading_rad = 0) {
+  return {centre, heading_rad, speed_mps, 0, 5.1, 1.89};
+}
+
+/// An observer that sees with noise.
+struct observer {
+  explicit observer(std::uint64_t number)
+      : dice{random_stream{42, "eyes"}.part(number)} {}
+
+  perceived_object look(perceived_object o) {
+    ++draws;
+    o.centre.x_m += dice.normal(0, 0.1, draws, 0);
+    o.centre.y_m += dice.normal(0, 0.1, draws, 1);
+    o.speed_mps += dice.normal(0, 0.1, draws, 2);
+    o.heading_rad += dice.normal(0, 0.01, draws, 3);
+    return o;
+  }
+
+  std::vector<perceived_object> look(std::vector<perceived_object> all) {
+    for (auto& o : all)
+      o = look(o);
+    return all;
+  }
+
+  random_stream dice;
+  std::uint64_t draws = 0;
+};
+
+/// Cars bumper to bumper that pull away and stop in waves.
+struct queue {
+  std::vector<perceived_object> at(time_point t) const {
+    std::vector<perceived_object> cars;
+    const auto phase = 0.5 * to_seconds(t - first_sight);
+    for (auto i = 0; i < 8; ++i)
+      cars.push_back(
+          perceived_car({-8.0 * i + 10 * (phase - std::sin(phase)), 0},
+                        5 * (1 - std::cos(phase))));
+    return cars;
+  }
+};
+
+std::set<std::uint32_t> ids(const object_tracker& model) {
+  std::set<std::uint32_t> all;
+  for (const auto& x : model.tracks())
+    all.insert(x.id);
+  return all;
+}
+
+double miss_m(const track& x, point truth) {
+  return distance_m(x.centre(), truth);
+}
+
+void see(object_tracker& model, time_point at, const perceived_object& o) {
+  model.update(at, {&o, 1});
+}
+
+} // namespace
+
+TEST_CASE("a body is known from its first sighting on") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({3, 4}, 10, 1.2));
+  REQUIRE(model.tracks().size() == 1);
+  const auto& x = model.tracks()[0];
+  CHECK(x.at == first_sight);
+  CHECK(x.centre() == point{3, 4});
+  CHECK(x.speed_along_mps(1.2) == test::near(10, 1e-12));
+  CHECK(x.heading_rad == 1.2);
+  CHECK(x.length_m == 5.1);
+  CHECK(x.width_m == 1.89);
+  CHECK_FALSE(x.station);
+}
+
+TEST_CASE("a standing body has a heading") {
+  object_tracker model;
+  for (auto i = 0; i < 20; ++i)
+    see(model, first_sight + i * 100ms, perceived_car({}, 0, 2));
+  CHECK(model.tracks()[0].body().heading_rad == test::near(2, 1e-9));
+}
+
+TEST_CASE("a body that turns across west keeps its heading") {
+  object_tracker model;
+  constexpr auto pi = std::numbers::pi;
+  see(model, first_sight, perceived_car({}, 0, pi - 0.01));
+  see(model, first_sight + 100ms, perceived_car({}, 0, -pi + 0.01));
+  CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - pi)) < 0.011);
+}
+
+TEST_CASE("a prediction is straight ahead, and less certain the longer") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10, std::numbers::pi / 2));
+  const auto& now = model.tracks()[0];
+  const auto then = predict(now, first_sight + 1s);
+  CHECK(distance_m(then.centre(), {0, 10}) < 1e-9);
+  CHECK(then.at == first_sight + 1s);
+  CHECK(then.motion.covariance(0, 0) > 10 * now.motion.covariance(0, 0));
+  CHECK(predict(now, first_sight - 1s).centre() == now.centre());
+}
+
+TEST_CASE("predicting at once or in steps comes to the same") {
+  motion_estimate once{Eigen::Matrix2d{{1, 2}, {3, 4}},
+                       Eigen::Matrix2d{{0.2, 0.1}, {0.1, 0.3}}};
+  auto often = once;
+  once.advance(1);
+  for (auto i = 0; i < 10; ++i)
+    often.advance(0.1);
+  CHECK(often.mean.isApprox(once.mean, 1e-12));
+  CHECK(often.covariance.isApprox(once.covariance, 1e-12));
+}
+
+TEST_CASE("a filter of all four states comes to the same") {
+  Eigen::Matrix2d p{{0.2, 0.1}, {0.1, 0.3}}, r{{0.1, 0}, {0, 0.2}};
+  motion_estimate known{Eigen::Matrix2d{{1, 2}, {3, 4}}, p};
+  const motion_estimate seen{Eigen::Matrix2d{{1.3, 2.1}, {2.8, 4.4}}, r};
+  Eigen::Matrix4d p4 = Eigen::Matrix4d::Zero(), r4 = p4;
+  for (auto axis = 0; axis < 2; ++axis)
+    for (auto i = 0; i < 2; ++i)
+      for (auto k = 0; k < 2; ++k) {
+        p4(2 * i + axis, 2 * k + axis) = p(i, k);
+        r4(2 * i + axis, 2 * k + axis) = r(i, k);
+      }
+  const Eigen::Vector4d x = known.mean.reshaped(), z = seen.mean.reshaped();
+  const Eigen::Matrix4d gain = p4 * (p4 + r4).inverse();
+  const Eigen::Vector4d expected = x + gain * (z - x);
+  const auto distance2 = (z - x).dot((p4 + r4).inverse() * (z - x));
+  CHECK(known.compare(seen).distance2 == test::near(distance2, 1e-12));
+  known.fuse(seen);
+  CHECK(known.mean.reshaped().isApprox(expected, 1e-12));
+  const Eigen::Matrix4d left = p4 - gain * p4;
+  CHECK(known.covariance(0, 1) == test::near(left(0, 2), 1e-12));
+  CHECK(known.covariance(1, 1) == test::near(left(3, 3), 1e-12));
+}
+
+TEST_CASE("tracks are better than sightings, and know how good they are") {
+  object_tracker model;
+  observer eyes{1};
+  auto sum2_m2 = 0.0, nees = 0.0;
+  constexpr auto n = 1000;
+  for (auto i = 0; i < n; ++i) {
+    const auto t = i * 50ms;
+    const point truth{15 * to_seconds(t), 0};
+    see(model, first_sight + t, eyes.look(perceived_car(truth, 15)));
+    const auto& x = model.tracks()[0];
+    sum2_m2 += miss_m(x, truth) * miss_m(x, truth);
+    const Eigen::Matrix2d off =
+        x.motion.mean - Eigen::Matrix2d{{truth.x_m, 15}, {0, 0}};
+    nees += (off * x.motion.covariance.inverse()).cwiseProduct(off).sum();
+  }
+  CHECK(model.tracks()[0].id == 1);
+  CHECK(std::sqrt(sum2_m2 / n / 2) < 0.07); // each sighting: 0.1 m an axis
+  CHECK(nees / n < 4); // 4 were exact; a car that never brakes is less
+  CHECK(nees / n > 1);
+}
+
+TEST_CASE("two observers of a queue see each car once, and no two as one") {
+  object_tracker model;
+  observer a{1}, b{2};
+  const queue street;
+  for (auto t = first_sight; t < first_sight + 120s; t += 50ms) {
+    model.update(t, a.look(street.at(t)));
+    auto late = street.at(t - 20ms);
+    std::ranges::reverse(late);
+    model.update(t - 20ms, b.look(late));
+    REQUIRE(model.tracks().size() == 8);
+  }
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8});
+  const auto truth = street.at(first_sight + 120s - 50ms);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    CHECK(miss_m(model.tracks()[i], truth[i].centre) < 0.3);
+}
+
+TEST_CASE("occlusions in a queue neither merge nor split cars") {
+  object_tracker model;
+  observer eyes[]{observer{1}, observer{2}};
+  const queue street;
+  const random_stream dice{7, "occlusions"};
+  for (auto i = 0; i < 2400; ++i) {
+    const auto t = first_sight + i * 50ms;
+    for (auto who = 0U; who < 2; ++who) {
+      const auto all = street.at(t);
+      std::vector<perceived_object> seen;
+      for (auto k = 0U; k < all.size(); ++k)
+        // For 0.4 s at a time.
+        if (dice.uniform(static_cast<unsigned>(i) / 8, 8 * who + k) < 0.7)
+          seen.push_back(eyes[who].look(all[k]));
+      model.update(t, seen);
+    }
+    if (i > 40)
+      REQUIRE(model.tracks().size() == 8);
+    for (const auto& x : model.tracks())
+      REQUIRE(std::ranges::any_of(street.at(t), [&](const auto& o) {
+        return miss_m(x, o.centre) < 2.5;
+      }));
+  }
+}
+
+TEST_CASE("a car that brakes as hard as it can stays one track") {
+  object_tracker model;
+  observer eyes{1};
+  for (auto t = 0.0; t < 4; t += 0.1) {
+    const auto braked_s = std::clamp(t - 1, 0.0, 2.0);
+    const point at{16 * std::min(t, 1.0) + braked_s * (16 - 4 * braked_s), 0};
+    see(model, first_sight + from_seconds(t),
+        eyes.look(perceived_car(at, 16 - 8 * braked_s)));
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(miss_m(model.tracks()[0], at) < 0.6);
+  }
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a car in a tight bend stays one track") {
+  object_tracker model;
+  observer eyes{1};
+  const vehicle_params ability;
+  vehicle_state x;
+  x.speed_mps = 6;
+  x.steer_rad = std::atan(ability.wheelbase_m / 10);
+  for (auto i = 0; i < 300; ++i) {
+    x = step(x, {0, x.steer_rad}, ability, 0.05);
+    const auto box = body(x, ability);
+    see(model, first_sight + i * 50ms,
+        eyes.look(perceived_car(box.centre, x.speed_mps, x.heading_rad)));
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(miss_m(model.tracks()[0], box.centre) < 0.5);
+    CHECK(std::abs(wrap_angle(model.tracks()[0].heading_rad - x.heading_rad))
+          < 0.1);
+  }
+}
+
+TEST_CASE("cars that pass each other in a narrow street keep their tracks") {
+  object_tracker model;
+  observer eyes{1};
+  for (auto t = 0.0; t < 4; t += 0.1) {
+    std::vector seen{perceived_car({-30 + 15 * t, 0}, 15),
+                     perceived_car({30 - 15 * t, 2.3}, 15, std::numbers::pi)};
+    model.update(first_sight + from_seconds(t), eyes.look(seen));
+  }
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[0].centre().x_m > 28);
+  CHECK(model.tracks()[1].centre().x_m < -28);
+}
+
+TEST_CASE("sightings that arrive in the wrong order are of the same car") {
+  object_tracker orderly, late;
+  observer a{1}, b{2}, again_a{1}, again_b{2};
+  auto truth = [](time_point t) {
+    return perceived_car({12 * to_seconds(t - first_sight), 0}, 12);
+  };
+  auto t = first_sight;
+  for (auto i = 0; i < 100; ++i, t += 100ms) {
+    see(orderly, t - 300ms, b.look(truth(t - 300ms)));
+    see(orderly, t, a.look(truth(t)));
+    see(late, t, again_a.look(truth(t)));
+    see(late, t - 300ms, again_b.look(truth(t - 300ms)));
+    CHECK(late.tracks().size() == 1);
+    CHECK(late.tracks()[0].at == t);
+  }
+  t -= 100ms;
+  CHECK(miss_m(late.tracks()[0], truth(t).centre) < 0.2);
+  CHECK(miss_m(orderly.tracks()[0], truth(t).centre) < 0.2);
+}
+
+TEST_CASE("an old sighting tells little, and nothing about heading") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  const auto before = model.tracks()[0];
+  see(model, first_sight - 300ms,
+      perceived_car({-2.7, 0}, 10, 0.03)); // 0.3 m ahead
+  const auto& after = model.tracks()[0];
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(after.heading_rad == before.heading_rad);
+  CHECK(after.centre().x_m > 0.01);
+  CHECK(after.centre().x_m < 0.15);
+  CHECK(after.seen == first_sight);
+}
+
+TEST_CASE("a new body may be told of late") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight - 300ms, perceived_car({50, 0}, 10));
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[1].at == first_sight);
+  CHECK(model.tracks()[1].centre().x_m == test::near(53, 1e-9));
+  CHECK(model.tracks()[1].seen == first_sight - 300ms);
+}
+
+TEST_CASE("ancient sightings are dropped") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight - 600ms, perceived_car({50, 0}, 10));
+  CHECK(model.tracks().size() == 1);
+  model.hear(first_sight - 600ms, 5, perceived_car({80, 0}));
+  CHECK(model.tracks().size() == 1);
+}
+
+TEST_CASE("a body is remembered for a second without sightings") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  model.update(first_sight + 1s, {});
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].centre().x_m == test::near(10, 1e-9));
+  model.update(first_sight + 1001ms, {});
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("a body that is told of once a second outlives a lost message") {
+  object_tracker model{{}, rhythm};
+  see(model, first_sight, perceived_car({}));
+  see(model, first_sight + 2100ms,
+      perceived_car({})); // one was lost, the next one is late
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a body that moves is expected back sooner than one that stands") {
+  object_tracker model{{}, rhythm};
+  model.update(first_sight,
+               std::vector{perceived_car({}), perceived_car({0, 50}, 5),
+                           perceived_car({0, 99}, 40)});
+  model.update(first_sight + 1s, {});
+  CHECK(model.tracks().size() == 3);
+  model.update(first_sight + 2s, {}); // 40 m/s: after 1 s, as from sensors
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2});
+  model.update(first_sight + 2200ms,
+               {}); // 5 m/s: twice 0.8 s and half a second
+  CHECK(ids(model) == std::set<std::uint32_t>{1});
+  model.update(first_sight + 2500ms, {});
+  CHECK(model.tracks().size() == 1);
+  model.update(first_sight + 2600ms, {});
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("who tells of bodies at every look is silent at no speed") {
+  for (const auto speed_mps : {0.0, 3.0, -3.0, 1e300})
+    CHECK(sighting_rhythm{}.silence(speed_mps) == 0s);
+  CHECK(rhythm.silence(0) == 1s);
+  CHECK(rhythm.silence(-8) == 500ms);
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(rhythm.silence(nan) == 1s);
+}
+
+TEST_CASE("a queue that is told of by the rules is neither merged nor split") {
+  object_tracker model{{}, rhythm};
+  observer eyes{1};
+  const queue street;
+  std::vector<perceived_object> told;
+  std::vector<time_point> when;
+  for (auto t = first_sight; t < first_sight + 60s; t += 100ms) {
+    const auto all = street.at(t);
+    if (t == first_sight)
+      told = all, when.assign(all.size(), first_sight - 1s);
+    std::vector<perceived_object> news;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (distance_m(told[i].centre, all[i].centre) > 4
+          || std::abs(told[i].speed_mps - all[i].speed_mps) > 0.5
+          || t - when[i] >= 1s) {
+        news.push_back(eyes.look(all[i]));
+        told[i] = all[i], when[i] = t;
+      }
+    model.update(t, news);
+    REQUIRE(model.tracks().size() == 8);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      REQUIRE(miss_m(model.tracks()[i], all[i].centre) < 1);
+  }
+  CHECK(ids(model) == std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8});
+}
+
+TEST_CASE("a heading that is told rarely is believed at once") {
+  object_tracker model{{}, rhythm};
+  see(model, first_sight, perceived_car({}, 5, 0));
+  see(model, first_sight + 800ms, perceived_car({4, 0.1}, 5, 0.07));
+  CHECK(model.tracks()[0].heading_rad == test::near(0.07, 1e-9));
+  see(model, first_sight + 900ms, perceived_car({4.5, 0.14}, 5, 0.09));
+  CHECK(model.tracks()[0].heading_rad == test::near(0.08, 1e-9));
+}
+
+TEST_CASE("a body that comes back from an occlusion is the same") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight + 900ms, perceived_car({8.5, 0.3}, 9));
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].id == 1);
+}
+
+TEST_CASE("a body is where it is, however fast it was said to be") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}, 10));
+  see(model, first_sight + 50ms, perceived_car({1, 0}, 0, 1));
+  REQUIRE(model.tracks().size() == 1);
+  CHECK(model.tracks()[0].centre() == point{1, 0});
+  CHECK(model.tracks()[0].speed_along_mps(0) == 0);
+}
+
+TEST_CASE("two bodies side by side are two from the first sight on") {
+  object_tracker model;
+  const std::vector seen{perceived_car({}), perceived_car({0, 2}),
+                         perceived_car({5.2, 0})};
+  model.update(first_sight, seen);
+  CHECK(model.tracks().size() == 3);
+  model.update(first_sight + 100ms, seen);
+  CHECK(model.tracks().size() == 3);
+}
+
+TEST_CASE("whoever stands a length ahead of an occluded car is another") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({}));
+  see(model, first_sight + 900ms, perceived_car({8, 0}));
+  CHECK(model.tracks().size() == 2);
+}
+
+TEST_CASE("a vague idea of one body does not claim the sighting of another") {
+  object_tracker model;
+  auto bicycle = [](double x_m, double speed_mps) {
+    return perceived_object{{x_m, 0}, 0, speed_mps, 0, 1.8, 0.6};
+  };
+  const std::vector both{bicycle(0, 5), bicycle(3, 0)}; // the second vanishes
+  model.update(first_sight, both);
+  for (auto t = 0.1; t < 0.85; t += 0.1)
+    see(model, first_sight + from_seconds(t), bicycle(5 * t, 5));
+  see(model, first_sight + 900ms,
+      bicycle(4.75, 4.5)); // 0.25 m farther than expected
+  REQUIRE(model.tracks().size() == 2);
+  CHECK(model.tracks()[0].seen == first_sight + 900ms);
+  CHECK(model.tracks()[1].seen == first_sight);
+}
+
+TEST_CASE("a vehicle that is heard gives its track its name") {
+  object_tracker model;
+  const std::vector seen{perceived_car({}, 10), perceived_car({8, 0}, 10)};
+  model.update(first_sight, seen);
+  model.hear(first_sight + 20ms, 77, perceived_car({8.2, 0}, 10));
+  REQUIRE(model.tracks().size() == 2);
+  CHECK_FALSE(model.tracks()[0].station);
+  CHECK(model.tracks()[1].station == 77U);
+  model.hear(first_sight + 40ms, 78,
+             perceived_car({-20, 0}, 10)); // nobody has seen it
+  REQUIRE(model.tracks().size() == 3);
+  CHECK(model.tracks()[2].station == 78U);
+}
+
+TEST_CASE("a name is nobody else's") {
+  object_tracker model;
+  model.hear(first_sight, 1, perceived_car({}, 10));
+  model.hear(first_sight, 2,
+             perceived_car({0.5, 0}, 10)); // the inscribed circles overlap
+  CHECK(model.tracks().size() == 2);
+  model.hear(first_sight + 100ms, 1,
+             perceived_car({60, 0}, 10)); // was mistaken for another
+  REQUIRE(model.tracks().size() == 3);
+  CHECK_FALSE(model.tracks()[0].station);
+  CHECK(model.tracks()[1].station == 2U);
+  CHECK(model.tracks()[2].station == 1U);
+}
+
+TEST_CASE("what no body can be is left out") {
+  constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
+  object_tracker model;
+  std::vector wrong(10, perceived_car({}));
+  wrong[0].centre.x_m = nan;
+  wrong[1].heading_rad = std::numeric_limits<double>::infinity();
+  wrong[2].speed_mps = nan;
+  wrong[3].speed_mps = 1e300;
+  wrong[4].width_m = 0;
+  wrong[5].length_m = 1e9;
+  wrong[6].centre.x_m = 1e300;
+  wrong[7].centre.y_m = -2e7;
+  wrong[8].heading_rad = 2e6;
+  wrong[9].heading_rad = nan;
+  model.update(first_sight, wrong);
+  for (const auto& o : wrong)
+    model.hear(first_sight, 1, o);
+  CHECK(model.tracks().empty());
+}
+
+TEST_CASE("nobody can tell of more bodies at once than a road shows") {
+  object_tracker model;
+  std::vector<perceived_object> crowd(256, perceived_car({500, 0}));
+  crowd.push_back(perceived_car({}));
+  model.update(first_sight, crowd);
+  REQUIRE_FALSE(model.tracks().empty());
+  for (const auto& x : model.tracks())
+    CHECK(x.centre() == point{500, 0});
+}
+
+TEST_CASE("who was not seen for longest makes room when there are too many") {
+  object_tracker model;
+  see(model, first_sight, perceived_car({-50, 0}));
+  for (auto i = 0; i < 1100; ++i)
+    see(model, first_sight + 10ms, perceived_car({10.0 * i, 0}));
+  CHECK(model.tracks().size() == 1024);
+  CHECK(model.tracks().front().id != 1);
+  CHECK(model.tracks().back().id == 1101);
+}
+
+TEST_CASE("the order in which an observer lists bodies does not matter") {
+  object_tracker a, b;
+  observer eyes{1};
+  const queue street;
+  a.update(first_sight, street.at(first_sight));
+  b.update(first_sight, street.at(first_sight));
+  for (auto i = 1; i < 100; ++i) {
+    auto seen = eyes.look(street.at(first_sight + i * 50ms));
+    a.update(first_sight + i * 50ms, seen);
+    std::ranges::reverse(seen);
+    b.update(first_sight + i * 50ms, seen);
+  }
+  for (std::size_t i = 0; i < 8; ++i)
+    CHECK(a.tracks()[i].motion.mean == b.tracks()[i].motion.mean);
+}

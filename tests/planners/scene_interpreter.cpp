@@ -1,0 +1,492 @@
+// What tracks mean to one vehicle: who leads, who stands in the lane, and who
+// crosses.
+#include "planners/scene/scene_interpreter.hpp"
+
+#include "base/random.hpp"
+#include "tests/support/map_file.hpp"
+#include "tests/support/near.hpp"
+#include "tests/support/toy_streets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using std::numbers::pi;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr time_point look_time{50s};
+const vehicle_params car_params;
+
+track seen_track(point centre, double heading_rad = 0, double speed_mps = 0) {
+  track x;
+  x.at = x.seen = look_time;
+  x.motion.mean << centre.x_m, speed_mps * std::cos(heading_rad), centre.y_m,
+      speed_mps * std::sin(heading_rad);
+  x.heading_rad = heading_rad;
+  x.length_m = 5.1;
+  x.width_m = 1.89;
+  return x;
+}
+
+/// A car whose rear axle is on a way.
+track on_way(const route& way, double s_m, double speed_mps = 0) {
+  const auto here = way.path().at(s_m);
+  vehicle_state x;
+  x.at = here.at;
+  x.heading_rad = here.heading_rad;
+  return seen_track(body(x, car_params).centre, x.heading_rad, speed_mps);
+}
+
+/// A vehicle that looks round.
+struct onlooker {
+  onlooker(const road_map& map, route_ptr route, outlook_params params = {})
+      : way{route}, eyes{std::make_shared<const lane_network>(map), route,
+                         params} {}
+
+  const driving_scene& look(const std::vector<track>& tracks) {
+    eyes.describe(look_time, me, tracks, seen);
+    return seen;
+  }
+
+  route_ptr way;
+  scene_interpreter eyes;
+  own_place me;
+  driving_scene seen;
+};
+
+/// A lane due east, 3.5 m wide.
+const road_map& east_street() {
+  static const road_map map{
+      "street", {}, {toy::straight("lane", {0, 0}, {400, 0})}};
+  return map;
+}
+
+onlooker on_street(outlook_params params = {}) {
+  const std::vector<std::string> lanes{"lane"};
+  return {east_street(), east_street().make_route("lane", lanes, false),
+          params};
+}
+
+/// Own rear axle at 10 m, so the front at 14.0175 m.
+onlooker ten_metres_down_the_street() {
+  auto o = on_street();
+  o.me.s_m = 10;
+  return o;
+}
+
+const auto& lehr() {
+  static const auto file =
+      test::read_map(SOFOF_SOURCE_DIR "/config/maps/ulm_lehr.toml");
+  return file;
+}
+
+const std::string round_trips[]{"round_trip", "round_trip_opposite"};
+
+} // namespace
+
+TEST_CASE("an empty road means nothing to a driver") {
+  auto o = on_street();
+  o.seen.stop_at_m = 77;
+  o.seen.lead = lead_vehicle{};
+  o.seen.crossings.resize(3);
+  o.seen.beside.resize(3);
+  o.look({});
+  CHECK(o.seen.at == look_time);
+  CHECK_FALSE(o.seen.lead);
+  CHECK(o.seen.crossings.empty());
+  CHECK(o.seen.beside.empty());
+  CHECK(o.seen.stop_at_m == 77); // nobody's business here
+}
+
+TEST_CASE("the nearest car ahead leads, seen at its rear") {
+  auto o = ten_metres_down_the_street();
+  auto slow = seen_track({80, 0}, 0, 5);
+  slow.accel_mps2 = -2;
+  slow.station = 12;
+  const auto& seen =
+      o.look({seen_track({120, 0}), slow, seen_track({5, 0}, 0, 10)});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(80 - 2.55, 1e-6));
+  CHECK(seen.lead->speed_mps == test::near(5, 1e-9));
+  CHECK(seen.lead->accel_mps2 == -2);
+  CHECK(seen.lead->station == 12);
+  CHECK(seen.beside.empty());
+}
+
+TEST_CASE("tracks are brought to the present") {
+  auto o = ten_metres_down_the_street();
+  auto x = seen_track({80, 0}, 0, 10);
+  x.at = look_time - 200ms;
+  CHECK(o.look({x}).lead->rear_s_m == test::near(82 - 2.55, 1e-6));
+}
+
+TEST_CASE("a lead that speeds up is not expected to go on") {
+  auto o = ten_metres_down_the_street();
+  auto x = seen_track({80, 0}, 0, 10);
+  x.accel_mps2 = 2;
+  CHECK(o.look({x}).lead->accel_mps2 == 0);
+}
+
+TEST_CASE("who comes towards one counts as standing") {
+  auto o = ten_metres_down_the_street();
+  auto x = seen_track({80, 0.2}, pi, 10);
+  x.accel_mps2 = -3;
+  const auto& seen = o.look({x});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->speed_mps == 0);
+  CHECK(seen.lead->accel_mps2 == 0);
+}
+
+TEST_CASE("a body across the lane leads with its near side") {
+  auto o = ten_metres_down_the_street();
+  const auto& seen = o.look({seen_track({80, 0}, pi / 2, 4)});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(80 - 0.945, 1e-6));
+  CHECK(seen.lead->speed_mps < 1e-9);
+}
+
+TEST_CASE("whoever is behind, or farther than one looks, does not lead") {
+  auto o = ten_metres_down_the_street();
+  CHECK_FALSE(o.look({seen_track({5, 0}, 0, 30)}).lead);
+  CHECK_FALSE(o.look({seen_track({219, 0})}).lead);
+  CHECK(o.look({seen_track({216, 0})}).lead);
+}
+
+TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
+  auto o = ten_metres_down_the_street();
+  CHECK_FALSE(o.look({seen_track({11.2, 2}, -0.4)}).lead);
+  CHECK(o.look({seen_track({13, 2}, -0.4)}).lead);
+}
+
+TEST_CASE("who leaves room in the lane is beside, who does not leads") {
+  auto o = ten_metres_down_the_street();
+  // Of 3.5 m the own car needs 2.52 m: 0.98 m are free.
+  for (const auto side : {-1.0, 1.0}) {
+    o.look({seen_track({60, side * (0.78 + 0.945)}, 0, 2)});
+    CHECK_FALSE(o.seen.lead);
+    REQUIRE(o.seen.beside.size() == 1);
+    const auto& b = o.seen.beside[0];
+    CHECK(b.from_m == test::near(60 - 2.55, 1e-6));
+    CHECK(b.to_m == test::near(60 + 2.55, 1e-6));
+    CHECK(std::min(std::abs(b.low_m), std::abs(b.high_m))
+          == test::near(0.78, 1e-6));
+    CHECK(b.low_m * side > 0);
+    CHECK(b.speed_mps == test::near(2, 1e-9));
+    o.look({seen_track({60, side * (0.73 + 0.945)})});
+    CHECK(o.seen.lead);
+    CHECK(o.seen.beside.empty());
+    o.look({seen_track({60, side * (1.76 + 0.945)})});
+    CHECK_FALSE(o.seen.lead);
+    CHECK(o.seen.beside.empty());
+  }
+}
+
+TEST_CASE("those beside come in order, as far as the lead") {
+  auto o = ten_metres_down_the_street();
+  o.look({seen_track({90, 1.9}, pi, 7), seen_track({60, -1.9}),
+          seen_track({110, 0}), seen_track({130, 1.9})});
+  REQUIRE(o.seen.beside.size() == 2);
+  CHECK(o.seen.beside[0].from_m < o.seen.beside[1].from_m);
+  CHECK(o.seen.beside[1].speed_mps == test::near(-7, 1e-9));
+  CHECK(o.seen.lead->rear_s_m == test::near(110 - 2.55, 1e-6));
+}
+
+TEST_CASE("one is not in one's own way") {
+  auto o = ten_metres_down_the_street();
+  o.me.d_m = 0.3;
+  const auto self = seen_track({10 + 1.4675, 0.3}, 0, 10);
+  CHECK_FALSE(o.look({self}).lead);
+  auto late = self; // and its place is not well known
+  late.motion.mean(0, 0) += 6;
+  CHECK(o.look({late}).lead);
+  late.station = 5;
+  CHECK(o.look({late}).lead);
+  o.me.station = 5;
+  CHECK_FALSE(o.look({late}).lead);
+}
+
+TEST_CASE("a cyclist on the centre line leads, one at the kerb is beside") {
+  auto o = ten_metres_down_the_street();
+  auto x = seen_track({50, 0}, 0, 5);
+  x.length_m = 1.8;
+  x.width_m = 0.6;
+  CHECK(o.look({x}).lead);
+  x.motion.mean(1, 0) = -1.3;
+  CHECK_FALSE(o.look({x}).lead);
+  CHECK(o.look({x}).beside.size() == 1);
+}
+
+TEST_CASE("Lehr: the car ahead leads, everywhere and in every lap") {
+  for (const auto& name : round_trips) {
+    CAPTURE(name);
+    onlooker o{lehr().map, lehr().route(name)};
+    for (const auto lap : {0, 3})
+      for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 7) {
+        o.me.s_m = s_m + lap * o.way->length_m();
+        const auto axle_m = o.me.s_m + 30;
+        const auto& seen = o.look({on_way(*o.way, axle_m, 8)});
+        REQUIRE(seen.lead);
+        CHECK(std::abs(seen.lead->rear_s_m - (axle_m - car_params.rear_m))
+              < 0.1); // corners, in bends
+        CHECK(std::abs(seen.lead->speed_mps - 8) < 0.4);
+      }
+  }
+}
+
+TEST_CASE("Lehr: oncoming traffic in its lane is nobody's business") {
+  for (auto i = 0; i < 2; ++i) {
+    onlooker o{lehr().map, lehr().route(round_trips[i])};
+    const auto back = lehr().route(round_trips[1 - i]);
+    std::vector<track> oncoming;
+    for (auto s_m = 0.0; s_m < back->length_m(); s_m += 3)
+      oncoming.push_back(on_way(*back, s_m, 8));
+    for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 20) {
+      o.me.s_m = s_m;
+      const auto& seen = o.look(oncoming);
+      CHECK_FALSE(seen.lead);
+      CHECK(seen.beside.empty());
+    }
+  }
+}
+
+TEST_CASE("Lehr: nor when it is seen with noise") {
+  const random_stream dice{3, "noise"};
+  onlooker o{lehr().map, lehr().route(round_trips[0])};
+  const auto back = lehr().route(round_trips[1]);
+  std::vector<track> oncoming;
+  for (auto s_m = 0.0; s_m < back->length_m(); s_m += 3) {
+    auto x = on_way(*back, s_m, 8);
+    const auto n = oncoming.size();
+    x.motion.mean(0, 0) += dice.normal(0, 0.1, n, 0);
+    x.motion.mean(1, 0) += dice.normal(0, 0.1, n, 1);
+    x.heading_rad += dice.normal(0, 0.01, n, 2);
+    oncoming.push_back(x);
+  }
+  for (auto s_m = 0.0; s_m < o.way->length_m(); s_m += 20) {
+    o.me.s_m = s_m;
+    CHECK_FALSE(o.look(oncoming).lead);
+  }
+}
+
+TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
+  const random_stream dice{11, "bodies"};
+  auto reaching = 0;
+  for (const auto& name : round_trips) {
+    onlooker o{lehr().map, lehr().route(name)};
+    const auto& line = o.way->path();
+    const auto bend_m = line.project({-420, -132}).s_m; // the roundabout
+    o.me.s_m = bend_m - 80;
+    for (auto n = 0U; n < 1000; ++n) {
+      const auto here = line.at(bend_m + dice.uniform(-40, 40, n, 0));
+      const auto left_m = dice.uniform(-6, 6, n, 1);
+      auto x = seen_track(here.at
+                              + left_m
+                                    * point{-std::sin(here.heading_rad),
+                                            std::cos(here.heading_rad)},
+                          here.heading_rad + dice.uniform(-pi, pi, n, 2));
+      x.length_m = dice.uniform(2, 12, n, 3);
+      auto nearest_m = 1e9; // of its outline
+      const auto box = x.body();
+      const point ahead{std::cos(box.heading_rad), std::sin(box.heading_rad)};
+      const point left{-ahead.y_m, ahead.x_m};
+      for (auto i = -40; i <= 40; ++i)
+        for (auto k = -8; k <= 8; ++k)
+          nearest_m = std::min(
+              nearest_m,
+              std::abs(line.project(box.centre
+                                        + (i / 80.0) * box.length_m * ahead
+                                        + (k / 16.0) * box.width_m * left,
+                                    bend_m, 70)
+                           .d_m));
+      const auto& seen = o.look({x});
+      const auto is_found = seen.lead || !seen.beside.empty();
+      if (nearest_m > 1.76)
+        CHECK_FALSE(is_found);
+      if (nearest_m < 1.65) // between measured points, sides bulge
+        CHECK(is_found);
+      if (nearest_m < 0.7)
+        CHECK(seen.lead);
+      reaching += is_found ? 1 : 0;
+    }
+  }
+  CHECK(reaching > 600);
+  CHECK(reaching < 1900);
+}
+
+// Four arms around a junction; 3 west, 1 east: a road with the right of way;
+// 4 south, 2 north.
+
+namespace {
+
+/// Who comes from there and judges the crossing.
+onlooker at_cross_roads(std::vector<std::size_t> junctions, double s_m,
+                        bool equal = false, bool judges = true) {
+  const auto map = toy::cross_roads(equal);
+  outlook_params params;
+  params.judges_crossings = judges;
+  onlooker o{map, toy::make_route(map, junctions), params};
+  o.me.s_m = s_m;
+  return o;
+}
+
+/// @returns whoever is on the stretch that holds a place of the own way.
+const crossing_user* find_crossing(const onlooker& o, point place) {
+  const auto at_m = o.way->path().project(place).s_m;
+  for (const auto& c : o.seen.crossings)
+    if (c.from_m < at_m && at_m < c.to_m)
+      return &c;
+  return nullptr;
+}
+
+constexpr point from_south_meets_from_west{1.75, -1.75};
+
+} // namespace
+
+TEST_CASE("who comes across is foreseen, and when") {
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  o.look({seen_track({-50, -1.75}, 0, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  // Bodies touch from 2.4 m on, and there is a metre of margin.
+  CHECK(c->enter_s == doctest::Approx(4.58).epsilon(0.01));
+  CHECK(c->leave_s == doctest::Approx(5.77).epsilon(0.01));
+  CHECK(c->from_m == doctest::Approx(138 - 1.75 - 3.4).epsilon(0.005));
+  CHECK(c->to_m == doctest::Approx(138 - 1.75 + 3.4).epsilon(0.005));
+  CHECK(c->goes_first);
+  CHECK_FALSE(o.seen.lead);
+  for (std::size_t i = 1; i < o.seen.crossings.size(); ++i)
+    CHECK(o.seen.crossings[i - 1].from_m <= o.seen.crossings[i].from_m);
+}
+
+TEST_CASE("crossings that others grant are not judged") {
+  auto o = at_cross_roads({4, 0, 2}, 100, false, false);
+  o.look({seen_track({-50, -1.75}, 0, 10)});
+  CHECK(o.seen.crossings.empty());
+}
+
+TEST_CASE("who has to give way does so, unless it cannot stop any more") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({seen_track({1.75, -60}, pi / 2, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+  o.look({seen_track({1.75, -15}, pi / 2, 10)}); // 7 m: 7 m/s^2
+  c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("of equals the other goes first") {
+  auto o = at_cross_roads({3, 0, 1}, 100, true);
+  o.look({seen_track({1.75, -60}, pi / 2, 10)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("who comes towards one may turn across, but gives way then") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({seen_track({60, 1.75}, pi, 10)});
+  REQUIRE_FALSE(o.seen.crossings.empty());
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
+  CHECK_FALSE(o.seen.lead);
+}
+
+TEST_CASE("who has crossed, or is too far away, is not crossing") {
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  CHECK(o.look({seen_track({20, -1.75}, 0, 10)}).crossings.empty());
+  CHECK(o.look({seen_track({-140, -1.75}, 0, 10)}).crossings.empty());
+  o.me.s_m = 170; // oneself has crossed
+  CHECK(o.look({seen_track({-50, -1.75}, 0, 10)}).crossings.empty());
+}
+
+TEST_CASE(
+    "who drives across is no lead besides, unless crossings are granted") {
+  const auto across = seen_track({0, -1.75}, 0, 5);
+  auto o = at_cross_roads({4, 0, 2}, 100);
+  o.look({across});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->enter_s == 0);
+  CHECK(c->goes_first);
+  CHECK_FALSE(o.seen.lead);
+  o = at_cross_roads({4, 0, 2}, 100, false, false);
+  CHECK(o.look({across}).lead);
+}
+
+TEST_CASE("who stands on a crossing blocks it, and leads") {
+  auto o = at_cross_roads({3, 0, 1}, 100); // one's own right of way or not
+  o.look({seen_track({1.75, -1.75}, pi / 2)});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->enter_s == 0);
+  CHECK(std::isinf(c->leave_s));
+  CHECK(c->goes_first);
+  CHECK(o.seen.lead);
+}
+
+TEST_CASE("who goes ahead on the own way leads over a crossing") {
+  for (const auto& way :
+       {std::vector<std::size_t>{3, 0, 1}, {4, 0, 1}, {4, 0, 2}, {1, 0, 4}}) {
+    auto o = at_cross_roads(way, 0);
+    for (; o.me.s_m < 240; o.me.s_m += 0.5) {
+      o.look({on_way(*o.way, o.me.s_m + 12, 6)});
+      CHECK(o.seen.lead);
+      CHECK(o.seen.crossings.empty());
+    }
+  }
+}
+
+TEST_CASE("who merges is crossing first, and then the lead") {
+  auto o = at_cross_roads({4, 0, 1}, 110);
+  const auto map = toy::cross_roads();
+  const auto other = toy::make_route(map, {3, 0, 1});
+  auto was_crossing = false, was_lead = false;
+  for (auto s_m = 100.0; s_m < 170; s_m += 0.5) {
+    o.look({on_way(*other, s_m, 8)});
+    CHECK((o.seen.lead || !o.seen.crossings.empty()));
+    was_crossing = was_crossing || !o.seen.crossings.empty();
+    was_lead = was_lead || o.seen.lead;
+    if (was_lead)
+      CHECK(o.seen.lead);
+  }
+  CHECK(was_crossing);
+  CHECK(o.seen.crossings.empty());
+}
+
+TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
+  outlook_params params;
+  params.judges_crossings = true;
+  onlooker o{lehr().map, lehr().route("west_to_east"), params};
+  o.me.s_m = 200;
+  const auto side = lehr().route("north_to_east");
+  auto foreseen = false;
+  for (auto s_m = 60.0; s_m < 160; s_m += 2) { // the arm is 163 m long
+    o.look({on_way(*side, s_m, 8)});
+    CHECK_FALSE(o.seen.lead);
+    for (const auto& c : o.seen.crossings) {
+      CHECK_FALSE(c.goes_first);
+      foreseen = true;
+    }
+  }
+  CHECK(foreseen);
+}
+
+TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
+  outlook_params params;
+  params.judges_crossings = true;
+  onlooker o{lehr().map, lehr().route("west_to_north"), params};
+  o.me.s_m = 200;
+  const auto through = lehr().route("east_to_west");
+  const auto& seen = o.look({on_way(*through, 270, 8)});
+  CHECK(std::ranges::any_of(seen.crossings, &crossing_user::goes_first));
+}

@@ -1,0 +1,168 @@
+// Tests of the bandits as decisions of a vehicle; their cores have tests of
+// their own.
+#include "tests/support/roadside.hpp"
+
+#include <limits>
+#include <map>
+#include <string>
+
+using namespace sofof;
+using namespace std::chrono_literals;
+using test::make_lodm_with;
+using test::roadside;
+
+namespace {
+
+/// A vehicle that follows what a bandit says, at once.
+struct follower : roadside {
+  std::map<provider_id, int> seconds; ///< Where it planned.
+
+  /// Latencies of each provider; those above 50 ms are missed.
+  std::map<provider_id, double> latency_s;
+
+  void drive(local_policy& lodm, int for_s) {
+    for (int k = 0; k < for_s; ++k) {
+      const auto decision = ask(lodm);
+      const auto to = decision.release       ? 0
+                      : decision.source == 0 ? seen.current
+                                             : decision.source;
+      if (to != seen.current)
+        runs_at(to);
+      ++seconds[seen.current];
+      auto one = cycle(false, 20);
+      if (seen.current != 0)
+        one.latency_s = latency_s.at(seen.current);
+      one.missed = one.latency_s > 0.05;
+      lodm.observe(one);
+      pass(1s);
+    }
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(follower,
+                  "a trial lasts two seconds, and every place is tried "
+                  "in turn") {
+  const auto lodm = make_lodm("ucb1");
+  add(1);
+  add(2);
+  latency_s = {{1, 0.02}, {2, 0.02}};
+  std::vector<provider_id> way;
+  for (int k = 0; k < 6; ++k) {
+    drive(*lodm, 1);
+    way.push_back(seen.current);
+  }
+  CHECK(way == std::vector<provider_id>{0, 0, 1, 1, 2, 2});
+}
+
+TEST_CASE_FIXTURE(follower, "UCB1 is most where a cycle costs least, on board "
+                            "not excepted") {
+  add(1);
+  add(2);
+  add(3);
+  latency_s = {{1, 0.045}, {2, 0.02}, {3, 0.06}};
+  drive(*make_lodm("ucb1"), 20'000);
+  CHECK(seconds[2] > seconds[0]);
+  CHECK(seconds[0] > 2 * seconds[3]);
+  seconds.clear();
+  latency_s = {{1, 0.06}, {2, 0.06}, {3, 0.06}};
+  runs_at(0);
+  drive(*make_lodm("ucb1"), 20'000);
+  CHECK(seconds[0] > seconds[1] + seconds[2] + seconds[3]);
+}
+
+TEST_CASE_FIXTURE(follower,
+                  "ALTO is most where results are quickest, and never "
+                  "comes home by itself") {
+  const auto lodm = make_lodm("alto");
+  add(1);
+  add(2);
+  latency_s = {{1, 0.04}, {2, 0.015}};
+  drive(*lodm, 2000);
+  CHECK(seconds[0] == 0);
+  CHECK(seconds[2] > 4 * seconds[1]);
+  // A quicker one that appears late is found.
+  add(3);
+  latency_s[3] = 0.002;
+  seconds.clear();
+  drive(*lodm, 2000);
+  CHECK(seconds[3] > seconds[1] + seconds[2]);
+}
+
+TEST_CASE_FIXTURE(roadside,
+                  "what is lost counts as the worst delay, and no more") {
+  const auto lodm = make_lodm("alto");
+  add(1);
+  add(2);
+  CHECK(ask(*lodm).source == 1);
+  runs_at(1);
+  auto lost = cycle(true);
+  lost.latency_s = std::numeric_limits<double>::infinity();
+  lodm->observe(lost);
+  lodm->observe(episode_outcome{"any", 1, 1, "qos_gap"});
+  runs_at(0);
+  CHECK(ask(*lodm).source == 2);
+}
+
+TEST_CASE_FIXTURE(roadside, "who refuses is left alone for a while") {
+  for (const auto name : {"ucb1", "alto"}) {
+    const auto lodm = make_lodm(name);
+    providers.clear();
+    add(1);
+    add(2);
+    if (ask(*lodm).source == 0) { // on trial on board
+      lodm->observe(cycle());
+      pass(2s);
+    }
+    CHECK(ask(*lodm).source == 1);
+    lodm->observe(refusal_outcome{seen.now, "any", 1, "no room"});
+    CHECK(ask(*lodm).source == 2);
+  }
+}
+
+TEST_CASE_FIXTURE(roadside, "a trial ends where the provider is gone, and the "
+                            "same context gives the same decision") {
+  for (const auto name : {"ucb1", "alto"}) {
+    const auto lodm = make_lodm(name);
+    providers.clear();
+    add(1);
+    if (ask(*lodm).source == 0) {
+      lodm->observe(cycle());
+      pass(2s);
+    }
+    CHECK(ask(*lodm).source == 1);
+    CHECK(ask(*lodm).source == 1);
+    providers[0].id = 2;
+    CHECK(ask(*lodm).source != 1);
+  }
+}
+
+TEST_CASE_FIXTURE(follower, "a bandit that is restored goes on alike, a clone "
+                            "too") {
+  for (const std::string name : {"ucb1", "alto"}) {
+    CAPTURE(name);
+    const auto lodm = make_lodm(name);
+    providers.clear();
+    add(1);
+    add(2);
+    add(3);
+    latency_s = {{1, 0.04}, {2, 0.03}, {3, 0.02}};
+    drive(*lodm, 100);
+    seen.kind = "other";
+    drive(*lodm, 10);
+    seen.kind = "any";
+    const auto text = lodm->snapshot();
+    const auto restored = make_lodm(name);
+    CHECK(!restored->restore(text));
+    CHECK(restored->snapshot() == text);
+    const auto cloned = restored->clone();
+    CHECK(cloned->snapshot() == text);
+    for (const auto& bad : {std::string{}, text.substr(0, text.size() / 2),
+                            text + "more", "x" + text}) {
+      CHECK(restored->restore(bad));
+      CHECK(restored->snapshot() == text);
+    }
+    CHECK(ask(*cloned).source == ask(*restored).source);
+  }
+}
