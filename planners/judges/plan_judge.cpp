@@ -212,7 +212,8 @@ bool plan_judge::is_repeated(const judged_plan& x) {
   const auto fingerprint = static_cast<std::uint32_t>(x.fingerprint);
   if (fingerprint == 0)
     return false;
-  // Counting all has no branches: half the time of a search in vain.
+  // Mostly it is new: `count`, which the compiler vectorises, takes half the
+  // time of `find` then.
   const auto known = std::ranges::count(said_, fingerprint) > 0;
   if (known) {
     const auto before = std::ranges::find(said_, fingerprint);

@@ -122,19 +122,22 @@ void plausibility::judge(const road_observer& who, const road_look& look,
   tidy(look.at);
 }
 
-/// @returns when anybody told of a body first; one without a record: not yet.
-time_point plausibility::find_birth(std::uint32_t id) const {
+/// @returns when a body was first told of; nullopt for one that has appeared
+/// since the last look.
+std::optional<time_point> plausibility::find_birth(std::uint32_t id) const {
   const auto r = std::ranges::lower_bound(bodies_, id, {}, &body_record::id);
-  return r != bodies_.end() && r->id == id ? r->born : time_point::max();
+  return r != bodies_.end() && r->id == id ? std::optional{r->born}
+                                           : std::nullopt;
 }
 
 /// Whether it was not there when the witness looked last, before anybody told
 /// of it.
 bool plausibility::comes_from_nowhere(const witness_record& w, const track& x,
-                                      time_point born) const {
+                                      std::optional<time_point> born) const {
   const auto looked = w.is.at();
-  return born > looked && x.seen >= looked && looked - w.since >= known_for
-         && x.station != w.who.number && w.is.overlooked(x, houses_);
+  return (!born || *born > looked) && x.seen >= looked
+         && looked - w.since >= known_for && x.station != w.who.number
+         && w.is.overlooked(x, houses_);
 }
 
 /// Keeps a record of each track, and of no other.
@@ -257,9 +260,10 @@ bool plausibility::comes_from_liar(const track& x, const body_record& r,
   });
 }
 
-/// What is known of a track that nobody has been asked about yet.
+/// A record for a track that has appeared since the last look: only its sender
+/// is known.
 plausibility::body_record plausibility::new_record(const track& x) const {
-  body_record r{.id = x.id, .born = time_point::max()};
+  body_record r{.id = x.id};
   if (!x.station)
     return r;
   if (const auto s = stations_.find(*x.station); s != stations_.end()) {
@@ -277,20 +281,21 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
   const auto has_new = own && !tracks.empty() && now - own->is.at() <= known_for
                        && (bodies_.empty() || newest_ > own->is.at()
                            || tracks.back().id > bodies_.back().id);
-  const auto has_liars = senders_.has_liars(now);
-  if (!has_suspects_ && !has_new && !has_liars) {
+  if (!has_suspects_ && !has_new && !senders_.has_liars(now)) {
     out.assign(tracks.begin(), tracks.end());
     return;
   }
-  const auto believes = [&](const track& x, const body_record& r) {
+  const auto believes = [&](const track& x, const body_record& r,
+                            std::optional<time_point> born) {
     if (r.is_suspect() && is_doubted(x, r, now, planned))
       return false;
-    if (has_liars && comes_from_liar(x, r, now, planned)) {
+    // A track before this one may just have made its sender a liar.
+    if (senders_.has_liars(now) && comes_from_liar(x, r, now, planned)) {
       note(r.station, now, doubt_check::sender, 0, 0);
       return false;
     }
     if (has_new && !speaks_for_itself(*own, r)
-        && comes_from_nowhere(*own, x, r.born) && !r.said.is_confirmed(now)) {
+        && comes_from_nowhere(*own, x, born) && !r.said.is_confirmed(now)) {
       note(r, now, doubt_check::sight, to_seconds(now - own->is.at()), 0,
            *planned);
       return false;
@@ -303,7 +308,9 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
       ++r;
     const auto is_known = r != bodies_.end() && r->id == x.id;
     const auto is_own = planned && x.station == planned;
-    if (is_own || (is_known ? believes(x, *r) : believes(x, new_record(x))))
+    if (is_own
+        || (is_known ? believes(x, *r, r->born)
+                     : believes(x, new_record(x), std::nullopt)))
       out.push_back(x);
   }
 }

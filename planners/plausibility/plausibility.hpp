@@ -101,9 +101,9 @@ private:
 
   void follow(const witness_record& w, std::span<const track> tracks);
   void judge(const witness_record& w, const track& x, body_record& r);
-  time_point find_birth(std::uint32_t id) const;
+  std::optional<time_point> find_birth(std::uint32_t id) const;
   bool comes_from_nowhere(const witness_record& w, const track& x,
-                          time_point born) const;
+                          std::optional<time_point> born) const;
   void check_overlap(const track& x, body_record& r, time_point now,
                      std::span<const track> tracks);
   static bool speaks_for_itself(const witness_record& w, const body_record& r);

@@ -16,6 +16,12 @@ constexpr auto no_limit = std::numeric_limits<double>::infinity();
 /// place that it would have if the way were straight.
 constexpr auto foot_within_m = 20.0;
 
+/// @returns whether a body is so far behind the car that no part of the way
+/// where its place is looked for reaches the car's rear.
+bool is_far_behind(const perceived_object& x, double guess_m, double rear_m) {
+  return guess_m + foot_within_m + (x.length_m + x.width_m) / 2 < rear_m;
+}
+
 } // namespace
 
 void foreseen_bodies::look(const route& way, double s_m,
@@ -32,8 +38,8 @@ void foreseen_bodies::look(const route& way, double s_m,
     if (dot(to, to) > farthest_m * farthest_m)
       continue;
     const auto guess_m = s_m + dot(to, here.tangent);
-    if (guess_m + foot_within_m + o.length_m / 2 < rear_m_)
-      continue; // behind the car, wherever its foot is found
+    if (is_far_behind(o, guess_m, rear_m_))
+      continue;
     const auto foot = path.project(o.centre, guess_m, foot_within_m);
     if (std::abs(foot.d_m) > farthest_beside_m
         || std::abs(foot.beyond_m) > farthest_beside_m)

@@ -27,7 +27,9 @@ struct place_in_time {
 ///   street, and not a straight line; if it brakes, it goes on braking;
 /// * who crosses the way counts while it is on it, or when it cannot stop
 ///   before it any more, and goes straight on;
-/// * who is behind the vehicle keeps its distance by itself.
+/// * who is behind the vehicle keeps its distance by itself; who is more than
+///   20 m behind it, as the vehicle points, is left out, wherever the way
+///   leads.
 class foreseen_bodies {
 public:
   /// Takes what a sensor saw just now.

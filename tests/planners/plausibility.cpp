@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 using namespace sofof;
 using namespace sofof::test;
 
@@ -110,6 +112,38 @@ TEST_CASE("what a vehicle's own sender tells of is not doubted because that "
     road.pass(1s);
     CHECK_FALSE(road.believes_in(road.cars[1].is, 3));
   }
+}
+
+TEST_CASE("a ghost that appears between two looks of a vehicle is not believed "
+          "in for its plans, unless its own sender tells of it") {
+  watched_road road;
+  road.cars = {watcher(car_on_x(0), 7)};
+  road.pass(2s);
+  road.now += 50ms;
+  const auto there = car_on_x(40);
+  SUBCASE("a stranger") {
+    road.hear(2, 8, there);
+    CHECK_FALSE(road.believes_in(there, 1));
+  }
+  SUBCASE("its own sender") {
+    road.hear(2, 7, there);
+    CHECK(road.believes_in(there, 1));
+  }
+}
+
+TEST_CASE("a sender found out by one ghost is not believed in its next one, "
+          "though nobody has looked since") {
+  watched_road road;
+  road.cars = {watcher(car_on_x(0))};
+  road.pass(2s);
+  road.now += 50ms;
+  road.hear(2, 77, car_on_x(40));
+  // It has come into view just now: nobody has overlooked it.
+  auto second = car_on_x(95.5);
+  second.heading_rad = std::numbers::pi;
+  second.speed_mps = 20;
+  road.hear(3, 77, second);
+  CHECK_FALSE(road.believes_in(second, 1));
 }
 
 TEST_CASE("a car that one liar denies is believed in by all others") {

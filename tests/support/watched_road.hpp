@@ -49,7 +49,8 @@ public:
     const auto is_time = ++steps_ % 2 == 0;
     for (std::size_t k = 0; is_time && k < cars.size(); ++k)
       if (cars[k].tells)
-        tell(number(k), k < told.size() && told[k] ? *told[k] : cars[k].is);
+        hear(number(k), sender_of(number(k)),
+             k < told.size() && told[k] ? *told[k] : cars[k].is);
     for (std::uint32_t k = 0; k < sensors.size(); ++k)
       look(k);
     for (std::size_t k = 0; is_time && k < cars.size(); ++k)
@@ -62,6 +63,12 @@ public:
   void pass(duration d) {
     for (const auto end = now + d; now < end;)
       pass();
+  }
+
+  /// A station tells where a body is, between two steps.
+  void hear(station_id who, sender_id sender, const perceived_object& what) {
+    if (doubts.hear(who, sender, {now, what}))
+      model.hear(now, who, what);
   }
 
   /// @returns whether who plans for `station` believes in a body there.
@@ -104,11 +111,6 @@ private:
   sender_id sender_of(station_id who) const {
     const auto& c = cars[who - 1];
     return c.sender == 0 ? who : c.sender;
-  }
-
-  void tell(station_id who, const perceived_object& what) {
-    if (doubts.hear(who, sender_of(who), {now, what}))
-      model.hear(now, who, what);
   }
 
   void look(std::uint32_t k) {
