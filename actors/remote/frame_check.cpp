@@ -17,7 +17,7 @@ enum operation : std::uint8_t {
   routed_message,
   monitor_message,
   down_message,
-  heartbeat,
+  basp_heartbeat,
 };
 
 /// Source: caf/message_id.hpp.
@@ -153,7 +153,7 @@ std::string_view frame_check::objection(const frame_header& header) const {
         return is_one_of(2 * node_size, 2 * node_size);
       case down_message:
         return is_one_of(2 * node_size, 2 * node_size + longest_error);
-      case heartbeat:
+      case basp_heartbeat:
         return is_one_of(0u, 0u);
       default:
         return false;

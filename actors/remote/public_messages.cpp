@@ -17,26 +17,26 @@ namespace sofof {
 namespace {
 
 /// Octets of a payload; several times the largest CPM, input or result.
-constexpr std::size_t longest_message = 64 * 1024;
+constexpr std::size_t longest_plain_message = 64 * 1024;
 /// A certificate, most_claims stations, and a proof.
 constexpr std::size_t longest_hello = 128 * 1024;
 /// 1000 waypoints, 64 kinds of service and 64 candidates.
 constexpr std::size_t longest_request = 24 * 1024;
-constexpr std::size_t longest_life_sign = 64;
+constexpr std::size_t longest_ping = 64;
 
 template <class... Ts>
 message_form form_of() {
   constexpr auto has = []<class T>(std::type_identity<T>) {
     return (std::is_same_v<T, Ts> || ...);
   };
-  auto longest = longest_message;
+  auto longest = longest_plain_message;
   if (has(std::type_identity<peer_hello>{}))
     longest = longest_hello;
   if (has(std::type_identity<service_request>{}))
     longest = longest_request;
   if (has(std::type_identity<ping>{}) || has(std::type_identity<pong>{})
       || has(std::type_identity<stream_id>{}))
-    longest = longest_life_sign;
+    longest = longest_ping;
   return {{caf::type_id_v<Ts>...}, longest};
 }
 

@@ -8,7 +8,7 @@ namespace sofof {
 namespace {
 
 /// Accepts every vehicle that stays long enough.
-class location final : public central_policy {
+class location_codm final : public central_policy {
 public:
   std::vector<central_decision>
   decide(const central_context& context) override {
@@ -23,7 +23,7 @@ public:
   void fields(settings& s) override { stays_.fields(s); }
   std::string_view name() const override { return "location"; }
   std::unique_ptr<central_policy> clone() const override {
-    return std::make_unique<location>(*this);
+    return std::make_unique<location_codm>(*this);
   }
 
 private:
@@ -39,7 +39,7 @@ codm_entry codm_location() {
        "by the present speed; and until t_min the route is on the map",
        "the route and the speed that requests tell",
        "Dehler & Buchholz, IEEE RA-L 10(5), 2025", stays_in_area::parameters()},
-      unfiltered<central_policy, location>};
+      unfiltered<central_policy, location_codm>};
 }
 
 } // namespace sofof
