@@ -95,7 +95,7 @@ struct requester_state {
 
   struct found {
     service_state* slot = nullptr;
-    offloading* at = nullptr;
+    requester_session* at = nullptr;
     explicit operator bool() const { return at != nullptr; }
   };
 
@@ -333,7 +333,7 @@ struct requester_state {
            && v.running.station == setup.station && v.running.counter != 0;
   }
 
-  void accepted(service_state& slot, offloading& at, const verdict& v,
+  void accepted(service_state& slot, requester_session& at, const verdict& v,
                 const provider_manager_actor& manager) {
     at.at = phase::starting;
     at.running = v.running;

@@ -11,13 +11,14 @@ bool known_provider::offers(std::string_view kind) const {
   return std::ranges::find(offer.kinds, kind) != offer.kinds.end();
 }
 
-offloading* service_state::find(provider_id provider) {
-  const auto i = std::ranges::find(elsewhere, provider, &offloading::provider);
+requester_session* service_state::find(provider_id provider) {
+  const auto i =
+      std::ranges::find(elsewhere, provider, &requester_session::provider);
   return i == elsewhere.end() ? nullptr : &*i;
 }
 
 void service_state::drop(provider_id provider) {
-  std::erase_if(elsewhere, [provider](const offloading& x) {
+  std::erase_if(elsewhere, [provider](const requester_session& x) {
     return x.provider == provider;
   });
 }
@@ -28,25 +29,27 @@ bool service_state::wants(provider_id provider) const {
 
 bool service_state::is_on_call(provider_id provider) const {
   return provider == hedge
-         && std::ranges::any_of(elsewhere, [&](const offloading& x) {
+         && std::ranges::any_of(elsewhere, [&](const requester_session& x) {
               return x.at == phase::remote && x.provider != provider;
             });
 }
 
 bool service_state::is_moving() const {
-  return std::ranges::any_of(
-      elsewhere, [](const offloading& x) { return x.at != phase::remote; });
+  return std::ranges::any_of(elsewhere, [](const requester_session& x) {
+    return x.at != phase::remote;
+  });
 }
 
 bool service_state::is_remote() const {
-  return std::ranges::find(elsewhere, phase::remote, &offloading::at)
+  return std::ranges::find(elsewhere, phase::remote, &requester_session::at)
          != elsewhere.end();
 }
 
 provider_id service_state::current() const {
-  const auto i = std::ranges::find_if(elsewhere, [this](const offloading& x) {
-    return x.at == phase::remote && !is_on_call(x.provider);
-  });
+  const auto i =
+      std::ranges::find_if(elsewhere, [this](const requester_session& x) {
+        return x.at == phase::remote && !is_on_call(x.provider);
+      });
   return i == elsewhere.end() ? 0 : i->provider;
 }
 

@@ -34,7 +34,7 @@ using known_providers = std::map<provider_id, known_provider>;
 enum class phase { requested, starting, remote };
 
 /// A provider that runs a service, or is asked to.
-struct offloading {
+struct requester_session {
   provider_id provider = 0;
   phase at = phase::requested;
   session_id running; ///< From acceptance on.
@@ -48,17 +48,18 @@ struct service_state {
   service_type_ptr kind;
   requester_manager_actor manager;
   cycle_cost on_board;
-  cycle_cost offloaded;              ///< Time: of the way there alone.
-  std::vector<offloading> elsewhere; ///< The oldest first; empty: it is local.
-  std::vector<provider_id> wanted;   ///< Who shall run it.
-  provider_id hedge = 0;             ///< Who of them is on call; 0: nobody.
-  duration hedge_after{};            ///< When that one is called.
-  time_point since;                  ///< It has been where it is.
+  cycle_cost offloaded; ///< Time: of the way there alone.
+  std::vector<requester_session>
+      elsewhere;                   ///< The oldest first; empty: it is local.
+  std::vector<provider_id> wanted; ///< Who shall run it.
+  provider_id hedge = 0;           ///< Who of them is on call; 0: nobody.
+  duration hedge_after{};          ///< When that one is called.
+  time_point since;                ///< It has been where it is.
   std::map<provider_id, time_point> cool_until;
   std::map<provider_id, link_estimator> links; ///< By what came from there.
 
   /// @returns null for a provider that neither runs it nor is asked to.
-  offloading* find(provider_id provider);
+  requester_session* find(provider_id provider);
   void drop(provider_id provider);
 
   bool wants(provider_id provider) const;

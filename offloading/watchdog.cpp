@@ -1,0 +1,65 @@
+// A watchdog watches one session until it has found a violation of it.
+#include "offloading/watchdog.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+void watchdog::arm(const session_id& session, time_point first) {
+  assert(limits_.max_latency > duration{0});
+  assert(limits_.max_interarrival > duration{0});
+  watched_ = session;
+  gaps_ = gap_monitor{limits_.max_interarrival};
+  gaps_.arrived(first);
+  useless_.clear();
+}
+
+bool watchdog::disarm(const session_id& session) {
+  if (watched_ != session)
+    return false;
+  watched_.reset();
+  return true;
+}
+
+std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
+                                                  time_point now) {
+  assert(result.received <= now);
+  if (watched_ != result.running)
+    return std::nullopt;
+  gaps_.arrived(result.received);
+  useless_.clear();
+  if (in_time(result.created, result.received, limits_.max_latency))
+    return std::nullopt;
+  return found(qos_breach::latency, now);
+}
+
+void watchdog::on_useless(const session_id& session, std::string why) {
+  if (watched_ == session)
+    useless_ = std::move(why);
+}
+
+std::optional<time_point> watchdog::deadline() const {
+  if (!watched_)
+    return std::nullopt;
+  return gaps_.deadline();
+}
+
+std::optional<qos_violation> watchdog::on_deadline(time_point now) {
+  if (!watched_ || !gaps_.too_long(now))
+    return std::nullopt;
+  return found(qos_breach::gap, now);
+}
+
+qos_violation watchdog::found(qos_breach breach, time_point now) {
+  assert(watched_);
+  qos_violation violation{*watched_, breach, now};
+  if (breach == qos_breach::gap && !useless_.empty()) {
+    violation.breach = qos_breach::implausible;
+    violation.why = std::exchange(useless_, {});
+  }
+  watched_.reset();
+  return violation;
+}
+
+} // namespace sofof::offloading

@@ -1,0 +1,59 @@
+// The rules of the QoS watchdog: when results of a session are late or missing.
+#pragma once
+
+#include "messages/protocol/qos.hpp"
+#include "offloading/qos_monitor.hpp"
+
+#include <optional>
+#include <string>
+
+namespace sofof::offloading {
+
+/// Watches one session at a time, and finds at most one violation of it.
+/// Source: Dehler & Buchholz 2025, QoS check of the service requester.
+///
+/// Whoever owns it asks `on_deadline` again at `deadline`, which every result
+/// moves: a timer may be set once and again when it has run out in vain.
+class watchdog {
+public:
+  /// @param limits  Both of them > 0; results exactly at a limit keep it.
+  explicit watchdog(qos_limits limits) : limits_{limits} {}
+
+  /// Watches `session` from now on, and no other.
+  /// @param first  When its first result came.
+  void arm(const session_id& session, time_point first);
+
+  /// Watches no longer, if it is `session` that it watches.
+  /// @returns whether it was.
+  bool disarm(const session_id& session);
+
+  /// A result of the session has come.
+  /// @returns the violation if it came late: then the session is watched no
+  /// longer. Nullopt for a result of another session.
+  /// @param now  When the violation is found, not before the result came.
+  std::optional<qos_violation> on_arrival(const arrival& result,
+                                          time_point now);
+
+  /// A result of the session has come that cannot be used; the gap goes on.
+  /// @param why  For the violation, if no other result comes in time.
+  void on_useless(const session_id& session, std::string why);
+
+  /// @returns the first moment at which the gap is too long unless another
+  /// result comes; nullopt: nothing is watched.
+  std::optional<time_point> deadline() const;
+
+  /// @returns the violation if the gap is too long: `implausible`, with a
+  /// reason, if results came in it that could not be used, else `gap`. Then
+  /// the session is watched no longer.
+  std::optional<qos_violation> on_deadline(time_point now);
+
+private:
+  qos_violation found(qos_breach breach, time_point now);
+
+  qos_limits limits_;
+  std::optional<session_id> watched_;
+  gap_monitor gaps_{duration{0}};
+  std::string useless_; // why the results since the last arrival are so
+};
+
+} // namespace sofof::offloading
