@@ -74,17 +74,12 @@ struct requester_state {
       self->link_to(own.client);
     self->link_to(own.manager);
     slots.push_back(
-        {kind,
-         std::move(own.manager),
-         on_board_cost(setup.computer, kind->common.task),
-         offloaded_cost(setup.computer, kind->common.task, takes_no_time),
-         {},
-         {},
-         0,
-         {},
-         now(self),
-         {},
-         {}});
+        {.kind = kind,
+         .manager = std::move(own.manager),
+         .on_board = on_board_cost(setup.computer, kind->common.task),
+         .offloaded =
+             offloaded_cost(setup.computer, kind->common.task, takes_no_time),
+         .since = now(self)});
   }
 
   service_state* find(std::string_view kind) {
@@ -133,7 +128,7 @@ struct requester_state {
     if (!offer.created || *offer.created > t)
       return;
     for (auto& slot : slots)
-      if (!slot.find(offer.provider) || slot.is_on_call(offer.provider))
+      if (!slot.find(offer.provider) || slot.is_standby(offer.provider))
         slot.link_of(offer.provider)
             .answered(*offer.created - slot.computing(offer), t);
   }
@@ -246,21 +241,23 @@ struct requester_state {
       return {};
     }
     slot.wanted = wanted;
-    set_hedge(slot, wanted.size() > 1 ? decision.hedge_after : duration{0});
+    set_standby(slot, wanted.size() > 1 ? decision.hedge_after : duration{0});
     std::erase_if(wanted, [&](provider_id id) { return slot.find(id); });
     if (wanted.empty())
       leave_others(slot);
     return wanted;
   }
 
-  // Whom the policy wants beside the first, it may want on call only.
-  void set_hedge(service_state& slot, duration after) {
-    const auto hedge = after > duration{0} ? slot.wanted.back() : 0;
-    if (hedge == slot.hedge && after == slot.hedge_after)
+  // The provider that the policy wants beside the first may only stand by.
+  void set_standby(service_state& slot, duration after) {
+    std::optional<offloading::standby> chosen;
+    if (after > duration{0})
+      chosen = {slot.wanted.back(), after};
+    if (chosen == slot.standby)
       return;
-    slot.hedge = hedge;
-    slot.hedge_after = after;
-    self->send(slot.manager, hedge, after);
+    slot.standby = chosen;
+    const auto told = chosen.value_or(offloading::standby{});
+    self->send(slot.manager, told.provider, told.after);
   }
 
   void request(provider_id id, std::vector<service_name> wanted,
@@ -380,7 +377,7 @@ struct requester_state {
     const auto t = now(self);
     const auto latency = t - result.created;
     auto& link = slot.link_of(result.running.provider);
-    if (slot.is_on_call(result.running.provider))
+    if (slot.is_standby(result.running.provider))
       link.answered(result.created, t);
     else
       link.arrived(result.created, t);

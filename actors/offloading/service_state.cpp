@@ -27,11 +27,12 @@ bool service_state::wants(provider_id provider) const {
   return std::ranges::find(wanted, provider) != wanted.end();
 }
 
-bool service_state::is_on_call(provider_id provider) const {
-  return provider == hedge
-         && std::ranges::any_of(elsewhere, [&](const requester_session& x) {
-              return x.at == phase::remote && x.provider != provider;
-            });
+bool service_state::is_standby(provider_id provider) const {
+  const auto is_another = [provider](const requester_session& x) {
+    return x.at == phase::remote && x.provider != provider;
+  };
+  return offloading::stands_by(standby, provider,
+                               std::ranges::any_of(elsewhere, is_another));
 }
 
 bool service_state::is_moving() const {
@@ -48,7 +49,7 @@ bool service_state::is_remote() const {
 provider_id service_state::current() const {
   const auto i =
       std::ranges::find_if(elsewhere, [this](const requester_session& x) {
-        return x.at == phase::remote && !is_on_call(x.provider);
+        return x.at == phase::remote && !is_standby(x.provider);
       });
   return i == elsewhere.end() ? 0 : i->provider;
 }
@@ -86,7 +87,7 @@ provider_view service_state::view_of(const known_provider& provider,
   const auto& link = link_of(offer.provider);
   // Who is not called is silent for no fault.
   const auto as_of =
-      is_on_call(offer.provider) ? link.last().value_or(now) : now;
+      is_standby(offer.provider) ? link.last().value_or(now) : now;
   return {.id = offer.provider,
           .at = offer.position,
           .utilisation = std::max(0.0, offer.utilisation),

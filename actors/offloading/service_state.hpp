@@ -4,6 +4,7 @@
 #include "actors/offloading/service_type.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/distrust.hpp"
+#include "offloading/standby.hpp"
 #include "policies/algorithms/forecast/link_estimator.hpp"
 #include "policies/api/context.hpp"
 #include "world/vehicle/cycle_cost.hpp"
@@ -50,13 +51,12 @@ struct service_state {
   cycle_cost on_board;
   cycle_cost offloaded; ///< Time: of the way there alone.
   std::vector<requester_session>
-      elsewhere;                   ///< The oldest first; empty: it is local.
-  std::vector<provider_id> wanted; ///< Who shall run it.
-  provider_id hedge = 0;           ///< Who of them is on call; 0: nobody.
-  duration hedge_after{};          ///< When that one is called.
-  time_point since;                ///< It has been where it is.
-  std::map<provider_id, time_point> cool_until;
-  std::map<provider_id, link_estimator> links; ///< By what came from there.
+      elsewhere{};                   ///< The oldest first; empty: it is local.
+  std::vector<provider_id> wanted{}; ///< Who shall run it.
+  std::optional<offloading::standby> standby{}; ///< One of them, if any.
+  time_point since;                             ///< It has been where it is.
+  std::map<provider_id, time_point> cool_until{};
+  std::map<provider_id, link_estimator> links{}; ///< By what came from there.
 
   /// @returns null for a provider that neither runs it nor is asked to.
   requester_session* find(provider_id provider);
@@ -64,7 +64,7 @@ struct service_state {
 
   bool wants(provider_id provider) const;
   /// Whether that one is called only when others do not answer.
-  bool is_on_call(provider_id provider) const;
+  bool is_standby(provider_id provider) const;
   bool is_moving() const; ///< Whether an answer or first data is awaited.
   bool is_remote() const;
   /// @returns the provider that has run it for longest, of those that are not

@@ -2,12 +2,12 @@
 // run it, and who uses it. A new kind is one new file in actors/services.
 #pragma once
 
-#include "base/objection.hpp"
 #include "base/options/settings.hpp"
 #include "base/random.hpp"
 #include "messages/interfaces.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "messages/v2x/object_list.hpp"
+#include "offloading/result_judge.hpp"
 #include "planners/plausibility/station_doubt.hpp"
 #include "world/roads/streets.hpp"
 #include "world/vehicle/cycle_cost.hpp"
@@ -18,7 +18,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -94,31 +93,6 @@ public:
 struct roadside_station {
   station_id station = 0;
   point position; ///< m, east-north.
-};
-
-/// What a result that came over the air is to the vehicle.
-struct judged_result {
-  payload what; ///< Empty: it is not used.
-  /// Present: it is implausible, and its provider is not believed any more.
-  std::optional<objection> refused{};
-  /// Present: why it is of no use. Who sends nothing better in time is not
-  /// believed any more either.
-  std::optional<objection> useless{};
-  /// How far one that is used stays within limits; until the next call.
-  std::span<const margin> margins{};
-};
-
-/// Reads the results of one running service in a vehicle and judges each
-/// before it is used. No actor, no clock of its own.
-class result_judge {
-public:
-  virtual ~result_judge() = default;
-
-  /// @param result  As it came.
-  /// @param latest  The vehicle's newest input; `in_use` is the result in use.
-  /// @param now     When the result came.
-  virtual judged_result judge(const payload& result,
-                              const service_input& latest, time_point now) = 0;
 };
 
 /// For whom a function, a client or a site is made.

@@ -1,0 +1,333 @@
+// Sources of a service: fed, judged, used, given up.
+#include "offloading/source_selector.hpp"
+
+#include "base/protocol.hpp"
+#include "offloading/qos_monitor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+namespace {
+
+/// A result of another provider need not follow the one in use when that one is
+/// older than so many periods.
+constexpr auto patience_periods = 2;
+
+std::string in_ms(duration d) {
+  return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
+}
+
+std::string in_words(const objection& why) {
+  return fmt::format("{} value={:.3f} limit={:.3f}", why.check, why.value,
+                     why.limit);
+}
+
+} // namespace
+
+source_selector::source_selector(selected_service service, selector_port& port)
+    : service_{std::move(service)}, port_{port}, answers_{service_.period} {
+  assert(service_.encode_input && service_.continues);
+}
+
+source_selector::source* source_selector::find(const session_id& session) {
+  const auto i = std::ranges::find(sources_, session, &source::session);
+  return i == sources_.end() ? nullptr : &*i;
+}
+
+std::ptrdiff_t source_selector::in_use() const {
+  return std::ranges::count(sources_, true, &source::in_use);
+}
+
+bool source_selector::is_standby(const source& x) const {
+  return stands_by(standby_, x.session.provider, in_use() > x.in_use);
+}
+
+// -- input --------------------------------------------------------------------
+
+void source_selector::on_input(service_input input, time_point now) {
+  newest_ = std::move(input);
+  port_.feed_local(newest_);
+  for (auto& x : sources_)
+    if (input_due(x, now) && !(x.in_use && is_standby(x)))
+      feed(x, now);
+}
+
+bool source_selector::input_due(const source& x, time_point now) const {
+  assert(!x.last_sent || *x.last_sent <= now);
+  return !x.last_sent || now - *x.last_sent >= service_.input_period;
+}
+
+/// @returns whether there was anything to send.
+bool source_selector::feed(source& x, time_point now) {
+  if (newest_.what.type().empty())
+    return false;
+  x.last_sent = now;
+  const auto stands = is_standby(x);
+  auto input =
+      service_.encode_input({x.session, newest_.at, newest_.what, used_},
+                            !x.in_use || stands || x.knows_it_stands_by);
+  if (input.what.type().empty())
+    return false;
+  if (x.knows_it_stands_by && !stands)
+    x.last_in_time = now; // patience begins
+  input.on_call = x.knows_it_stands_by = stands;
+  port_.feed_remote(std::move(input));
+  return true;
+}
+
+void source_selector::on_session(const session_id& session,
+                                 std::unique_ptr<result_judge> judge,
+                                 time_point now) {
+  assert(judge);
+  assert(session.counter != 0);
+  auto& x = sources_.emplace_back();
+  x.session = session;
+  x.judge = std::move(judge);
+  feed(x, now);
+}
+
+// -- results ------------------------------------------------------------------
+
+void source_selector::on_result(const service_result& result, time_point now) {
+  if (result.running.counter == 0) {
+    if (!is_remote())
+      use(result, now);
+    return;
+  }
+  auto* x = find(result.running);
+  if (!x || !(result.cycle > x->last_cycle))
+    return;
+  x->last_cycle = result.cycle;
+  const auto in_limits =
+      can_judge(*x, result, now)
+      && in_time(result.created, now, service_.limits.max_latency);
+  if (!in_limits) {
+    take(*x, result, now, false, {});
+    return;
+  }
+  auto judged = x->judge->judge(
+      result.what, {x->session, newest_.at, newest_.what, used_}, now);
+  assert(!(judged.refused && judged.useless));
+  if (judged.refused || judged.useless)
+    port_.record(cycle_record{result.running,
+                              result.cycle,
+                              result.created,
+                              now,
+                              {},
+                              false,
+                              result.doubt});
+  if (judged.refused)
+    refuse(result.running, *judged.refused, now);
+  else if (judged.useless)
+    leave_out(*x, *judged.useless, now);
+  else if (!judged.what.type().empty())
+    take(*x,
+         {result.running, result.cycle, result.created, std::move(judged.what),
+          result.about, result.doubt},
+         now, true, judged.margins);
+}
+
+/// A latency is not judged by a clock that is not known well enough: results
+/// are then as good as none.
+bool source_selector::can_judge(source& x, const service_result& result,
+                                time_point now) {
+  const auto can = result.doubt <= service_.limits.max_latency / 2;
+  if (can == x.in_doubt) {
+    x.in_doubt = !can;
+    port_.record(event_record{now, can ? "clock_known" : "clock_in_doubt",
+                              service_.station, result.running.provider,
+                              service_.name, result.running.counter,
+                              in_ms(result.doubt)});
+  }
+  return can;
+}
+
+/// The session of an implausible result ends in the same turn.
+void source_selector::refuse(const session_id& session, const objection& why,
+                             time_point now) {
+  on_end({session, end_reason::implausible, side::requester}, now);
+  port_.report({session, qos_breach::implausible, now, true, in_words(why)});
+}
+
+void source_selector::leave_out(source& x, const objection& why,
+                                time_point now) {
+  x.useless = in_words(why);
+  x.useless_at = now;
+  port_.watch_useless(x.session, x.useless);
+}
+
+/// @param in_limits  It came in time.
+void source_selector::take(source& x, const service_result& result,
+                           time_point now, bool in_limits,
+                           std::span<const margin> margins) {
+  if (in_limits && !is_standby(x) && result.created > began_)
+    await_cycle_after(result.created);
+  const auto alone = !is_remote() || (x.in_use && in_use() == 1);
+  const auto fits = in_limits && (alone || may_follow(result, now));
+  // A standby answers the cycle that it was called for.
+  const auto start = is_standby(x) ? began_ : result.created;
+  const auto first = fits && answers_.use(start);
+  const auto usable = fits && (alone || first);
+  record_cycle(x, result, now, usable, margins);
+  if (is_standby(x))
+    x.last_received.reset();
+  else if (x.in_use || in_limits)
+    x.last_received = now;
+  if (in_limits) {
+    x.last_in_time = now;
+    x.useless.clear();
+    x.calls_in_vain = 0;
+  }
+  if (x.in_use && alone && !x.in_doubt)
+    port_.watch_arrival({watched_, result.created, now});
+  else if (is_remote() && usable)
+    // The gap between results that are used is what counts; one that is late
+    // harms nothing.
+    port_.watch_arrival({watched_, now, now});
+  if (!x.in_use && in_limits)
+    begin(x, now);
+  if (usable)
+    use(result, now);
+  if (in_use() > 1)
+    give_up_silent(now);
+  if (is_standby(x) && input_due(x, now))
+    feed(x, now); // it has not heard that it stands by
+}
+
+void source_selector::record_cycle(const source& x,
+                                   const service_result& result, time_point now,
+                                   bool used, std::span<const margin> margins) {
+  std::optional<duration> gap; // only while in use every period
+  if (x.last_received)
+    gap = now - *x.last_received;
+  cycle_record record{result.running, result.cycle, result.created, now, gap,
+                      used,           result.doubt};
+  if (used && service_.record_margins)
+    for (const auto& m : margins)
+      record.margins.push_back({std::string{m.name}, m.left});
+  port_.record(std::move(record));
+}
+
+/// Two providers may disagree: results of one source are used as long as it
+/// goes on.
+bool source_selector::may_follow(const service_result& result,
+                                 time_point now) const {
+  return result.running == used_from_
+         || now - used_at_ > patience_periods * service_.period
+         || service_.continues(used_, result.what, now);
+}
+
+void source_selector::use(const service_result& result, time_point now) {
+  used_ = result.what;
+  used_from_ = result.running;
+  used_at_ = now;
+  port_.use(result);
+}
+
+// -- the standby --------------------------------------------------------------
+
+void source_selector::on_standby(std::optional<standby> chosen,
+                                 time_point now) {
+  standby_ = chosen;
+  announce_roles(now);
+  await_cycle_after(began_);
+}
+
+/// A provider that comes to stand by, or no longer does, learns it by an input.
+void source_selector::announce_roles(time_point now) {
+  for (auto& x : sources_)
+    if (x.in_use && x.knows_it_stands_by != is_standby(x))
+      feed(x, now);
+}
+
+/// The cycle after one that began at `start` shall be answered.
+void source_selector::await_cycle_after(time_point start) {
+  began_ = start;
+  ++timer_;
+  if (standby_)
+    port_.wake_at(began_ + service_.period + standby_->after, timer_);
+}
+
+/// One more cycle has begun, or should have; more of them if this process has
+/// stood still.
+void source_selector::on_timer(std::uint64_t number, time_point now) {
+  if (number != timer_ || !is_remote())
+    return;
+  assert(standby_);
+  assert(service_.period > duration{0});
+  const auto since = now - standby_->after - began_;
+  await_cycle_after(began_ + since / service_.period * service_.period);
+  if (!answers_.hedge_due(began_, now, standby_->after))
+    return;
+  for (auto& x : sources_)
+    if (x.in_use && is_standby(x) && feed(x, now))
+      ++x.calls_in_vain;
+}
+
+/// One of several that has not been in time for long is of no use.
+void source_selector::give_up_silent(time_point now) {
+  for (auto& x : sources_) {
+    const auto silent = is_standby(x) ? x.calls_in_vain * service_.period
+                                      : now - x.last_in_time.value_or(now);
+    if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
+      continue;
+    x.given_up = true;
+    const auto lies =
+        !x.useless.empty()
+        && now - x.useless_at <= patience_periods * service_.period;
+    port_.report({x.session, lies ? qos_breach::implausible : qos_breach::gap,
+                  now, true, x.useless});
+  }
+}
+
+// -- from one source to another -----------------------------------------------
+
+void source_selector::begin(source& x, time_point now) {
+  assert(!x.in_use);
+  const auto was_remote = is_remote();
+  x.in_use = true;
+  if (!was_remote) {
+    port_.go_remote();
+    watch(x.session, now);
+    port_.announce_source(true);
+  }
+  port_.report_first_data(x.session);
+  announce_roles(now);
+}
+
+void source_selector::watch(const session_id& session, time_point last) {
+  watched_ = session;
+  port_.watch(session, last);
+}
+
+void source_selector::on_end(const service_end& end, time_point now) {
+  const auto* ended = find(end.running);
+  if (!ended)
+    return;
+  const auto was_in_use = ended->in_use;
+  sources_.erase(sources_.begin() + (ended - sources_.data()));
+  if (!was_in_use)
+    return;
+  if (!is_remote()) {
+    port_.watch_end(end);
+    if (end.reason == end_reason::implausible)
+      used_ = {}; // the own function does not go on from that
+    port_.go_local({{}, newest_.at, newest_.what, used_});
+    port_.announce_source(false);
+    return;
+  }
+  announce_roles(now);
+  if (watched_ != end.running)
+    return;
+  const auto next = std::ranges::find_if(
+      sources_, [this](const source& x) { return x.in_use && !is_standby(x); });
+  assert(next != sources_.end());
+  watch(next->session, used_at_);
+}
+
+} // namespace sofof::offloading

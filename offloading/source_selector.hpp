@@ -1,0 +1,174 @@
+// Whose results of a service a vehicle uses: its own function's or a
+// provider's, exactly one at a time.
+#pragma once
+
+#include "messages/protocol/qos.hpp"
+#include "messages/protocol/record.hpp"
+#include "offloading/first_response.hpp"
+#include "offloading/result_judge.hpp"
+#include "offloading/standby.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sofof::offloading {
+
+/// What a selector has to know of its service.
+struct selected_service {
+  station_id station = 0;
+  service_name name;
+  qos_limits limits;
+  duration period{};           ///< Of a cycle, local and remote, > 0.
+  duration input_period{};     ///< At least this between two inputs on the air.
+  bool record_margins = false; ///< With the cycles, those of used results.
+  /// What of an input crosses the air; nothing if its `what` is empty.
+  /// @param takes_over  Whether the provider is to take over from the source of
+  ///                    the result in use.
+  std::function<service_input(service_input, bool takes_over)> encode_input;
+  /// Whether a result of another provider may follow the one in use.
+  std::function<bool(const payload& in_use, const payload& offered,
+                     time_point now)>
+      continues;
+};
+
+/// What a selector makes others do. Nothing of this calls the selector back.
+class selector_port {
+public:
+  virtual ~selector_port() = default;
+
+  /// The vehicle's own function has new input, whether it is active or not.
+  virtual void feed_local(const service_input& input) = 0;
+  /// A provider has new input; `input.running` is the session.
+  virtual void feed_remote(service_input input) = 0;
+  /// The client gets a result.
+  virtual void use(const service_result& result) = 0;
+
+  /// From now on results come from providers: the own function rests.
+  virtual void go_remote() = 0;
+  /// The own function plans at once, from this input.
+  virtual void go_local(service_input input) = 0;
+  /// The client is told that its source has changed.
+  virtual void announce_source(bool remote) = 0;
+
+  /// The first result of a session is in use.
+  virtual void report_first_data(const session_id& session) = 0;
+  virtual void report(qos_violation violation) = 0;
+
+  /// The watchdog watches this session; its last result came at `last`.
+  virtual void watch(const session_id& session, time_point last) = 0;
+  virtual void watch_arrival(const arrival& result) = 0;
+  virtual void watch_useless(const session_id& session,
+                             const std::string& why) = 0;
+  virtual void watch_end(const service_end& end) = 0;
+
+  virtual void record(cycle_record x) = 0;
+  virtual void record(event_record x) = 0;
+
+  /// `on_timer` is due then, with this number.
+  virtual void wake_at(time_point t, std::uint64_t number) = 0;
+};
+
+/// Chooses the source of one service in one vehicle:
+/// * the own function is fed always, so that it can jump in at any moment, and
+///   rests while a provider's results are used;
+/// * a provider's results are used from the first one on that comes in time and
+///   that its judge finds nothing against; those that come late, twice or out
+///   of order are not used;
+/// * an implausible result ends its session at once;
+/// * of several providers the first result of each cycle is used, if the result
+///   in use may be followed by it; one that has not been in time for
+///   protocol::start_timeout is reported;
+/// * when the last of them ends, the own function plans at once.
+///
+/// No clock and no I/O: every call says what time it is, never less than
+/// before.
+class source_selector {
+public:
+  /// @param port  Outlives the selector.
+  source_selector(selected_service service, selector_port& port);
+
+  /// The client has new input.
+  void on_input(service_input input, time_point now);
+
+  /// A provider runs the service too. It is fed at once.
+  /// @param judge  Of its results; not null.
+  void on_session(const session_id& session,
+                  std::unique_ptr<result_judge> judge, time_point now);
+
+  /// Of several providers, this one stands by; nullopt: none does.
+  void on_standby(std::optional<standby> chosen, time_point now);
+
+  /// A result has come, of the own function (counter 0) or of a provider.
+  void on_result(const service_result& result, time_point now);
+
+  /// A session has ended; one that is not known is ignored.
+  void on_end(const service_end& end, time_point now);
+
+  /// The time that `wake_at` was given with this number has come.
+  void on_timer(std::uint64_t number, time_point now);
+
+  /// @returns whether the results of a provider are used.
+  bool is_remote() const { return in_use() > 0; }
+
+private:
+  /// A session at a provider, waited for or in use.
+  struct source {
+    session_id session;
+    std::unique_ptr<result_judge> judge;
+    bool in_use = false;
+    bool in_doubt = false; // its latencies cannot be judged
+    bool given_up = false;
+    std::optional<std::uint64_t> last_cycle;
+    std::optional<time_point> last_sent;
+    std::optional<time_point> last_received;
+    std::optional<time_point> last_in_time;
+    std::string useless; // why the results since then are so
+    time_point useless_at;
+    bool knows_it_stands_by = false; // by the last input
+    int calls_in_vain = 0;
+  };
+
+  source* find(const session_id& session);
+  std::ptrdiff_t in_use() const;
+  bool is_standby(const source& x) const;
+
+  bool input_due(const source& x, time_point now) const;
+  bool feed(source& x, time_point now);
+  void announce_roles(time_point now);
+  void await_cycle_after(time_point start);
+
+  bool can_judge(source& x, const service_result& result, time_point now);
+  void refuse(const session_id& session, const objection& why, time_point now);
+  void leave_out(source& x, const objection& why, time_point now);
+  void take(source& x, const service_result& result, time_point now,
+            bool in_limits, std::span<const margin> margins);
+  void record_cycle(const source& x, const service_result& result,
+                    time_point now, bool used, std::span<const margin> margins);
+  bool may_follow(const service_result& result, time_point now) const;
+  void give_up_silent(time_point now);
+
+  void use(const service_result& result, time_point now);
+  void begin(source& x, time_point now);
+  void watch(const session_id& session, time_point last);
+
+  selected_service service_;
+  selector_port& port_;
+  std::vector<source> sources_; // the oldest first
+  first_response answers_;      // of cycles, by any of them
+  std::optional<standby> standby_;
+  time_point began_;        // the latest cycle of a source that is fed always
+  std::uint64_t timer_ = 0; // the one that counts
+  session_id watched_;      // by whose name the watchdog watches
+  service_input newest_;
+  payload used_;         // the last result that the client got,
+  session_id used_from_; // of which session,
+  time_point used_at_;   // and when
+};
+
+} // namespace sofof::offloading

@@ -1,0 +1,297 @@
+// Whose results of a service a vehicle uses, message by message, without
+// actors.
+#include "offloading/source_selector.hpp"
+
+#include "base/protocol.hpp"
+#include "tests/support/at.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof::test {
+
+/// A result or an input of the tests' service.
+struct numbered {
+  std::uint64_t number = 0;
+};
+
+void archive(auto& bytes, numbered& x) {
+  bytes(x.number);
+}
+
+} // namespace sofof::test
+
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::test::numbered> =
+    "numbered";
+
+using namespace sofof;
+using namespace std::chrono_literals;
+using offloading::selected_service;
+using offloading::source_selector;
+using offloading::standby;
+using test::at;
+using test::numbered;
+
+namespace {
+
+constexpr std::uint64_t implausible = 1000, useless = 1001;
+
+payload of(std::uint64_t number) {
+  return payload::of(numbered{number});
+}
+
+struct numbers_judge final : result_judge {
+  judged_result judge(const payload& result, const service_input&,
+                      time_point) override {
+    const auto number = result.as<numbered>()->number;
+    if (number == implausible)
+      return {.what = {}, .refused = objection{"number", 1000, 999}};
+    if (number == useless)
+      return {.what = {}, .useless = objection{"number", 1001, 999}};
+    return {.what = result};
+  }
+};
+
+/// Writes down what a selector wants, a word or two for each call.
+struct diary final : offloading::selector_port {
+  std::vector<std::string> lines;
+
+  void write(std::string line) { lines.push_back(std::move(line)); }
+  static std::string name(const session_id& x) {
+    return x.counter == 0 ? "own" : std::string(1, "?AB"[x.provider]);
+  }
+
+  void feed_local(const service_input&) override {}
+  void feed_remote(service_input x) override {
+    write("feed " + name(x.running) + (x.on_call ? ", stand by" : ""));
+  }
+  void use(const service_result& x) override {
+    write("use " + name(x.running));
+  }
+  void go_remote() override { write("own function rests"); }
+  void go_local(service_input x) override {
+    write(x.in_use.type().empty() ? "own function plans anew"
+                                  : "own function plans on");
+  }
+  void announce_source(bool remote) override {
+    write(remote ? "source: remote" : "source: local");
+  }
+  void report_first_data(const session_id& x) override {
+    write("first data of " + name(x));
+  }
+  void report(qos_violation x) override {
+    write(
+        (x.breach == qos_breach::implausible ? "implausible: " : "violation: ")
+        + name(x.running));
+  }
+  void watch(const session_id& x, time_point) override {
+    write("watch " + name(x));
+  }
+  void watch_arrival(const arrival&) override {}
+  void watch_useless(const session_id& x, const std::string&) override {
+    write("useless: " + name(x));
+  }
+  void watch_end(const service_end&) override { write("watch nothing"); }
+  void record(cycle_record) override {}
+  void record(event_record x) override { write(x.what); }
+  void wake_at(time_point t, std::uint64_t number) override {
+    wakes.emplace_back(t, number);
+  }
+
+  std::vector<std::pair<time_point, std::uint64_t>> wakes;
+};
+
+using lines = std::vector<std::string>;
+
+struct selecting {
+  const session_id own{0, 101, "numbers", 0};
+  const session_id a{1, 101, "numbers", 7}, b{2, 101, "numbers", 8};
+  diary port;
+  source_selector selector{
+      selected_service{
+          101,
+          "numbers",
+          {50ms, 100ms},
+          50ms,
+          100ms,
+          false,
+          [](service_input x, bool) { return x; },
+          [](const payload&, const payload&, time_point) { return true; }},
+      port};
+  std::uint64_t cycle = 0;
+
+  selecting() { selector.on_input({own, at(0s), of(1)}, at(0s)); }
+
+  void session(const session_id& x, duration t) {
+    selector.on_session(x, std::make_unique<numbers_judge>(), at(t));
+  }
+  void result(const session_id& x, duration t, duration latency = 10ms,
+              std::uint64_t number = 1) {
+    selector.on_result({x, ++cycle, at(t) - latency, of(number)}, at(t));
+  }
+  void end(const session_id& x, duration t,
+           end_reason why = end_reason::qos_gap) {
+    selector.on_end({x, why, side::requester}, at(t));
+  }
+  /// @returns what has been written since the last call.
+  lines news() { return std::exchange(port.lines, {}); }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(selecting, "without a provider the own function's results "
+                             "are used") {
+  result(own, 10ms);
+  CHECK(news() == lines{"use own"});
+}
+
+TEST_CASE_FIXTURE(selecting, "a provider is fed at once, and used from its "
+                             "first result in time on") {
+  session(a, 100ms);
+  CHECK(news() == lines{"feed A"});
+  result(a, 200ms, 50ms + 1ns);
+  CHECK(news().empty());
+  CHECK_FALSE(selector.is_remote());
+  result(a, 250ms, 50ms);
+  CHECK(news()
+        == lines{"own function rests", "watch A", "source: remote",
+                 "first data of A", "use A"});
+  CHECK(selector.is_remote());
+  result(own, 260ms);
+  CHECK(news().empty());
+}
+
+TEST_CASE_FIXTURE(selecting, "the own function plans on at once when the last "
+                             "provider ends, and anew after an implausible "
+                             "result") {
+  session(a, 100ms);
+  result(a, 150ms);
+  news();
+  SUBCASE("silent") {
+    end(a, 300ms);
+    CHECK(news()
+          == lines{"watch nothing", "own function plans on", "source: local"});
+    end(a, 300ms);
+    CHECK(news().empty());
+  }
+  SUBCASE("implausible") {
+    result(a, 200ms, 10ms, implausible);
+    CHECK(news()
+          == lines{"watch nothing", "own function plans anew", "source: local",
+                   "implausible: A"});
+  }
+  CHECK_FALSE(selector.is_remote());
+}
+
+TEST_CASE_FIXTURE(selecting, "results that come twice or out of order are not "
+                             "used, nor those of unknown sessions") {
+  session(a, 100ms);
+  result(a, 150ms);
+  news();
+  selector.on_result({a, cycle, at(190ms), of(1)}, at(200ms));
+  selector.on_result({a, cycle - 1, at(190ms), of(1)}, at(200ms));
+  result(b, 200ms);
+  CHECK(news().empty());
+}
+
+TEST_CASE_FIXTURE(selecting,
+                  "a useless result is not used, and the watchdog is "
+                  "told why") {
+  session(a, 100ms);
+  result(a, 150ms);
+  news();
+  result(a, 200ms, 10ms, useless);
+  CHECK(news() == lines{"useless: A"});
+  CHECK(selector.is_remote());
+}
+
+TEST_CASE_FIXTURE(selecting, "a result by a clock that is not known is not "
+                             "used") {
+  session(a, 100ms);
+  selector.on_result({a, 1, at(140ms), of(1), {}, 26ms}, at(150ms));
+  CHECK(news() == lines{"feed A", "clock_in_doubt"});
+  selector.on_result({a, 2, at(190ms), of(1), {}, 25ms}, at(200ms));
+  CHECK(news().front() == "clock_known");
+  CHECK(selector.is_remote());
+}
+
+TEST_CASE_FIXTURE(selecting, "of two providers the first result of each cycle "
+                             "is used") {
+  session(a, 100ms);
+  result(a, 150ms);
+  session(b, 160ms);
+  news();
+  selector.on_result({b, 1, at(190ms), of(1)}, at(200ms));
+  CHECK(news() == lines{"first data of B", "use B"});
+  selector.on_result({a, 10, at(192ms), of(1)}, at(210ms));
+  CHECK(news().empty());
+  SUBCASE("and when one ends the other goes on") {
+    end(a, 220ms);
+    CHECK(news() == lines{"watch B"});
+    CHECK(selector.is_remote());
+    end(b, 230ms);
+    CHECK_FALSE(selector.is_remote());
+  }
+}
+
+TEST_CASE_FIXTURE(selecting,
+                  "a provider that has not been in time for a second "
+                  "beside another one is reported once") {
+  session(a, 0ms);
+  result(a, 50ms);
+  session(b, 50ms);
+  result(b, 60ms);
+  news();
+  for (auto t = 100ms; t <= 1060ms; t += 50ms)
+    result(a, t);
+  for (const auto& line : news())
+    CHECK(line == "use A");
+  for (auto t = 1100ms; t <= 1300ms; t += 50ms)
+    result(a, t);
+  const auto told = news();
+  CHECK(std::ranges::count(told, "violation: B") == 1);
+}
+
+TEST_CASE_FIXTURE(selecting, "a standby is fed only when a cycle is not "
+                             "answered in time") {
+  session(a, 0ms);
+  result(a, 50ms, 10ms);
+  session(b, 50ms);
+  result(b, 60ms, 10ms);
+  news();
+  selector.on_standby(standby{2, 30ms}, at(70ms));
+  CHECK(news() == lines{"feed B, stand by"});
+  selector.on_input({own, at(200ms), of(2)}, at(200ms));
+  CHECK(news() == lines{"feed A"});
+  REQUIRE_FALSE(port.wakes.empty());
+  const auto [due, number] = port.wakes.back();
+  // The cycle of A that was answered last began at 50 ms.
+  CHECK(due == at(50ms + 50ms + 30ms));
+  SUBCASE("which it is told of by an input") {
+    selector.on_timer(number, due);
+    CHECK(news() == lines{"feed B, stand by"});
+  }
+  SUBCASE("and not when it is") {
+    result(a, 120ms, 20ms);
+    news();
+    selector.on_timer(number, due);
+    CHECK(news().empty());
+  }
+  SUBCASE("and fed as any other once it stands by no longer") {
+    selector.on_standby(std::nullopt, at(210ms));
+    CHECK(news() == lines{"feed B"});
+  }
+  SUBCASE("and is an ordinary source when the other one ends") {
+    end(a, 210ms);
+    CHECK(news() == lines{"feed B", "watch B"});
+  }
+}
