@@ -278,9 +278,9 @@ class Peer(Line):
                     if header[0] != DIRECT:
                         continue
                     read = Reader(payload)
-                    if read.types() == [TYPE["life_sign"]]:
+                    if read.types() == [TYPE["ping"]]:
                         now = i64(time.monotonic_ns())
-                        self.tell(self.session, ["life_echo"],
+                        self.tell(self.session, ["pong"],
                                   read.take(16) + now + now)
             except TimeoutError:
                 self.lives = False
