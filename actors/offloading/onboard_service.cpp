@@ -5,6 +5,7 @@
 #include "base/random_phase.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace sofof {
@@ -25,10 +26,10 @@ local_run_time(bool virtual_time, const service_options& options,
   };
 }
 
-instance_setup local_instance(const requester_setup& vehicle,
-                              const service_type& kind,
-                              const service_setup& here) {
-  instance_setup local;
+offloading::cycle_setup local_cycle(const requester_setup& vehicle,
+                                    const service_type& kind,
+                                    const service_setup& here) {
+  offloading::cycle_setup local;
   local.function = kind.make_function(here);
   local.period = kind.common.period;
   local.phase = random_phase(here.noise.part("local phase"), local.period);
@@ -50,12 +51,31 @@ service_setup onboard_setup(const requester_setup& vehicle,
           .clock = std::move(clock)};
 }
 
+offloading::requested_service requested(const requester_setup& vehicle,
+                                        const service_type_ptr& kind,
+                                        const service_setup& here) {
+  // A provider tells itself how long it computes.
+  constexpr auto in_no_time = std::numeric_limits<double>::infinity();
+  const auto& common = kind->common;
+  return {.name = kind->name(),
+          .needs = {common.period, common.limits.max_latency,
+                    common.limits.max_interarrival},
+          .demand = common.demand,
+          .on_board = on_board_cost(vehicle.computer, common.task),
+          .offloaded =
+              offloaded_cost(vehicle.computer, common.task, in_no_time),
+          .termination_message = [kind, here](const service_end& end,
+                                              time_point t, const cam& own) {
+            return kind->termination_message(here, end, t, &own);
+          }};
+}
+
 onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const requester_setup& vehicle,
                                       const service_type_ptr& kind,
                                       onboard_requester_actor requester,
                                       const service_setup& here) {
-  auto local = local_instance(vehicle, *kind, here);
+  auto local = local_cycle(vehicle, *kind, here);
   auto client = kind->spawn_client(sys, here, vehicle.vehicle);
   auto manager = spawn_requester_manager(
       sys,

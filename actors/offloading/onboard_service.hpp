@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/offloading/service_requester.hpp"
+#include "offloading/service_state.hpp"
 
 #include <functional>
 
@@ -17,9 +18,15 @@ service_setup onboard_setup(const requester_setup& vehicle,
                             const service_type& kind,
                             std::function<time_point()> clock);
 
+/// @returns what the rules of the requester have to know of it.
+/// @param here  What `onboard_setup` returned for this vehicle and kind.
+offloading::requested_service requested(const requester_setup& vehicle,
+                                        const service_type_ptr& kind,
+                                        const service_setup& here);
+
 /// Spawns client and manager, which ends with its local instance. The
 /// requester is to be linked to both, but for a client that is the vehicle.
-/// @param here  What `onboard_setup` returned for this vehicle and kind.
+/// @param here  Likewise.
 onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const requester_setup& vehicle,
                                       const service_type_ptr& kind,

@@ -58,8 +58,8 @@ manager(provider_manager_impl::stateful_pointer<manager_state> self,
   state.provider = setup.provider.address();
   state.requester = std::move(setup.requester);
   state.recorder = std::move(setup.recorder);
-  setup.instance.results = self;
-  state.instance = spawn_instance(self->system(), std::move(setup.instance));
+  state.instance =
+      spawn_instance(self->system(), {std::move(setup.cycle), self});
   self->link_to(state.instance);
   self->monitor(setup.provider);
   self->set_down_handler(

@@ -42,8 +42,7 @@ struct requester_manager_state : offloading::selector_port {
                                      setup.continues},
         *this);
     setup.local.running = {0, setup.station, setup.kind, 0};
-    setup.local.results = self;
-    local = spawn_instance(self->system(), setup.local);
+    local = spawn_instance(self->system(), {setup.local, self});
     self->link_to(local);
     watchdog =
         spawn_qos_watchdog(self->system(), options.limits, setup.requester);

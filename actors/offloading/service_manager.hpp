@@ -25,7 +25,7 @@ struct requester_manager_setup {
                      time_point now)>
       continues =
           [](const payload&, const payload&, time_point) { return true; };
-  instance_setup local; ///< `running`, `results` are filled in.
+  offloading::cycle_setup local; ///< `running` is filled in.
   client_actor client;
   onboard_requester_actor requester;
   recorder_actor recorder;
@@ -47,7 +47,7 @@ requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
 
 /// Service management at the provider, for one accepted service.
 struct provider_manager_setup {
-  instance_setup instance; ///< `results` is filled in.
+  offloading::cycle_setup cycle;
   requester_actor requester;
   provider_actor provider;
   recorder_actor recorder;

@@ -418,7 +418,7 @@ struct provider_state {
                                const central_decision& how) {
     const auto& kind = *setup.kinds[find_kind(running.kind.view()).value()];
     const auto noise = setup.seed.part(kind.name()).part(running.station);
-    instance_setup remote;
+    offloading::cycle_setup remote;
     remote.running = running;
     remote.function =
         kind.make_function(setup_of(kind, running.station, noise));

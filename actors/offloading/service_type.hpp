@@ -8,6 +8,7 @@
 #include "messages/v2x/georeference.hpp"
 #include "messages/v2x/object_list.hpp"
 #include "offloading/result_judge.hpp"
+#include "offloading/service_function.hpp"
 #include "planners/plausibility/station_doubt.hpp"
 #include "world/roads/streets.hpp"
 #include "world/vehicle/cycle_cost.hpp"
@@ -43,29 +44,6 @@ struct service_options {
 /// its clock, on a slower one at most a period, since a cycle ends before the
 /// next one begins.
 service_options on(const computer_options& computer, service_options options);
-
-/// What one cycle of a function gives.
-struct service_output {
-  payload what;    ///< The result; empty when there is none (yet).
-  payload about{}; ///< How it came about, for records.
-
-  service_output() = default;
-  // NOLINTNEXTLINE(*-explicit-*): most have nothing to add
-  service_output(payload x, payload notes = {})
-      : what{std::move(x)}, about{std::move(notes)} {}
-};
-
-/// One running function: from input to result, cycle by cycle. No actor, no
-/// clock of its own: it may ask `service_setup::clock` how long it has taken.
-/// In virtual time the same inputs give the same results.
-class service_function {
-public:
-  virtual ~service_function() = default;
-
-  /// @param now    Start of the cycle.
-  /// @param input  The newest input; empty before the first one.
-  virtual service_output run(time_point now, const service_input& input) = 0;
-};
 
 /// What a provider knows beyond one vehicle's input; shared by all functions
 /// of a kind there. Where time is real, functions run in threads of their own

@@ -64,13 +64,4 @@ void send_after(Self* self, const Receiver& receiver, duration d, Ts&&... xs) {
   send_at(self, receiver, now(self) + d, std::forward<Ts>(xs)...);
 }
 
-/// @returns the first moment after `t` on the grid phase + k · period.
-inline time_point next_on_grid(time_point t, duration phase, duration period) {
-  const auto since = t.time_since_epoch() - phase;
-  auto k = since / period;
-  if (since >= duration{0})
-    ++k;
-  return time_point{phase + k * period};
-}
-
 } // namespace sofof

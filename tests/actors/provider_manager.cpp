@@ -19,7 +19,7 @@ struct provider_manager_world : virtual_world {
   provider_manager_actor manager = spawn();
 
   provider_manager_actor spawn() {
-    instance_setup setup;
+    offloading::cycle_setup setup;
     setup.running = running;
     setup.function = echo_service{"echo"}.make_function({});
     setup.period = 50ms;

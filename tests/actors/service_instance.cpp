@@ -34,12 +34,10 @@ struct instance_world : virtual_world {
   instance_actor instance = own(spawn_instance(system(), setup()));
 
   instance_setup setup() {
-    return {running,
-            function,
-            50ms,
-            20ms,
-            [](time_point start, std::uint64_t) { return start + 5ms; },
-            results.handle};
+    return {
+        {running, function, 50ms, 20ms,
+         [](time_point start, std::uint64_t) { return start + 5ms; }},
+        results.handle};
   }
 
   void step(lifecycle_step s) { tell(instance, s); }
@@ -96,7 +94,7 @@ TEST_CASE_FIXTURE(
 TEST_CASE_FIXTURE(instance_world, "an instance that keeps its phase runs on "
                                   "its grid only") {
   auto kept = setup();
-  kept.keeps_phase = true;
+  kept.cycle.keeps_phase = true;
   instance = own(spawn_instance(system(), kept));
   run_for(100ms);
   feed(1);
@@ -163,7 +161,7 @@ TEST_CASE_FIXTURE(instance_world,
 TEST_CASE_FIXTURE(instance_world, "the run time is that of the cycle") {
   std::vector<std::pair<time_point, std::uint64_t>> asked;
   auto timed = setup();
-  timed.finish = [&](time_point start, std::uint64_t cycle) {
+  timed.cycle.finish = [&](time_point start, std::uint64_t cycle) {
     asked.emplace_back(start, cycle);
     return start;
   };

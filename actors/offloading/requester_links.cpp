@@ -1,0 +1,101 @@
+// Handles are found by service, session and peer.
+#include "actors/offloading/requester_links.hpp"
+
+#include "actors/runtime/cpu_accounts.hpp"
+#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/time.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof {
+
+void requester_links::add(const service_name& service,
+                          requester_manager_actor manager) {
+  managers_.emplace(service, std::move(manager));
+}
+
+offloading::peer_id requester_links::peer_of(const provider_actor& who) {
+  if (const auto known = find(who.address()))
+    return *known;
+  self_->monitor(who);
+  return peers_.emplace(offloading::peer_id{++met_}, who).first->first;
+}
+
+std::optional<offloading::peer_id>
+requester_links::find(const caf::actor_addr& who) const {
+  const auto i = std::ranges::find(
+      peers_, who, [](const auto& peer) { return peer.second.address(); });
+  if (i == peers_.end())
+    return std::nullopt;
+  return i->first;
+}
+
+void requester_links::take_up(
+    service_response& response,
+    const std::vector<provider_manager_actor>& given) {
+  accepted_.clear();
+  auto manager = given.begin();
+  auto v = response.verdicts.begin();
+  for (; v != response.verdicts.end(); ++v) {
+    if (v->accepted && manager == given.end())
+      break;
+    if (v->accepted)
+      accepted_.emplace(v->running, *manager++);
+  }
+  response.verdicts.erase(v, response.verdicts.end());
+}
+
+void requester_links::send(offloading::peer_id to,
+                           const service_request& request) {
+  self_->send(peers_.at(to), request, requester_actor{self_});
+}
+
+void requester_links::send(offloading::peer_id to, const service_end& end) {
+  note_on_air(self_, recorder_, end.what);
+  self_->send(peers_.at(to), end);
+}
+
+void requester_links::begin(const session_id& session) {
+  self_->send(managers_.at(session.kind), session, accepted_.at(session));
+}
+
+void requester_links::forward(const service_result& result) {
+  self_->send(managers_.at(result.running.kind), result);
+}
+
+void requester_links::end(const service_end& end) {
+  self_->send(managers_.at(end.running.kind), end);
+}
+
+void requester_links::set_standby(
+    const service_name& service,
+    const std::optional<offloading::standby>& chosen) {
+  const auto told = chosen.value_or(offloading::standby{});
+  self_->send(managers_.at(service), told.provider, told.after);
+}
+
+// For whom it works, in case accounts are kept.
+void requester_links::on_placement(bool any_remote) {
+  charge(self_->system(), self_->id(), {station_, {}, any_remote});
+}
+
+void requester_links::record(event_record x) {
+  self_->send(recorder_, std::move(x));
+}
+
+void requester_links::record(const decision_record& x) {
+  self_->send(recorder_, x);
+}
+
+void requester_links::record(const episode_record& x) {
+  self_->send(recorder_, x);
+}
+
+void requester_links::wake_at(time_point t, std::uint64_t number) {
+  send_at(self_, self_, t, tick_atom_v, number);
+}
+
+} // namespace sofof

@@ -1,0 +1,63 @@
+// What a requester sends and to whom: its managers, its providers, its records.
+#pragma once
+
+#include "messages/type_ids.hpp"
+#include "offloading/requester.hpp"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace sofof {
+
+/// SR itself; besides its interface: its timer with this number.
+using requester_impl =
+    onboard_requester_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+
+/// Turns what the rules want into messages of their actor.
+class requester_links : public offloading::requester_port {
+public:
+  /// @param self  Outlives the links.
+  requester_links(requester_impl::pointer self, station_id station,
+                  recorder_actor recorder)
+      : self_{self}, station_{station}, recorder_{std::move(recorder)} {}
+
+  void add(const service_name& service, requester_manager_actor manager);
+
+  /// @returns the number of a provider; from its first message on it is
+  /// monitored.
+  offloading::peer_id peer_of(const provider_actor& who);
+  /// @returns nullopt for an actor that is no provider.
+  std::optional<offloading::peer_id> find(const caf::actor_addr& who) const;
+  void forget(offloading::peer_id peer) { peers_.erase(peer); }
+
+  /// Takes up the managers of a response, one for each accepted service, in
+  /// their order. A verdict of a broken peer that has none, and all after that,
+  /// are taken away.
+  void take_up(service_response& response,
+               const std::vector<provider_manager_actor>& given);
+
+  void send(offloading::peer_id to, const service_request& request) override;
+  void send(offloading::peer_id to, const service_end& end) override;
+  void begin(const session_id& session) override;
+  void forward(const service_result& result) override;
+  void end(const service_end& end) override;
+  void set_standby(const service_name& service,
+                   const std::optional<offloading::standby>& chosen) override;
+  void on_placement(bool any_remote) override;
+  void record(event_record x) override;
+  void record(const decision_record& x) override;
+  void record(const episode_record& x) override;
+  void wake_at(time_point t, std::uint64_t number) override;
+
+private:
+  requester_impl::pointer self_;
+  station_id station_;
+  recorder_actor recorder_;
+  std::map<service_name, requester_manager_actor> managers_;
+  std::map<session_id, provider_manager_actor> accepted_; // by this response
+  std::map<offloading::peer_id, provider_actor> peers_;
+  std::uint64_t met_ = 0;
+};
+
+} // namespace sofof

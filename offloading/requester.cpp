@@ -1,0 +1,282 @@
+// Timers, providers, decisions and requests; the rest is in
+// requester_sessions.cpp.
+#include "offloading/requester.hpp"
+
+#include "base/protocol.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+requester::requester(requester_setup setup, requester_port& port,
+                     time_point now)
+    : setup_{std::move(setup)}, port_{port} {
+  assert(setup_.policy);
+  for (auto& service : setup_.services) {
+    assert(!find(service.name));
+    services_.push_back({.service = std::move(service), .since = now});
+  }
+  announce_placement();
+  epoch_ = from_seconds(setup_.policy->epoch_s());
+  if (epoch_ > duration{0})
+    wake_at(now + epoch_, epoch_end{});
+}
+
+service_state* requester::find(const service_name& service) {
+  const auto i =
+      std::ranges::find(services_, service,
+                        [](const service_state& x) { return x.service.name; });
+  return i == services_.end() ? nullptr : &*i;
+}
+
+requester::found_session requester::find(const session_id& session) {
+  auto* service = find(session.kind);
+  auto* found = service ? service->find(session.provider) : nullptr;
+  if (!found || found->at == phase::requested || found->running != session)
+    return {};
+  return {service, found};
+}
+
+void requester::announce_placement() {
+  port_.on_placement(std::ranges::any_of(services_, &service_state::is_remote));
+}
+
+// -- timers -------------------------------------------------------------------
+
+void requester::wake_at(time_point t, timer what) {
+  timers_.emplace(++last_timer_, std::move(what));
+  port_.wake_at(t, last_timer_);
+}
+
+void requester::on_timer(std::uint64_t number, time_point now) {
+  assert(number <= last_timer_);
+  const auto due = timers_.extract(number);
+  if (!due.empty())
+    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+}
+
+void requester::expire(const request_timeout& x, time_point now) {
+  const auto i = providers_.find(x.provider);
+  if (i == providers_.end() || i->second.open_request != x.number)
+    return;
+  i->second.open_request.reset();
+  refuse_requested(x.provider, "no answer", now);
+}
+
+void requester::expire(const start_timeout& x, time_point now) {
+  const auto found = find(x.session);
+  if (found && found.session->at == phase::starting)
+    end(*found.service, x.session.provider, end_reason::no_data, true, now);
+}
+
+// Cycles on board are told at the pace of the epoch.
+void requester::expire(const epoch_end&, time_point now) {
+  assert(epoch_ > duration{0});
+  wake_at(now + epoch_, epoch_end{});
+  for (const auto& x : services_)
+    if (!x.is_remote())
+      setup_.policy->observe(cycle_outcome{
+          now, x.service.name.view(), 0, x.service.on_board.time_s, false,
+          x.service.on_board.energy_j,
+          to_seconds(epoch_) / to_seconds(x.service.needs.period)});
+  weigh([](const service_state&) { return true; }, std::nullopt, now);
+}
+
+// -- providers ----------------------------------------------------------------
+
+void requester::on_offer(const service_offer& offer, peer_id from,
+                         time_point now) {
+  log("offer", {offer.provider, setup_.station, {}, 0}, {}, now);
+  auto& provider = meet(offer.provider, from);
+  if (provider.peer != from)
+    return;
+  provider.offer = offer;
+  provider.offered_at = now;
+  learn(offer, now);
+  if (provider.open_request)
+    return;
+  weigh([&](const service_state& x) { return provider.offers(x.service.name); },
+        offer.provider, now);
+}
+
+known_provider& requester::meet(provider_id id, peer_id peer) {
+  if (const auto i = providers_.find(id); i != providers_.end())
+    return i->second;
+  // A peer speaks for one provider, which has booted since.
+  const auto is_same = [peer](const auto& known) {
+    return known.second.peer == peer;
+  };
+  const auto before = std::ranges::find_if(providers_, is_same);
+  // A liar that has booted again is no other one.
+  const auto doubted =
+      before != providers_.end() ? before->second.doubted : distrust{};
+  std::erase_if(providers_, [&](const auto& known) {
+    return is_same(known) && !is_in_use(known.first);
+  });
+  for (auto& service : services_)
+    std::erase_if(service.links, [&](const auto& link) {
+      return !providers_.contains(link.first);
+    });
+  return providers_
+      .emplace(id, known_provider{.peer = peer, .doubted = doubted})
+      .first->second;
+}
+
+bool requester::is_in_use(provider_id id) const {
+  return std::ranges::any_of(services_, [id](const service_state& service) {
+    return service.find(id) != nullptr;
+  });
+}
+
+// Offers show how good the link is, also while nothing runs there.
+void requester::learn(const service_offer& offer, time_point now) {
+  if (!offer.created || *offer.created > now)
+    return;
+  for (auto& service : services_)
+    if (!service.find(offer.provider) || service.is_standby(offer.provider))
+      service.link_of(offer.provider)
+          .answered(*offer.created - service.computing(offer), now);
+}
+
+// For all services: they come from one computer, under one key.
+void requester::distrust_peer_of(provider_id provider, time_point now) {
+  const auto liar = providers_.find(provider);
+  if (liar == providers_.end())
+    return;
+  for (auto& [id, known] : providers_)
+    if (known.peer == liar->second.peer)
+      known.doubted.add(now);
+}
+
+void requester::on_lost(peer_id peer, time_point now) {
+  for (auto i = providers_.begin(); i != providers_.end();) {
+    if (i->second.peer != peer) {
+      ++i;
+      continue;
+    }
+    const auto id = i->first;
+    i = providers_.erase(i);
+    log("peer_lost", {id, setup_.station, {}, 0}, {}, now);
+    for (auto& service : services_) {
+      const auto* session = service.find(id);
+      if (session && session->at == phase::requested)
+        refuse(service, id, "peer lost", std::nullopt, now);
+      else if (session)
+        end(service, id, end_reason::peer_lost, false, now);
+      service.links.erase(id);
+    }
+    assert(!is_in_use(id));
+  }
+}
+
+// -- decision and request -----------------------------------------------------
+
+// Decides about the services for which `is_due`.
+template <class Predicate>
+void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
+                      time_point now) {
+  std::map<provider_id, std::vector<service_name>> wanted;
+  const auto path = setup_.path_ahead(ego_);
+  for (auto& service : services_)
+    if (!service.is_moving() && is_due(service))
+      for (const auto id :
+           decide(service, service.views(providers_, offering, now), offering,
+                  path, now))
+        wanted[id].push_back(service.service.name);
+  for (auto& [id, names] : wanted)
+    request(id, std::move(names), path, now);
+}
+
+// @param providers  That come into question.
+// @returns which shall be asked for the service.
+std::vector<provider_id>
+requester::decide(service_state& service,
+                  std::span<const provider_view> providers,
+                  std::optional<provider_id> offering,
+                  std::span<const point> path, time_point now) {
+  const auto knows = [&](provider_id id) {
+    return std::ranges::find(providers, id, &provider_view::id)
+           != providers.end();
+  };
+  if (providers.empty() || (offering && !knows(*offering)))
+    return {};
+  auto decision = ask_policy(service, providers, path, now);
+  if (decision.release) {
+    leave(service, end_reason::released, now, [](provider_id) { return true; });
+    return {};
+  }
+  if (decision.source == 0 && decision.second != 0)
+    decision.source = service.current().value_or(0);
+  std::vector<provider_id> wanted;
+  for (const auto id : {decision.source, decision.second})
+    if (id != 0 && knows(id) && !std::ranges::count(wanted, id))
+      wanted.push_back(id);
+  if (wanted.empty()) {
+    if (service.sessions.empty() && offering)
+      log("stay_local", {*offering, setup_.station, service.service.name, 0},
+          decision.why, now);
+    return {};
+  }
+  service.wanted = wanted;
+  set_standby(service, wanted.size() > 1 ? decision.hedge_after : duration{0});
+  std::erase_if(wanted, [&](provider_id id) { return service.find(id); });
+  if (wanted.empty())
+    leave_unwanted(service, now);
+  return wanted;
+}
+
+local_decision requester::ask_policy(const service_state& service,
+                                     std::span<const provider_view> providers,
+                                     std::span<const point> path,
+                                     time_point now) {
+  const auto& x = service.service;
+  return setup_.policy->decide({.now = now,
+                                .kind = x.name.view(),
+                                .providers = providers,
+                                .path = path,
+                                .speed_mps = ego_.own.speed_mps,
+                                .noise = setup_.noise.part("decisions"),
+                                .number = ++decisions_,
+                                .current = service.current().value_or(0),
+                                .since = service.since,
+                                .needs = x.needs,
+                                .on_board = x.on_board,
+                                .future = setup_.future.get()});
+}
+
+// The provider that the policy wants beside the first may only stand by.
+void requester::set_standby(service_state& service, duration after) {
+  std::optional<standby> chosen;
+  if (after > duration{0})
+    chosen = {service.wanted.back(), after};
+  if (chosen == service.standing_by)
+    return;
+  service.standing_by = chosen;
+  port_.set_standby(service.service.name, chosen);
+}
+
+void requester::request(provider_id id, std::vector<service_name> wanted,
+                        const std::vector<point>& path, time_point now) {
+  assert(!wanted.empty());
+  auto& provider = providers_.at(id);
+  assert(!provider.open_request);
+  auto candidates =
+      find(wanted.front())->candidates(providers_, ego_.own.position, now);
+  const auto number = ++last_request_;
+  provider.open_request = number;
+  for (const auto& name : wanted) {
+    std::erase(provider.offer.kinds, name);
+    auto* service = find(name);
+    assert(!service->find(id));
+    service->sessions.push_back({.provider = id});
+    log("request", {id, setup_.station, name, 0}, {}, now);
+  }
+  port_.send(provider.peer,
+             service_request{id, setup_.station, number, std::move(wanted),
+                             path, ego_.own.speed_mps, std::move(candidates)});
+  wake_at(now + protocol::request_timeout, request_timeout{id, number});
+}
+
+} // namespace sofof::offloading

@@ -1,0 +1,310 @@
+// From verdicts and data to the end of a session.
+#include "base/protocol.hpp"
+#include "offloading/requester.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace sofof::offloading {
+
+namespace {
+
+end_reason reason_of(qos_breach breach) {
+  switch (breach) {
+    case qos_breach::latency:
+      return end_reason::qos_latency;
+    case qos_breach::gap:
+      return end_reason::qos_gap;
+    case qos_breach::implausible:
+      break;
+  }
+  return end_reason::implausible;
+}
+
+} // namespace
+
+// -- verdicts -----------------------------------------------------------------
+
+void requester::on_response(const service_response& response, time_point now) {
+  const auto i = providers_.find(response.provider);
+  const auto expected =
+      i != providers_.end() && i->second.open_request == response.number;
+  if (expected)
+    i->second.open_request.reset();
+  // Counter 0 is the vehicle's own function.
+  const auto is_sound = [&](const session_id& session) {
+    return session.provider == response.provider
+           && session.station == setup_.station && session.counter != 0;
+  };
+  for (const auto& v : response.verdicts) {
+    if (v.accepted && !is_sound(v.running))
+      break;
+    auto* service = find(v.running.kind);
+    auto* session = service ? service->find(response.provider) : nullptr;
+    const auto open = expected && session && session->at == phase::requested;
+    if (open && v.accepted)
+      accept(*service, *session, v, now);
+    else if (open)
+      refuse(*service, response.provider, v.why,
+             v.instead != 0 ? std::optional{v.instead} : std::nullopt, now);
+    else if (v.accepted && !find(v.running)) // not just a duplicate
+      send_end({v.running, end_reason::no_data, side::requester});
+  }
+  if (expected)
+    refuse_requested(response.provider, "not answered", now);
+}
+
+void requester::refuse_requested(provider_id provider, std::string_view why,
+                                 time_point now) {
+  for (auto& service : services_)
+    if (const auto* session = service.find(provider);
+        session && session->at == phase::requested)
+      refuse(service, provider, why, std::nullopt, now);
+}
+
+void requester::accept(service_state& service, requester_session& session,
+                       const verdict& v, time_point now) {
+  assert(session.at == phase::requested);
+  assert(v.running.provider == session.provider);
+  session.at = phase::starting;
+  session.running = v.running;
+  session.accepted = now;
+  log_verdict(service, session.provider, v.running.counter, v.why, true, now);
+  port_.begin(v.running);
+  wake_at(now + protocol::start_timeout, start_timeout{v.running});
+}
+
+// @param instead  The provider that it would have asked. The vehicle decides
+// about that one anew.
+void requester::refuse(service_state& service, provider_id provider,
+                       std::string_view why, std::optional<provider_id> instead,
+                       time_point now) {
+  assert(service.find(provider));
+  assert(service.find(provider)->at == phase::requested);
+  log_verdict(service, provider, 0, why, false, now);
+  setup_.policy->observe(
+      refusal_outcome{now, service.service.name.view(), provider, why});
+  service.drop(provider);
+  if (!instead)
+    return;
+  const auto other = providers_.find(*instead);
+  if (other == providers_.end() || service.find(*instead)
+      || !service.may_ask(other->second, now))
+    return;
+  auto views = service.views(providers_, instead, now);
+  std::erase_if(views, [&](const provider_view& x) {
+    return x.id != *instead && !service.find(x.id);
+  });
+  const auto path = setup_.path_ahead(ego_);
+  for (const auto id : decide(service, views, instead, path, now))
+    request(id, {service.service.name}, path, now);
+}
+
+// -- data ---------------------------------------------------------------------
+
+void requester::on_result(const service_result& result, time_point now) {
+  const auto found = find(result.running);
+  if (!found) {
+    complain(result.running, now);
+    return;
+  }
+  auto& service = *found.service;
+  const auto provider = result.running.provider;
+  const auto latency = now - result.created;
+  auto& link = service.link_of(provider);
+  if (service.is_standby(provider))
+    link.answered(result.created, now);
+  else
+    link.arrived(result.created, now);
+  const auto& x = service.service;
+  setup_.policy->observe(
+      cycle_outcome{now, x.name.view(), provider, to_seconds(latency),
+                    latency > x.needs.max_latency, x.offloaded.energy_j});
+  port_.forward(result);
+}
+
+// A provider that sends results of no session has missed a service_end.
+void requester::complain(const session_id& session, time_point now) {
+  const auto i = providers_.find(session.provider);
+  if (i == providers_.end())
+    return;
+  auto& last = i->second.last_complaint;
+  if (last && now - *last < protocol::unknown_result_period)
+    return;
+  last = now;
+  send_end({session, end_reason::no_data, side::requester});
+}
+
+void requester::on_first_data(const session_id& session, time_point now) {
+  const auto found = find(session);
+  if (!found || found.session->at != phase::starting)
+    return;
+  auto& service = *found.service;
+  auto& started = *found.session;
+  if (!service.is_remote())
+    service.since = now;
+  started.joined =
+      std::ranges::any_of(service.sessions, [&](const requester_session& x) {
+        return x.at == phase::remote && service.wants(x.provider);
+      });
+  started.at = phase::remote;
+  started.first_data = now;
+  announce_placement();
+  if (started.joined)
+    log("joined", session, {}, now);
+  else
+    log("switch", session, "remote", now);
+  leave_unwanted(service, now);
+}
+
+// -- the end of a session -----------------------------------------------------
+
+void requester::on_violation(const qos_violation& violation, time_point now) {
+  const auto& session = violation.running;
+  const auto reason = reason_of(violation.breach);
+  if (violation.breach == qos_breach::implausible) {
+    // Also if the session has ended in the same instant.
+    log("implausible", session, violation.why, now);
+    distrust_peer_of(session.provider, now);
+  }
+  const auto found = find(session);
+  if (!found)
+    return;
+  if (violation.breach != qos_breach::implausible)
+    log("violation", session, name_of(reason), now);
+  auto& service = *found.service;
+  if (violation.breach != qos_breach::latency)
+    setup_.policy->observe(
+        cycle_outcome{now, session.kind.view(), session.provider,
+                      std::numeric_limits<double>::infinity(), true,
+                      service.service.offloaded.energy_j});
+  if (!violation.others_hold && found.session->at == phase::remote)
+    leave_beside(service, session.provider, now);
+  end(service, session.provider, reason, true, now);
+}
+
+void requester::on_end(const service_end& e, time_point now) {
+  if (const auto found = find(e.running); found && e.from == side::provider)
+    end(*found.service, e.running.provider, e.reason, false, now);
+}
+
+void requester::shut_down(time_point now) {
+  for (auto& service : services_) {
+    const auto all = service.sessions;
+    for (const auto& session : all)
+      if (session.at != phase::requested)
+        end(service, session.provider, end_reason::shutdown, true, now);
+  }
+}
+
+// Ends a service at those of the providers that run it of which that is true.
+// @returns at which.
+std::vector<provider_id>
+requester::leave(service_state& service, end_reason reason, time_point now,
+                 const std::function<bool(provider_id)>& is_meant) {
+  std::vector<provider_id> left;
+  for (const auto& session : service.sessions)
+    if (session.at == phase::remote && is_meant(session.provider))
+      left.push_back(session.provider);
+  for (const auto id : left)
+    end(service, id, reason, true, now);
+  return left;
+}
+
+void requester::leave_unwanted(service_state& service, time_point now) {
+  const auto left = leave(service, end_reason::handed_over, now,
+                          [&](provider_id id) { return !service.wants(id); });
+  if (!left.empty())
+    service.since = now;
+}
+
+// Nothing usable has come from the others either; but it is one violation.
+void requester::leave_beside(service_state& service, provider_id violator,
+                             time_point now) {
+  const auto left = leave(service, end_reason::released, now,
+                          [&](provider_id id) { return id != violator; });
+  for (const auto id : left)
+    service.cool_until[id] = now + protocol::cool_down;
+}
+
+// Closes a session, once. The selector goes on with the vehicle's own function,
+// unless another provider runs the service too.
+void requester::end(service_state& service, provider_id provider,
+                    end_reason reason, bool tell, time_point now) {
+  assert(service.find(provider));
+  const auto ended = *service.find(provider);
+  assert(ended.at != phase::requested);
+  service.drop(provider);
+  service_end e{ended.running, reason, side::requester};
+  port_.end(e);
+  if (tell) {
+    e.what = service.service.termination_message(e, now, ego_.own);
+    send_end(e);
+  }
+  log_end(service, ended, reason, now);
+  learn_from(service, ended, reason, now);
+  std::erase_if(service.cool_until,
+                [now](const auto& other) { return other.second <= now; });
+  if (ended.at == phase::remote && is_fallback(reason))
+    service.cool_until[provider] = now + protocol::cool_down;
+  if (ended.at == phase::remote)
+    announce_placement();
+}
+
+void requester::log_end(service_state& service, const requester_session& ended,
+                        end_reason reason, time_point now) {
+  const auto was_remote = ended.at == phase::remote;
+  const auto comes_home = was_remote && !service.is_remote();
+  port_.record(episode_record{ended.running, side::requester, ended.accepted,
+                              was_remote ? ended.first_data : ended.accepted,
+                              was_remote, now, reason,
+                              is_fallback(reason) && comes_home});
+  if (comes_home) {
+    service.since = now;
+    log("switch", ended.running, "local", now);
+  } else if (was_remote) {
+    log("left", ended.running, name_of(reason), now);
+    auto& other = *service.find(service.current().value());
+    if (!ended.joined && std::exchange(other.joined, false))
+      log("switch", other.running, "remote", now);
+  }
+}
+
+void requester::learn_from(const service_state& service,
+                           const requester_session& ended, end_reason reason,
+                           time_point now) {
+  if (ended.at != phase::remote)
+    return;
+  assert(ended.first_data <= now);
+  setup_.policy->observe(episode_outcome{
+      service.service.name.view(), ended.provider,
+      to_seconds(now - ended.first_data), name_of(reason), setup_.station});
+}
+
+void requester::send_end(const service_end& e) {
+  const auto i = providers_.find(e.running.provider);
+  if (i != providers_.end())
+    port_.send(i->second.peer, e);
+}
+
+// -- records ------------------------------------------------------------------
+
+void requester::log_verdict(const service_state& service, provider_id provider,
+                            std::uint32_t counter, std::string_view why,
+                            bool accepted, time_point now) {
+  const auto& name = service.service.name;
+  port_.record(decision_record{now, setup_.station, name, accepted});
+  log(accepted ? "accepted" : "refused",
+      {provider, setup_.station, name, counter}, why, now);
+}
+
+void requester::log(std::string what, const session_id& session,
+                    std::string_view detail, time_point now) {
+  port_.record(event_record{now, std::move(what), setup_.station,
+                            session.provider, session.kind, session.counter,
+                            std::string{detail}});
+}
+
+} // namespace sofof::offloading

@@ -1,0 +1,115 @@
+// A cycle is run on its grid, at activation, or at every call.
+#include "offloading/service_cycle.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+namespace {
+
+// @returns the first moment after `t` on the grid phase + k · period.
+time_point next_on_grid(time_point t, duration phase, duration period) {
+  const auto since = t.time_since_epoch() - phase;
+  auto k = since / period;
+  if (since >= duration{0})
+    ++k;
+  return time_point{phase + k * period};
+}
+
+} // namespace
+
+service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
+    : setup_{std::move(setup)}, port_{port} {
+  assert(setup_.function);
+  assert(setup_.finish);
+  assert(setup_.period > duration{0});
+  assert(setup_.phase >= duration{0} && setup_.phase < setup_.period);
+}
+
+void service_cycle::on_step(lifecycle_step step, time_point now) {
+  const auto next = after(state_, step);
+  if (!next)
+    return;
+  state_ = *next;
+  stop_timer();
+  if (state_ == lifecycle_state::active)
+    begin(now);
+}
+
+void service_cycle::on_input(service_input input, time_point now) {
+  newest_ = std::move(input);
+  if (newest_.on_call)
+    stop_timer();
+  if (state_ == lifecycle_state::active && !has_timer_)
+    begin(now);
+}
+
+void service_cycle::on_timer(std::uint64_t number, time_point now) {
+  assert(number <= timer_);
+  if (number != timer_)
+    return;
+  assert(state_ == lifecycle_state::active);
+  await_next(now);
+  run(now);
+}
+
+void service_cycle::begin(time_point now) {
+  assert(state_ == lifecycle_state::active);
+  assert(!has_timer_);
+  if (newest_.on_call) {
+    run(now);
+    return;
+  }
+  await_next(now);
+  if (!setup_.keeps_phase)
+    run(now);
+}
+
+void service_cycle::stop_timer() {
+  ++timer_;
+  has_timer_ = false;
+}
+
+void service_cycle::await_next(time_point now) {
+  has_timer_ = true;
+  const auto next = next_on_grid(now, setup_.phase, setup_.period);
+  assert(next > now && next <= now + setup_.period);
+  port_.wake_at(next, timer_);
+}
+
+void service_cycle::run(time_point now) {
+  const auto is_ahead = next_number(now) > grid_number(now) + 1;
+  if (newest_.what.type().empty() || is_ahead)
+    return;
+  auto output = setup_.function->run(now, newest_);
+  if (output.what.type().empty())
+    return;
+  const auto cycle = take_number(now);
+  const auto done = setup_.finish(now, cycle);
+  assert(done >= now);
+  port_.deliver_at(done, {setup_.running, cycle, now, std::move(output.what),
+                          std::move(output.about)});
+}
+
+std::uint64_t service_cycle::grid_number(time_point t) const {
+  return static_cast<std::uint64_t>(
+      (t.time_since_epoch() - setup_.phase + setup_.period) / setup_.period);
+}
+
+// A call off the grid may run one cycle more than the grid has by then.
+std::uint64_t service_cycle::next_number(time_point t) const {
+  return std::max(grid_number(t),
+                  newest_.on_call ? after_any_ : after_off_grid_);
+}
+
+std::uint64_t service_cycle::take_number(time_point t) {
+  const auto cycle = next_number(t);
+  after_any_ = cycle + 1;
+  if (newest_.on_call || cycle > grid_number(t))
+    after_off_grid_ = after_any_;
+  return cycle;
+}
+
+} // namespace sofof::offloading

@@ -1,0 +1,85 @@
+// When a service's function runs: its life cycle, its periods, its numbers.
+#pragma once
+
+#include "messages/protocol/lifecycle.hpp"
+#include "messages/protocol/service.hpp"
+#include "offloading/service_function.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace sofof::offloading {
+
+/// What runs, and when.
+struct cycle_setup {
+  session_id running;                         ///< Stamped on every result.
+  std::shared_ptr<service_function> function; ///< Not null.
+  duration period{};                          ///< > 0.
+  duration phase{}; ///< Cycles start at phase + k · period; in [0, period).
+  /// @returns when the cycle that starts now will be done, not before `start`:
+  /// a model of the computer in virtual time, the identity where time is real.
+  std::function<time_point(time_point start, std::uint64_t cycle)> finish;
+  /// Whether the first cycle waits for its phase too, and is not run at once.
+  bool keeps_phase = false;
+};
+
+/// What a cycle makes others do. Nothing of this calls the cycle back.
+class cycle_port {
+public:
+  virtual ~cycle_port() = default;
+
+  /// `on_timer` is due then, with this number.
+  virtual void wake_at(time_point t, std::uint64_t number) = 0;
+  /// The result of a cycle, which is done then.
+  virtual void deliver_at(time_point t, service_result result) = 0;
+};
+
+/// Runs one function period by period, in a life cycle as ROS 2 nodes have it.
+/// * It begins unconfigured. Active, it runs a cycle at once and then on its
+///   grid (or on its grid only), always from the newest input; without any
+///   input it waits.
+/// * While it stands by it runs one cycle for each input, at once, but at most
+///   one more than the grid has by then.
+/// * Cycles are numbered by the grid, so that their noise does not depend on
+///   when the service was started; after two in one period they are one ahead.
+///
+/// No clock and no I/O: every call says what time it is, never less than
+/// before.
+class service_cycle {
+public:
+  /// @param port  Outlives the cycle.
+  service_cycle(cycle_setup setup, cycle_port& port);
+
+  /// The life cycle takes this step; one that is not possible is ignored.
+  void on_step(lifecycle_step step, time_point now);
+
+  /// The next cycles start from this.
+  void on_input(service_input input, time_point now);
+
+  /// The time that `wake_at` was given with this number has come.
+  void on_timer(std::uint64_t number, time_point now);
+
+  lifecycle_state state() const { return state_; }
+
+private:
+  void begin(time_point now);
+  void stop_timer();
+  void await_next(time_point now);
+  void run(time_point now);
+
+  std::uint64_t grid_number(time_point t) const;
+  std::uint64_t next_number(time_point t) const;
+  std::uint64_t take_number(time_point t);
+
+  cycle_setup setup_;
+  cycle_port& port_;
+  lifecycle_state state_ = lifecycle_state::unconfigured;
+  service_input newest_;
+  std::uint64_t timer_ = 0; // the one that counts
+  bool has_timer_ = false;
+  std::uint64_t after_any_ = 0;      // number after the latest cycle,
+  std::uint64_t after_off_grid_ = 0; // and after the latest off the grid
+};
+
+} // namespace sofof::offloading

@@ -1,0 +1,32 @@
+// What a service computes: from an input to a result, cycle by cycle.
+#pragma once
+
+#include "messages/protocol/service.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+/// What one cycle of a function gives.
+struct service_output {
+  payload what;    ///< The result; empty when there is none (yet).
+  payload about{}; ///< How it came about, for records.
+
+  service_output() = default;
+  // NOLINTNEXTLINE(*-explicit-*): most have nothing to add
+  service_output(payload x, payload notes = {})
+      : what{std::move(x)}, about{std::move(notes)} {}
+};
+
+/// One running function. It has no clock of its own. In virtual time the same
+/// inputs at the same times give the same results.
+class service_function {
+public:
+  virtual ~service_function() = default;
+
+  /// @param now    Start of the cycle.
+  /// @param input  The newest input; its `what` is not empty.
+  virtual service_output run(time_point now, const service_input& input) = 0;
+};
+
+} // namespace sofof

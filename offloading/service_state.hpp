@@ -1,0 +1,113 @@
+// One service of a vehicle: at which providers it runs, and at which it may.
+#pragma once
+
+#include "messages/protocol/service.hpp"
+#include "offloading/distrust.hpp"
+#include "offloading/peer.hpp"
+#include "offloading/standby.hpp"
+#include "policies/algorithms/forecast/link_estimator.hpp"
+#include "policies/api/context.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace sofof::offloading {
+
+/// A provider that a vehicle has had an offer of.
+struct known_provider {
+  peer_id peer{};
+  std::optional<std::uint32_t> open_request{};
+  std::optional<time_point>
+      last_complaint{};  ///< About results of unknown sessions.
+  service_offer offer{}; ///< The latest, without what was asked for since.
+  time_point offered_at{};
+  distrust doubted{}; ///< Since its results were implausible.
+
+  bool offers(const service_name& service) const;
+};
+
+using known_providers = std::map<provider_id, known_provider>;
+
+/// What a requester has to know of a service.
+struct requested_service {
+  service_name name;
+  service_needs needs;    ///< Each > 0.
+  double demand = 1;      ///< A provider's computing time, in units of what its
+                          ///< offers tell; ≥ 0.
+  cycle_cost on_board{};  ///< Of a cycle in the vehicle.
+  cycle_cost offloaded{}; ///< Time: of the way there alone.
+  /// What tells in the terms of the service that a session has ended; empty
+  /// where a service has no such message. Never a null function.
+  std::function<payload(const service_end& end, time_point now, const cam& own)>
+      termination_message =
+          [](const service_end&, time_point, const cam&) { return payload{}; };
+};
+
+enum class phase {
+  requested, ///< The provider has not answered yet.
+  starting,  ///< It has accepted; its first result has not come yet.
+  remote,    ///< Its results have come.
+};
+
+/// A provider that runs a service, or is asked to.
+struct requester_session {
+  provider_id provider = 0;
+  phase at = phase::requested;
+  session_id running{}; ///< From acceptance on.
+  time_point accepted{};
+  time_point first_data{};
+  bool joined = false; ///< Another provider ran the service already.
+};
+
+/// What the requester remembers of one service.
+struct service_state {
+  requested_service service;
+  time_point since; ///< It has been where it is.
+  std::vector<requester_session>
+      sessions{};                    ///< The oldest first; empty: it is local.
+  std::vector<provider_id> wanted{}; ///< Which providers shall run it.
+  std::optional<standby> standing_by{}; ///< One of them, if any.
+  std::map<provider_id, time_point> cool_until{};
+  std::map<provider_id, link_estimator> links{}; ///< By what came from there.
+
+  /// @returns null for a provider that neither runs it nor is asked to.
+  requester_session* find(provider_id provider);
+  const requester_session* find(provider_id provider) const;
+  void drop(provider_id provider);
+
+  bool wants(provider_id provider) const;
+  /// Whether that one is fed only when others do not answer.
+  bool is_standby(provider_id provider) const;
+  bool is_moving() const; ///< Whether an answer or first data is awaited.
+  bool is_remote() const;
+  /// @returns the provider that has run it for longest, of those that do not
+  /// stand by; nullopt: it is local.
+  std::optional<provider_id> current() const;
+
+  /// @returns how long a provider computes a result of it.
+  duration computing(const service_offer& offer) const;
+  link_estimator& link_of(provider_id provider);
+  /// Whether its offer holds, and nothing speaks against asking.
+  bool may_ask(const known_provider& provider, time_point now) const;
+  provider_view view_of(const known_provider& provider, time_point now);
+  /// @param offering  The provider whose offer has come just now, if any.
+  /// @returns first where it runs, then which may be asked for it: the one that
+  /// offers just now, then by id.
+  std::vector<provider_view> views(const known_providers& providers,
+                                   std::optional<provider_id> offering,
+                                   time_point now);
+  /// @returns what the vehicle tells of the providers that it could ask: not
+  /// where the service runs, which it would not leave for nothing. Of more than
+  /// protocol::most_candidates the nearest; by id.
+  /// @param from  Where the vehicle is, m, east-north.
+  std::vector<candidate> candidates(const known_providers& providers,
+                                    point from, time_point now);
+};
+
+/// @returns whether a service that ends so comes home unplanned.
+bool is_fallback(end_reason reason);
+
+} // namespace sofof::offloading

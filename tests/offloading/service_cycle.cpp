@@ -1,0 +1,126 @@
+// Tests of when a function runs, without any actor.
+#include "offloading/service_cycle.hpp"
+
+#include "tests/support/echo.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A cycle whose results take 5 ms, and the timers that it has set.
+struct cycle_world : offloading::cycle_port {
+  struct copier final : service_function {
+    service_output run(time_point, const service_input& input) override {
+      return input.what;
+    }
+  };
+
+  time_point now{1s};
+  std::multimap<time_point, std::uint64_t> timers;
+  std::vector<std::pair<time_point, service_result>> results;
+  offloading::service_cycle cycle{
+      {{1, 101, "echo", 7},
+       std::make_shared<copier>(),
+       50ms,
+       20ms,
+       [](time_point start, std::uint64_t) { return start + 5ms; }},
+      *this};
+
+  void wake_at(time_point t, std::uint64_t number) override {
+    timers.emplace(t, number);
+  }
+  void deliver_at(time_point t, service_result result) override {
+    results.emplace_back(t, std::move(result));
+  }
+
+  void run_for(duration d) {
+    const auto end = now + d;
+    while (!timers.empty() && timers.begin()->first <= end) {
+      const auto due = timers.extract(timers.begin());
+      now = due.key();
+      cycle.on_timer(due.mapped(), now);
+    }
+    now = end;
+  }
+  void feed(std::uint64_t number, bool stands_by = false) {
+    cycle.on_input(
+        {{1, 101, "echo", 7}, now, payload::of(echo{number}), {}, stands_by},
+        now);
+  }
+  void activate() {
+    cycle.on_step(lifecycle_step::configure, now);
+    cycle.on_step(lifecycle_step::activate, now);
+  }
+  std::vector<duration> starts() const {
+    std::vector<duration> all;
+    for (const auto& [done, result] : results)
+      all.push_back(result.created - time_point{1s});
+    return all;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(cycle_world,
+                  "an active cycle runs at once, then on its grid, "
+                  "and each result is done after its run time") {
+  feed(1);
+  activate();
+  run_for(100ms);
+  CHECK(starts() == std::vector<duration>{0ms, 20ms, 70ms});
+  for (const auto& [done, result] : results)
+    CHECK(done == result.created + 5ms);
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a cycle without input, or not active, runs "
+                               "nothing") {
+  activate();
+  run_for(1s);
+  CHECK(results.empty());
+  cycle.on_step(lifecycle_step::deactivate, now);
+  feed(1);
+  run_for(1s);
+  CHECK(results.empty());
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a cycle that is activated again forgets the "
+                               "timers of before") {
+  feed(1);
+  activate();
+  cycle.on_step(lifecycle_step::deactivate, now);
+  cycle.on_step(lifecycle_step::activate, now);
+  results.clear();
+  run_for(50ms);
+  CHECK(starts() == std::vector<duration>{20ms});
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a cycle that stands by runs once for each "
+                               "input, but not ahead of its grid by two") {
+  feed(1, true);
+  activate();
+  feed(2, true);
+  feed(3, true); // one too many in this period
+  run_for(1s);
+  CHECK(results.size() == 2);
+  feed(4, true);
+  CHECK(results.size() == 3);
+}
+
+TEST_CASE_FIXTURE(cycle_world, "numbers of cycles rise, and follow the grid "
+                               "when a period was not used") {
+  feed(1);
+  activate();
+  run_for(100ms);
+  const auto last = results.back().second.cycle;
+  cycle.on_step(lifecycle_step::deactivate, now);
+  run_for(1s);
+  cycle.on_step(lifecycle_step::activate, now);
+  CHECK(results.back().second.cycle == last + 20);
+}
