@@ -2,6 +2,7 @@
 #include "actors/offloading/onboard_service.hpp"
 
 #include "actors/offloading/service_manager.hpp"
+#include "base/protocol.hpp"
 #include "base/random_phase.hpp"
 
 #include <algorithm>
@@ -90,6 +91,21 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
        std::move(local), client, std::move(requester), vehicle.recorder,
        vehicle.record_margins});
   return {std::move(client), std::move(manager)};
+}
+
+offloading::requester_setup
+rules_of(requester_setup vehicle,
+         std::vector<offloading::requested_service> services) {
+  return {.station = vehicle.station,
+          .services = std::move(services),
+          .policy = std::move(vehicle.lodm),
+          .noise = vehicle.noise,
+          .path_ahead =
+              [way = vehicle.way](const ego_state& ego) {
+                return way->waypoints(ego.s_m, protocol::route_ahead_m,
+                                      protocol::route_spacing_m);
+              },
+          .future = std::move(vehicle.future)};
 }
 
 } // namespace sofof

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "actors/offloading/service_requester.hpp"
-#include "offloading/service_state.hpp"
+#include "offloading/requester.hpp"
 
 #include <functional>
+#include <vector>
 
 namespace sofof {
 
@@ -32,5 +33,10 @@ onboard_service spawn_onboard_service(caf::actor_system& sys,
                                       const service_type_ptr& kind,
                                       onboard_requester_actor requester,
                                       const service_setup& here);
+
+/// @returns what the rules of a vehicle's requester are made of.
+offloading::requester_setup
+rules_of(requester_setup vehicle,
+         std::vector<offloading::requested_service> services);
 
 } // namespace sofof

@@ -7,7 +7,6 @@
 
 #include <caf/typed_event_based_actor.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace sofof {
@@ -18,19 +17,10 @@ void requester_links::add(const service_name& service,
 }
 
 offloading::peer_id requester_links::peer_of(const provider_actor& who) {
-  if (const auto known = find(who.address()))
+  if (const auto known = providers_.find(who.address()))
     return *known;
   self_->monitor(who);
-  return peers_.emplace(offloading::peer_id{++met_}, who).first->first;
-}
-
-std::optional<offloading::peer_id>
-requester_links::find(const caf::actor_addr& who) const {
-  const auto i = std::ranges::find(
-      peers_, who, [](const auto& peer) { return peer.second.address(); });
-  if (i == peers_.end())
-    return std::nullopt;
-  return i->first;
+  return providers_.add(who);
 }
 
 void requester_links::take_up(
@@ -50,12 +40,12 @@ void requester_links::take_up(
 
 void requester_links::send(offloading::peer_id to,
                            const service_request& request) {
-  self_->send(peers_.at(to), request, requester_actor{self_});
+  self_->send(providers_.at(to), request, requester_actor{self_});
 }
 
 void requester_links::send(offloading::peer_id to, const service_end& end) {
   note_on_air(self_, recorder_, end.what);
-  self_->send(peers_.at(to), end);
+  self_->send(providers_.at(to), end);
 }
 
 void requester_links::begin(const session_id& session) {

@@ -1,6 +1,7 @@
 // What a requester sends and to whom: its managers, its providers, its records.
 #pragma once
 
+#include "actors/offloading/peers.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/requester.hpp"
 
@@ -27,9 +28,7 @@ public:
   /// @returns the number of a provider; from its first message on it is
   /// monitored.
   offloading::peer_id peer_of(const provider_actor& who);
-  /// @returns nullopt for an actor that is no provider.
-  std::optional<offloading::peer_id> find(const caf::actor_addr& who) const;
-  void forget(offloading::peer_id peer) { peers_.erase(peer); }
+  peers<provider_actor>& providers() { return providers_; }
 
   /// Takes up the managers of a response, one for each accepted service, in
   /// their order. A verdict of a broken peer that has none, and all after that,
@@ -56,8 +55,7 @@ private:
   recorder_actor recorder_;
   std::map<service_name, requester_manager_actor> managers_;
   std::map<session_id, provider_manager_actor> accepted_; // by this response
-  std::map<offloading::peer_id, provider_actor> peers_;
-  std::uint64_t met_ = 0;
+  peers<provider_actor> providers_;
 };
 
 } // namespace sofof

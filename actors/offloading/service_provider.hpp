@@ -31,15 +31,9 @@ struct provider_setup {
   bool crossings_granted = true; ///< As functions are told.
 };
 
-/// Tells the site of each kind of all CAMs and CPMs and of all that its sensors
-/// see. ITS messages that cannot be read are as if they had not come.
-/// Offers its services to stations in its area, asks the CODM about requests,
-/// runs each accepted service under a manager of its own, and ends it when
-/// the station has left, has fallen silent, or says so. One state machine per
-/// station and kind:
-///
-///   idle → offered → active → idle
-///
+/// Offers and runs services by the rules of offloading/provider. The context of
+/// each service hears of all CAMs and CPMs and of all that the provider's
+/// sensors see. ITS messages that cannot be read are as if they had not come.
 /// On exit it closes what still runs (shutdown).
 roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
                                                provider_setup setup);

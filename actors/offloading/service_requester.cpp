@@ -4,7 +4,6 @@
 #include "actors/offloading/onboard_service.hpp"
 #include "actors/offloading/requester_links.hpp"
 #include "actors/runtime/time.hpp"
-#include "base/protocol.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -29,18 +28,11 @@ struct requester_state {
     vehicle = setup.vehicle;
     self->monitor(vehicle);
     links.emplace(self, setup.station, setup.recorder);
-    offloading::requester_setup parts;
+    std::vector<offloading::requested_service> services;
     for (const auto& type : setup.kinds)
-      parts.services.push_back(add(setup, type));
-    parts.station = setup.station;
-    parts.policy = std::move(setup.lodm);
-    parts.noise = setup.noise;
-    parts.future = std::move(setup.future);
-    parts.path_ahead = [way = setup.way](const ego_state& ego) {
-      return way->waypoints(ego.s_m, protocol::route_ahead_m,
-                            protocol::route_spacing_m);
-    };
-    rules.emplace(std::move(parts), *links, now(self));
+      services.push_back(add(setup, type));
+    rules.emplace(rules_of(std::move(setup), std::move(services)), *links,
+                  now(self));
   }
 
   offloading::requested_service add(const requester_setup& setup,
@@ -64,9 +56,9 @@ struct requester_state {
     if (vehicle.address() == who) {
       rules->shut_down(now(self));
       self->quit(caf::exit_reason::user_shutdown);
-    } else if (const auto peer = links->find(who)) {
+    } else if (const auto peer = links->providers().find(who)) {
       rules->on_lost(*peer, now(self));
-      links->forget(*peer);
+      links->providers().forget(*peer);
     }
   }
 };

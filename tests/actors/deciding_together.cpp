@@ -219,6 +219,7 @@ TEST_CASE_FIXTURE(provider_world, "offers tell workers, the mean computing "
                                   "time and when they were made") {
   profile->service = delay_distribution::uniform(5ms, 15ms);
   profile->workers = 3;
+  restart();
   hear(inside);
   stay(1s);
   REQUIRE(offers().size() == 2);

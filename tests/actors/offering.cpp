@@ -194,6 +194,7 @@ TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
   // Every 50 ms 10 ms on one of two workers.
   profile->service = delay_distribution::uniform(5ms, 15ms);
   profile->workers = 2;
+  restart();
   hear(inside);
   CHECK(offers().back().utilisation == 0);
   start({one});
@@ -211,6 +212,7 @@ TEST_CASE_FIXTURE(provider_world, "a service computes at the offset that the "
   codm->worker = 1;
   codm->offset = 30ms;
   profile->workers = 2;
+  restart();
   hear(inside);
   start({one});
   run_for(200ms);

@@ -48,6 +48,9 @@ struct provider_world : virtual_world {
     return s;
   }
 
+  /// A provider with the profile as it is now takes the place of the first.
+  void restart() { provider = own(spawn_service_provider(system(), setup())); }
+
   // -- what happens to the provider ---------------------------------------
 
   void hear(const cam& own, const probe<requester_actor>& from) {

@@ -34,10 +34,9 @@ struct instance_world : virtual_world {
   instance_actor instance = own(spawn_instance(system(), setup()));
 
   instance_setup setup() {
-    return {
-        {running, function, 50ms, 20ms,
-         [](time_point start, std::uint64_t) { return start + 5ms; }},
-        results.handle};
+    return {{running, function, 50ms, 20ms,
+             [](time_point start, std::uint64_t) { return start + 5ms; }},
+            results.handle};
   }
 
   void step(lifecycle_step s) { tell(instance, s); }

@@ -1,0 +1,87 @@
+// Handles are found by session and peer.
+#include "actors/offloading/provider_links.hpp"
+
+#include "actors/offloading/service_manager.hpp"
+#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/time.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace sofof {
+
+void provider_links::on_down(const caf::down_msg& down,
+                             offloading::provider& rules) {
+  if (const auto session = session_of(down.source)) {
+    // A manager that was never fed gives up; any other has died.
+    const auto why = down.reason == caf::exit_reason::user_shutdown
+                         ? end_reason::no_data
+                         : end_reason::peer_lost;
+    rules.on_function_lost(*session, why, now(self_));
+  } else if (const auto peer = requesters_.find(down.source)) {
+    rules.on_lost(*peer, now(self_));
+  }
+}
+
+std::optional<session_id>
+provider_links::session_of(const caf::actor_addr& manager) const {
+  const auto i = std::ranges::find(managers_, manager, [](const auto& entry) {
+    return entry.second.address();
+  });
+  if (i == managers_.end())
+    return std::nullopt;
+  return i->first;
+}
+
+void provider_links::send(offloading::peer_id to, const service_offer& offer) {
+  self_->send(requesters_.at(to), offer);
+}
+
+void provider_links::send(offloading::peer_id to,
+                          const service_response& response) {
+  std::vector<provider_manager_actor> started;
+  for (const auto& v : response.verdicts)
+    if (v.accepted)
+      started.push_back(managers_.at(v.running));
+  self_->send(requesters_.at(to), response, std::move(started));
+}
+
+void provider_links::send(offloading::peer_id to, const service_end& end) {
+  note_on_air(self_, recorder_, end.what);
+  self_->send(requesters_.at(to), end);
+}
+
+void provider_links::meet(offloading::peer_id requester) {
+  self_->monitor(requesters_.at(requester));
+}
+
+void provider_links::leave(offloading::peer_id requester) {
+  self_->demonitor(requesters_.at(requester));
+  requesters_.forget(requester);
+}
+
+void provider_links::start(const offloading::session_start& start) {
+  auto manager = spawn_provider_manager(
+      self_->system(), {services_.make(start), requesters_.at(start.requester),
+                        self_, recorder_});
+  self_->monitor(manager);
+  managers_.emplace(start.session, std::move(manager));
+}
+
+void provider_links::end(const service_end& end) {
+  const auto manager = managers_.extract(end.running);
+  self_->demonitor(manager.mapped());
+  self_->send(manager.mapped(), end);
+}
+
+void provider_links::record(const episode_record& x) {
+  self_->send(recorder_, x);
+}
+
+void provider_links::wake_at(time_point t, std::uint64_t number) {
+  send_at(self_, self_, t, tick_atom_v, number);
+}
+
+} // namespace sofof

@@ -1,0 +1,112 @@
+// The vehicle's own function rests while a provider's results are used.
+#include "actors/offloading/selector_links.hpp"
+
+#include "actors/offloading/qos_watchdog.hpp"
+#include "actors/runtime/cpu_accounts.hpp"
+#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/time.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+
+#include <utility>
+
+namespace sofof {
+
+selector_links::selector_links(requester_manager_impl::pointer self,
+                               const requester_manager_setup& setup)
+    : self_{self}, station_{setup.station}, service_{setup.kind},
+      client_{setup.client}, requester_{setup.requester}, recorder_{
+                                                              setup.recorder} {}
+
+void selector_links::start(requester_manager_setup setup) {
+  setup.local.running = {0, station_, service_, 0};
+  local_ = spawn_instance(self_->system(), {std::move(setup.local), self_});
+  self_->link_to(local_);
+  watchdog_ =
+      spawn_qos_watchdog(self_->system(), setup.options.limits, requester_);
+  self_->link_to(watchdog_);
+  charge_all(false);
+  self_->send(local_, lifecycle_step::configure);
+  self_->send(local_, lifecycle_step::activate);
+  self_->send(client_, requester_manager_actor{self_});
+}
+
+// For whom they work, in case accounts are kept.
+void selector_links::charge_all(bool remote) {
+  const cpu_account to{station_, service_, remote};
+  for (const auto who : {self_->id(), local_.id(), watchdog_.id()})
+    charge(self_->system(), who, to);
+}
+
+void selector_links::add(const session_id& session,
+                         provider_manager_actor manager) {
+  managers_[session] = std::move(manager);
+}
+
+void selector_links::feed_local(const service_input& input) {
+  self_->send(local_, input);
+}
+
+void selector_links::feed_remote(service_input input) {
+  note_on_air(self_, recorder_, input.what);
+  const auto& manager = managers_.at(input.running);
+  self_->send(manager, std::move(input));
+}
+
+void selector_links::use(const service_result& result) {
+  self_->send(client_, result);
+}
+
+void selector_links::go_remote() {
+  charge_all(true);
+  self_->send(local_, lifecycle_step::deactivate);
+}
+
+void selector_links::go_local(service_input input) {
+  charge_all(false);
+  self_->send(local_, std::move(input));
+  self_->send(local_, lifecycle_step::activate);
+}
+
+void selector_links::announce_source(bool remote) {
+  self_->send(client_, source_change{service_, remote});
+}
+
+void selector_links::report_first_data(const session_id& session) {
+  self_->send(requester_, session);
+}
+
+void selector_links::report(qos_violation violation) {
+  self_->send(requester_, std::move(violation));
+}
+
+void selector_links::watch(const session_id& session, time_point last) {
+  self_->send(watchdog_, session, last);
+}
+
+void selector_links::watch_arrival(const arrival& result) {
+  self_->send(watchdog_, result);
+}
+
+void selector_links::watch_useless(const session_id& session,
+                                   const std::string& why) {
+  self_->send(watchdog_, session, why);
+}
+
+void selector_links::watch_end(const service_end& end) {
+  self_->send(watchdog_, end);
+}
+
+void selector_links::record(cycle_record x) {
+  self_->send(recorder_, std::move(x));
+}
+
+void selector_links::record(event_record x) {
+  self_->send(recorder_, std::move(x));
+}
+
+void selector_links::wake_at(time_point t, std::uint64_t number) {
+  send_at(self_, self_, t, tick_atom_v, number);
+}
+
+} // namespace sofof

@@ -1,0 +1,63 @@
+// What a source selector sends and to whom: functions, client, watchdog.
+#pragma once
+
+#include "actors/offloading/service_manager.hpp"
+#include "messages/type_ids.hpp"
+#include "offloading/source_selector.hpp"
+
+#include <map>
+#include <string>
+
+namespace sofof {
+
+/// A manager itself; besides its interface: the selector's timer with this
+/// number.
+using requester_manager_impl =
+    requester_manager_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+
+/// Turns what the rules want into messages of their actor.
+class selector_links : public offloading::selector_port {
+public:
+  /// @param self  Outlives the links.
+  selector_links(requester_manager_impl::pointer self,
+                 const requester_manager_setup& setup);
+
+  /// Spawns the vehicle's own function and the watchdog, and tells the client
+  /// where inputs are wanted.
+  void start(requester_manager_setup setup);
+
+  void add(const session_id& session, provider_manager_actor manager);
+  void forget(const session_id& session) { managers_.erase(session); }
+
+  void feed_local(const service_input& input) override;
+  void feed_remote(service_input input) override;
+  void use(const service_result& result) override;
+  void go_remote() override;
+  void go_local(service_input input) override;
+  void announce_source(bool remote) override;
+  void report_first_data(const session_id& session) override;
+  void report(qos_violation violation) override;
+  void watch(const session_id& session, time_point last) override;
+  void watch_arrival(const arrival& result) override;
+  void watch_useless(const session_id& session,
+                     const std::string& why) override;
+  void watch_end(const service_end& end) override;
+  void record(cycle_record x) override;
+  void record(event_record x) override;
+  void wake_at(time_point t, std::uint64_t number) override;
+
+private:
+  void charge_all(bool remote);
+
+  requester_manager_impl::pointer self_;
+  station_id station_;
+  service_name service_;
+  client_actor client_;
+  onboard_requester_actor requester_;
+  recorder_actor recorder_;
+  instance_actor local_;
+  watchdog_actor watchdog_;
+  std::map<session_id, provider_manager_actor> managers_;
+};
+
+} // namespace sofof

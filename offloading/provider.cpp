@@ -1,0 +1,250 @@
+// Stations, offers and ends; requests are in provider_requests.cpp.
+#include "offloading/provider.hpp"
+
+#include "base/protocol.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+provider::provider(provider_setup setup, provider_port& port)
+    : setup_{std::move(setup)}, port_{port} {
+  assert(setup_.policy && setup_.map);
+  assert(setup_.computer.workers > 0);
+  epoch_ = from_seconds(setup_.policy->epoch_s());
+}
+
+const provider::provider_session*
+provider::station_record::find(const service_name& service) const {
+  const auto i =
+      std::ranges::find(sessions, service, [](const provider_session& x) {
+        return x.running.kind;
+      });
+  return i == sessions.end() ? nullptr : &*i;
+}
+
+// -- timers -------------------------------------------------------------------
+
+void provider::wake_at(time_point t, timer what) {
+  timers_.emplace(++last_timer_, what);
+  port_.wake_at(t, last_timer_);
+}
+
+void provider::on_timer(std::uint64_t number, time_point now) {
+  assert(number <= last_timer_);
+  const auto due = timers_.extract(number);
+  if (!due.empty())
+    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+}
+
+// One timer for each record is under way; it moves on with the latest message.
+void provider::expire(const station_check& x, time_point now) {
+  const auto i = stations_.find(x.station);
+  if (i == stations_.end() || i->second.number != x.record)
+    return;
+  const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
+  if (now >= deadline)
+    forget(i, end_reason::cam_timeout, now);
+  else
+    wake_at(deadline, x);
+}
+
+void provider::expire(const epoch_end&, time_point now) {
+  assert(in_epoch_);
+  in_epoch_ = false;
+  if (!waiting_.empty())
+    answer(std::exchange(waiting_, {}), now);
+}
+
+// -- stations -----------------------------------------------------------------
+
+void provider::on_sign_of_life(station_id station, peer_id from,
+                               time_point now) {
+  const auto known = stations_.find(station);
+  if (known != stations_.end() && known->second.requester == from)
+    known->second.heard = now;
+}
+
+void provider::on_cam(const cam& c, peer_id from, time_point now) {
+  const auto known = stations_.find(c.station);
+  if (known != stations_.end() && c.at < known->second.latest.at)
+    return; // overtaken on its way
+  if (protocol::is_of_future(c.at, now))
+    return; // all true ones would seem overtaken
+  if (!setup_.area.contains(c.position)) {
+    if (known != stations_.end())
+      forget(known, end_reason::left_area, now);
+    return;
+  }
+  auto [i, is_new] = stations_.try_emplace(c.station);
+  auto& station = i->second;
+  if (is_new) {
+    station.number = ++last_record_;
+    wake_at(now + protocol::cam_timeout + duration{1},
+            station_check{c.station, station.number});
+  }
+  if (station.requester != from)
+    meet(c.station, station, from, now);
+  assert(station.requester == from);
+  station.latest = c;
+  station.heard = now;
+  if (now >= station.next_offer)
+    offer(station, now);
+}
+
+// A new requester knows nothing of what ran for the one before.
+void provider::meet(station_id id, station_record& station, peer_id requester,
+                    time_point now) {
+  if (station.requester) {
+    drop_waiting(id);
+    leave(station, end_reason::peer_lost, now);
+  }
+  assert(station.sessions.empty());
+  if (!serves(requester))
+    port_.meet(requester);
+  station.requester = requester;
+  station.next_offer = now;
+  station.last_request = 0;
+}
+
+// Its requester speaks for the station no longer.
+void provider::leave(station_record& station, end_reason reason,
+                     time_point now) {
+  assert(station.requester);
+  while (!station.sessions.empty())
+    end(station, station.sessions.front().running, reason, true, now);
+  const auto requester = *std::exchange(station.requester, std::nullopt);
+  if (!serves(requester))
+    port_.leave(requester);
+}
+
+bool provider::serves(peer_id requester) const {
+  const auto waits =
+      std::ranges::find(waiting_, requester, &open_request::from);
+  return waits != waiting_.end()
+         || std::ranges::any_of(stations_, [requester](const auto& known) {
+              return known.second.requester == requester;
+            });
+}
+
+void provider::offer(station_record& station, time_point now) {
+  assert(station.requester);
+  service_offer offered{.provider = setup_.id,
+                        .position = setup_.position,
+                        .kinds = {},
+                        .utilisation = utilisation(),
+                        .workers =
+                            static_cast<std::uint32_t>(setup_.computer.workers),
+                        .computing = from_seconds(setup_.computer.mean_s),
+                        .created = now};
+  for (const auto& service : setup_.services)
+    if (!station.find(service.name))
+      offered.kinds.push_back(service.name);
+  if (offered.kinds.empty())
+    return;
+  station.next_offer = now + protocol::offer_period;
+  port_.send(*station.requester, offered);
+}
+
+void provider::forget(stations::iterator i, end_reason reason, time_point now) {
+  leave(i->second, reason, now);
+  stations_.erase(i);
+}
+
+void provider::on_lost(peer_id peer, time_point now) {
+  for (auto i = stations_.begin(); i != stations_.end();) {
+    const auto next = std::next(i);
+    if (i->second.requester == peer)
+      forget(i, end_reason::peer_lost, now);
+    i = next;
+  }
+}
+
+void provider::shut_down(time_point now) {
+  while (!stations_.empty())
+    forget(stations_.begin(), end_reason::shutdown, now);
+}
+
+// -- the end of a session -----------------------------------------------------
+
+void provider::on_end(const service_end& e, time_point now) {
+  if (e.from != side::requester)
+    return;
+  const auto i = stations_.find(e.running.station);
+  if (i != stations_.end())
+    end(i->second, e.running, e.reason, false, now);
+}
+
+void provider::on_function_lost(const session_id& session, end_reason why,
+                                time_point now) {
+  const auto i = stations_.find(session.station);
+  if (i != stations_.end())
+    end(i->second, session, why, true, now);
+}
+
+// Closes a session, once; one that is not known has been closed before.
+void provider::end(station_record& station, session_id session,
+                   end_reason reason, bool tell, time_point now) {
+  const auto i =
+      std::ranges::find(station.sessions, session, &provider_session::running);
+  if (i == station.sessions.end())
+    return;
+  assert(station.requester);
+  assert(i->since <= now);
+  service_end e{session, reason, side::provider};
+  port_.end(e);
+  if (tell) {
+    if (const auto* service = find(session.kind))
+      e.what = service->termination_message(e, now);
+    port_.send(*station.requester, e);
+  }
+  port_.record(episode_record{session, side::provider, i->since, i->since, true,
+                              now, reason, false});
+  setup_.policy->observe(episode_outcome{session.kind.view(), setup_.id,
+                                         to_seconds(now - i->since),
+                                         name_of(reason), session.station});
+  station.sessions.erase(i);
+  station.next_offer = now + protocol::offer_period;
+}
+
+// -- services -----------------------------------------------------------------
+
+const offered_service* provider::find(const service_name& service) const {
+  const auto i =
+      std::ranges::find(setup_.services, service, &offered_service::name);
+  return i == setup_.services.end() ? nullptr : &*i;
+}
+
+// @returns how a service computes, without an offset.
+periodic_task provider::task_of(const offered_service& service) const {
+  assert(service.period > duration{0});
+  assert(service.demand >= 0);
+  constexpr double deviations = 3;
+  const auto& computer = setup_.computer;
+  const auto longest_s = computer.mean_s + deviations * computer.deviation_s;
+  return {.wcet = from_seconds(longest_s * service.demand),
+          .period = service.period,
+          .deadline = service.max_latency};
+}
+
+// @returns the share of the workers that a service takes.
+double provider::utilisation_by(const service_name& service) const {
+  const auto* found = find(service);
+  if (!found)
+    return 0;
+  return setup_.computer.mean_s * found->demand / to_seconds(found->period)
+         / static_cast<double>(setup_.computer.workers);
+}
+
+// @returns what all that runs here takes of them.
+double provider::utilisation() const {
+  double all = 0;
+  for (const auto& [id, station] : stations_)
+    for (const auto& session : station.sessions)
+      all += utilisation_by(session.running.kind);
+  return all;
+}
+
+} // namespace sofof::offloading

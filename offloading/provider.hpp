@@ -1,0 +1,236 @@
+// The edge server's side of offloading: to which station its services are
+// offered, and for which they run.
+#pragma once
+
+#include "messages/protocol/qos.hpp"
+#include "messages/protocol/record.hpp"
+#include "offloading/peer.hpp"
+#include "policies/api/context.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace sofof::offloading {
+
+/// What a provider has to know of a service that it offers.
+struct offered_service {
+  service_name name;
+  duration period{};      ///< Of a cycle, > 0.
+  duration max_latency{}; ///< Of its results, > 0.
+  double demand = 1;      ///< Computing time of a cycle, in units of
+                          ///< `provider_computer::mean_s`; ≥ 0.
+  /// What tells in the terms of the service that a session has ended; empty
+  /// where a service has no such message. Never a null function.
+  std::function<payload(const service_end& end, time_point now)>
+      termination_message =
+          [](const service_end&, time_point) { return payload{}; };
+};
+
+/// What cycles are computed by: how long one of unit demand takes.
+struct provider_computer {
+  std::size_t workers = 1; ///< > 0.
+  double mean_s = 0;       ///< ≥ 0.
+  double deviation_s = 0;  ///< ≥ 0.
+};
+
+/// What a provider is made of.
+struct provider_setup {
+  provider_id id = 0;
+  point position;                         ///< m, east-north.
+  polygon area;                           ///< Stations in it get offers.
+  std::vector<offered_service> services;  ///< With different names.
+  std::unique_ptr<central_policy> policy; ///< Not null.
+  provider_computer computer;
+  std::shared_ptr<const road_map> map; ///< For the policy; not null.
+  random_stream noise{0, ""};          ///< Of this provider.
+};
+
+/// A session that begins.
+struct session_start {
+  session_id session;
+  peer_id requester{};      ///< It gets the results.
+  duration phase{};         ///< Cycles start at phase + k · period.
+  bool keeps_phase = false; ///< The first one too.
+};
+
+/// What a provider makes others do. Nothing of this calls the provider back.
+class provider_port {
+public:
+  virtual ~provider_port() = default;
+
+  virtual void send(peer_id requester, const service_offer& offer) = 0;
+  /// The sessions of its accepted verdicts have been started before.
+  virtual void send(peer_id requester, const service_response& response) = 0;
+  virtual void send(peer_id requester, const service_end& end) = 0;
+
+  /// This requester speaks for a station from now on: `on_lost` is to be called
+  /// when it cannot be reached any more.
+  virtual void meet(peer_id requester) = 0;
+  /// It speaks for none any more, and waits for no answer: nothing more is sent
+  /// to it.
+  virtual void leave(peer_id requester) = 0;
+
+  /// A function shall run for this session from its first input on.
+  virtual void start(const session_start& start) = 0;
+  /// It shall end.
+  virtual void end(const service_end& end) = 0;
+
+  virtual void record(const episode_record& x) = 0;
+
+  /// `on_timer` is due then, with this number.
+  virtual void wake_at(time_point t, std::uint64_t number) = 0;
+};
+
+/// Offers its services to stations in its area, asks its policy about requests,
+/// and ends a session when the station has left, has fallen silent, or says so.
+/// One state machine for each station and service:
+///
+///     idle → offered → active → idle
+///
+/// * Every protocol::offer_period a station is offered what does not run for
+///   it.
+/// * Requests are answered at once, or together at the end of the policy's
+///   epoch; each named service gets its verdict.
+/// * A new requester of a station knows nothing of what ran for the one before:
+///   that ends.
+/// * Each session is closed once; the requester is told, unless it was the one
+///   to say so.
+///
+/// Source: Dehler & Buchholz 2025, service provider.
+/// No clock and no I/O: every call says what time it is, never less than
+/// before.
+class provider {
+public:
+  /// @param port  Outlives the provider.
+  provider(provider_setup setup, provider_port& port);
+
+  /// A station tells where it is.
+  /// @param from  Where its requester is reached.
+  void on_cam(const cam& c, peer_id from, time_point now);
+
+  /// A station has sent something else: it lives.
+  void on_sign_of_life(station_id station, peer_id from, time_point now);
+
+  /// A request with a number that is not above the last one is ignored.
+  void on_request(const service_request& request, peer_id from, time_point now);
+
+  /// A requester has ended a session; one that is not known is ignored.
+  void on_end(const service_end& end, time_point now);
+
+  /// The function of a session runs no longer; one that is not known is
+  /// ignored.
+  void on_function_lost(const session_id& session, end_reason why,
+                        time_point now);
+
+  /// A requester cannot be reached any more.
+  void on_lost(peer_id peer, time_point now);
+
+  /// The time that `wake_at` was given with this number has come.
+  void on_timer(std::uint64_t number, time_point now);
+
+  /// Closes what still runs.
+  void shut_down(time_point now);
+
+  /// @returns whether a requester speaks for a station that is known, or waits
+  /// for an answer.
+  bool serves(peer_id requester) const;
+
+private:
+  /// Has the station fallen silent, whose record has this number?
+  struct station_check {
+    station_id station = 0;
+    std::uint64_t record = 0;
+  };
+  /// An epoch of the policy is over.
+  struct epoch_end {};
+  using timer = std::variant<station_check, epoch_end>;
+
+  struct provider_session {
+    session_id running;
+    time_point since;
+    periodic_task task;
+    std::size_t worker = 0;
+    std::vector<candidate> candidates; // as the station told
+  };
+
+  /// A station in the area, or that was there a moment ago.
+  struct station_record {
+    std::uint64_t number = 0; // so that a timer knows its record
+    std::optional<peer_id> requester;
+    cam latest;
+    time_point heard; // when the latest message came
+    time_point next_offer;
+    std::uint32_t last_request = 0;
+    std::vector<provider_session> sessions;
+
+    const provider_session* find(const service_name& service) const;
+  };
+  using stations = std::map<station_id, station_record>;
+
+  /// A request that waits for its answer.
+  struct open_request {
+    service_request what;
+    peer_id from{};
+  };
+
+  /// What the policy is asked about one request, and what it gets for an
+  /// answer.
+  struct question {
+    std::vector<central_decision> verdicts; // one for each named service
+    std::vector<request_view> asked;
+    std::vector<std::size_t> places; // of what is asked, among the services
+  };
+
+  void wake_at(time_point t, timer what);
+  void expire(const station_check& x, time_point now);
+  void expire(const epoch_end&, time_point now);
+
+  void meet(station_id id, station_record& station, peer_id requester,
+            time_point now);
+  void leave(station_record& station, end_reason reason, time_point now);
+  void offer(station_record& station, time_point now);
+  void forget(stations::iterator i, end_reason reason, time_point now);
+  void drop_waiting(station_id station);
+
+  void answer(std::vector<open_request> requests, time_point now);
+  void refuse(const service_request& request, peer_id from,
+              std::string_view why);
+  question question_of(const open_request& open, time_point now);
+  std::vector<central_decision> ask_policy(std::span<const request_view> asked,
+                                           time_point now);
+  void respond(const open_request& open,
+               const std::vector<central_decision>& decisions, time_point now);
+  void start(station_record& station, const session_id& session,
+             const open_request& open, const central_decision& how,
+             time_point now);
+
+  void end(station_record& station, session_id session, end_reason reason,
+           bool tell, time_point now);
+
+  const offered_service* find(const service_name& service) const;
+  periodic_task task_of(const offered_service& service) const;
+  double utilisation_by(const service_name& service) const;
+  double utilisation() const;
+
+  provider_setup setup_;
+  provider_port& port_;
+  stations stations_;
+  std::vector<open_request> waiting_; // for the end of an epoch
+  std::map<std::uint64_t, timer> timers_;
+  std::uint64_t last_timer_ = 0;
+  std::uint32_t last_session_ = 0;
+  std::uint64_t last_record_ = 0;
+  std::uint64_t decisions_ = 0;
+  duration epoch_{};      // of the policy; 0: none
+  bool in_epoch_ = false; // one has begun
+};
+
+} // namespace sofof::offloading

@@ -1,0 +1,180 @@
+// From a request to its response, and to sessions that start.
+#include "base/protocol.hpp"
+#include "base/random_phase.hpp"
+#include "offloading/provider.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <utility>
+
+namespace sofof::offloading {
+
+void provider::on_request(const service_request& request, peer_id from,
+                          time_point now) {
+  const auto i = stations_.find(request.station);
+  if (request.provider != setup_.id || i == stations_.end()) {
+    refuse(request, from, "not in the area");
+    return;
+  }
+  auto& station = i->second;
+  if (request.number <= station.last_request)
+    return; // a duplicate, or overtaken by a newer one
+  station.last_request = request.number;
+  if (epoch_ == duration{0}) {
+    answer({{request, from}}, now);
+    return;
+  }
+  drop_waiting(request.station); // it has given that up
+  waiting_.push_back({request, from});
+  if (!std::exchange(in_epoch_, true))
+    wake_at(now + epoch_, epoch_end{});
+}
+
+void provider::drop_waiting(station_id station) {
+  std::erase_if(waiting_, [station](const open_request& open) {
+    return open.what.station == station;
+  });
+}
+
+void provider::refuse(const service_request& request, peer_id from,
+                      std::string_view why) {
+  service_response response{setup_.id, request.station, request.number, {}};
+  for (const auto& name : request.kinds)
+    response.verdicts.push_back(
+        {{setup_.id, request.station, name, 0}, false, std::string{why}});
+  port_.send(from, response);
+}
+
+// Answers requests that are decided together.
+void provider::answer(std::vector<open_request> requests, time_point now) {
+  assert(!requests.empty());
+  std::vector<question> questions;
+  for (const auto& open : requests)
+    questions.push_back(question_of(open, now));
+  std::vector<request_view> asked;
+  for (const auto& q : questions)
+    asked.insert(asked.end(), q.asked.begin(), q.asked.end());
+  const auto decided = ask_policy(asked, now);
+  assert(decided.size() <= asked.size());
+  auto next = decided.begin();
+  for (auto& q : questions)
+    for (const auto place : q.places)
+      q.verdicts[place] = next == decided.end()
+                              ? central_decision{false, "not decided"}
+                              : *next++;
+  for (std::size_t k = 0; k < requests.size(); ++k)
+    respond(requests[k], questions[k].verdicts, now);
+  std::set<peer_id> answered;
+  for (const auto& open : requests)
+    answered.insert(open.from);
+  for (const auto peer : answered)
+    if (!serves(peer))
+      port_.leave(peer);
+}
+
+// The policy is asked about the services that are offered, once each.
+provider::question provider::question_of(const open_request& open,
+                                         time_point now) {
+  const auto& request = open.what;
+  question all;
+  for (std::size_t k = 0; k < request.kinds.size(); ++k) {
+    const auto& name = request.kinds[k];
+    const auto before = std::span{request.kinds}.first(k);
+    const auto station = stations_.find(request.station);
+    const auto* service = find(name);
+    if (station == stations_.end()) {
+      all.verdicts.push_back({false, "not in the area"});
+    } else if (!service) {
+      all.verdicts.push_back({false, "not offered here"});
+    } else if (std::ranges::find(before, name) != before.end()) {
+      all.verdicts.push_back({false, "named twice"});
+    } else {
+      // A station that asks again does not run it: its service_end was lost.
+      if (const auto* session = station->second.find(name))
+        end(station->second, session->running, end_reason::no_data, true, now);
+      all.verdicts.emplace_back();
+      all.places.push_back(k);
+      all.asked.push_back({request.station, name.view(), request.route,
+                           request.speed_mps, utilisation_by(name),
+                           task_of(*service), request.candidates});
+    }
+  }
+  assert(all.verdicts.size() == request.kinds.size());
+  assert(all.asked.size() == all.places.size());
+  return all;
+}
+
+// @returns one decision for each request, or fewer; sessions that the policy
+// wants to be rid of are ended.
+std::vector<central_decision>
+provider::ask_policy(std::span<const request_view> asked, time_point now) {
+  std::vector<session_view> sessions;
+  std::vector<session_id> running;
+  for (const auto& [id, station] : stations_)
+    for (const auto& x : station.sessions) {
+      sessions.push_back({id, x.running.kind.view(), x.since, x.task, x.worker,
+                          utilisation_by(x.running.kind), x.candidates});
+      running.push_back(x.running);
+    }
+  auto decided = setup_.policy->decide({.now = now,
+                                        .requests = asked,
+                                        .sessions = sessions,
+                                        .utilisation = utilisation(),
+                                        .workers = setup_.computer.workers,
+                                        .area = setup_.area,
+                                        .map = *setup_.map,
+                                        .self = setup_.id,
+                                        .noise = setup_.noise.part("decisions"),
+                                        .number = ++decisions_});
+  const auto most = asked.size() + running.size();
+  for (auto k = asked.size(); k < std::min(decided.size(), most); ++k)
+    if (const auto& session = running[k - asked.size()]; !decided[k].accept)
+      end(stations_.at(session.station), session, end_reason::revoked, true,
+          now);
+  if (decided.size() > asked.size())
+    decided.resize(asked.size());
+  return decided;
+}
+
+void provider::respond(const open_request& open,
+                       const std::vector<central_decision>& decisions,
+                       time_point now) {
+  const auto& request = open.what;
+  assert(decisions.size() == request.kinds.size());
+  service_response response{setup_.id, request.station, request.number, {}};
+  for (std::size_t k = 0; k < request.kinds.size(); ++k) {
+    const auto& decision = decisions[k];
+    verdict v{{setup_.id, request.station, request.kinds[k], 0},
+              decision.accept,
+              std::string{decision.why},
+              decision.instead};
+    if (v.accepted) {
+      v.running.counter = ++last_session_;
+      start(stations_.at(request.station), v.running, open, decision, now);
+    }
+    response.verdicts.push_back(std::move(v));
+  }
+  port_.send(open.from, response);
+}
+
+void provider::start(station_record& station, const session_id& session,
+                     const open_request& open, const central_decision& how,
+                     time_point now) {
+  assert(!station.find(session.kind));
+  assert(find(session.kind));
+  const auto& service = *find(session.kind);
+  const auto drawn =
+      setup_.noise.part(service.name.view()).part(session.station);
+  auto task = task_of(service);
+  task.offset = how.offset.value_or(
+      random_phase(drawn.part("remote phase"), service.period));
+  station.sessions.push_back(
+      {session, now, task, how.worker, open.what.candidates});
+  port_.start({.session = session,
+               .requester = open.from,
+               .phase = task.offset,
+               .keeps_phase = how.offset.has_value()});
+}
+
+} // namespace sofof::offloading
