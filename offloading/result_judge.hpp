@@ -4,6 +4,7 @@
 #include "base/objection.hpp"
 #include "messages/protocol/service.hpp"
 
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -33,5 +34,16 @@ public:
   virtual judged_result judge(const payload& result,
                               const service_input& latest, time_point now) = 0;
 };
+
+/// @returns a judge that uses results as they are.
+inline std::unique_ptr<result_judge> believe_all() {
+  struct believer final : result_judge {
+    judged_result judge(const payload& result, const service_input&,
+                        time_point) override {
+      return {result};
+    }
+  };
+  return std::make_unique<believer>();
+}
 
 } // namespace sofof

@@ -1,0 +1,123 @@
+// All that a vehicle needs to offload services, behind one port.
+#pragma once
+
+#include "offloading/requester.hpp"
+#include "offloading/service_cycle.hpp"
+#include "offloading/source_selector.hpp"
+#include "offloading/turn_queue.hpp"
+#include "offloading/watchdog.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sofof::offloading {
+
+/// What crosses the air to a provider, besides the vehicle's CAMs.
+using to_provider = std::variant<service_request, service_input, service_end>;
+
+/// What comes back.
+using to_vehicle =
+    std::variant<service_offer, service_response, service_result, service_end>;
+
+/// What has happened.
+using record =
+    std::variant<event_record, decision_record, cycle_record, episode_record>;
+
+/// One service of a vehicle: what is known of it, and what it runs by.
+struct onboard_service {
+  requested_service requested;
+  duration input_period{};     ///< At least this between two inputs on the air.
+  bool record_margins = false; ///< Of results that are used.
+  /// `selected_service::encode_input`; by default inputs cross as they are, and
+  /// the result in use only for a provider that takes over.
+  std::function<service_input(service_input, bool takes_over)> encode_input =
+      [](service_input input, bool takes_over) {
+        if (!takes_over)
+          input.in_use = {};
+        return input;
+      };
+  /// `selected_service::continues`.
+  std::function<bool(const payload& in_use, const payload& offered,
+                     time_point now)>
+      continues =
+          [](const payload&, const payload&, time_point) { return true; };
+  /// Of the results of each session; by default they are believed.
+  std::function<std::unique_ptr<result_judge>()> make_judge = believe_all;
+
+  std::shared_ptr<service_function> function; ///< The vehicle's own; not null.
+  duration phase{}; ///< Of its cycles, in [0, period).
+  /// `cycle_setup::finish`; by default a cycle takes no time.
+  std::function<time_point(time_point start, std::uint64_t cycle)> finish =
+      [](time_point start, std::uint64_t) { return start; };
+};
+
+/// What the offloading side of a vehicle is made of: as `requester_setup`.
+struct vehicle_side_setup {
+  station_id station = 0;
+  std::vector<onboard_service> services; ///< With different names.
+  std::unique_ptr<local_policy> policy;  ///< Not null.
+  random_stream noise{0, ""};
+  std::function<std::vector<point>(const ego_state&)> path_ahead =
+      [](const ego_state&) { return std::vector<point>{}; };
+};
+
+/// What it makes others do. Nothing of this calls it back.
+class vehicle_port {
+public:
+  virtual ~vehicle_port() = default;
+
+  /// To be brought to a provider; what does not arrive is lost, no more.
+  virtual void send(peer_id provider, to_provider message) = 0;
+  /// The vehicle goes by this result from now on.
+  virtual void use(const service_result& result) = 0;
+  /// The results of a service come from providers now, or from its own function
+  /// again.
+  virtual void on_source(const service_name& service, bool remote) = 0;
+  virtual void record(offloading::record x) = 0;
+  /// `on_timer` is due then, with this number.
+  virtual void wake_at(time_point t, std::uint64_t number) = 0;
+};
+
+/// A requester, and for each service a source selector, a watchdog and the
+/// vehicle's own function; they talk to each other in turns, all at the time of
+/// the call. Whoever owns it carries messages and timers, tells it where the
+/// vehicle is (every protocol::ego_period) and what its services work on, and
+/// broadcasts CAMs, by which providers find it.
+///
+/// No clock, no I/O, no threads: every call says what time it is, never less
+/// than before.
+class vehicle_side {
+public:
+  /// @param port  Outlives it.
+  vehicle_side(vehicle_side_setup setup, vehicle_port& port, time_point now);
+  ~vehicle_side();
+
+  void on_motion(const ego_state& ego);
+
+  /// New input of a service; of one that is not known it is ignored.
+  void on_input(const service_name& service, service_input input,
+                time_point now);
+
+  void on_message(peer_id from, to_vehicle message, time_point now);
+
+  /// A provider cannot be reached any more.
+  void on_lost(peer_id provider, time_point now);
+
+  /// The time that `wake_at` was given with this number has come.
+  void on_timer(std::uint64_t number, time_point now);
+
+  /// Ends all sessions.
+  void shut_down(time_point now);
+
+private:
+  class parts;
+  std::unique_ptr<parts> parts_;
+};
+
+} // namespace sofof::offloading

@@ -1,0 +1,32 @@
+// How many episodes of offloading a second of computing runs: over actors, and
+// over the library alone.
+#include "tests/properties/actor_world.hpp"
+#include "tests/properties/library_world.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+
+using namespace sofof;
+
+namespace {
+
+/// One vehicle passes two providers for 200 s, again and again with another
+/// seed.
+template <class World>
+void run_episodes(benchmark::State& state, const char* channel) {
+  std::int64_t episodes = 0;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    World w{++seed, {}, 2, channel};
+    w.run_for(std::chrono::seconds{200});
+    episodes += w.book->remote_episodes;
+  }
+  state.SetItemsProcessed(episodes);
+}
+BENCHMARK_CAPTURE(run_episodes<test::actor_world>, paper, "paper-5g");
+BENCHMARK_CAPTURE(run_episodes<test::library_world>, paper, "paper-5g");
+BENCHMARK_CAPTURE(run_episodes<test::actor_world>, ideal, "ideal");
+BENCHMARK_CAPTURE(run_episodes<test::library_world>, ideal, "ideal");
+
+} // namespace

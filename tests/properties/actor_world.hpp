@@ -1,0 +1,182 @@
+// One vehicle and its providers, over faulty links, as actors.
+#pragma once
+
+#include "actors/offloading/service_provider.hpp"
+#include "actors/offloading/service_requester.hpp"
+#include "actors/runtime/recorder.hpp"
+#include "actors/simulation/network_link.hpp"
+#include "messages/v2x/cam_content.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "policies/registry.hpp"
+#include "tests/properties/ledger.hpp"
+#include "tests/support/echo_service.hpp"
+#include "tests/support/virtual_world.hpp"
+
+#include <caf/stateful_actor.hpp>
+
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof::test {
+
+/// In Ulm-Lehr, in 2026.
+inline georeference_ptr somewhere() {
+  static const auto where = std::make_shared<const georeference>();
+  return where;
+}
+
+using moving_client = vehicle_actor::extend<reacts_to<tick_atom>>;
+
+struct moving_client_state {
+  static inline const char* name = "moving_client";
+  std::vector<requester_manager_actor> managers;
+  onboard_requester_actor requester;
+  shuttle car;
+};
+
+inline moving_client::behavior_type
+drive(moving_client::stateful_pointer<moving_client_state> self,
+      std::shared_ptr<client_diary> diary, std::vector<link_actor> links,
+      requester_setup* setup) {
+  setup->vehicle = vehicle_actor{self};
+  self->state.requester =
+      spawn_service_requester(self->system(), std::move(*setup));
+  self->set_exit_handler([self](const caf::exit_msg& e) {
+    self->send_exit(self->state.requester, e.reason);
+    self->quit(e.reason);
+  });
+  self->send(self, tick_atom_v);
+  return {
+      [diary](const service_result& result) { diary->on_result(result); },
+      [diary](const source_change& change) {
+        diary->on_source(change.kind, change.remote);
+      },
+      [self](const requester_manager_actor& manager) {
+        self->state.managers.push_back(manager);
+      },
+      [](const perception&) {},
+      [](begin_atom) {},
+      [self, links](tick_atom) {
+        auto& s = self->state;
+        const auto t = now(self);
+        send_at(self, self, t + 50ms, tick_atom_v);
+        s.car.step();
+        for (const auto& manager : s.managers)
+          self->send(manager,
+                     service_input{{}, t, payload::of(echo{s.car.said})});
+        if (!s.car.sends_cam())
+          return;
+        const auto ego = s.car.ego(t);
+        self->send(s.requester, ego);
+        for (const auto& link : links)
+          self->send(link, encoded(make_cam(ego.own, {}, *somewhere())),
+                     requester_actor{s.requester});
+      },
+  };
+}
+
+/// Gives episodes to a ledger.
+struct ledger_sink final : record_sink {
+  std::shared_ptr<ledger> book;
+  explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
+
+  void take(const event_record&) override {}
+  void take(const decision_record&) override {}
+  void take(const cycle_record&) override {}
+  void take(const episode_record& r) override { book->add(r); }
+  void take(const track_record&) override {}
+  void take(const safety_record&) override {}
+  void take(const collision_record&) override {}
+  void take(const drive_record&) override {}
+  void take(const plan_switch_record&) override {}
+  void take(const air_record&) override {}
+};
+
+struct actor_world : virtual_world {
+  std::uint64_t seed;
+  link_fault_options faults;
+  streets_ptr world = one_long_street();
+  std::vector<service_type_ptr> kinds{std::make_shared<echo_service>("one"),
+                                      std::make_shared<echo_service>("two")};
+  std::shared_ptr<ledger> book = std::make_shared<ledger>();
+  recorder_actor recorder =
+      own(spawn_recorder(system(), std::make_shared<ledger_sink>(book)));
+  std::shared_ptr<const channel_profile> profile;
+  std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
+  std::vector<provider_actor> providers;
+  std::vector<link_actor> links;
+  moving_client vehicle;
+
+  actor_world(std::uint64_t seed, link_fault_options faults, int provider_count,
+              std::string_view channel = "paper-5g")
+      : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
+                                        *find_channel_profile(channel))} {
+    for (int k = 0; k < provider_count; ++k)
+      add_provider(k);
+    requester_setup setup;
+    setup.where = somewhere();
+    setup.station = shuttle::station;
+    setup.way = world->routes.front();
+    setup.world = world;
+    setup.kinds = kinds;
+    setup.lodm = make_lodm("always");
+    setup.recorder = recorder;
+    setup.noise = random_stream{seed, "vehicle"};
+    vehicle = system().spawn(drive, diary, links, &setup);
+    settle();
+  }
+
+  void add_provider(int k) {
+    provider_setup setup;
+    setup.boot = static_cast<provider_id>(k + 1);
+    setup.where = somewhere();
+    setup.area = area_of_provider(k);
+    setup.world = world;
+    setup.kinds = kinds;
+    setup.codm = make_codm("always");
+    setup.recorder = recorder;
+    setup.profile = profile;
+    setup.seed = random_stream{seed, "network"};
+    setup.number = static_cast<std::uint32_t>(k);
+    providers.push_back(spawn_service_provider(system(), std::move(setup)));
+    const channel draws{profile, random_stream{seed, "network"},
+                        shuttle::station, static_cast<std::uint32_t>(k)};
+    links.push_back(spawn_network_link(
+        system(), providers.back(),
+        {{draws, way::up, nullptr},
+         {draws, way::down, nullptr},
+         link_faults{random_stream{seed, "faults"}.part(providers.size()),
+                     faults}}));
+  }
+
+  ~actor_world() { dismiss(); }
+
+  /// Everybody leaves in good order.
+  void dismiss() {
+    dismiss_vehicle();
+    for (const auto& p : providers)
+      caf::anon_send_exit(p, caf::exit_reason::user_shutdown);
+    for (const auto& l : links)
+      caf::anon_send_exit(l, caf::exit_reason::user_shutdown);
+    settle();
+  }
+  void dismiss_vehicle() {
+    caf::anon_send_exit(vehicle, caf::exit_reason::user_shutdown);
+    settle();
+  }
+
+  void crash_provider() { kill(providers.front()); }
+  void crash_vehicle() { kill(vehicle); }
+
+  /// Runs on, and checks every 10 ms that the newest result is fresh.
+  void run_and_check(duration d) {
+    for (const auto end = now() + d; now() < end;) {
+      run_for(10ms);
+      diary->check_fresh(now());
+    }
+  }
+};
+
+} // namespace sofof::test

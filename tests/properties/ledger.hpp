@@ -1,0 +1,115 @@
+// What is kept of a run in which messages get lost: who closed which session,
+// and which promises were broken.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "channel/link_faults.hpp"
+#include "messages/protocol/motion.hpp"
+#include "messages/protocol/record.hpp"
+#include "tests/support/toy_streets.hpp"
+#include "world/roads/streets.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sofof::test {
+
+/// Counts how often each side closed each session.
+struct ledger {
+  std::map<session_id, int> closed_by_requester, closed_by_provider;
+  std::map<session_id, duration> provider_side; // how long it ran
+  std::set<end_reason> reasons;
+  int remote_episodes = 0;
+
+  void add(const episode_record& r) {
+    ++(r.of == side::requester ? closed_by_requester
+                               : closed_by_provider)[r.running];
+    reasons.insert(r.reason);
+    if (r.of == side::provider)
+      provider_side[r.running] = r.ended - r.accepted;
+    if (r.of == side::requester)
+      remote_episodes += r.got_data;
+  }
+
+  friend bool operator==(const ledger&, const ledger&) = default;
+};
+
+/// What one vehicle's client lives through; every promise is checked at every
+/// message.
+struct client_diary {
+  struct entry {
+    bool remote = false;
+    time_point newest_created;
+    time_point newest_of_source; // in use now
+    bool any_result = false;
+  };
+  std::map<service_name, entry> services;
+  std::vector<std::string> broken; // promises
+
+  void on_source(const service_name& service, bool remote) {
+    auto& e = services[service];
+    if (e.remote == remote)
+      broken.push_back("a source was chosen that was in use already");
+    e.remote = remote;
+    e.newest_of_source = {};
+  }
+
+  void on_result(const service_result& result) {
+    auto& e = services[result.running.kind];
+    if (e.remote != (result.running.counter != 0))
+      broken.push_back("a result came from the source that is not in use");
+    if (result.created < e.newest_of_source)
+      broken.push_back("a source's results came out of order");
+    e.newest_of_source = result.created;
+    e.newest_created = std::max(e.newest_created, result.created);
+    e.any_result = true;
+  }
+
+  void check_fresh(time_point now) {
+    using namespace std::chrono_literals;
+    constexpr auto fresh = 50ms + 100ms + 50ms;
+    for (const auto& [service, e] : services)
+      if (e.any_result && now - e.newest_created > fresh)
+        broken.push_back("the newest result is not fresh");
+  }
+};
+
+/// A vehicle reduced to what the protocol needs drives to and fro over the
+/// areas at 15 m/s, sends CAMs at 10 Hz and feeds its services at 20 Hz.
+struct shuttle {
+  static constexpr station_id station = 101;
+
+  double x_m = -500;
+  std::uint64_t said = 0;
+
+  void step() {
+    x_m = x_m + 0.75 > 500 ? -500 : x_m + 0.75;
+    ++said;
+  }
+  bool sends_cam() const { return said % 2 == 1; }
+  ego_state ego(time_point now) const {
+    return {{station, now, {x_m, 0}, 0, 15, 0}, x_m + 500};
+  }
+};
+
+inline polygon area_of_provider(int k) {
+  return polygon::regular({100.0 * k, 0}, 300, 24);
+}
+
+inline streets_ptr one_long_street() {
+  static const streets_ptr street = [] {
+    auto world = std::make_shared<streets>();
+    world->map =
+        road_map{"street", {}, {toy::straight("street", {-600, 0}, {1400, 0})}};
+    world->routes.push_back(world->map.make_route(
+        "street", std::vector<std::string>{"street"}, false));
+    return world;
+  }();
+  return street;
+}
+
+} // namespace sofof::test

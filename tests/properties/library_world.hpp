@@ -1,0 +1,374 @@
+// One vehicle and its providers, over faulty links, without any actor.
+#pragma once
+
+#include "base/protocol.hpp"
+#include "base/random_phase.hpp"
+#include "channel/link_direction.hpp"
+#include "channel/multi_server_queue.hpp"
+#include "messages/v2x/cam_content.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "messages/v2x/geonet.hpp"
+#include "offloading/provider_side.hpp"
+#include "offloading/vehicle_side.hpp"
+#include "policies/registry.hpp"
+#include "tests/properties/ledger.hpp"
+#include "tests/support/echo.hpp"
+
+#include <caf/binary_serializer.hpp>
+#include <caf/byte_buffer.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof::test {
+
+/// What happens, in the order of time and of these calls.
+class agenda {
+public:
+  time_point now() const { return now_; }
+  void at(time_point t, std::function<void()> what) {
+    entries_.push_back({std::max(t, now_), ++made_, std::move(what)});
+    std::ranges::push_heap(entries_, later);
+  }
+  void run_until(time_point end) {
+    while (!entries_.empty() && entries_.front().at <= end) {
+      std::ranges::pop_heap(entries_, later);
+      const auto next = std::move(entries_.back());
+      entries_.pop_back();
+      now_ = next.at;
+      next.what();
+    }
+    now_ = end;
+  }
+
+private:
+  struct entry {
+    time_point at;
+    std::uint64_t number = 0;
+    std::function<void()> what;
+  };
+  static bool later(const entry& a, const entry& b) {
+    return a.at != b.at ? a.at > b.at : a.number > b.number;
+  }
+
+  time_point now_;
+  std::vector<entry> entries_;
+  std::uint64_t made_ = 0;
+};
+
+/// @returns what a message takes on the air, as network_link has it.
+template <class Message>
+std::size_t octets_of(const Message& message) {
+  caf::byte_buffer bytes;
+  caf::binary_serializer sink{nullptr, bytes};
+  return sink.apply(message) ? bytes.size() : 0;
+}
+
+inline std::size_t octets_of_cam() {
+  static const auto size = [] {
+    const georeference where;
+    const auto message = make_cam(shuttle{}.ego({}).own, {}, where);
+    return encoded(message).octets.size() + geonet_octets;
+  }();
+  return size;
+}
+
+/// As network_link has it.
+class library_link {
+public:
+  library_link(agenda& time, const channel& draws, link_faults faults)
+      : time_{time}, up_{draws, way::up, nullptr},
+        down_{draws, way::down, nullptr}, faults_{std::move(faults)} {}
+
+  void up(std::uint64_t number, std::size_t octets,
+          std::function<void()> deliver) {
+    carry(up_, message_class::other, number, octets, std::move(deliver));
+  }
+  void down(message_class kind, std::uint64_t number, std::size_t octets,
+            std::function<void()> deliver) {
+    carry(down_, kind, number, octets, std::move(deliver));
+  }
+  /// Knows the sessions from what passes.
+  void look_at(const offloading::to_vehicle& message) {
+    if (const auto* response = std::get_if<service_response>(&message))
+      for (const auto& v : response->verdicts)
+        if (v.accepted)
+          sessions_.insert(v.running);
+    if (const auto* end = std::get_if<service_end>(&message))
+      sessions_.erase(end->running);
+  }
+  /// @returns whether it is carried: not the input of a session that has ended.
+  bool look_at(const offloading::to_provider& message) {
+    if (const auto* end = std::get_if<service_end>(&message))
+      sessions_.erase(end->running);
+    const auto* input = std::get_if<service_input>(&message);
+    return !input || sessions_.contains(input->running);
+  }
+  std::uint64_t time_number() const {
+    return static_cast<std::uint64_t>(time_.now().time_since_epoch().count());
+  }
+
+private:
+  void carry(link_direction& direction, message_class kind,
+             std::uint64_t number, std::size_t octets,
+             std::function<void()> deliver) {
+    const auto t = direction.arrival(time_.now(), kind, number, octets);
+    if (!t)
+      return;
+    const auto fate = faults_.of(carried_++);
+    if (fate.lost)
+      return;
+    if (fate.copy_after) // first: at the same time they are alike
+      time_.at(*t + *fate.copy_after, deliver);
+    time_.at(*t + fate.extra_delay, std::move(deliver));
+  }
+
+  agenda& time_;
+  link_direction up_, down_;
+  link_faults faults_;
+  std::uint64_t carried_ = 0;
+  std::set<session_id> sessions_;
+};
+
+/// Gives back its input.
+struct echo_function final : service_function {
+  service_output run(time_point, const service_input& input) override {
+    return input.what;
+  }
+};
+
+struct library_world {
+  static constexpr duration period = std::chrono::milliseconds{50};
+  static constexpr offloading::peer_id vehicle_peer{1};
+
+  struct provider_node final : offloading::provider_side_port {
+    library_world& world;
+    int number;
+    std::shared_ptr<multi_server_queue> workers;
+    library_link link;
+    bool alive = true;
+    std::unique_ptr<offloading::provider_side> side;
+
+    provider_node(library_world& w, int k)
+        : world{w}, number{k}, workers{std::make_shared<multi_server_queue>(
+                                   w.profile->workers)},
+          link{w.time, draws(),
+               link_faults{random_stream{w.seed, "faults"}.part(
+                               static_cast<std::uint64_t>(k) + 1),
+                           w.faults}} {
+      offloading::provider_setup setup;
+      setup.id = static_cast<provider_id>(k + 1);
+      setup.area = area_of_provider(k);
+      for (const auto* name : {"one", "two"})
+        setup.services.push_back(
+            {.name = name, .period = period, .max_latency = period});
+      setup.policy = make_codm("always");
+      setup.computer = {static_cast<std::size_t>(w.profile->workers),
+                        w.profile->mean_service_s(),
+                        w.profile->service_deviation_s()};
+      setup.map = {w.world, &w.world->map};
+      setup.noise = random_stream{w.seed, "network"};
+      side =
+          std::make_unique<offloading::provider_side>(std::move(setup), *this);
+    }
+
+    channel draws() const {
+      return {world.profile, random_stream{world.seed, "network"},
+              shuttle::station, static_cast<std::uint32_t>(number)};
+    }
+    offloading::peer_id peer() const {
+      return offloading::peer_id{static_cast<std::uint64_t>(number) + 1};
+    }
+
+    void send(offloading::peer_id, offloading::to_vehicle message) override {
+      link.look_at(message);
+      const auto* result = std::get_if<service_result>(&message);
+      const auto octets =
+          std::visit([](const auto& x) { return octets_of(x); }, message);
+      link.down(result ? message_class::result : message_class::other,
+                result ? result->cycle : link.time_number(), octets,
+                [this, message] {
+                  if (world.alive)
+                    world.side->on_message(peer(), message, world.time.now());
+                });
+    }
+    offloading::cycle_setup
+    make_function(const offloading::session_start&) override {
+      offloading::cycle_setup cycle;
+      cycle.function = std::make_shared<echo_function>();
+      cycle.finish = [draws = draws(), queue = workers](time_point start,
+                                                        std::uint64_t number) {
+        return queue->finish(start, draws.service_time(number));
+      };
+      return cycle;
+    }
+    void record(const episode_record& x) override { world.book->add(x); }
+    void wake_at(time_point t, std::uint64_t number_of_timer) override {
+      world.time.at(t, [this, number_of_timer] {
+        if (alive)
+          side->on_timer(number_of_timer, world.time.now());
+      });
+    }
+  };
+
+  struct vehicle_node final : offloading::vehicle_port {
+    library_world& world;
+    explicit vehicle_node(library_world& w) : world{w} {}
+
+    void send(offloading::peer_id to,
+              offloading::to_provider message) override {
+      auto& p = *world.providers.at(static_cast<std::size_t>(to) - 1);
+      if (!p.link.look_at(message))
+        return;
+      const auto octets =
+          std::visit([](const auto& x) { return octets_of(x); }, message);
+      p.link.up(p.link.time_number(), octets, [&p, message] {
+        if (p.alive)
+          p.side->on_message(vehicle_peer, message, p.world.time.now());
+      });
+    }
+    void use(const service_result& result) override {
+      world.diary->on_result(result);
+    }
+    void on_source(const service_name& service, bool remote) override {
+      world.diary->on_source(service, remote);
+    }
+    void record(offloading::record x) override {
+      if (const auto* episode = std::get_if<episode_record>(&x))
+        world.book->add(*episode);
+    }
+    void wake_at(time_point t, std::uint64_t number) override {
+      world.time.at(t, [this, number] {
+        if (world.alive)
+          world.side->on_timer(number, world.time.now());
+      });
+    }
+  };
+
+  std::uint64_t seed;
+  link_fault_options faults;
+  std::shared_ptr<const channel_profile> profile;
+  streets_ptr world = one_long_street();
+  agenda time;
+  std::shared_ptr<ledger> book = std::make_shared<ledger>();
+  std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
+  std::vector<std::unique_ptr<provider_node>> providers;
+  vehicle_node node{*this};
+  shuttle car;
+  bool alive = true;
+  std::unique_ptr<offloading::vehicle_side> side;
+
+  library_world(std::uint64_t seed, link_fault_options faults,
+                int provider_count, std::string_view channel = "paper-5g")
+      : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
+                                        *find_channel_profile(channel))} {
+    for (int k = 0; k < provider_count; ++k)
+      providers.push_back(std::make_unique<provider_node>(*this, k));
+    offloading::vehicle_side_setup setup;
+    setup.station = shuttle::station;
+    setup.policy = make_lodm("always");
+    setup.noise = random_stream{seed, "vehicle"};
+    setup.path_ahead = [way = world->routes.front()](const ego_state& ego) {
+      return way->waypoints(ego.s_m, protocol::route_ahead_m,
+                            protocol::route_spacing_m);
+    };
+    for (const auto* name : {"one", "two"})
+      setup.services.push_back(echo_of(name));
+    side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
+                                                      time.now());
+    tick();
+  }
+
+  offloading::onboard_service echo_of(const char* name) const {
+    using namespace std::chrono_literals;
+    const auto noise = random_stream{seed, "vehicle"}.part(name);
+    const computer_options computer;
+    const task_options task;
+    offloading::onboard_service service;
+    service.requested = {.name = name,
+                         .needs = {period, 50ms, 100ms},
+                         .on_board = on_board_cost(computer, task),
+                         .offloaded = offloaded_cost(computer, task)};
+    service.input_period = 100ms;
+    service.function = std::make_shared<echo_function>();
+    service.phase = random_phase(noise.part("local phase"), period);
+    service.finish = [](time_point start, std::uint64_t) {
+      return start + 5ms;
+    };
+    return service;
+  }
+
+  void tick() {
+    using namespace std::chrono_literals;
+    const auto t = time.now();
+    time.at(t + 50ms, [this] {
+      if (alive)
+        tick();
+    });
+    car.step();
+    if (car.sends_cam())
+      send_cam(car.ego(t));
+    if (car.said == 1)
+      return; // its services are not there yet
+    for (const auto* name : {"one", "two"})
+      side->on_input(name, {{}, t, payload::of(echo{car.said})}, t);
+  }
+
+  void send_cam(const ego_state& ego) {
+    constexpr std::uint64_t cam_message = 2;
+    side->on_motion(ego);
+    for (auto& p : providers)
+      p->link.up(p->link.time_number() ^ cam_message << 56, octets_of_cam(),
+                 [&node = *p, own = ego.own] {
+                   if (node.alive && node.world.alive)
+                     node.side->on_cam(own, vehicle_peer,
+                                       node.world.time.now());
+                 });
+  }
+
+  time_point now() const { return time.now(); }
+  void run_for(duration d) { time.run_until(time.now() + d); }
+
+  /// Runs on, and checks every 10 ms that the newest result is fresh.
+  void run_and_check(duration d) {
+    using namespace std::chrono_literals;
+    for (const auto end = now() + d; now() < end;) {
+      run_for(10ms);
+      diary->check_fresh(now());
+    }
+  }
+
+  void dismiss() {
+    dismiss_vehicle();
+    for (auto& p : providers)
+      if (std::exchange(p->alive, false))
+        p->side->shut_down(now());
+  }
+  void dismiss_vehicle() {
+    if (!alive)
+      return;
+    side->shut_down(now());
+    crash_vehicle();
+  }
+
+  void crash_provider() {
+    auto& dead = *providers.front();
+    dead.alive = false;
+    side->on_lost(dead.peer(), now());
+  }
+  void crash_vehicle() {
+    alive = false;
+    for (auto& p : providers)
+      if (p->alive)
+        p->side->on_lost(vehicle_peer, now());
+  }
+};
+
+} // namespace sofof::test
