@@ -1,0 +1,41 @@
+# What `cmake --install` puts where: the program, and as a package `sofof` the
+# libraries that need no actors: sofof::offloading, sofof::messages,
+# sofof::policies, sofof::planners, and what they stand on.
+include(CMakePackageConfigHelpers)
+
+set(sofof_installed base world messages policies planners offloading)
+foreach(folder ${sofof_installed})
+  set_target_properties(sofof_${folder} PROPERTIES EXPORT_NAME ${folder})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}
+    DESTINATION include/sofof
+    FILES_MATCHING PATTERN "*.hpp"
+    # Of the actors.
+    PATTERN interfaces.hpp EXCLUDE
+    PATTERN type_ids.hpp EXCLUDE
+    PATTERN admission.hpp EXCLUDE)
+endforeach()
+set_target_properties(sofof_options PROPERTIES EXPORT_NAME options)
+
+list(TRANSFORM sofof_installed PREPEND sofof_ OUTPUT_VARIABLE targets)
+install(TARGETS sofof_options ${targets} EXPORT sofof_targets
+  ARCHIVE DESTINATION lib)
+install(EXPORT sofof_targets FILE sofof-targets.cmake NAMESPACE sofof::
+  DESTINATION lib/cmake/sofof)
+install(TARGETS sofof_cli RUNTIME DESTINATION bin)
+
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sofof-config.cmake CONTENT [[
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 NO_MODULE)
+find_dependency(fmt)
+find_dependency(tomlplusplus)
+find_dependency(nlohmann_json)
+list(APPEND CMAKE_MODULE_PATH /usr/share/cmake/geographiclib)
+find_dependency(GeographicLib)
+include(${CMAKE_CURRENT_LIST_DIR}/sofof-targets.cmake)
+]] @ONLY)
+write_basic_package_version_file(
+  ${PROJECT_BINARY_DIR}/sofof-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/sofof-config.cmake
+  ${PROJECT_BINARY_DIR}/sofof-config-version.cmake
+  DESTINATION lib/cmake/sofof)
