@@ -94,15 +94,10 @@ provider_services::computing_time(const service_type& type,
 }
 
 event_record provider_services::record_of(const station_doubt& x) const {
-  return {x.at,
-          x.begins ? "doubted" : "believed",
-          x.station,
-          id_,
-          service_name{},
-          0,
-          x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
-                                 name_of(x.check), x.value, x.limit)
-                   : ""};
+  const auto why = x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
+                                          name_of(x.check), x.value, x.limit)
+                            : std::string{};
+  return {x.at, x.begins ? "doubted" : "believed", x.station, id_, {}, 0, why};
 }
 
 offloading::provider_setup rules_of(provider_setup setup,
