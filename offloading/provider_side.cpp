@@ -31,10 +31,7 @@ public:
   }
 
   void on_timer(std::uint64_t number, time_point now) {
-    auto due = timers_.extract(number);
-    if (due.empty())
-      return;
-    turns_.post(due.mapped().first, std::move(due.mapped().second));
+    turns_.wake(number);
     turns_.run(now);
   }
 
@@ -75,8 +72,7 @@ private:
   }
 
   void wake(const turn_queue::part& part, time_point t, turn_queue::turn what) {
-    timers_.emplace(++last_timer_, std::pair{part, std::move(what)});
-    port_.wake_at(t, last_timer_);
+    port_.wake_at(t, turns_.post_later(part, std::move(what)));
   }
 
   void step(const session_ptr& to, lifecycle_step step) {
@@ -182,9 +178,6 @@ private:
   std::map<service_name, duration> periods_;
   std::map<session_id, session_ptr> sessions_;
   std::optional<provider> provider_;
-  std::map<std::uint64_t, std::pair<turn_queue::part, turn_queue::turn>>
-      timers_;
-  std::uint64_t last_timer_ = 0;
 };
 
 provider_side::provider_side(provider_setup setup, provider_side_port& port)

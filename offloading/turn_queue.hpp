@@ -3,8 +3,10 @@
 
 #include "base/time.hpp"
 
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -34,6 +36,18 @@ public:
       ready_.push_back(to);
   }
 
+  /// A turn that is posted when `wake` is called with the returned number.
+  std::uint64_t post_later(const part& to, turn what) {
+    later_.emplace(++last_, std::pair{to, std::move(what)});
+    return last_;
+  }
+
+  /// Posts that turn, once; a number that is not known is ignored.
+  void wake(std::uint64_t number) {
+    if (auto due = later_.extract(number); !due.empty())
+      post(due.mapped().first, std::move(due.mapped().second));
+  }
+
   /// Runs until nobody has anything to handle. A turn may post, but not run.
   void run(time_point now) {
     while (!ready_.empty()) {
@@ -49,6 +63,8 @@ public:
 
 private:
   std::deque<part> ready_;
+  std::map<std::uint64_t, std::pair<part, turn>> later_;
+  std::uint64_t last_ = 0;
 };
 
 } // namespace sofof::offloading

@@ -50,10 +50,7 @@ public:
   }
 
   void on_timer(std::uint64_t number, time_point now) {
-    auto due = timers_.extract(number);
-    if (due.empty())
-      return;
-    turns_.post(due.mapped().first, std::move(due.mapped().second));
+    turns_.wake(number);
     turns_.run(now);
   }
 
@@ -232,8 +229,7 @@ private:
 
   // Something that a part handles then.
   void wake(const turn_queue::part& part, time_point t, turn_queue::turn what) {
-    timers_.emplace(++last_timer_, std::pair{part, std::move(what)});
-    port_.wake_at(t, last_timer_);
+    port_.wake_at(t, turns_.post_later(part, std::move(what)));
   }
 
   // -- what comes over the air
@@ -306,9 +302,6 @@ private:
   std::optional<requester> requester_;
   std::map<session_id, peer_id> providers_; // of the sessions
   peer_id answering_{};                     // whose response is handled
-  std::map<std::uint64_t, std::pair<turn_queue::part, turn_queue::turn>>
-      timers_;
-  std::uint64_t last_timer_ = 0;
 };
 
 void vehicle_side::parts::own_port::wake_at(time_point t,

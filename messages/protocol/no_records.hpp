@@ -1,11 +1,11 @@
-// Takes all records and keeps none.
+// Takes all records and keeps none; a base for what keeps some of them.
 #pragma once
 
 #include "messages/protocol/record.hpp"
 
 namespace sofof {
 
-struct no_records final : record_sink {
+struct no_records : record_sink {
   void take(const event_record&) override {}
   void take(const decision_record&) override {}
   void take(const cycle_record&) override {}

@@ -4,6 +4,7 @@
 
 #include "base/protocol.hpp"
 #include "tests/support/at.hpp"
+#include "tests/support/echo.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,43 +17,26 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::test {
-
-/// A result or an input of the tests' service.
-struct numbered {
-  std::uint64_t number = 0;
-};
-
-void archive(auto& bytes, numbered& x) {
-  bytes(x.number);
-}
-
-} // namespace sofof::test
-
-template <>
-inline constexpr std::string_view sofof::payload_name<sofof::test::numbered> =
-    "numbered";
-
 using namespace sofof;
 using namespace std::chrono_literals;
 using offloading::selected_service;
 using offloading::source_selector;
 using offloading::standby;
 using test::at;
-using test::numbered;
+using test::echo;
 
 namespace {
 
 constexpr std::uint64_t implausible = 1000, useless = 1001;
 
 payload of(std::uint64_t number) {
-  return payload::of(numbered{number});
+  return payload::of(echo{number});
 }
 
 struct numbers_judge final : result_judge {
   judged_result judge(const payload& result, const service_input&,
                       time_point) override {
-    const auto number = result.as<numbered>()->number;
+    const auto number = result.as<echo>()->number;
     if (number == implausible)
       return {.what = {}, .refused = objection{"number", 1000, 999}};
     if (number == useless)

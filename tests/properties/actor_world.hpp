@@ -5,6 +5,7 @@
 #include "actors/offloading/service_requester.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/simulation/network_link.hpp"
+#include "messages/protocol/no_records.hpp"
 #include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "policies/registry.hpp"
@@ -78,20 +79,11 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
 }
 
 /// Gives episodes to a ledger.
-struct ledger_sink final : record_sink {
+struct ledger_sink final : no_records {
+  using no_records::take;
   std::shared_ptr<ledger> book;
   explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
-
-  void take(const event_record&) override {}
-  void take(const decision_record&) override {}
-  void take(const cycle_record&) override {}
   void take(const episode_record& r) override { book->add(r); }
-  void take(const track_record&) override {}
-  void take(const safety_record&) override {}
-  void take(const collision_record&) override {}
-  void take(const drive_record&) override {}
-  void take(const plan_switch_record&) override {}
-  void take(const air_record&) override {}
 };
 
 struct actor_world : virtual_world {
