@@ -10,7 +10,9 @@
 #include "actors/simulation/network_link.hpp"
 #include "actors/simulation/road.hpp"
 #include "actors/simulation/vehicle.hpp"
+#include "base/protocol.hpp"
 #include "channel/with_outage.hpp"
+#include "messages/v2x/decode_broadcast.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
 
@@ -34,7 +36,7 @@ random_stream noise_of(const scenario& s, std::string_view what) {
 constexpr duration last_words = std::chrono::milliseconds{200};
 
 /// A provider, from one boot to its end, and the radio cell round it.
-struct site {
+struct provider_cell {
   std::uint32_t place; // in the file
   roadside_provider_actor provider;
   const provider_options* options;
@@ -48,66 +50,31 @@ struct site {
       std::make_shared<multi_server_queue>(1);
 };
 
-std::vector<service_type_ptr> offered(const scenario& s,
-                                      const provider_options& options) {
-  if (options.services.empty())
-    return s.services;
-  std::vector<service_type_ptr> kinds;
-  for (const auto& kind : s.services)
-    if (std::ranges::find(options.services, kind->name())
-        != options.services.end())
-      kinds.push_back(kind);
-  return kinds;
-}
-
 /// A plan is fresh up to the longest time between two usable ones.
 /// Source: latency limit + gap limit + one planning period.
 duration fresh_limit(const scenario& s) {
-  duration limit{0};
-  for (const auto& kind : s.services)
-    if (kind->name() == "trajectory_planning")
-      limit = kind->common.limits.max_latency
-              + kind->common.limits.max_interarrival + kind->common.period;
-  return limit;
-}
-
-roadside_provider_actor spawn_provider(caf::actor_system& sys,
-                                       const scenario& s, std::uint32_t number,
-                                       const georeference_ptr& where,
-                                       const recorder_actor& recorder,
-                                       std::uint64_t start, bool virtual_time) {
-  const auto& options = s.providers[number];
-  provider_setup setup;
-  setup.boot = boot_of(number + 1, start);
-  setup.position = options.position_m;
-  setup.area = options.area();
-  setup.world = s.world;
-  setup.where = where;
-  setup.kinds = offered(s, options);
-  setup.codm = s.policies.codm->clone();
-  setup.recorder = recorder;
-  setup.profile = s.channel_to(number);
-  setup.seed = noise_of(s, "network");
-  setup.number = number;
-  setup.virtual_time = virtual_time;
-  setup.crossings_granted = s.traffic.grants_crossings();
-  return spawn_service_provider(sys, std::move(setup));
+  const auto* planning = planning_service(s);
+  if (!planning)
+    return {};
+  const auto& options = planning->options;
+  return options.limits.max_latency + options.limits.max_interarrival
+         + options.period;
 }
 
 /// @returns those of providers; none where the cars drive in other processes:
 /// they would tell of an empty road, and speak against every car.
-std::vector<roadside_sensor> sensors_beside(const scenario& s,
-                                            const std::vector<site>& sites,
-                                            const part& here) {
+std::vector<roadside_sensor>
+sensors_beside(const scenario& s, const std::vector<provider_cell>& cells,
+               const part& here) {
   if (here.serves_others)
     return {};
   const auto noise = noise_of(s, "roadside sensors");
   std::vector<roadside_sensor> beside;
-  for (std::size_t p = 0; p < sites.size(); ++p) {
-    const auto& own = sites[p].options->sensors;
-    const auto drawn = noise.part(sites[p].place);
+  for (std::size_t p = 0; p < cells.size(); ++p) {
+    const auto& own = cells[p].options->sensors;
+    const auto drawn = noise.part(cells[p].place);
     for (std::size_t k = 0; k < own.size(); ++k)
-      beside.push_back({sites[p].provider, own[k].make(drawn.part(k))});
+      beside.push_back({cells[p].provider, own[k].make(drawn.part(k))});
   }
   return beside;
 }
@@ -120,7 +87,7 @@ std::vector<oriented_box> obstacles(const scenario& s) {
 }
 
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                const site& at) {
+                const provider_cell& at) {
   const channel draws{at.channel, noise_of(s, "network"), station, at.place,
                       at.options->radio};
   return {spawn_network_link(sys, at.provider,
@@ -137,24 +104,6 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
   introduce(uplink, station, far);
   const auto& at = s.providers[to.place];
   return {std::move(far), at.position_m, at.range_m};
-}
-
-// The vehicle calls it later, from its own thread: nothing is borrowed.
-auto requester_maker(caf::actor_system& sys, const scenario& s,
-                     const placed_vehicle& v, const georeference_ptr& where,
-                     const recorder_actor& recorder, bool virtual_time,
-                     const decltype(foresee(s))& future) {
-  return [&sys, v, where, recorder, virtual_time, world = s.world,
-          kinds = s.services, lodm = s.policies.lodm,
-          noise = noise_of(s, "vehicle").part(v.station),
-          granted = s.traffic.grants_crossings(),
-          computer = s.fleets[v.fleet].computer, margins = s.record.margins,
-          future](const vehicle_actor& vehicle) {
-    return spawn_service_requester(
-        sys, {v.station, v.way, world, where, kinds, lodm->clone(), vehicle,
-              recorder, noise, virtual_time, granted, computer,
-              future ? future(v.station) : nullptr, margins});
-  };
 }
 
 /// Actors that must live as long as the run, and what they are called.
@@ -179,6 +128,205 @@ void end(const std::vector<Handle>& leaving, runtime& time) {
   end(actors, time);
 }
 
+/// Spawns one run, group by group.
+class builder {
+public:
+  builder(caf::actor_system& sys, const scenario& s,
+          std::shared_ptr<record_sink> sink, etsi::its_clock clock,
+          bool virtual_time, const part& here)
+      : sys_{sys}, s_{s}, here_{here}, virtual_time_{virtual_time},
+        where_{std::make_shared<const georeference>(
+            geo_frame{s.world->map.origin()}, clock)},
+        decode_{[where = where_](const its_pdu& message, time_point now) {
+          return understand(message, *where, now);
+        }} {
+    const service_world known{
+        s.world, where_, {}, s.traffic.grants_crossings()};
+    for (const auto& type : s.services)
+      services_.push_back(type->in(known));
+    world_.recorder = spawn_recorder(sys_, std::move(sink));
+    name(watched_, world_.recorder, "the recorder");
+    world_.has_peers = here.serves_others || !here.remotes.empty();
+  }
+
+  world_actors build() {
+    for (std::uint32_t k = 0; k < s_.providers.size(); ++k)
+      if (here_.provides(k))
+        add_provider(k);
+    for (const auto& to : here_.remotes)
+      add_uplink(to);
+    auto placed = place_vehicles(s_);
+    std::erase_if(placed,
+                  [&](const auto& v) { return !here_.drives(v.station); });
+    add_road(placed);
+    const auto future = virtual_time_ ? foresee(s_) : nullptr;
+    for (const auto& v : placed)
+      add_vehicle(v, future ? future(v.station) : nullptr);
+    return std::move(world_);
+  }
+
+  names& watched() { return watched_; }
+
+private:
+  // -- providers ------------------------------------------------------------
+
+  void add_provider(std::uint32_t number) {
+    const auto& options = s_.providers[number];
+    boot(number, here_.start, s_.channel_to(number));
+    if (options.fails_at)
+      world_.power_cuts.push_back(spawn_power_cut(
+          sys_, caf::actor_cast<caf::actor>(world_.providers.back()),
+          *options.fails_at));
+    else
+      name(watched_, world_.providers.back(),
+           fmt::format("provider {}", options.name));
+    // It lives from the start on, but nothing reaches it.
+    if (options.returns_at)
+      boot(number, here_.start + 1,
+           with_outage(*s_.channel_to(number), {}, *options.returns_at));
+  }
+
+  void boot(std::uint32_t number, std::uint64_t start,
+            std::shared_ptr<const channel_profile> channel) {
+    cells_.push_back({number, spawn_provider(number, start),
+                      &s_.providers[number], std::move(channel)});
+    world_.providers.push_back(cells_.back().provider);
+  }
+
+  roadside_provider_actor spawn_provider(std::uint32_t number,
+                                         std::uint64_t start) {
+    const auto& options = s_.providers[number];
+    provider_setup setup;
+    setup.boot = boot_of(number + 1, start);
+    setup.position = options.position_m;
+    setup.area = options.area();
+    setup.map = {s_.world, &s_.world->map};
+    setup.decode = decode_;
+    for (const auto& service : services_)
+      if (options.offers(service.name.view()))
+        setup.services.push_back(service);
+    setup.codm = s_.policies.codm->clone();
+    setup.recorder = world_.recorder;
+    setup.profile = s_.channel_to(number);
+    setup.seed = noise_of(s_, "network");
+    setup.number = number;
+    setup.virtual_time = virtual_time_;
+    return spawn_service_provider(sys_, std::move(setup));
+  }
+
+  void add_uplink(const part::remote_provider& to) {
+    world_.uplinks.push_back(to.spawn_uplink(world_.recorder));
+    name(watched_, world_.uplinks.back(),
+         fmt::format("the uplink to provider {}", s_.providers[to.place].name));
+  }
+
+  // -- vehicles -------------------------------------------------------------
+
+  void add_road(const std::vector<placed_vehicle>& placed) {
+    station_routes ways;
+    for (const auto& v : placed)
+      ways[v.station] = v.way;
+    world_.road = spawn_road(
+        sys_, {s_.world, std::move(ways), vehicle_params{}, s_.sensors,
+               noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
+               obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
+    name(watched_, world_.road, "the road");
+  }
+
+  void add_vehicle(const placed_vehicle& v,
+                   std::shared_ptr<const channel_oracle> future) {
+    const auto& fleet = s_.fleets[v.fleet];
+    vehicle_setup setup;
+    setup.car = {v.station,
+                 v.way,
+                 v.start_s_m,
+                 fleet.start_speed_mps,
+                 {},
+                 fresh_limit(s_),
+                 s_.record.tracks ? s_.record.tracks_period : duration{0}};
+    setup.appears_after = v.appears;
+    if (const auto* planning = planning_service(s_))
+      setup.plans = planning->plans();
+    setup.sensor = s_.sensors;
+    setup.where = where_;
+    if (fleet.connected) {
+      setup.v2x = s_.v2x;
+      setup.antennas = connect_all(v.station);
+    }
+    for (const auto& a : setup.antennas)
+      world_.links.push_back(a.link);
+    setup.road = world_.road;
+    setup.recorder = world_.recorder;
+    setup.spawn_requester = requester_maker(v, std::move(future));
+    world_.vehicles.push_back(spawn_vehicle(sys_, std::move(setup)));
+    name(watched_, world_.vehicles.back(),
+         fmt::format("vehicle {}", v.station));
+  }
+
+  std::vector<antenna> connect_all(station_id station) {
+    std::vector<antenna> all;
+    const auto watch = [&](const antenna& a) {
+      name(watched_, a.link, fmt::format("a link of vehicle {}", station));
+    };
+    for (const auto& at : cells_) {
+      all.push_back(connect(sys_, s_, station, at));
+      if (!at.may_die())
+        watch(all.back());
+    }
+    for (std::size_t k = 0; k < here_.remotes.size(); ++k) {
+      all.push_back(
+          connect(sys_, s_, station, here_.remotes[k], world_.uplinks[k]));
+      watch(all.back());
+    }
+    return all;
+  }
+
+  // The vehicle calls it later, from its own thread: nothing is borrowed.
+  std::function<onboard_requester_actor(const vehicle_actor&)>
+  requester_maker(const placed_vehicle& v,
+                  std::shared_ptr<const channel_oracle> future) const {
+    std::vector<client_service> services;
+    for (std::size_t k = 0; k < services_.size(); ++k)
+      services.push_back(
+          {services_[k], [type = s_.services[k]](auto& sys, const auto& car) {
+             return type->spawn_client(sys, car);
+           }});
+    return [&sys = sys_, station = v.station, way = v.way, services,
+            lodm = s_.policies.lodm, recorder = world_.recorder,
+            noise = noise_of(s_, "vehicle").part(v.station),
+            virtual_time = virtual_time_,
+            computer = s_.fleets[v.fleet].computer, future = std::move(future),
+            margins = s_.record.margins](const vehicle_actor& vehicle) {
+      const auto path_ahead = [way](const ego_state& ego) {
+        return way->waypoints(ego.s_m, protocol::route_ahead_m,
+                              protocol::route_spacing_m);
+      };
+      return spawn_service_requester(sys, {.station = station,
+                                           .path_ahead = path_ahead,
+                                           .services = services,
+                                           .lodm = lodm->clone(),
+                                           .vehicle = vehicle,
+                                           .recorder = recorder,
+                                           .noise = noise,
+                                           .virtual_time = virtual_time,
+                                           .computer = computer,
+                                           .future = future,
+                                           .record_margins = margins});
+    };
+  }
+
+  caf::actor_system& sys_;
+  const scenario& s_;
+  const part& here_;
+  bool virtual_time_;
+  georeference_ptr where_;
+  std::function<broadcast(const its_pdu&, time_point)> decode_;
+  std::vector<offloading::service> services_; // as in the scenario
+  std::vector<provider_cell> cells_;
+  names watched_;
+  world_actors world_;
+};
+
 } // namespace
 
 world_actors build(caf::actor_system& sys, const scenario& s,
@@ -186,98 +334,11 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    bool virtual_time,
                    std::function<void(const std::string&)> on_loss,
                    const part& here) {
-  world_actors world;
-  const vehicle_params car;
-  const auto where = std::make_shared<const georeference>(
-      geo_frame{s.world->map.origin()}, clock);
-  std::vector<placed_vehicle> placed;
-  station_routes ways;
-  for (auto& v : place_vehicles(s))
-    if (here.drives(v.station)) {
-      ways[v.station] = v.way;
-      placed.push_back(std::move(v));
-    }
-  names watched;
-  world.recorder = spawn_recorder(sys, std::move(sink));
-  name(watched, world.recorder, "the recorder");
-  world.has_peers = here.serves_others || !here.remotes.empty();
-  std::vector<site> sites;
-  const auto boot = [&](std::uint32_t k, std::uint64_t start,
-                        std::shared_ptr<const channel_profile> channel) {
-    sites.push_back(
-        {k,
-         spawn_provider(sys, s, k, where, world.recorder, start, virtual_time),
-         &s.providers[k], std::move(channel)});
-    world.providers.push_back(sites.back().provider);
-  };
-  for (std::uint32_t k = 0; k < s.providers.size(); ++k) {
-    if (!here.provides(k))
-      continue;
-    const auto& options = s.providers[k];
-    boot(k, here.start, s.channel_to(k));
-    if (options.fails_at)
-      world.power_cuts.push_back(spawn_power_cut(
-          sys, caf::actor_cast<caf::actor>(world.providers.back()),
-          *options.fails_at));
-    else
-      name(watched, world.providers.back(),
-           fmt::format("provider {}", options.name));
-    // It lives from the start on, but nothing reaches it.
-    if (options.returns_at)
-      boot(k, here.start + 1,
-           with_outage(*s.channel_to(k), {}, *options.returns_at));
-  }
-  for (const auto& to : here.remotes) {
-    world.uplinks.push_back(to.spawn_uplink(world.recorder));
-    name(watched, world.uplinks.back(),
-         fmt::format("the uplink to provider {}", s.providers[to.place].name));
-  }
-  world.road =
-      spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
-                       sensors_beside(s, sites, here), obstacles(s),
-                       world.recorder, s.traffic.grants_crossings()});
-  name(watched, world.road, "the road");
-  const auto future = virtual_time ? foresee(s) : nullptr;
-  for (const auto& v : placed) {
-    vehicle_setup setup;
-    setup.station = v.station;
-    setup.way = v.way;
-    setup.start_s_m = v.start_s_m;
-    setup.start_speed_mps = s.fleets[v.fleet].start_speed_mps;
-    setup.appears_after = v.appears;
-    setup.car = car;
-    setup.sensor = s.sensors;
-    setup.where = where;
-    setup.fresh_limit = fresh_limit(s);
-    setup.track_period = s.record.tracks ? s.record.tracks_period : duration{0};
-    const auto watch_link = [&](const antenna& a) {
-      name(watched, a.link, fmt::format("a link of vehicle {}", v.station));
-    };
-    if (s.fleets[v.fleet].connected) {
-      setup.v2x = s.v2x;
-      for (const auto& at : sites) {
-        setup.antennas.push_back(connect(sys, s, v.station, at));
-        if (!at.may_die())
-          watch_link(setup.antennas.back());
-      }
-      for (std::size_t k = 0; k < here.remotes.size(); ++k) {
-        setup.antennas.push_back(
-            connect(sys, s, v.station, here.remotes[k], world.uplinks[k]));
-        watch_link(setup.antennas.back());
-      }
-    }
-    for (const auto& a : setup.antennas)
-      world.links.push_back(a.link);
-    setup.road = world.road;
-    setup.recorder = world.recorder;
-    setup.spawn_requester =
-        requester_maker(sys, s, v, where, world.recorder, virtual_time, future);
-    world.vehicles.push_back(spawn_vehicle(sys, std::move(setup)));
-    name(watched, world.vehicles.back(), fmt::format("vehicle {}", v.station));
-  }
+  builder all{sys, s, std::move(sink), clock, virtual_time, here};
+  auto world = all.build();
   if (on_loss)
     world.supervisor =
-        spawn_supervisor(sys, std::move(watched), std::move(on_loss));
+        spawn_supervisor(sys, std::move(all.watched()), std::move(on_loss));
   return world;
 }
 

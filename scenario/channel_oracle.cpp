@@ -19,8 +19,8 @@ namespace {
 /// The results of one service at one provider, as they would come.
 class results_to_come {
 public:
-  results_to_come(const channel& draws, const service_options& options,
-                  duration phase)
+  results_to_come(const channel& draws,
+                  const offloading::service_options& options, duration phase)
       : draws_{draws}, way_{draws, way::down, nullptr}, options_{&options},
         phase_{phase} {}
 
@@ -67,7 +67,7 @@ private:
 
   channel draws_;
   link_direction way_;
-  const service_options* options_;
+  const offloading::service_options* options_;
   duration phase_;
   time_point sent_;
   std::vector<std::optional<double>> latencies_s_; // by cycle; none: late
@@ -108,11 +108,12 @@ private:
       return known->second;
     const auto own = all_->noise.part(kind.name()).part(station_);
     return results_
-        .try_emplace(key,
-                     channel{provider.channel, all_->noise, station_,
-                             provider.place, provider.radio},
-                     kind.common,
-                     random_phase(own.part("remote phase"), kind.common.period))
+        .try_emplace(
+            key,
+            channel{provider.channel, all_->noise, station_, provider.place,
+                    provider.radio},
+            kind.options,
+            random_phase(own.part("remote phase"), kind.options.period))
         .first->second;
   }
 

@@ -86,7 +86,7 @@ void check_services(const scenario& all, const toml_file& source) {
     names.push_back(kind->name());
   }
   // Nobody else tells a vehicle where to drive.
-  if (std::ranges::find(names, "trajectory_planning") == names.end())
+  if (!planning_service(all))
     source.refuse("service", "there is no service \"trajectory_planning\"; "
                              "vehicles need it to drive.");
   for (std::size_t p = 0; p < all.providers.size(); ++p) {
@@ -152,7 +152,7 @@ void check_whole(const scenario& all, const toml_file& source) {
     source.refuse("", "there are no vehicles: add a [[fleet]].");
   if (all.services.empty())
     source.refuse("", fmt::format("there is no [[service]]; known are {}.",
-                                  fmt::join(service_kind_names(), ", ")));
+                                  fmt::join(service_type_names(), ", ")));
   check_routes(all, source);
   check_stations(all, source);
   check_provider_stations(all, source);

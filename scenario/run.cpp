@@ -43,8 +43,8 @@ cycle_energy energy_of(const scenario& s, std::string_view kind,
                        const computer_options& computer) {
   for (const auto& k : s.services)
     if (k->name() == kind)
-      return {on_board_cost(computer, k->common.task).energy_j,
-              offloaded_cost(computer, k->common.task).energy_j};
+      return {on_board_cost(computer, k->options.task).energy_j,
+              offloaded_cost(computer, k->options.task).energy_j};
   return {};
 }
 
@@ -61,6 +61,8 @@ run_info describe(const scenario& s, const run_options& options,
   info.map_toml = s.map_text;
   info.trace_text = s.trace_text;
   info.seed = s.seed;
+  if (const auto* planning = planning_service(s))
+    info.headline_kind = planning->name();
   for (const auto& v : place_vehicles(s))
     if (here.drives(v.station)) {
       ++info.vehicles;

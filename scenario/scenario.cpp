@@ -106,6 +106,11 @@ polygon provider_options::area() const {
                           static_cast<unsigned>(area_corners));
 }
 
+bool provider_options::offers(std::string_view service) const {
+  return services.empty()
+         || std::ranges::find(services, service) != services.end();
+}
+
 void provider_options::fields(settings& s) {
   s.field("name", name);
   if (name.empty())
@@ -230,11 +235,17 @@ void scenario::fields(settings& s) {
   s.tables("service", services.size(), [this](std::size_t i, settings& t) {
     if (i == services.size())
       services.emplace_back();
-    list_named(t, services[i], make_service_kind, "kind of service",
-               service_kind_names());
+    list_named(t, services[i], make_service_type, "kind of service",
+               service_type_names());
   });
   s.table("policies", [this](settings& t) { policies.fields(t); });
   s.table("record", [this](settings& t) { record.fields(t); });
+}
+
+const service_type* planning_service(const scenario& s) {
+  const auto i = std::ranges::find_if(
+      s.services, [](const auto& type) { return type->plans() != nullptr; });
+  return i == s.services.end() ? nullptr : i->get();
 }
 
 std::string to_toml(scenario what) {

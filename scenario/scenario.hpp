@@ -1,7 +1,7 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
+#include "actors/services/service_type.hpp"
 #include "base/options/settings.hpp"
 #include "channel/channel.hpp"
 #include "messages/v2x/v2x_options.hpp"
@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sofof {
@@ -114,6 +115,8 @@ struct provider_options {
   /// @throws std::invalid_argument for a bad polygon.
   polygon area() const;
 
+  bool offers(std::string_view service) const;
+
   void fields(settings& s);
 };
 
@@ -172,6 +175,9 @@ struct scenario {
   /// Lists everything once.
   void fields(settings& s);
 };
+
+/// @returns the service that plans how vehicles drive; null if there is none.
+const service_type* planning_service(const scenario& s);
 
 /// @returns the effective configuration, defaults included, as a scenario
 /// file; file names in it stay as they were given.

@@ -1,7 +1,9 @@
 // What a provider's services are made of: contexts, functions, computing times.
 #pragma once
 
+#include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/service_provider.hpp"
+#include "channel/multi_server_queue.hpp"
 #include "network/flow/token_bucket.hpp"
 #include "offloading/provider.hpp"
 #include "offloading/service_cycle.hpp"
@@ -13,7 +15,7 @@
 
 namespace sofof {
 
-/// Makes what services of a provider run by, from their types.
+/// The services of one provider, and what their sessions run by.
 class provider_services {
 public:
   /// @param clock  Of the provider's actor.
@@ -26,41 +28,41 @@ public:
   /// @returns the function of a session that starts, and when it runs.
   offloading::cycle_setup make(const offloading::session_start& start) const;
 
-  /// Calls `tell` with each context.
+  /// Calls `tell` with each listener of a service.
   /// @returns what is to be recorded of the stations that are doubted or
   /// believed again since; a limited number, however many are made up.
   template <class Function>
-  std::vector<event_record> tell_contexts(Function tell) {
-    std::vector<event_record> news;
-    for (const auto& context : contexts_)
-      if (context) {
-        tell(*context);
-        for (const auto& doubt : context->news())
+  std::vector<event_record> tell_listeners(Function tell) {
+    std::vector<event_record> records;
+    for (const auto& service : services_)
+      if (auto* listener = service.here->listener()) {
+        tell(*listener);
+        for (const auto& doubt : listener->take_doubts())
           if (doubts_.take(clock_()))
-            news.push_back(record_of(doubt));
+            records.push_back(record_of(doubt));
       }
-    return news;
+    return records;
   }
 
 private:
-  service_setup setup_of(std::size_t service, station_id station,
-                         random_stream noise) const;
+  /// A service, and what of it is here.
+  struct local_service {
+    offloading::service what;
+    std::shared_ptr<offloading::provider_service> here;
+  };
+
   std::function<time_point(time_point, std::uint64_t)>
-  computing_time(const service_type& type, station_id station) const;
+  computing_time(const offloading::service_options& options,
+                 station_id station) const;
   event_record record_of(const station_doubt& doubt) const;
 
   provider_id id_;
-  point position_;
-  streets_ptr world_;
-  georeference_ptr where_;
-  std::vector<service_type_ptr> types_;
-  std::vector<std::shared_ptr<provider_context>> contexts_; // of each, or null
+  std::vector<local_service> services_;
   std::shared_ptr<const channel_profile> profile_;
   std::shared_ptr<multi_server_queue> workers_;
   random_stream seed_;
   std::uint32_t number_;
   bool virtual_time_;
-  bool crossings_granted_;
   std::function<time_point()> clock_;
   token_bucket doubts_;
 };

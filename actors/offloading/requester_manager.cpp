@@ -7,7 +7,6 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -20,26 +19,32 @@ struct requester_manager_state {
   static inline const char* name = "requester_manager";
 
   requester_manager_impl::stateful_pointer<requester_manager_state> self;
-  std::function<std::unique_ptr<result_judge>()> make_judge;
+  std::shared_ptr<offloading::vehicle_service> service;
   std::optional<selector_links> links;
   std::optional<offloading::source_selector> selector;
 
   void start(requester_manager_setup setup) {
     const auto& options = setup.options;
-    make_judge = setup.make_judge;
+    service = setup.service;
     links.emplace(self, setup);
     selector.emplace(
-        offloading::selected_service{setup.station, setup.kind, options.limits,
-                                     options.period, options.input_period,
-                                     setup.record_margins, setup.on_air,
-                                     setup.continues},
+        offloading::selected_service{
+            setup.station, setup.kind, options.limits, options.period,
+            options.input_period, setup.record_margins,
+            [own = service](service_input input, bool takes_over) {
+              return own->encode_input(std::move(input), takes_over);
+            },
+            [own = service](const payload& in_use, const payload& offered,
+                            time_point t) {
+              return own->continues(in_use, offered, t);
+            }},
         *links);
     links->start(std::move(setup));
   }
 
   void on_session(const session_id& session, provider_manager_actor manager) {
     links->add(session, std::move(manager));
-    selector->on_session(session, make_judge(), now(self));
+    selector->on_session(session, service->make_judge(), now(self));
   }
 
   void on_end(const service_end& end) {

@@ -3,10 +3,10 @@
 
 #include "actors/offloading/service_instance.hpp"
 #include "messages/type_ids.hpp"
+#include "offloading/service.hpp"
 
 #include <caf/actor_system.hpp>
 
-#include <functional>
 #include <memory>
 
 namespace sofof {
@@ -15,16 +15,8 @@ namespace sofof {
 struct requester_manager_setup {
   station_id station = 0;
   service_name kind;
-  service_options options;
-  /// `service_type::on_air` of this vehicle.
-  std::function<service_input(service_input, bool takes_over)> on_air;
-  /// `service_type::make_judge` of this vehicle.
-  std::function<std::unique_ptr<result_judge>()> make_judge;
-  /// `service_type::continues`.
-  std::function<bool(const payload& in_use, const payload& offered,
-                     time_point now)>
-      continues =
-          [](const payload&, const payload&, time_point) { return true; };
+  offloading::service_options options;
+  std::shared_ptr<offloading::vehicle_service> service; ///< Not null.
   offloading::cycle_setup local; ///< `running` is filled in.
   client_actor client;
   onboard_requester_actor requester;

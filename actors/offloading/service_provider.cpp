@@ -1,13 +1,14 @@
 // SP: mailbox, timers and monitors; the rules are in offloading/provider.
 #include "actors/offloading/service_provider.hpp"
 
+#include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/provider_links.hpp"
 #include "actors/runtime/time.hpp"
-#include "messages/v2x/decode_broadcast.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -20,27 +21,29 @@ struct provider_state {
 
   provider_impl::stateful_pointer<provider_state> self;
   recorder_actor recorder;
-  georeference_ptr where;
+  std::function<broadcast(const its_pdu&, time_point)> decode;
   std::optional<provider_services> services;
   std::optional<provider_links> links;
   std::optional<offloading::provider> rules;
 
   void start(provider_setup setup) {
     recorder = setup.recorder;
-    where = setup.where;
+    decode = setup.decode;
     services.emplace(setup, clock_of(self));
     links.emplace(self, *services, recorder);
     rules.emplace(rules_of(std::move(setup), *services), *links);
   }
 
   void on_broadcast(const its_pdu& message, const requester_actor& requester) {
-    const auto heard = understand(message, *where, now(self));
+    const auto heard = decode(message, now(self));
     if (const auto* c = std::get_if<cam>(&heard)) {
-      tell_contexts(*c, message.sender, c->station);
+      const auto sender = sender_of(message, c->station);
+      tell([&](broadcast_listener& x) { x.on_cam(*c, sender); });
       links->with(requester, *rules,
                   [&](auto from) { rules->on_cam(*c, from, now(self)); });
     } else if (const auto* seen = std::get_if<object_list>(&heard)) {
-      tell_contexts(*seen, message.sender, seen->from);
+      const auto sender = sender_of(message, seen->from);
+      tell([&](broadcast_listener& x) { x.on_objects(*seen, sender); });
       links->with(requester, *rules, [&](auto from) {
         rules->on_sign_of_life(seen->from, from, now(self));
       });
@@ -55,18 +58,14 @@ struct provider_state {
   }
 
   // A station that is alone in its process stands for itself.
-  template <class Message>
-  void tell_contexts(const Message& message, sender_id told,
-                     station_id station) {
-    const auto sender = told == 0 ? station : told;
-    tell_contexts(
-        [&](provider_context& context) { context.hear(message, sender); });
+  static sender_id sender_of(const its_pdu& message, station_id station) {
+    return message.sender == 0 ? station : message.sender;
   }
 
   template <class Function>
-  void tell_contexts(Function tell) {
-    for (auto& news : services->tell_contexts(tell))
-      self->send(recorder, std::move(news));
+  void tell(Function what) {
+    for (auto& doubt : services->tell_listeners(what))
+      self->send(recorder, std::move(doubt));
   }
 };
 
@@ -93,8 +92,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
         self->state.rules->on_end(end, now(self));
       },
       [self](const roadside_detections& view) {
-        self->state.tell_contexts(
-            [&](provider_context& context) { context.see(view); });
+        self->state.tell([&](broadcast_listener& x) { x.on_detections(view); });
       },
       [self](tick_atom, std::uint64_t number) {
         self->state.rules->on_timer(number, now(self));

@@ -1,14 +1,15 @@
 // SP: the edge server's side of offloading.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
 #include "channel/channel.hpp"
-#include "channel/multi_server_queue.hpp"
 #include "messages/type_ids.hpp"
+#include "messages/v2x/decode_broadcast.hpp"
+#include "offloading/service.hpp"
 #include "policies/api/context.hpp"
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,20 +20,20 @@ struct provider_setup {
   provider_id boot = 0;
   point position; ///< m, east-north.
   polygon area;
-  streets_ptr world;
-  georeference_ptr where;              ///< Where that is on Earth.
-  std::vector<service_type_ptr> kinds; ///< Offered.
+  std::shared_ptr<const road_map> map; ///< For the policy; not null.
+  /// Reads what vehicles tell everybody.
+  std::function<broadcast(const its_pdu&, time_point now)> decode;
+  std::vector<offloading::service> services; ///< With different names.
   std::unique_ptr<central_policy> codm;
   recorder_actor recorder;
   std::shared_ptr<const channel_profile> profile; ///< Computing times.
   random_stream seed{0, ""};
-  std::uint32_t number = 0;      ///< Of the provider, for its draws.
-  bool virtual_time = true;      ///< Model computing times.
-  bool crossings_granted = true; ///< As functions are told.
+  std::uint32_t number = 0; ///< Of the provider, for its draws.
+  bool virtual_time = true; ///< Model computing times.
 };
 
-/// Offers and runs services by the rules of offloading/provider. The context of
-/// each service hears of all CAMs and CPMs and of all that the provider's
+/// Offers and runs services by the rules of offloading/provider. The listener
+/// of each service is told all CAMs and CPMs and all that the provider's
 /// sensors see. ITS messages that cannot be read are as if they had not come.
 /// On exit it closes what still runs (shutdown).
 roadside_provider_actor spawn_service_provider(caf::actor_system& sys,

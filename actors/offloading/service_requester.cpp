@@ -1,8 +1,8 @@
 // SR: mailbox, timers and monitors; the rules are in offloading/requester.
 #include "actors/offloading/service_requester.hpp"
 
-#include "actors/offloading/onboard_service.hpp"
 #include "actors/offloading/requester_links.hpp"
+#include "actors/offloading/service_actors.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -29,21 +29,21 @@ struct requester_state {
     self->monitor(vehicle);
     links.emplace(self, setup.station, setup.recorder);
     std::vector<offloading::requested_service> services;
-    for (const auto& type : setup.kinds)
-      services.push_back(add(setup, type));
+    for (const auto& what : setup.services)
+      services.push_back(add(setup, what));
     rules.emplace(rules_of(std::move(setup), std::move(services)), *links,
                   now(self));
   }
 
   offloading::requested_service add(const requester_setup& setup,
-                                    const service_type_ptr& type) {
-    const auto here = onboard_setup(setup, *type, clock_of(self));
-    auto own = spawn_onboard_service(self->system(), setup, type, self, here);
-    if (own.client != vehicle)
-      self->link_to(own.client);
-    self->link_to(own.manager);
-    links->add(type->name(), std::move(own.manager));
-    return requested(setup, type, here);
+                                    const client_service& what) {
+    auto own = what.service.in_vehicle({setup.station, clock_of(self)});
+    auto actors = spawn_service_actors(self->system(), setup, what, own, self);
+    if (actors.client != vehicle)
+      self->link_to(actors.client);
+    self->link_to(actors.manager);
+    links->add(what.service.name, std::move(actors.manager));
+    return requested(setup, what.service, std::move(own));
   }
 
   void on_response(service_response& response,

@@ -1,31 +1,42 @@
 // SR: the vehicle's side of offloading.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
+#include "messages/protocol/motion.hpp"
 #include "messages/type_ids.hpp"
+#include "offloading/service.hpp"
 #include "policies/api/context.hpp"
 #include "world/vehicle/cycle_cost.hpp"
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace sofof {
 
+/// A service, and who asks it and uses its results.
+struct client_service {
+  offloading::service service;
+  /// By default the vehicle itself.
+  std::function<client_actor(caf::actor_system&, const vehicle_actor& vehicle)>
+      spawn_client = [](caf::actor_system&, const vehicle_actor& vehicle) {
+        return client_actor{vehicle};
+      };
+};
+
 /// What one vehicle's requester is made of.
 struct requester_setup {
   station_id station = 0;
-  route_ptr way; ///< The planned route.
-  streets_ptr world;
-  georeference_ptr where; ///< Where that is on Earth.
-  std::vector<service_type_ptr> kinds;
+  /// The route ahead, m, as decisions and requests need it.
+  std::function<std::vector<point>(const ego_state&)> path_ahead =
+      [](const ego_state&) { return std::vector<point>{}; };
+  std::vector<client_service> services; ///< With different names.
   std::unique_ptr<local_policy> lodm;
   vehicle_actor vehicle;
   recorder_actor recorder;
-  random_stream noise{0, ""};    ///< Of this vehicle.
-  bool virtual_time = true;      ///< Model run times instead of taking time.
-  bool crossings_granted = true; ///< As functions are told.
+  random_stream noise{0, ""}; ///< Of this vehicle.
+  bool virtual_time = true;   ///< Model run times instead of taking time.
   computer_options computer = {};
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const channel_oracle> future{};

@@ -146,7 +146,7 @@ baseline baseline_of(const scenario& s) {
   baseline by;
   const auto& channel = *s.network.channel;
   for (const auto& kind : s.services) {
-    const auto& options = kind->common;
+    const auto& options = kind->options;
     by.utilisation_by.emplace(kind->name(),
                               channel.mean_service_s() * options.demand
                                   / to_seconds(options.period)

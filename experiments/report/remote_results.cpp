@@ -58,7 +58,7 @@ std::set<double> limits_ms(std::span<const recorded_run> runs,
   for (const auto& run : runs)
     for (const auto& kind : run.what.services)
       if (kind->name() == service)
-        all.insert(to_seconds(kind->common.limits.*what.limit) * 1000);
+        all.insert(to_seconds(kind->options.limits.*what.limit) * 1000);
   return all;
 }
 

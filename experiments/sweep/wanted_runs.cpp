@@ -22,7 +22,8 @@ double cost_of(const scenario& s) {
   auto cycles = setup;
   const auto vehicles = static_cast<double>(place_vehicles(s).size());
   for (const auto& kind : s.services)
-    cycles += vehicles * to_seconds(s.length) / to_seconds(kind->common.period);
+    cycles +=
+        vehicles * to_seconds(s.length) / to_seconds(kind->options.period);
   return cycles;
 }
 

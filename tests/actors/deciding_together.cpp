@@ -137,12 +137,10 @@ TEST_CASE_FIXTURE(provider_world, "what a choice behind a filter leaves "
                                   "undecided is refused") {
   auto s = setup();
   s.codm = std::make_unique<filtered_codm>(std::make_unique<spy_codm>(codm));
-  auto streets_with_road = std::make_shared<streets>();
-  streets_with_road->map =
+  s.map = std::make_shared<const road_map>(
       road_map{"street",
                {},
-               {{"street", {{-500, 0}, {500, 0}}, 1.75, {{0, 14}}, {}, 0}}};
-  s.world = streets_with_road;
+               {{"street", {{-500, 0}, {500, 0}}, 1.75, {{0, 14}}, {}, 0}}});
   provider = own(spawn_service_provider(system(), std::move(s)));
   hear(inside);
   codm->at_most = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/planning_sides.hpp"
 #include "actors/simulation/vehicle.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/trajectory/lane_follow.hpp"
@@ -54,15 +55,11 @@ struct driving_world : virtual_world {
 
   vehicle_actor spawn() {
     vehicle_setup setup;
-    setup.station = station;
-    setup.way = way;
-    setup.start_s_m = 100;
-    setup.start_speed_mps = start_speed_mps;
+    setup.car = {station, way, 100, start_speed_mps, {}, 200ms, 100ms};
+    setup.plans = make_plan_client();
     setup.appears_after = appears_after;
     setup.v2x = v2x;
     setup.where = in_ulm();
-    setup.fresh_limit = 200ms;
-    setup.track_period = 100ms;
     setup.antennas = {{near.handle, {150, 0}, range_m},
                       {distant.handle, {500, 0}, range_m}};
     setup.road = road.handle;

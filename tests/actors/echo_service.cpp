@@ -4,11 +4,13 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
+#include "actors/services/service_type.hpp"
 #include "actors/simulation/network_link.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
+#include "world/roads/streets.hpp"
 
 #include <doctest/doctest.h>
 
@@ -27,8 +29,7 @@ struct echo_world : virtual_world {
   probe<vehicle_actor> vehicle = listen<vehicle_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
   streets_ptr world = one_street();
-  std::vector<service_type_ptr> kinds{
-      std::make_shared<echo_service>("never_heard_of")};
+  offloading::service service = echo_service("never_heard_of");
   provider_actor provider = own(spawn_provider());
   link_actor link = own(spawn_link());
   onboard_requester_actor requester = own(spawn_requester());
@@ -52,9 +53,9 @@ struct echo_world : virtual_world {
     provider_setup s;
     s.boot = 1;
     s.area = polygon::regular({0, 0}, 100, 24);
-    s.world = world;
-    s.where = in_ulm();
-    s.kinds = kinds;
+    s.map = {world, &world->map};
+    s.decode = decode_in_ulm();
+    s.services = {service};
     s.codm = make_codm("always");
     s.recorder = recorder.handle;
     s.profile = profile();
@@ -69,10 +70,8 @@ struct echo_world : virtual_world {
   onboard_requester_actor spawn_requester() {
     requester_setup s;
     s.station = station;
-    s.way = world->routes.front();
-    s.world = world;
-    s.where = in_ulm();
-    s.kinds = kinds;
+    s.path_ahead = toy::path_ahead_on(world->routes.front());
+    s.services = {{service}};
     s.lodm = make_lodm("always");
     s.vehicle = vehicle.handle;
     s.recorder = recorder.handle;
@@ -101,7 +100,7 @@ struct echo_world : virtual_world {
 } // namespace
 
 TEST_CASE("the echo service is defined in the tests alone") {
-  for (const auto name : service_kind_names())
+  for (const auto name : service_type_names())
     CHECK(name != "never_heard_of");
 }
 

@@ -292,7 +292,7 @@ namespace {
 struct polite_world : provider_world {
   polite_world() {
     auto s = setup();
-    s.kinds = {std::make_shared<its_echo>("one")};
+    s.services = {its_echo("one")};
     provider = own(spawn_service_provider(system(), std::move(s)));
     hear(inside);
     start({one});
@@ -300,7 +300,7 @@ struct polite_world : provider_world {
   }
 
   const std::vector<std::byte> goodbye =
-      its_echo::octets(true, false).as<its_pdu>()->octets;
+      its_octets(true, false).as<its_pdu>()->octets;
 };
 
 } // namespace

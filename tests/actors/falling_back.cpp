@@ -408,7 +408,7 @@ namespace {
 struct polite_requester_world : requester_world {
   polite_requester_world() {
     auto s = setup();
-    s.kinds = {std::make_shared<its_echo>("one")};
+    s.services = {{its_echo("one")}};
     requester = own(spawn_service_requester(system(), std::move(s)));
     settle();
     drive_to(100);
@@ -420,7 +420,7 @@ struct polite_requester_world : requester_world {
   }
 
   const std::vector<std::byte> goodbye =
-      its_echo::octets(false, true).as<its_pdu>()->octets;
+      its_octets(false, true).as<its_pdu>()->octets;
 };
 
 } // namespace

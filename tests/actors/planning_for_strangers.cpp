@@ -303,7 +303,7 @@ TEST_CASE("what nobody can have seen yet blinds no provider's planner") {
   dreamer.at += 10s;
   planner.hear(pdu_of(dreamer));
   planner.hear(pdu_of(dreamer, {}));
-  planner.setup.site->see({start + 10s, {}});
+  planner.there->listener()->on_detections({start + 10s, {}});
   *planner.now = start + 50ms;
   planner.hear(pdu_of({102, start + 50ms, {0, 300}}, {{1, obstacle}}));
   CHECK(stands_m() < 40);

@@ -2,8 +2,9 @@
 // time that a test sets.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
+#include "actors/offloading/broadcast_listener.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/service_type.hpp"
 #include "messages/v2x/decode_broadcast.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
@@ -36,20 +37,20 @@ public:
   static constexpr station_id station = 101;
   static constexpr station_id provider = 9001;
 
-  explicit planning(bool at_provider, bool crossings_granted = true) {
-    setup.station = station;
-    setup.remote = at_provider;
-    setup.crossings_granted = crossings_granted;
-    setup.clock = [t = now] { return *t; };
-    if (at_provider) {
-      setup.provider = {provider, {150, 50}};
-      setup.site = kind->make_site(setup);
-    }
-    function = kind->make_function(setup);
+  explicit planning(bool at_provider, bool crossings_granted = true)
+      : world{.streets = blocks(),
+              .where = in_ulm(),
+              .crossings_granted = crossings_granted} {
+    const auto clock = [t = now] { return *t; };
+    const auto service = make_service_type("trajectory_planning")->in(world);
+    vehicle = service.in_vehicle({station, clock});
+    if (at_provider)
+      there = service.at_provider({provider, {150, 50}, clock});
+    function = there ? there->make_function(station) : vehicle->make_function();
   }
 
   route_ptr way(const std::string& name) const {
-    return setup.world->find(name);
+    return world.streets->find(name);
   }
 
   service_output run(const payload& what, const payload& in_use = {}) {
@@ -66,22 +67,19 @@ public:
 
   /// A message that everybody hears comes in.
   void hear(const its_pdu& message) {
-    const auto heard = understand(message, *setup.where, *now);
+    const auto heard = understand(message, *world.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
-      setup.site->hear(*own, own->station);
+      there->listener()->on_cam(*own, own->station);
     if (const auto* seen = std::get_if<object_list>(&heard))
-      setup.site->hear(*seen, seen->from);
+      there->listener()->on_objects(*seen, seen->from);
   }
 
   /// @returns the vehicle's word to who plans for it, or takes over.
   payload word(const plan_request& request, const payload& in_use = {},
                bool takes_over = false) const {
-    auto vehicle = setup;
-    vehicle.remote = false;
-    return kind
-        ->on_air(vehicle,
-                 {running, request.from.at, payload::of(request), in_use},
-                 takes_over)
+    return vehicle
+        ->encode_input({running, request.from.at, payload::of(request), in_use},
+                       takes_over)
         .what;
   }
 
@@ -91,9 +89,7 @@ public:
              const trajectory* before = nullptr) const {
     if (auto own = result.what.as<trajectory>())
       return own;
-    auto vehicle = setup;
-    vehicle.remote = false;
-    const auto plan = kind->make_judge(vehicle)
+    const auto plan = vehicle->make_judge()
                           ->judge(result.what,
                                   {running, of.from.at, payload::of(of),
                                    before ? payload::of(*before) : payload{}},
@@ -118,8 +114,9 @@ public:
 
   std::shared_ptr<time_point> now = std::make_shared<time_point>(start);
   session_id running{11, station, "trajectory_planning", 7};
-  service_type_ptr kind = make_service_kind("trajectory_planning");
-  service_setup setup{.world = blocks(), .where = in_ulm()};
+  service_world world;
+  std::shared_ptr<offloading::vehicle_service> vehicle;
+  std::shared_ptr<offloading::provider_service> there; ///< Perhaps null.
   std::shared_ptr<service_function> function;
 };
 

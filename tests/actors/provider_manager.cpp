@@ -21,7 +21,7 @@ struct provider_manager_world : virtual_world {
   provider_manager_actor spawn() {
     offloading::cycle_setup setup;
     setup.running = running;
-    setup.function = echo_service{"echo"}.make_function({});
+    setup.function = std::make_shared<echo_function>();
     setup.period = 50ms;
     setup.phase = 20ms;
     setup.finish = [](time_point start, std::uint64_t) { return start + 3ms; };

@@ -37,10 +37,9 @@ struct provider_world : virtual_world {
     s.boot = boot;
     s.position = {1, 2};
     s.area = polygon{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
-    s.world = std::make_shared<streets>();
-    s.where = in_ulm();
-    s.kinds = {std::make_shared<echo_service>("one"),
-               std::make_shared<echo_service>("two")};
+    s.map = std::make_shared<const road_map>();
+    s.decode = decode_in_ulm();
+    s.services = {echo_service("one"), echo_service("two")};
     s.codm = std::make_unique<spy_codm>(codm);
     s.recorder = recorder.handle;
     s.profile = profile;

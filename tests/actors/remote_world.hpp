@@ -13,6 +13,7 @@
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
 #include "tests/support/wire.hpp"
+#include "world/roads/streets.hpp"
 
 #include <doctest/doctest.h>
 
@@ -70,9 +71,8 @@ struct remote_world : virtual_world {
         "street", std::vector<std::string>{"street"}, false));
     return world;
   }
-  static std::vector<service_type_ptr> kinds() {
-    return {std::make_shared<echo_service>("one"),
-            std::make_shared<echo_service>("two")};
+  static std::vector<offloading::service> services() {
+    return {echo_service("one"), echo_service("two")};
   }
 
   uplink_setup make_uplink(std::size_t count) {
@@ -107,10 +107,9 @@ struct remote_world : virtual_world {
     introduce(uplink, station, c.far);
     requester_setup setup;
     setup.station = station;
-    setup.way = world->routes.front();
-    setup.world = world;
-    setup.where = in_ulm();
-    setup.kinds = kinds();
+    setup.path_ahead = toy::path_ahead_on(world->routes.front());
+    for (auto& service : services())
+      setup.services.push_back({std::move(service)});
     setup.lodm = std::make_unique<spy_lodm>(lodm);
     setup.vehicle = c.vehicle.handle;
     setup.recorder = here.handle;
@@ -129,9 +128,9 @@ struct remote_world : virtual_world {
     s.boot = ++boot;
     s.position = {1000, 0};
     s.area = polygon{{{-100, -100}, {3000, -100}, {3000, 100}, {-100, 100}}};
-    s.world = world;
-    s.where = in_ulm();
-    s.kinds = kinds();
+    s.map = {world, &world->map};
+    s.decode = decode_in_ulm();
+    s.services = services();
     s.codm = std::make_unique<spy_codm>(codm);
     s.recorder = there.handle;
     s.profile =

@@ -17,7 +17,7 @@ namespace {
 
 /// Understands echoes alone, and believes as they do.
 struct echo_judge final : result_judge {
-  std::unique_ptr<result_judge> believes = echo_service{"echo"}.make_judge({});
+  std::unique_ptr<result_judge> believes = echo_in_vehicle{}.make_judge();
 
   judged_result judge(const payload& result, const service_input& latest,
                       time_point now) override {
@@ -27,13 +27,25 @@ struct echo_judge final : result_judge {
   }
 };
 
+/// An echo that is told whether it says ITS messages on the air.
+struct quiet_echo final : echo_in_vehicle {
+  std::shared_ptr<echo_in_vehicle> speaks;
+
+  service_input encode_input(service_input input, bool takes_over) override {
+    return speaks ? speaks->encode_input(std::move(input), takes_over)
+                  : echo_in_vehicle::encode_input(std::move(input), takes_over);
+  }
+  std::unique_ptr<result_judge> make_judge() override {
+    return std::make_unique<echo_judge>();
+  }
+};
+
 /// A manager whose local service runs every 50 ms and takes 5 ms; its clients
 /// and peers are probes.
 struct managed_world : virtual_world {
   const session_id running{1, 101, "echo", 7};
   const session_id next_running{1, 101, "echo", 8};
-  echo_service kind{"echo"};
-  std::shared_ptr<echo_service> speak; // on the air, if not so
+  std::shared_ptr<quiet_echo> service = std::make_shared<quiet_echo>();
   probe<client_actor> client = listen<client_actor>();
   probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
@@ -45,13 +57,10 @@ struct managed_world : virtual_world {
   requester_manager_actor spawn() {
     requester_manager_setup setup;
     setup.station = 101;
-    setup.kind = kind.name();
-    setup.options = kind.common;
-    setup.on_air = [this](service_input input, bool takes_over) {
-      return (speak ? *speak : kind).on_air({}, std::move(input), takes_over);
-    };
-    setup.make_judge = [] { return std::make_unique<echo_judge>(); };
-    setup.local.function = kind.make_function({});
+    setup.kind = "echo";
+    setup.options = echo_options();
+    setup.service = service;
+    setup.local.function = service->make_function();
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {
       return start + 5ms;
@@ -415,7 +424,7 @@ TEST_CASE_FIXTURE(managed_world,
 
 TEST_CASE_FIXTURE(managed_world, "what crosses the air is what the service "
                                  "says there, recorded as it leaves") {
-  speak = std::make_shared<its_echo>("echo");
+  service->speaks = std::make_shared<its_echo_in_vehicle>();
   feed(1);
   run_for(1s);
   CHECK(recorder->count<air_record>() == 0);
@@ -433,7 +442,7 @@ TEST_CASE_FIXTURE(managed_world, "what crosses the air is what the service "
       {{1, true}, {2, true}, {3, false}}};
   for (std::size_t k = 0; k < 3; ++k) {
     REQUIRE(inputs[k].what.as<its_pdu>());
-    const auto expected = its_echo::octets(said[k].first, said[k].second);
+    const auto expected = its_octets(said[k].first, said[k].second);
     CHECK(inputs[k].what.as<its_pdu>()->octets
           == expected.as<its_pdu>()->octets);
     CHECK(records[k].message.octets == expected.as<its_pdu>()->octets);

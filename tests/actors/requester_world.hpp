@@ -8,6 +8,7 @@
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "tests/support/virtual_world.hpp"
+#include "world/roads/streets.hpp"
 
 #include <doctest/doctest.h>
 
@@ -54,11 +55,8 @@ struct requester_world : virtual_world {
   requester_setup setup() const {
     requester_setup setup;
     setup.station = station;
-    setup.way = world->routes.front();
-    setup.world = world;
-    setup.where = in_ulm();
-    setup.kinds = {std::make_shared<echo_service>("one"),
-                   std::make_shared<echo_service>("two")};
+    setup.path_ahead = toy::path_ahead_on(world->routes.front());
+    setup.services = {{echo_service("one")}, {echo_service("two")}};
     setup.lodm = std::make_unique<spy_lodm>(lodm);
     setup.vehicle = vehicle.handle;
     setup.recorder = recorder.handle;

@@ -1,6 +1,6 @@
 // Tests of the kinds of services: names, options, functions.
-#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/service_type.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
@@ -20,20 +20,22 @@ using namespace sofof::test;
 
 namespace {
 
-streets_ptr one_street() {
+service_world one_street() {
   auto world = std::make_shared<streets>();
   world->map = road_map{"map", {}, {toy::straight("lane", {0, 0}, {1000, 0})}};
   world->routes.push_back(
       world->map.make_route("street", std::vector<std::string>{"lane"}, false));
-  return world;
+  return {.streets = std::move(world), .where = in_ulm()};
 }
 
-service_setup on(streets_ptr world) {
-  service_setup setup;
-  setup.world = std::move(world);
-  setup.where = in_ulm();
-  setup.station = 101;
-  return setup;
+/// The service of a name, in vehicle 101.
+std::shared_ptr<offloading::vehicle_service>
+in_vehicle(std::string_view name, const service_world& world = one_street()) {
+  return make_service_type(name)->in(world).in_vehicle({.station = 101});
+}
+
+std::shared_ptr<offloading::vehicle_service> planning_in_vehicle() {
+  return in_vehicle("trajectory_planning");
 }
 
 /// What becomes of a payload whose bytes break on the way.
@@ -59,29 +61,29 @@ plan_request standing_at(double s_m, time_point at) {
 } // namespace
 
 TEST_CASE("both services are there, under their names") {
-  const auto names = service_kind_names();
+  const auto names = service_type_names();
   CHECK(std::ranges::is_sorted(names));
   for (const auto name : {"cabin_climate", "trajectory_planning"})
     CHECK(std::ranges::find(names, name) != names.end());
   for (const auto name : names) {
-    REQUIRE(make_service_kind(name));
-    CHECK(make_service_kind(name)->name() == name);
+    REQUIRE(make_service_type(name));
+    CHECK(make_service_type(name)->name() == name);
     CHECK_NOTHROW(service_name{name});
   }
 }
 
 TEST_CASE("there is no service of an unknown name") {
-  CHECK(!make_service_kind(""));
-  CHECK(!make_service_kind("trajectory"));
-  CHECK(!make_service_kind("Cabin_climate"));
+  CHECK(!make_service_type(""));
+  CHECK(!make_service_type("trajectory"));
+  CHECK(!make_service_type("Cabin_climate"));
 }
 
 TEST_CASE("every kind lists its options once, defaults within their ranges, "
           "the common ones first") {
-  for (const auto name : service_kind_names()) {
+  for (const auto name : service_type_names()) {
     CAPTURE(name);
     option_list options;
-    make_service_kind(name)->fields(options);
+    make_service_type(name)->fields(options);
     CHECK(options.refused.empty());
     for (const auto key :
          {"max_latency", "max_interarrival", "period", "input_period", "demand",
@@ -91,16 +93,16 @@ TEST_CASE("every kind lists its options once, defaults within their ranges, "
 }
 
 TEST_CASE("trajectory planning promises what the paper chose") {
-  const auto kind = make_service_kind("trajectory_planning");
-  CHECK(kind->common.limits.max_latency == 50ms);
-  CHECK(kind->common.limits.max_interarrival == 100ms);
-  CHECK(kind->common.period == 50ms);
-  CHECK(kind->common.run_time_mean == 5500us);
-  CHECK(kind->common.run_time_sd == 2ms);
+  const auto kind = make_service_type("trajectory_planning");
+  CHECK(kind->options.limits.max_latency == 50ms);
+  CHECK(kind->options.limits.max_interarrival == 100ms);
+  CHECK(kind->options.period == 50ms);
+  CHECK(kind->options.run_time_mean == 5500us);
+  CHECK(kind->options.run_time_sd == 2ms);
 }
 
 TEST_CASE("a slow computer takes longer, and never longer than a period") {
-  const auto usual = make_service_kind("trajectory_planning")->common;
+  const auto usual = make_service_type("trajectory_planning")->options;
   const auto same = on(computer_options{}, usual);
   CHECK(same.run_time_mean == usual.run_time_mean);
   CHECK(same.run_time_max == usual.run_time_max);
@@ -114,16 +116,16 @@ TEST_CASE("a slow computer takes longer, and never longer than a period") {
 }
 
 TEST_CASE("cabin climate is slow and patient") {
-  const auto kind = make_service_kind("cabin_climate");
-  CHECK(kind->common.limits.max_latency == 2s);
-  CHECK(kind->common.limits.max_interarrival == 5s);
-  CHECK(kind->common.period == 1s);
+  const auto kind = make_service_type("cabin_climate");
+  CHECK(kind->options.limits.max_latency == 2s);
+  CHECK(kind->options.limits.max_interarrival == 5s);
+  CHECK(kind->options.period == 1s);
 }
 
 TEST_CASE("every kind keeps its own limits at home") {
-  for (const auto name : service_kind_names()) {
+  for (const auto name : service_type_names()) {
     CAPTURE(name);
-    const auto common = make_service_kind(name)->common;
+    const auto common = make_service_type(name)->options;
     CHECK(common.run_time_max <= common.period);
     CHECK(common.run_time_mean <= common.run_time_max);
     CHECK(common.period <= common.limits.max_interarrival);
@@ -133,14 +135,14 @@ TEST_CASE("every kind keeps its own limits at home") {
 TEST_CASE("an unknown planner is refused") {
   option_list options;
   options.texts = {{"planner.name", "crystal_ball"}};
-  make_service_kind("trajectory_planning")->fields(options);
+  make_service_type("trajectory_planning")->fields(options);
   CHECK(options.refused.contains("planner.name"));
 }
 
 TEST_CASE("a function without proper input gives no result") {
-  for (const auto name : service_kind_names()) {
+  for (const auto name : service_type_names()) {
     CAPTURE(name);
-    auto function = make_service_kind(name)->make_function(on(one_street()));
+    auto function = in_vehicle(name)->make_function();
     const auto result_of = [&](payload what) {
       return function->run(time_point{1s}, {{}, time_point{1s}, what}).what;
     };
@@ -163,8 +165,7 @@ std::shared_ptr<const trajectory> planned(const service_output& result) {
 } // namespace
 
 TEST_CASE("a plan begins when its cycle begins, where the vehicle is") {
-  const auto kind = make_service_kind("trajectory_planning");
-  auto function = kind->make_function(on(one_street()));
+  const auto function = planning_in_vehicle()->make_function();
   const time_point t{3s};
   const auto ask = standing_at(100, t);
   const auto plan = planned(function->run(t, {{}, t, payload::of(ask)}));
@@ -176,8 +177,7 @@ TEST_CASE("a plan begins when its cycle begins, where the vehicle is") {
 }
 
 TEST_CASE("a plan goes on from the one before") {
-  const auto kind = make_service_kind("trajectory_planning");
-  auto function = kind->make_function(on(one_street()));
+  const auto function = planning_in_vehicle()->make_function();
   const auto ask = standing_at(100, time_point{3s});
   const service_input old_input{{}, time_point{3s}, payload::of(ask)};
   const auto first = planned(function->run(time_point{3s}, old_input));
@@ -190,8 +190,7 @@ TEST_CASE("a plan goes on from the one before") {
 }
 
 TEST_CASE("on a way that is not on the map there is no plan") {
-  const auto kind = make_service_kind("trajectory_planning");
-  auto function = kind->make_function(on(one_street()));
+  const auto function = planning_in_vehicle()->make_function();
   auto ask = standing_at(100, time_point{3s});
   ask.way = "lane"; // a lane is no route
   CHECK(function->run(time_point{3s}, {{}, time_point{3s}, payload::of(ask)})
@@ -200,9 +199,9 @@ TEST_CASE("on a way that is not on the map there is no plan") {
 }
 
 TEST_CASE("two functions of one kind know nothing of each other") {
-  const auto kind = make_service_kind("trajectory_planning");
-  auto a = kind->make_function(on(one_street()));
-  auto b = kind->make_function(on(one_street()));
+  const auto planning = planning_in_vehicle();
+  const auto a = planning->make_function();
+  const auto b = planning->make_function();
   const time_point t{3s};
   a->run(t, {{}, t, payload::of(standing_at(100, t))});
   const auto plan =
@@ -214,8 +213,8 @@ TEST_CASE("two functions of one kind know nothing of each other") {
 TEST_CASE(
     "a vehicle understands what is suggested to it, and nothing else as a "
     "plan") {
-  const auto kind = make_service_kind("trajectory_planning");
-  const auto setup = on(one_street());
+  const auto world = one_street();
+  const auto planning = in_vehicle("trajectory_planning", world);
   const trajectory plan{
       time_point{3s},
       {{0, 100, {100, 0}, 0, 0, 8, 0}, {3, 124, {124, 0}, 0, 0, 8, 0}}};
@@ -227,11 +226,11 @@ TEST_CASE(
     return encoded(message);
   };
   plan_request ask;
-  ask.way = setup.world->routes.front()->name();
+  ask.way = world.streets->routes.front()->name();
   ask.from.s_m = 100;
   ask.own = {101, time_point{3s}, {100, 0}, 0, 8};
   const auto means = [&](const payload& result) {
-    return kind->make_judge(setup)
+    return planning->make_judge()
         ->judge(result, {{}, ask.own.at, payload::of(ask)}, time_point{3020ms})
         .what.as<trajectory>();
   };
@@ -244,7 +243,7 @@ TEST_CASE(
   CHECK(!means({}));
   CHECK(!means(payload::of(echo{1})));
   CHECK(!means(payload::of(pdu_of(ask.own))));
-  CHECK(!means(kind->termination_message(setup, {}, ask.own.at, &ask.own)));
+  CHECK(!means(planning->termination_message({}, ask.own.at, ask.own)));
   // Nor what begins elsewhere, beside the vehicle or ahead of it, or with
   // another speed.
   for (const auto off : {point{3, 0}, point{60, 0}, point{0, 2}}) {
@@ -257,15 +256,16 @@ TEST_CASE(
 }
 
 TEST_CASE("planning ends with an MCM of who ends it") {
-  const auto kind = make_service_kind("trajectory_planning");
-  auto setup = on(one_street());
+  const auto planning =
+      make_service_type("trajectory_planning")->in(one_street());
+  const auto vehicle = planning.in_vehicle({.station = 101});
   const cam own{101, time_point{3s}, {100, 0}, 0, 8};
   service_end end{{11, 101, "trajectory_planning", 0x10007},
                   end_reason::qos_gap,
                   side::requester};
 
   const auto word =
-      kind->termination_message(setup, end, own.at, &own).as<its_pdu>();
+      vehicle->termination_message(end, own.at, own).as<its_pdu>();
   REQUIRE(word);
   const auto said = message_in<etsi::mcm>(*word);
   REQUIRE(said);
@@ -275,10 +275,9 @@ TEST_CASE("planning ends with an MCM of who ends it") {
   REQUIRE(user.advice_response);
   CHECK(user.advice_response->maneuver_id == 7);
   CHECK(user.advice_response->followed == etsi::maneuver_response::reject);
-  CHECK(kind->termination_message(setup, end, own.at, nullptr).type().empty());
 
-  setup.remote = true;
-  setup.provider = {9001, {150, 50}};
+  const auto provider =
+      planning.at_provider({.station = 9001, .position = {150, 50}});
   const std::pair<end_reason, etsi::termination_status> reasons[]{
       {end_reason::left_area, etsi::termination_status::regular_end},
       {end_reason::shutdown, etsi::termination_status::regular_end},
@@ -287,8 +286,7 @@ TEST_CASE("planning ends with an MCM of who ends it") {
       {end_reason::peer_lost, etsi::termination_status::reason_unknown}};
   for (const auto& [why, status] : reasons) {
     end.reason = why;
-    const auto pdu =
-        kind->termination_message(setup, end, own.at, nullptr).as<its_pdu>();
+    const auto pdu = provider->termination_message(end, own.at).as<its_pdu>();
     REQUIRE(pdu);
     const auto told = message_in<etsi::mcm>(*pdu);
     REQUIRE(told);
@@ -304,17 +302,20 @@ TEST_CASE("planning ends with an MCM of who ends it") {
 }
 
 TEST_CASE("other services say no farewell") {
-  const auto climate = make_service_kind("cabin_climate");
+  const auto climate = make_service_type("cabin_climate")->in(one_street());
   const cam own{101, time_point{3s}, {}};
-  CHECK(climate->termination_message(on(one_street()), {}, own.at, &own)
+  CHECK(climate.in_vehicle({.station = 101})
+            ->termination_message({}, own.at, own)
             .type()
             .empty());
+  CHECK(
+      climate.at_provider({})->termination_message({}, own.at).type().empty());
 }
 
 TEST_CASE_FIXTURE(virtual_world, "the vehicle itself uses its plans") {
   const auto vehicle = listen<vehicle_actor>();
-  const auto kind = make_service_kind("trajectory_planning");
-  CHECK(caf::actor_cast<caf::actor>(
-            kind->spawn_client(system(), {}, vehicle.handle))
-        == caf::actor_cast<caf::actor>(vehicle.handle));
+  const auto kind = make_service_type("trajectory_planning");
+  CHECK(
+      caf::actor_cast<caf::actor>(kind->spawn_client(system(), vehicle.handle))
+      == caf::actor_cast<caf::actor>(vehicle.handle));
 }

@@ -90,8 +90,6 @@ struct actor_world : virtual_world {
   std::uint64_t seed;
   link_fault_options faults;
   streets_ptr world = one_long_street();
-  std::vector<service_type_ptr> kinds{std::make_shared<echo_service>("one"),
-                                      std::make_shared<echo_service>("two")};
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
   recorder_actor recorder =
       own(spawn_recorder(system(), std::make_shared<ledger_sink>(book)));
@@ -108,11 +106,9 @@ struct actor_world : virtual_world {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
     requester_setup setup;
-    setup.where = somewhere();
     setup.station = shuttle::station;
-    setup.way = world->routes.front();
-    setup.world = world;
-    setup.kinds = kinds;
+    setup.path_ahead = toy::path_ahead_on(world->routes.front());
+    setup.services = {{echo_service("one")}, {echo_service("two")}};
     setup.lodm = make_lodm("always");
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
@@ -123,10 +119,13 @@ struct actor_world : virtual_world {
   void add_provider(int k) {
     provider_setup setup;
     setup.boot = static_cast<provider_id>(k + 1);
-    setup.where = somewhere();
+    setup.decode = [where = somewhere()](const its_pdu& message,
+                                         time_point now) {
+      return understand(message, *where, now);
+    };
     setup.area = area_of_provider(k);
-    setup.world = world;
-    setup.kinds = kinds;
+    setup.map = {world, &world->map};
+    setup.services = {echo_service("one"), echo_service("two")};
     setup.codm = make_codm("always");
     setup.recorder = recorder;
     setup.profile = profile;

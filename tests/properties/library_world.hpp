@@ -12,7 +12,7 @@
 #include "offloading/vehicle_side.hpp"
 #include "policies/registry.hpp"
 #include "tests/properties/ledger.hpp"
-#include "tests/support/echo.hpp"
+#include "tests/support/echo_service.hpp"
 
 #include <caf/binary_serializer.hpp>
 #include <caf/byte_buffer.hpp>
@@ -135,13 +135,6 @@ private:
   link_faults faults_;
   std::uint64_t carried_ = 0;
   std::set<session_id> sessions_;
-};
-
-/// Gives back its input.
-struct echo_function final : service_function {
-  service_output run(time_point, const service_input& input) override {
-    return input.what;
-  }
 };
 
 struct library_world {

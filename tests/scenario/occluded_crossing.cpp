@@ -2,6 +2,7 @@
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"
+#include "tests/support/changed_service.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -62,18 +63,6 @@ bool is_hidden(point from, point to, const road_map& map) {
     return false;
   });
 }
-
-/// Trajectory planning that notes for whom its functions are made.
-class noted_planning final : public plain_planning {
-public:
-  std::shared_ptr<service_function>
-  make_function(const service_setup& setup) const override {
-    made.push_back(setup);
-    return plain_planning::make_function(setup);
-  }
-
-  mutable std::vector<service_setup> made;
-};
 
 } // namespace
 
@@ -175,17 +164,18 @@ TEST_CASE("who never asks plans on board") {
   CHECK(records.episodes.empty());
 }
 
-TEST_CASE("functions know whether crossings are granted") {
+TEST_CASE("services know whether crossings are granted") {
   for (const auto granted : {true, false}) {
     auto s = load_crossing({"duration=2s"});
     s.traffic.crossings = granted ? "granted" : "perceived";
-    const auto kind = std::make_shared<noted_planning>();
-    s.services = {kind};
+    std::vector<bool> told;
+    s.services = {std::make_shared<changed_service>(
+        make_service_type("trajectory_planning"),
+        [&](offloading::service&, const service_world& world) {
+          told.push_back(world.crossings_granted);
+        })};
     play(s);
-    REQUIRE(kind->made.size() == 3);
-    CHECK(std::ranges::count(kind->made, true, &service_setup::remote) == 1);
-    for (const auto& made : kind->made)
-      CHECK(made.crossings_granted == granted);
+    CHECK(told == std::vector{granted});
   }
 }
 

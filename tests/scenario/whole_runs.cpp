@@ -1,7 +1,9 @@
 // Whole runs in virtual time, judged by their records.
+#include "actors/offloading/broadcast_listener.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"
+#include "tests/support/changed_service.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,48 +26,52 @@ memory_sink drive(const std::vector<std::string>& overrides) {
   return play(load_scenario(ulm_lehr, overrides));
 }
 
-/// Trajectory planning whose providers write down what they get to know.
-class watched_planning final : public plain_planning {
-public:
-  struct notebook final : provider_context {
-    std::size_t heard = 0, seen = 0;
-    std::vector<point> where;
-    std::shared_ptr<provider_context> real;
-    void hear(const cam& c, sender_id from) override {
-      ++heard;
-      real->hear(c, from);
-    }
-    void hear(const object_list& told, sender_id from) override {
-      real->hear(told, from);
-      note(told.objects);
-    }
-    void see(const roadside_detections& view) override {
-      real->see(view);
-      note(view.objects);
-    }
-    void note(const std::vector<perceived_object>& objects) {
-      ++seen;
-      for (const auto& o : objects)
-        where.push_back(o.centre);
-    }
-  };
+/// What providers get to know, besides the real listener.
+struct notebook final : broadcast_listener {
+  std::size_t heard = 0, seen = 0;
+  std::vector<point> where;
+  std::shared_ptr<offloading::provider_service> real;
 
-  std::shared_ptr<provider_context>
-  make_site(const service_setup& setup) const override {
-    notes->real = plain_planning::make_site(setup);
-    return notes;
+  void on_cam(const cam& c, sender_id from) override {
+    ++heard;
+    real->listener()->on_cam(c, from);
   }
-
-  std::shared_ptr<service_function>
-  make_function(const service_setup& setup) const override {
-    auto real = setup;
-    if (real.site)
-      real.site = notes->real;
-    return plain_planning::make_function(real);
+  void on_objects(const object_list& told, sender_id from) override {
+    real->listener()->on_objects(told, from);
+    keep(told.objects);
   }
-
-  std::shared_ptr<notebook> notes = std::make_shared<notebook>();
+  void on_detections(const roadside_detections& view) override {
+    real->listener()->on_detections(view);
+    keep(view.objects);
+  }
+  void keep(const std::vector<perceived_object>& objects) {
+    ++seen;
+    for (const auto& o : objects)
+      where.push_back(o.centre);
+  }
 };
+
+/// Planning at a provider that writes down what it gets to know.
+struct watched_planning final : real_at_provider {
+  std::shared_ptr<notebook> notes;
+  watched_planning(std::shared_ptr<offloading::provider_service> real,
+                   std::shared_ptr<notebook> into)
+      : real_at_provider{real}, notes{std::move(into)} {
+    notes->real = std::move(real);
+  }
+  broadcast_listener* listener() override { return notes.get(); }
+};
+
+service_type_ptr watched(std::shared_ptr<notebook> notes) {
+  return std::make_shared<changed_service>(
+      make_service_type("trajectory_planning"),
+      [notes](offloading::service& planning, const service_world&) {
+        planning.at_provider = [real = planning.at_provider,
+                                notes](const auto& provider) {
+          return std::make_shared<watched_planning>(real(provider), notes);
+        };
+      });
+}
 
 /// Latency of each remote trajectory of one station, by cycle.
 std::map<std::uint64_t, duration> latencies(const memory_sink& records,
@@ -222,13 +228,13 @@ TEST_CASE("a provider knows of the CAMs and of what its sensors see") {
   auto s = load_scenario(
       ulm_lehr, std::vector<std::string>{"duration=10s", "v2x.cam=fixed_10hz",
                                          "v2x.cpm=off"});
-  const auto planning = std::make_shared<watched_planning>();
-  s.services = {planning};
+  const auto written = std::make_shared<notebook>();
+  s.services = {watched(written)};
   s.obstacles.push_back({{20, -30}});
   auto& sensors = s.providers.front().sensors;
   sensors = {{{0, 0}, 0, {.range_m = 40, .occlusion = false}}};
   play(s);
-  const auto& notes = *planning->notes;
+  const auto& notes = *written;
   CHECK(notes.heard > 6 * 90); // 10 Hz each, less what is under way
   CHECK(notes.seen >= 199);
   CHECK(notes.where.size() >= 199);

@@ -1,51 +1,32 @@
 // The smallest service there is, for tests of the framework.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
+#include "messages/protocol/its_pdu.hpp"
+#include "offloading/service.hpp"
 #include "tests/support/echo.hpp"
 
 #include <memory>
-#include <string>
 
 namespace sofof::test {
 
-/// Gives back its input, period by period. Its client is the vehicle's actor.
-class echo_service : public service_type {
-public:
-  explicit echo_service(std::string name) : name_{std::move(name)} {
-    using namespace std::chrono_literals;
-    common.limits = {50ms, 100ms};
-    common.period = 50ms;
-    common.input_period = 100ms;
-    common.run_time_mean = 5ms;
-    common.run_time_max = 10ms;
+struct echo_function final : service_function {
+  service_output run(time_point, const service_input& input) override {
+    return input.what;
+  }
+};
+
+/// Gives back its input. Its numbers can be refused, useless, or a jump.
+struct echo_in_vehicle : offloading::vehicle_service {
+  std::shared_ptr<service_function> make_function() override {
+    return std::make_shared<echo_function>();
   }
 
-  std::string_view name() const override { return name_; }
-
-  std::shared_ptr<service_function>
-  make_function(const service_setup&) const override {
-    struct function final : service_function {
-      service_output run(time_point, const service_input& input) override {
-        return input.what;
-      }
-    };
-    return std::make_shared<function>();
-  }
-
-  client_actor spawn_client(caf::actor_system&, const service_setup&,
-                            const vehicle_actor& vehicle) const override {
-    return vehicle;
-  }
-
-  bool continues(const payload&, const payload& offered,
-                 time_point) const override {
+  bool continues(const payload&, const payload& offered, time_point) override {
     const auto said = offered.as<echo>();
     return !said || said->number != echo::jump;
   }
 
-  std::unique_ptr<result_judge>
-  make_judge(const service_setup&) const override {
+  std::unique_ptr<result_judge> make_judge() override {
     struct sceptic final : result_judge {
       judged_result judge(const payload& result, const service_input&,
                           time_point) override {
@@ -59,33 +40,70 @@ public:
     };
     return std::make_unique<sceptic>();
   }
-
-private:
-  std::string name_;
 };
 
-/// An echo whose messages on the air are ITS messages, of the number and of
-/// whether it takes over; at its end it says which side ends it.
-class its_echo final : public echo_service {
-public:
-  using echo_service::echo_service;
+struct echo_at_provider : offloading::provider_service {
+  std::shared_ptr<service_function> make_function(station_id) override {
+    return std::make_shared<echo_function>();
+  }
+};
 
-  service_input on_air(const service_setup&, service_input input,
-                       bool takes_over) const override {
+inline offloading::service_options echo_options() {
+  using namespace std::chrono_literals;
+  offloading::service_options options;
+  options.limits = {50ms, 100ms};
+  options.period = 50ms;
+  options.input_period = 100ms;
+  options.run_time_mean = 5ms;
+  options.run_time_max = 10ms;
+  return options;
+}
+
+/// Gives back its input, period by period.
+inline offloading::service echo_service(service_name name) {
+  return {.name = name,
+          .options = echo_options(),
+          .in_vehicle =
+              [](const auto&) { return std::make_shared<echo_in_vehicle>(); },
+          .at_provider =
+              [](const auto&) { return std::make_shared<echo_at_provider>(); }};
+}
+
+/// What its messages on the air say: octets that can be told apart.
+inline payload its_octets(std::uint64_t first, bool second) {
+  return payload::of(
+      its_pdu{{static_cast<std::byte>(first), static_cast<std::byte>(second)}});
+}
+
+/// Says its number and whether it takes over; at its end, which side ends it.
+struct its_echo_in_vehicle final : echo_in_vehicle {
+  service_input encode_input(service_input input, bool takes_over) override {
     const auto said = input.what.as<echo>();
-    input.what = said ? octets(said->number, takes_over) : payload{};
+    input.what = said ? its_octets(said->number, takes_over) : payload{};
     input.in_use = {};
     return input;
   }
-  payload termination_message(const service_setup& setup, const service_end&,
-                              time_point, const cam* own) const override {
-    return octets(setup.remote, own != nullptr);
-  }
-
-  static payload octets(std::uint64_t first, bool second) {
-    return payload::of(its_pdu{
-        {static_cast<std::byte>(first), static_cast<std::byte>(second)}});
+  payload termination_message(const service_end&, time_point,
+                              const cam&) override {
+    return its_octets(0, true);
   }
 };
+
+struct its_echo_at_provider final : echo_at_provider {
+  payload termination_message(const service_end&, time_point) override {
+    return its_octets(1, false);
+  }
+};
+
+/// An echo whose messages on the air are ITS messages.
+inline offloading::service its_echo(service_name name) {
+  return {
+      .name = name,
+      .options = echo_options(),
+      .in_vehicle =
+          [](const auto&) { return std::make_shared<its_echo_in_vehicle>(); },
+      .at_provider =
+          [](const auto&) { return std::make_shared<its_echo_at_provider>(); }};
+}
 
 } // namespace sofof::test

@@ -227,7 +227,7 @@ int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
   auto s = scene(seed, traffic, seconds, "always");
   for (auto& kind : s.services)
     if (kind->name() == planning)
-      kind = std::make_shared<lying_kind>(kind, what);
+      kind = lying_service(kind, what);
   const auto lied = play(s);
   const auto x = measure(s, lied, alone);
   std::string checks;
@@ -251,7 +251,7 @@ int provide_lies(lie what, const char* file, const char* listen,
       file, std::vector<std::string>{fmt::format("duration={}s", seconds)});
   for (auto& kind : s.services)
     if (kind->name() == planning)
-      kind = std::make_shared<lying_kind>(kind, what);
+      kind = lying_service(kind, what);
   provide_options options;
   const auto at = parse_address(listen);
   if (!at)
@@ -276,21 +276,21 @@ struct judging_times {
 class timed_judge final : public result_judge {
 public:
   timed_judge(std::unique_ptr<result_judge> real,
-              std::shared_ptr<service_function> own, service_setup setup,
-              judging_times& figures)
-      : real_{std::move(real)}, own_{std::move(own)}, setup_{std::move(setup)},
-        figures_{figures} {}
+              std::shared_ptr<service_function> own, service_world world,
+              station_id station, judging_times& figures)
+      : real_{std::move(real)}, own_{std::move(own)}, world_{std::move(world)},
+        station_{station}, figures_{figures} {}
 
   judged_result judge(const payload& result, const service_input& latest,
                       time_point now) override {
     const auto request = latest.what.as<plan_request>();
-    const auto way = request ? setup_.world->find(request->way) : nullptr;
+    const auto way = request ? world_.streets->find(request->way) : nullptr;
     const auto message = result.as<its_pdu>();
     const auto before = latest.in_use.as<trajectory>();
     trajectory plan;
     if (way && message && etsi::decode(message->view(), word_)
-        && read_suggestion(word_, setup_.station, *way, request->from.s_m,
-                           setup_.where->ahead_by(message->ahead), now,
+        && read_suggestion(word_, station_, *way, request->from.s_m,
+                           world_.where->ahead_by(message->ahead), now,
                            before.get(), plan)
                == maneuver_fault::none) {
       const auto& own = request->own;
@@ -301,7 +301,7 @@ public:
                      own.accel_mps2, own.curvature_1pm},
                     request->from.s_m,
                     request->seen,
-                    setup_.crossings_granted,
+                    world_.crossings_granted,
                     now,
                     fingerprint_of_plan(word_)};
       std::shared_ptr<const trajectory> alone;
@@ -327,38 +327,66 @@ private:
 
   std::unique_ptr<result_judge> real_;
   std::shared_ptr<service_function> own_;
-  service_setup setup_;
+  service_world world_;
+  station_id station_;
   judging_times& figures_;
   plan_judge judge_;
   etsi::mcm word_;
 };
 
-class timed_kind final : public lying_kind {
+/// As the real service in a vehicle, with a judge that is timed.
+class timed_in_vehicle final : public offloading::vehicle_service {
 public:
-  using lying_kind::lying_kind;
+  timed_in_vehicle(std::shared_ptr<offloading::vehicle_service> real,
+                   service_world world, station_id station,
+                   judging_times& figures)
+      : real_{std::move(real)}, world_{std::move(world)}, station_{station},
+        figures_{figures} {}
 
-  std::shared_ptr<service_function>
-  make_function(const service_setup& setup) const override {
-    return make_service_kind(planning)->make_function(setup);
+  std::shared_ptr<service_function> make_function() override {
+    return real_->make_function();
   }
-  std::unique_ptr<result_judge>
-  make_judge(const service_setup& setup) const override {
-    return std::make_unique<timed_judge>(lying_kind::make_judge(setup),
-                                         make_function(setup), setup, figures);
+  service_input encode_input(service_input input, bool takes_over) override {
+    return real_->encode_input(std::move(input), takes_over);
   }
-  mutable judging_times figures;
+  bool continues(const payload& in_use, const payload& offered,
+                 time_point now) override {
+    return real_->continues(in_use, offered, now);
+  }
+  std::unique_ptr<result_judge> make_judge() override {
+    return std::make_unique<timed_judge>(real_->make_judge(),
+                                         real_->make_function(), world_,
+                                         station_, figures_);
+  }
+  payload termination_message(const service_end& end, time_point now,
+                              const cam& own) override {
+    return real_->termination_message(end, now, own);
+  }
+
+private:
+  std::shared_ptr<offloading::vehicle_service> real_;
+  service_world world_;
+  station_id station_;
+  judging_times& figures_;
 };
 
 int time_judging(const char* file, const char* seconds) {
   auto s = load_scenario(
       file, std::vector<std::string>{fmt::format("duration={}s", seconds)});
-  std::shared_ptr<timed_kind> timed;
+  judging_times figures;
   for (auto& kind : s.services)
     if (kind->name() == planning)
-      kind = timed = std::make_shared<timed_kind>(kind, lie::jump);
+      kind = std::make_shared<changed_service>(
+          kind, [&](offloading::service& service, const service_world& world) {
+            service.in_vehicle = [real = service.in_vehicle, world,
+                                  &figures](const auto& vehicle) {
+              return std::make_shared<timed_in_vehicle>(
+                  real(vehicle), world, vehicle.station, figures);
+            };
+          });
   play(s);
-  auto& all = timed->figures.judge_us;
-  const auto& own = timed->figures.own_us;
+  auto& all = figures.judge_us;
+  const auto& own = figures.own_us;
   std::ranges::sort(all);
   const auto at = [&](double share) {
     return all.at(

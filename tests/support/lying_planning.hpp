@@ -1,9 +1,9 @@
 // Trajectory planning at a provider that lies: what vehicles must survive.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
+#include "tests/support/changed_service.hpp"
 #include "world/roads/route_finder.hpp"
 
 #include <algorithm>
@@ -62,10 +62,12 @@ struct liars {
 /// An honest function whose results are changed on their way out.
 class lying_function final : public service_function {
 public:
-  lying_function(std::shared_ptr<service_function> honest, service_setup setup,
+  lying_function(std::shared_ptr<service_function> honest, service_world world,
+                 offloading::provider_context provider, station_id vehicle,
                  std::shared_ptr<liars> all)
-      : honest_{std::move(honest)}, setup_{std::move(setup)}, all_{std::move(
-                                                                  all)} {}
+      : honest_{std::move(honest)}, world_{std::move(world)},
+        provider_{std::move(provider)}, station_{vehicle}, all_{std::move(
+                                                               all)} {}
 
   service_output run(time_point now, const service_input& input) override {
     auto out = honest_->run(now, input);
@@ -75,8 +77,8 @@ public:
       return out;
     trajectory plan;
     const auto guess_m = said_.empty() ? from_m_ : said_.at(now).s_m;
-    if (read_suggestion(word_, setup_.station, *way_, guess_m, *setup_.where,
-                        now, nullptr, plan)
+    if (read_suggestion(word_, station_, *way_, guess_m, *world_.where, now,
+                        nullptr, plan)
         != maneuver_fault::none)
       return out;
     remember(plan);
@@ -89,11 +91,11 @@ public:
     const auto told = instead_of(plan, now);
     said_ = told;
     const suggestion what{
-        setup_.provider.station,
-        setup_.provider.position,
-        setup_.station,
+        provider_.station,
+        provider_.position,
+        station_,
         {static_cast<std::uint16_t>(input.running.counter), ++update_}};
-    if (!make_suggestion(what, told, *setup_.where, room_, word_))
+    if (!make_suggestion(what, told, *world_.where, room_, word_))
       return {};
     return {payload::of(encoded(word_)), out.about};
   }
@@ -104,10 +106,10 @@ private:
     etsi::mcm mcm;
     if (!message || !etsi::decode(message->view(), mcm))
       return;
-    const auto word = read_word(mcm, *setup_.where, now);
+    const auto word = read_word(mcm, *world_.where, now);
     if (!word)
       return;
-    if (const auto found = find_route(setup_.world->routes, word->way)) {
+    if (const auto found = find_route(world_.streets->routes, word->way)) {
       way_ = found->way;
       from_m_ = found->ahead.from_m;
     }
@@ -115,7 +117,7 @@ private:
 
   void remember(const trajectory& plan) {
     const std::lock_guard lock{all_->mutex};
-    all_->plans[setup_.station] = plan;
+    all_->plans[station_] = plan;
     past_.push_back(plan);
     if (past_.size() > 100) // 5 s
       past_.pop_front();
@@ -180,8 +182,7 @@ private:
       case lie::ram:
         return made(from, now, by(3.4), straight);
       case lie::mix:
-        return made(from, now, by(setup_.station % 2 == 0 ? -6 : 3.4),
-                    straight);
+        return made(from, now, by(station_ % 2 == 0 ? -6 : 3.4), straight);
       case lie::offroad:
         return made(from, now, by(0), [](double t) { return -0.8 * t; });
       case lie::oncoming:
@@ -195,7 +196,7 @@ private:
         return moved_right(honest, 0.2 * lied_s);
       case lie::swaps: {
         const std::lock_guard lock{all_->mutex};
-        auto other = all_->plans.upper_bound(setup_.station);
+        auto other = all_->plans.upper_bound(station_);
         if (other == all_->plans.end())
           other = all_->plans.begin();
         auto plan = other->second;
@@ -223,7 +224,7 @@ private:
 
   // The braking that ends where the way meets another lane.
   double stop_on_crossing(const trajectory_point& from) const {
-    const auto& map = setup_.world->map;
+    const auto& map = world_.streets->map;
     const auto front_m = vehicle_params{}.front_m;
     auto nearest_m = 1e9;
     const auto sequence = way_->sequence();
@@ -250,7 +251,9 @@ private:
   }
 
   std::shared_ptr<service_function> honest_;
-  service_setup setup_;
+  service_world world_;
+  offloading::provider_context provider_;
+  station_id station_; // of the vehicle
   std::shared_ptr<liars> all_;
   route_ptr way_;
   double from_m_ = 0;
@@ -263,54 +266,40 @@ private:
   std::vector<maneuver_waypoint> room_;
 };
 
-/// Another kind of service, whose functions at providers lie.
-class lying_kind : public service_type {
+/// Planning at a provider whose functions lie.
+class lying_at_provider final : public real_at_provider {
 public:
-  lying_kind(service_type_ptr honest, lie what)
-      : honest_{std::move(honest)}, all_{std::make_shared<liars>()} {
-    common = honest_->common;
-    all_->what = what;
-  }
+  lying_at_provider(std::shared_ptr<offloading::provider_service> honest,
+                    service_world world, offloading::provider_context provider,
+                    std::shared_ptr<liars> all)
+      : real_at_provider{std::move(honest)}, world_{std::move(world)},
+        provider_{std::move(provider)}, all_{std::move(all)} {}
 
-  std::string_view name() const override { return honest_->name(); }
-  void fields(settings& s) override { honest_->fields(s); }
-
-  std::shared_ptr<service_function>
-  make_function(const service_setup& setup) const override {
-    auto made = honest_->make_function(setup);
-    if (!setup.remote)
-      return made;
-    return std::make_shared<lying_function>(std::move(made), setup, all_);
-  }
-  client_actor spawn_client(caf::actor_system& sys, const service_setup& setup,
-                            const vehicle_actor& vehicle) const override {
-    return honest_->spawn_client(sys, setup, vehicle);
-  }
-  std::shared_ptr<provider_context>
-  make_site(const service_setup& setup) const override {
-    return honest_->make_site(setup);
-  }
-  service_input on_air(const service_setup& setup, service_input input,
-                       bool takes_over) const override {
-    return honest_->on_air(setup, std::move(input), takes_over);
-  }
-  bool continues(const payload& in_use, const payload& offered,
-                 time_point now) const override {
-    return honest_->continues(in_use, offered, now);
-  }
-  std::unique_ptr<result_judge>
-  make_judge(const service_setup& setup) const override {
-    return honest_->make_judge(setup);
-  }
-  payload termination_message(const service_setup& setup,
-                              const service_end& end, time_point now,
-                              const cam* own) const override {
-    return honest_->termination_message(setup, end, now, own);
+  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+    return std::make_shared<lying_function>(
+        real_at_provider::make_function(vehicle), world_, provider_, vehicle,
+        all_);
   }
 
 private:
-  service_type_ptr honest_;
+  service_world world_;
+  offloading::provider_context provider_;
   std::shared_ptr<liars> all_;
 };
+
+/// @returns the service as it is in vehicles, with providers that lie.
+inline service_type_ptr lying_service(service_type_ptr honest, lie what) {
+  const auto all = std::make_shared<liars>();
+  all->what = what;
+  return std::make_shared<changed_service>(
+      std::move(honest),
+      [all](offloading::service& service, const service_world& world) {
+        service.at_provider = [real = service.at_provider, world,
+                               all](const auto& provider) {
+          return std::make_shared<lying_at_provider>(real(provider), world,
+                                                     provider, all);
+        };
+      });
+}
 
 } // namespace sofof::test

@@ -5,6 +5,7 @@
 #include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/v2x/cam_content.hpp"
+#include "messages/v2x/decode_broadcast.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "messages/v2x/perception.hpp"
@@ -21,6 +22,13 @@ namespace sofof::test {
 inline georeference_ptr in_ulm() {
   static const auto here = std::make_shared<const georeference>();
   return here;
+}
+
+/// @returns what reads the CAMs and CPMs of the vehicles there.
+inline auto decode_in_ulm() {
+  return [where = in_ulm()](const its_pdu& message, time_point now) {
+    return understand(message, *where, now);
+  };
 }
 
 /// @returns what a vehicle sends that moves like this, at a whole millisecond.

@@ -1,6 +1,8 @@
 // Small street layouts for tests: one junction, or a grid of them.
 #pragma once
 
+#include "base/protocol.hpp"
+#include "messages/protocol/motion.hpp"
 #include "world/roads/road_map.hpp"
 
 #include <fmt/format.h>
@@ -132,6 +134,14 @@ inline road_map grid(std::size_t size, double block_m) {
       all.streets.emplace_back(i, i + size);
   }
   return build(all);
+}
+
+/// @returns what tells the way ahead on a route, as a requester needs it.
+inline auto path_ahead_on(route_ptr way) {
+  return [way = std::move(way)](const ego_state& ego) {
+    return way->waypoints(ego.s_m, protocol::route_ahead_m,
+                          protocol::route_spacing_m);
+  };
 }
 
 } // namespace sofof::toy

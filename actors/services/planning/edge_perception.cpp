@@ -31,7 +31,7 @@ edge_perception::edge_perception(std::function<time_point()> clock,
                                  std::span<const building> houses)
     : clock_{std::move(clock)}, doubts_{houses} {}
 
-void edge_perception::hear(const cam& c, sender_id from) {
+void edge_perception::on_cam(const cam& c, sender_id from) {
   const auto now = clock_();
   if (protocol::is_of_future(c.at, now))
     return;
@@ -46,7 +46,7 @@ void edge_perception::hear(const cam& c, sender_id from) {
     newest = c;
 }
 
-void edge_perception::hear(const object_list& told, sender_id from) {
+void edge_perception::on_objects(const object_list& told, sender_id from) {
   const auto now = clock_();
   if (protocol::is_of_future(told.at, now)
       || protocol::is_of_future(told.generated, now))
@@ -59,7 +59,7 @@ void edge_perception::hear(const object_list& told, sender_id from) {
     doubts_.judge({told.from, false, from}, look_of(steady), model_.tracks());
 }
 
-void edge_perception::see(const roadside_detections& view) {
+void edge_perception::on_detections(const roadside_detections& view) {
   if (protocol::is_of_future(view.at, clock_()))
     return;
   const std::lock_guard lock{mutex_};
@@ -70,7 +70,7 @@ void edge_perception::see(const roadside_detections& view) {
       model_.tracks());
 }
 
-std::vector<station_doubt> edge_perception::news() {
+std::vector<station_doubt> edge_perception::take_doubts() {
   const std::lock_guard lock{mutex_};
   return doubts_.news(clock_());
 }

@@ -2,7 +2,7 @@
 // sensors see, put together.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
+#include "actors/offloading/broadcast_listener.hpp"
 #include "messages/v2x/generation_rules.hpp"
 #include "planners/plausibility/plausibility.hpp"
 #include "planners/scene/object_tracker.hpp"
@@ -22,16 +22,16 @@ perceived_object body_of(const cam& c);
 
 /// What is told of later than now is not believed, nor is what `plausibility`
 /// doubts.
-class edge_perception final : public provider_context {
+class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
   explicit edge_perception(std::function<time_point()> clock,
                            std::span<const building> houses = {});
 
-  void hear(const cam& c, sender_id from) override;
-  void hear(const object_list& told, sender_id from) override;
-  void see(const roadside_detections& view) override;
-  std::vector<station_doubt> news() override;
+  void on_cam(const cam& c, sender_id from) override;
+  void on_objects(const object_list& told, sender_id from) override;
+  void on_detections(const roadside_detections& view) override;
+  std::vector<station_doubt> take_doubts() override;
 
   /// @returns what a vehicle told of itself last, unless that is older than
   /// protocol::cam_timeout.

@@ -28,6 +28,4 @@ private:
   std::map<const route*, route_profile_ptr> profiles_;
 };
 
-using known_roads_ptr = std::shared_ptr<known_roads>;
-
 } // namespace sofof

@@ -19,10 +19,10 @@ namespace {
 
 class mec_planning final : public service_function {
 public:
-  mec_planning(service_setup setup, planner_options options,
-               known_roads_ptr roads, std::shared_ptr<edge_perception> site)
-      : setup_{std::move(setup)}, options_{std::move(options)},
-        roads_{std::move(roads)}, site_{std::move(site)} {}
+  mec_planning(planning_world_ptr world, offloading::provider_context provider,
+               station_id vehicle, std::shared_ptr<edge_perception> perceived)
+      : world_{std::move(world)}, provider_{std::move(provider)},
+        station_{vehicle}, perceived_{std::move(perceived)} {}
 
   service_output run(time_point now, const service_input& input) override {
     if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
@@ -31,14 +31,14 @@ public:
     }
     if (!cycle_)
       return {};
-    if (const auto own = site_->told_by(setup_.station))
+    if (const auto own = perceived_->told_by(station_))
       ego_->hear({own->at, own->position, own->heading_rad, own->speed_mps,
                   own->accel_mps2, own->curvature_1pm});
     auto from = ego_->at(now);
     if (!from)
       return {};
     from->others.stop_at_m = stop_at_m_;
-    site_->tracks(tracks_, setup_.station);
+    perceived_->tracks(tracks_, station_);
     const auto report = cycle_->run(now, made_possible(*from), tracks_);
     ego_->follow(cycle_->plan());
     return said(report, input.running.counter);
@@ -49,10 +49,10 @@ private:
 
   void hear(const its_pdu& message, time_point now) {
     if (!etsi::decode(message.view(), word_)
-        || word_.header.station != setup_.station)
+        || word_.header.station != station_)
       return;
     const auto word =
-        read_word(word_, setup_.where->ahead_by(message.ahead), now);
+        read_word(word_, world_->where->ahead_by(message.ahead), now);
     if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
       return;
     heard_at_ = word->at;
@@ -78,7 +78,7 @@ private:
         return ahead;
       }
     }
-    const auto found = find_route(setup_.world->routes, way);
+    const auto found = find_route(world_->streets->routes, way);
     if (!found)
       return std::nullopt;
     from_m_ = found->ahead.from_m;
@@ -89,7 +89,7 @@ private:
   // Of what was planned along another way that goes on which both share.
   void begin(const route_ptr& way) {
     const auto shared = cycle_ ? along(*way, cycle_->plan()) : trajectory{};
-    cycle_.emplace(setup_, options_, *roads_, way);
+    cycle_.emplace(*world_, station_, provider_.clock, true, way);
     ego_.emplace(way, from_m_);
     if (shared.is_sound())
       follow(shared);
@@ -111,7 +111,7 @@ private:
   }
 
   void take_over(const decoded_mcm& word, double from_m, time_point now) {
-    const maneuver_frame frame{setup_.where->frame, word.reference, word.at};
+    const maneuver_frame frame{world_->where->frame, word.reference, word.at};
     trajectory plan;
     const auto fault =
         to_trajectory(*word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
@@ -134,11 +134,11 @@ private:
   // -- what it is told ------------------------------------------------------
 
   service_output said(const plan_report& report, std::uint32_t counter) {
-    const suggestion what{setup_.provider.station,
-                          setup_.provider.position,
-                          setup_.station,
+    const suggestion what{provider_.station,
+                          provider_.position,
+                          station_,
                           {static_cast<std::uint16_t>(counter), ++update_}};
-    if (!make_suggestion(what, cycle_->plan(), *setup_.where, waypoints_,
+    if (!make_suggestion(what, cycle_->plan(), *world_->where, waypoints_,
                          said_))
       return {};
     auto message = encoded(said_);
@@ -147,10 +147,10 @@ private:
     return {payload::of(std::move(message)), payload::of(report)};
   }
 
-  service_setup setup_;
-  planner_options options_;
-  known_roads_ptr roads_;
-  std::shared_ptr<edge_perception> site_;
+  planning_world_ptr world_;
+  offloading::provider_context provider_;
+  station_id station_; // of the vehicle
+  std::shared_ptr<edge_perception> perceived_;
   std::shared_ptr<const its_pdu> heard_; // last, ...
   time_point heard_at_;                  // and when it was said
   std::optional<plan_cycle> cycle_;
@@ -167,11 +167,11 @@ private:
 } // namespace
 
 std::shared_ptr<service_function>
-make_mec_planning(service_setup setup, planner_options options,
-                  known_roads_ptr roads,
-                  std::shared_ptr<edge_perception> site) {
-  return std::make_shared<mec_planning>(std::move(setup), std::move(options),
-                                        std::move(roads), std::move(site));
+make_mec_planning(planning_world_ptr world,
+                  offloading::provider_context provider, station_id vehicle,
+                  std::shared_ptr<edge_perception> perceived) {
+  return std::make_shared<mec_planning>(std::move(world), std::move(provider),
+                                        vehicle, std::move(perceived));
 }
 
 } // namespace sofof

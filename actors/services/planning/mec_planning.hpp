@@ -1,10 +1,9 @@
 // Planning at a provider: from what vehicles and its own sensors tell it.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
 #include "actors/services/planning/edge_perception.hpp"
-#include "actors/services/planning/known_roads.hpp"
-#include "actors/services/planning/planner_options.hpp"
+#include "actors/services/planning/planning_world.hpp"
+#include "offloading/service.hpp"
 
 #include <memory>
 
@@ -15,8 +14,10 @@ namespace sofof {
 /// it knows from its CAMs, and from the plans that it has sent; the others
 /// from everybody's CAMs and CPMs and from its sensors. Gives an MCM that
 /// suggests a plan, about it a `plan_report`.
+/// @param vehicle  For which it plans.
 std::shared_ptr<service_function>
-make_mec_planning(service_setup setup, planner_options options,
-                  known_roads_ptr roads, std::shared_ptr<edge_perception> site);
+make_mec_planning(planning_world_ptr world,
+                  offloading::provider_context provider, station_id vehicle,
+                  std::shared_ptr<edge_perception> perceived);
 
 } // namespace sofof

@@ -16,10 +16,9 @@ namespace {
 
 class onboard_planning final : public service_function {
 public:
-  onboard_planning(service_setup setup, planner_options options,
-                   known_roads_ptr roads)
-      : setup_{std::move(setup)}, options_{std::move(options)},
-        roads_{std::move(roads)} {}
+  onboard_planning(planning_world_ptr world,
+                   offloading::vehicle_context vehicle)
+      : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
 
   service_output run(time_point now, const service_input& input) override {
     const auto request = input.what.as<plan_request>();
@@ -33,8 +32,8 @@ public:
       cycle_->take_over(*in_use);
     else if (own.empty() || now > own.end())
       from.accel_mps2 =
-          std::clamp(from.accel_mps2, -options_.style.comfort_decel_mps2,
-                     options_.style.max_accel_mps2); // none of its own so far
+          std::clamp(from.accel_mps2, -style().comfort_decel_mps2,
+                     style().max_accel_mps2); // none of its own so far
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;
     const auto report = cycle_->run(now, std::move(from), model_.tracks());
@@ -42,12 +41,14 @@ public:
   }
 
 private:
+  const comfort_limits& style() const { return world_->options.style; }
+
   bool prepare(const std::string& name) {
     if (cycle_ && cycle_->way()->name() == name)
       return true;
-    const auto way = setup_.world->find(name);
+    const auto way = world_->streets->find(name);
     if (way)
-      cycle_.emplace(setup_, options_, *roads_, way);
+      cycle_.emplace(*world_, vehicle_.station, vehicle_.clock, false, way);
     return way != nullptr;
   }
 
@@ -59,9 +60,8 @@ private:
     model_.update(seen.at, seen.objects);
   }
 
-  service_setup setup_;
-  planner_options options_;
-  known_roads_ptr roads_;
+  planning_world_ptr world_;
+  offloading::vehicle_context vehicle_;
   object_tracker model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
@@ -69,11 +69,11 @@ private:
 
 } // namespace
 
-std::shared_ptr<service_function> make_onboard_planning(service_setup setup,
-                                                        planner_options options,
-                                                        known_roads_ptr roads) {
-  return std::make_shared<onboard_planning>(
-      std::move(setup), std::move(options), std::move(roads));
+std::shared_ptr<service_function>
+make_onboard_planning(planning_world_ptr world,
+                      offloading::vehicle_context vehicle) {
+  return std::make_shared<onboard_planning>(std::move(world),
+                                            std::move(vehicle));
 }
 
 } // namespace sofof

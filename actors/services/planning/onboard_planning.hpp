@@ -1,17 +1,16 @@
 // Planning in the vehicle: from what it sees itself.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
-#include "actors/services/planning/known_roads.hpp"
-#include "actors/services/planning/planner_options.hpp"
+#include "actors/services/planning/planning_world.hpp"
+#include "offloading/service.hpp"
 
 #include <memory>
 
 namespace sofof {
 
 /// Takes a `plan_request`; gives a `trajectory`, about it a `plan_report`.
-std::shared_ptr<service_function> make_onboard_planning(service_setup setup,
-                                                        planner_options options,
-                                                        known_roads_ptr roads);
+std::shared_ptr<service_function>
+make_onboard_planning(planning_world_ptr world,
+                      offloading::vehicle_context vehicle);
 
 } // namespace sofof

@@ -14,23 +14,23 @@ constexpr duration deadline = 2ms;
 
 } // namespace
 
-plan_cycle::plan_cycle(const service_setup& setup,
-                       const planner_options& options, known_roads& roads,
+plan_cycle::plan_cycle(const planning_world& world, station_id station,
+                       std::function<time_point()> clock, bool at_provider,
                        route_ptr way)
-    : setup_{setup}, way_{std::move(way)}, planner_{options.make(way_, roads,
-                                                                 setup.remote)},
-      scene_{
-          roads.lanes(), way_, {.judges_crossings = !setup.crossings_granted}} {
-}
+    : station_{station}, clock_{std::move(clock)}, way_{std::move(way)},
+      planner_{world.options.make(way_, *world.roads, at_provider)},
+      scene_{world.roads->lanes(),
+             way_,
+             {.judges_crossings = !world.crossings_granted}} {}
 
 plan_report plan_cycle::run(time_point now, planning_input from,
                             std::span<const track> others) {
   const auto stop_at_m = from.others.stop_at_m;
-  const own_place me{setup_.station, from.s_m, from.d_m};
+  const own_place me{station_, from.s_m, from.d_m};
   scene_.describe(now, me, others, from.others);
   from.others.stop_at_m = stop_at_m;
-  const auto start = setup_.clock();
-  const auto in_time = [&](int) { return setup_.clock() - start < deadline; };
+  const auto start = clock_();
+  const auto in_time = [&](int) { return clock_() - start < deadline; };
   auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
                                next_, ocp::budget{in_time});
   std::swap(plan_, next_);

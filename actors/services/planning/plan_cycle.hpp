@@ -1,12 +1,11 @@
 // One planner at work, cycle by cycle, along one route.
 #pragma once
 
-#include "actors/offloading/service_type.hpp"
-#include "actors/services/planning/known_roads.hpp"
-#include "actors/services/planning/planner_options.hpp"
+#include "actors/services/planning/planning_world.hpp"
 #include "planners/scene/scene_interpreter.hpp"
 #include "planners/scene/track.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,8 +16,11 @@ namespace sofof {
 /// last plan, and what it makes of the others.
 class plan_cycle {
 public:
-  plan_cycle(const service_setup& setup, const planner_options& options,
-             known_roads& roads, route_ptr way);
+  /// @param clock        Of where it plans.
+  /// @param at_provider  Whether it may plan more thoroughly.
+  plan_cycle(const planning_world& world, station_id station,
+             std::function<time_point()> clock, bool at_provider,
+             route_ptr way);
 
   const route_ptr& way() const { return way_; }
 
@@ -35,7 +37,8 @@ public:
                   std::span<const track> others);
 
 private:
-  const service_setup& setup_;
+  station_id station_;
+  std::function<time_point()> clock_;
   route_ptr way_;
   std::unique_ptr<trajectory_planner> planner_;
   scene_interpreter scene_;

@@ -1,0 +1,33 @@
+// What a service at a provider may hear besides its inputs.
+#pragma once
+
+#include "messages/protocol/motion.hpp"
+#include "messages/protocol/service.hpp"
+#include "messages/v2x/object_list.hpp"
+#include "planners/plausibility/station_doubt.hpp"
+
+#include <vector>
+
+namespace sofof {
+
+/// Who is told of all that one provider hears and sees.
+class broadcast_listener {
+public:
+  virtual ~broadcast_listener() = default;
+
+  /// A CAM has come, from anybody near enough to be heard: in the area or not,
+  /// perhaps with no service, perhaps overtaken by a later one on its way.
+  virtual void on_cam(const cam& c, sender_id from) = 0;
+
+  /// A CPM has come, likewise.
+  virtual void on_objects(const object_list& told, sender_id from) = 0;
+
+  /// One of the provider's sensors at the roadside has looked at the road.
+  virtual void on_detections(const roadside_detections& view) = 0;
+
+  /// @returns which stations have come to be doubted or believed again since
+  /// the last call, the oldest first.
+  virtual std::vector<station_doubt> take_doubts() { return {}; }
+};
+
+} // namespace sofof

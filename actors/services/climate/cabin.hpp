@@ -1,0 +1,60 @@
+// The cabin of a car: what it asks of climate control, and what it does then.
+#pragma once
+
+#include "base/options/settings.hpp"
+#include "messages/protocol/payload.hpp"
+#include "messages/type_ids.hpp"
+#include "world/vehicle/cabin.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <string_view>
+
+namespace sofof {
+
+/// Which power makes this cabin comfortable?
+struct climate_request {
+  double air_c = 0;
+  double mass_c = 0;
+  double outside_c = 0;
+  double set_point_c = 0;
+};
+
+/// This one.
+struct climate_power {
+  double power_w = 0; ///< Negative cools.
+};
+
+void archive(auto& bytes, climate_request& x) {
+  bytes(x.air_c, x.mass_c, x.outside_c, x.set_point_c);
+}
+
+void archive(auto& bytes, climate_power& x) {
+  bytes(x.power_w);
+}
+
+template <>
+inline constexpr std::string_view payload_name<climate_request> = "climate_ask";
+template <>
+inline constexpr std::string_view payload_name<climate_power> = "climate_power";
+
+/// The weather, what is wanted, and the cabin itself.
+struct climate_options {
+  double outside_c = 5;
+  double set_point_c = 21;
+  double horizon_s = 60;
+  cabin_params cabin;
+
+  void fields(settings& s) {
+    s.field("outside_c", outside_c, {-60, 60});
+    s.field("set_point_c", set_point_c, {10, 30});
+    s.field("horizon_s", horizon_s, {1, 3600});
+    s.table("cabin", [this](settings& t) { cabin.fields(t); });
+  }
+};
+
+/// Asks once a period, and is warmed with whatever power came last.
+client_actor spawn_cabin(caf::actor_system& sys, const climate_options& options,
+                         duration period);
+
+} // namespace sofof

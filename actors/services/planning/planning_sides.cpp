@@ -1,0 +1,195 @@
+// Trajectory planning in a vehicle and at a provider: what each has of it.
+#include "actors/services/planning/planning_sides.hpp"
+
+#include "actors/services/planning/mec_planning.hpp"
+#include "actors/services/planning/onboard_planning.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/suggestion_judge.hpp"
+#include "base/protocol.hpp"
+#include "messages/v2x/encoded.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
+#include "policies/algorithms/forecast/continuity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sofof {
+
+namespace {
+
+/// Where the vehicle may go: along its route, from its rear axle on, up to
+/// where its front has to wait.
+std::vector<point> authority(const route& way, double s_m,
+                             std::optional<double> stop_at_m) {
+  constexpr double least_m = 2; // less has no direction
+  const auto told_m =
+      std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
+                 protocol::authority_m);
+  return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
+}
+
+etsi::termination_status status_of(end_reason why) {
+  using enum etsi::termination_status;
+  switch (why) {
+    case end_reason::left_area:
+    case end_reason::handed_over:
+    case end_reason::released:
+    case end_reason::shutdown:
+      return regular_end;
+    case end_reason::cam_timeout:
+    case end_reason::no_data:
+      return abort_by_timeout;
+    case end_reason::qos_latency:
+    case end_reason::qos_gap:
+      return abort_by_constraint_violation;
+    case end_reason::refused:
+    case end_reason::revoked:
+    case end_reason::implausible:
+      return abort_by_reject;
+    case end_reason::peer_lost:
+      break;
+  }
+  return reason_unknown;
+}
+
+maneuver_name name_of_maneuver(const session_id& running) {
+  return {static_cast<std::uint16_t>(running.counter), 0};
+}
+
+class planning_in_vehicle final : public offloading::vehicle_service {
+public:
+  planning_in_vehicle(planning_world_ptr world,
+                      offloading::vehicle_context vehicle)
+      : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
+
+  std::shared_ptr<service_function> make_function() override {
+    return make_onboard_planning(world_, vehicle_);
+  }
+
+  std::unique_ptr<result_judge> make_judge() override {
+    return make_suggestion_judge(world_, vehicle_);
+  }
+
+  /// An MCM: where the vehicle may go, and the plan in use for who takes over,
+  /// or that it follows what was suggested.
+  service_input encode_input(service_input input, bool takes_over) override {
+    const auto request = input.what.as<plan_request>();
+    const auto way = request ? world_->streets->find(request->way) : nullptr;
+    if (!way)
+      return {};
+    const auto ahead =
+        authority(*way, request->from.s_m, request->seen.stop_at_m);
+    mcm_uplink word{request->own, ahead, nullptr, {}};
+    const auto plan = takes_over ? input.in_use.as<trajectory>() : nullptr;
+    word.plan = plan.get();
+    if (!takes_over)
+      word.answer.emplace(name_of_maneuver(input.running),
+                          etsi::maneuver_response::accept);
+    auto message = encoded(make_word(word, world_->car, *world_->where));
+    if (message.octets.empty())
+      return {};
+    input.what = payload::of(std::move(message));
+    input.in_use = {};
+    return input;
+  }
+
+  /// Where both plans lead in the next 0.5 s.
+  bool continues(const payload& in_use, const payload& offered,
+                 time_point now) override {
+    const auto one = in_use.as<trajectory>();
+    const auto other = offered.as<trajectory>();
+    if (!one || !other || one->empty() || other->empty())
+      return false;
+    constexpr duration step = std::chrono::milliseconds{100};
+    constexpr std::size_t count = 6;
+    std::array<point, count> here, there;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto t = now + k * step;
+      here[k] = one->at(t).at;
+      there[k] = other->at(t).at;
+    }
+    return sofof::continues(here, there, step);
+  }
+
+  payload termination_message(const service_end& end, time_point,
+                              const cam& own) override {
+    mcm_uplink word{own, {}, nullptr, {}};
+    word.answer.emplace(name_of_maneuver(end.running),
+                        etsi::maneuver_response::reject);
+    return payload::of(encoded(make_word(word, world_->car, *world_->where)));
+  }
+
+private:
+  planning_world_ptr world_;
+  offloading::vehicle_context vehicle_;
+};
+
+class planning_requests final : public plan_client {
+public:
+  payload ask(const route& way, const planning_input& from,
+              const perception& seen, const cam& own) const override {
+    return payload::of(plan_request{way.name(), from, seen, own});
+  }
+
+  std::optional<received_plan>
+  read(const service_result& result) const override {
+    auto plan = result.what.as<trajectory>();
+    if (!plan)
+      return std::nullopt;
+    const auto about = result.about.as<plan_report>();
+    return received_plan{std::move(plan), about ? *about : plan_report{}};
+  }
+};
+
+class planning_at_provider final : public offloading::provider_service {
+public:
+  planning_at_provider(planning_world_ptr world,
+                       offloading::provider_context provider)
+      : world_{std::move(world)}, provider_{std::move(provider)},
+        perceived_{std::make_shared<edge_perception>(
+            provider_.clock, world_->streets->map.buildings())} {}
+
+  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+    return make_mec_planning(world_, provider_, vehicle, perceived_);
+  }
+
+  payload termination_message(const service_end& end, time_point now) override {
+    const suggestion what{provider_.station, provider_.position,
+                          end.running.station, name_of_maneuver(end.running)};
+    return payload::of(encoded(
+        make_termination(what, now, status_of(end.reason), *world_->where)));
+  }
+
+  broadcast_listener* listener() override { return perceived_.get(); }
+
+private:
+  planning_world_ptr world_;
+  offloading::provider_context provider_;
+  std::shared_ptr<edge_perception> perceived_;
+};
+
+} // namespace
+
+std::shared_ptr<offloading::vehicle_service>
+make_planning_in_vehicle(planning_world_ptr world,
+                         offloading::vehicle_context vehicle) {
+  return std::make_shared<planning_in_vehicle>(std::move(world),
+                                               std::move(vehicle));
+}
+
+std::shared_ptr<const plan_client> make_plan_client() {
+  return std::make_shared<planning_requests>();
+}
+
+std::shared_ptr<offloading::provider_service>
+make_planning_at_provider(planning_world_ptr world,
+                          offloading::provider_context provider) {
+  return std::make_shared<planning_at_provider>(std::move(world),
+                                                std::move(provider));
+}
+
+} // namespace sofof

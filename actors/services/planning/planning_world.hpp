@@ -1,0 +1,26 @@
+// What planners of one run share, in vehicles and at providers.
+#pragma once
+
+#include "actors/services/planning/known_roads.hpp"
+#include "actors/services/planning/planner_options.hpp"
+#include "messages/v2x/georeference.hpp"
+#include "world/roads/streets.hpp"
+#include "world/vehicle/vehicle.hpp"
+
+#include <memory>
+
+namespace sofof {
+
+/// The streets, and how to plan on them.
+struct planning_world {
+  streets_ptr streets;
+  georeference_ptr where;
+  vehicle_params car{};
+  bool crossings_granted = true;
+  planner_options options;
+  std::shared_ptr<known_roads> roads;
+};
+
+using planning_world_ptr = std::shared_ptr<const planning_world>;
+
+} // namespace sofof

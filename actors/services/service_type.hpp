@@ -1,0 +1,66 @@
+// The services of this project by name, as scenarios list them. A new one is
+// one new file in this folder.
+#pragma once
+
+#include "actors/simulation/plan_client.hpp"
+#include "base/options/settings.hpp"
+#include "messages/type_ids.hpp"
+#include "messages/v2x/georeference.hpp"
+#include "offloading/service.hpp"
+#include "world/roads/streets.hpp"
+#include "world/vehicle/vehicle.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// What services may know of the world that they run in.
+struct service_world {
+  streets_ptr streets;
+  georeference_ptr where; ///< Where that is on Earth.
+  vehicle_params car{};   ///< Each vehicle.
+  /// Whether the road grants crossings; else drivers judge them.
+  bool crossings_granted = true;
+};
+
+/// A service with its options, before it knows the world.
+class service_type {
+public:
+  virtual ~service_type() = default;
+
+  virtual std::string_view name() const = 0;
+
+  /// Lists the options, first the common ones.
+  virtual void fields(settings& s) { options.fields(s); }
+
+  /// @returns the service with these options in this world.
+  virtual offloading::service in(const service_world& world) const = 0;
+
+  /// @param vehicle  The vehicle that the client belongs to; it is the client
+  ///                 unless a service has one of its own.
+  virtual client_actor spawn_client(caf::actor_system& sys,
+                                    const vehicle_actor& vehicle) const {
+    static_cast<void>(sys);
+    return vehicle;
+  }
+
+  /// @returns how vehicles ask it for plans to drive by; null for a service
+  /// that makes none.
+  virtual std::shared_ptr<const plan_client> plans() const { return nullptr; }
+
+  offloading::service_options options;
+};
+
+using service_type_ptr = std::shared_ptr<service_type>;
+
+/// @returns the service with its default options; null for an unknown name.
+service_type_ptr make_service_type(std::string_view name);
+
+/// @returns the names of all services, sorted.
+std::vector<std::string_view> service_type_names();
+
+} // namespace sofof

@@ -1,0 +1,55 @@
+// What a vehicle sends and to whom: road, recorder, and everybody near.
+#include "actors/simulation/vehicle_links.hpp"
+
+#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/time.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+
+#include <utility>
+
+namespace sofof {
+
+void vehicle_links::ask_for_place(const driven_car& car) {
+  self_->send(setup_.road, begin_atom_v, car.report(), vehicle_actor{self_});
+}
+
+void vehicle_links::report(const driven_car& car) {
+  self_->send(setup_.road, car.report(), vehicle_actor{self_});
+}
+
+void vehicle_links::leave_road() {
+  self_->send(setup_.road, setup_.car.station);
+}
+
+void vehicle_links::broadcast(const std::optional<its_pdu>& message, point from,
+                              const onboard_requester_actor& requester) {
+  if (!message || message->octets.empty())
+    return;
+  note_on_air(self_, setup_.recorder, *message);
+  for (const auto& a : setup_.antennas)
+    if (distance_m(from, a.position) <= a.range_m)
+      self_->send(a.link, *message, requester_actor{requester});
+}
+
+void vehicle_links::log_event(std::string what) {
+  self_->send(
+      setup_.recorder,
+      event_record{
+          now(self_), std::move(what), setup_.car.station, 0, {}, 0, {}});
+}
+
+void vehicle_links::record(const driven_car& car, bool remote) {
+  self_->send(setup_.recorder, car.track(remote));
+}
+
+void vehicle_links::record(const plan_switch_record& jump) {
+  self_->send(setup_.recorder, jump);
+}
+
+void vehicle_links::record_figures(driven_car& car) {
+  self_->send(setup_.recorder, car.flush_safety());
+  self_->send(setup_.recorder, car.flush_figures());
+}
+
+} // namespace sofof

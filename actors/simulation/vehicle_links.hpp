@@ -1,0 +1,43 @@
+// What a vehicle sends and to whom: road, recorder, and everybody near.
+#pragma once
+
+#include "actors/simulation/vehicle.hpp"
+
+#include <optional>
+#include <string>
+
+namespace sofof {
+
+/// A vehicle itself; besides its interface: its timer.
+using vehicle_impl = vehicle_actor::extend<reacts_to<tick_atom>>;
+
+/// Turns what a vehicle does into messages of its actor.
+class vehicle_links {
+public:
+  /// @param self, setup  Outlive the links.
+  vehicle_links(vehicle_impl::pointer self, const vehicle_setup& setup)
+      : self_{self}, setup_{setup} {}
+
+  /// The road is asked for the vehicle's place.
+  void ask_for_place(const driven_car& car);
+  /// The road is told where the vehicle is.
+  void report(const driven_car& car);
+  /// The road has one vehicle less.
+  void leave_road();
+
+  /// To all providers that are near enough; nothing if there is no message.
+  /// @param requester  Who gets what they answer.
+  void broadcast(const std::optional<its_pdu>& message, point from,
+                 const onboard_requester_actor& requester);
+
+  void log_event(std::string what);
+  void record(const driven_car& car, bool remote);
+  void record(const plan_switch_record& jump);
+  void record_figures(driven_car& car);
+
+private:
+  vehicle_impl::pointer self_;
+  const vehicle_setup& setup_;
+};
+
+} // namespace sofof

@@ -1,0 +1,122 @@
+// A service: what vehicles and providers have to know of it to have it computed
+// on either side. Inputs and results are opaque here.
+#pragma once
+
+#include "base/options/settings.hpp"
+#include "messages/protocol/qos.hpp"
+#include "messages/protocol/service.hpp"
+#include "offloading/result_judge.hpp"
+#include "offloading/service_function.hpp"
+#include "world/vehicle/cycle_cost.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace sofof {
+
+class broadcast_listener;
+
+} // namespace sofof
+
+namespace sofof::offloading {
+
+/// The options that every service has.
+struct service_options {
+  qos_limits limits;        ///< Of the remote service.
+  duration period{};        ///< Of a cycle, local and remote.
+  duration input_period{};  ///< At least this between two inputs on the air.
+  double demand = 1;        ///< Provider's computing time, in units of the
+                            ///< channel profile's service time.
+  duration run_time_mean{}; ///< Of a local cycle, in virtual time, at
+                            ///< `usual_clock_ghz`.
+  duration run_time_sd{};
+  duration run_time_max{};
+  task_options task; ///< What a cycle asks of who computes it.
+
+  void fields(settings& s);
+};
+
+/// @returns the options with run times as on this computer: in proportion to
+/// its clock, on a slower one at most a period, since a cycle ends before the
+/// next one begins.
+service_options on(const computer_options& computer, service_options options);
+
+/// For which vehicle parts of a service are made.
+struct vehicle_context {
+  station_id station = 0;
+  /// The time; it stands still during a cycle unless run times are real.
+  std::function<time_point()> clock = [] { return time_point{}; };
+};
+
+/// A service in one vehicle.
+class vehicle_service {
+public:
+  virtual ~vehicle_service() = default;
+
+  /// @returns what computes it on board; not null.
+  virtual std::shared_ptr<service_function> make_function() = 0;
+
+  /// What of an input crosses the air to a provider; as it is, unless the
+  /// service says it in messages of its own. `input.in_use` is the result in
+  /// use.
+  /// @param takes_over  Whether the provider is to take over from the source
+  ///                    of the result in use.
+  /// @returns nothing in `what` if there is nothing to say.
+  virtual service_input encode_input(service_input input, bool takes_over);
+
+  /// Whether results may come from one provider and from another in turns.
+  /// @param in_use   The result in use.
+  /// @param offered  The first one of another provider.
+  virtual bool continues(const payload& in_use, const payload& offered,
+                         time_point now);
+
+  /// @returns what reads and judges the results of one session; by default
+  /// they are used as they are.
+  virtual std::unique_ptr<result_judge> make_judge();
+
+  /// What tells a provider in the terms of the service that the vehicle ends a
+  /// session; by default nothing.
+  /// @param own  The vehicle's motion.
+  virtual payload termination_message(const service_end& end, time_point now,
+                                      const cam& own);
+};
+
+/// At which provider parts of a service are made.
+struct provider_context {
+  station_id station = 0; ///< As ITS messages name it.
+  point position;         ///< m, east-north.
+  /// As in a vehicle.
+  std::function<time_point()> clock = [] { return time_point{}; };
+};
+
+/// A service at one provider. Where time is real, functions run in threads of
+/// their own while the provider goes on: what they share must lock.
+class provider_service {
+public:
+  virtual ~provider_service() = default;
+
+  /// @returns what computes it for this vehicle; not null.
+  virtual std::shared_ptr<service_function>
+  make_function(station_id vehicle) = 0;
+
+  /// What tells a vehicle in the terms of the service that the provider ends a
+  /// session; by default nothing.
+  virtual payload termination_message(const service_end& end, time_point now);
+
+  /// @returns who is to be told what the provider hears and sees, for as long
+  /// as the service is there; null: nobody.
+  virtual broadcast_listener* listener() { return nullptr; }
+};
+
+/// A service that vehicles can leave to providers. What it needs of the world
+/// besides its inputs, the functions have captured; each is never null.
+struct service {
+  service_name name;
+  service_options options;
+  std::function<std::shared_ptr<vehicle_service>(const vehicle_context&)>
+      in_vehicle;
+  std::function<std::shared_ptr<provider_service>(const provider_context&)>
+      at_provider;
+};
+
+} // namespace sofof::offloading

@@ -1,0 +1,62 @@
+// A service of the project with a change, for whole runs.
+#pragma once
+
+#include "actors/services/service_type.hpp"
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace sofof::test {
+
+/// As the real one, but for what `change` makes of it in each run.
+class changed_service final : public service_type {
+public:
+  using change =
+      std::function<void(offloading::service&, const service_world&)>;
+
+  changed_service(service_type_ptr real, change how)
+      : real_{std::move(real)}, how_{std::move(how)} {
+    options = real_->options;
+  }
+
+  std::string_view name() const override { return real_->name(); }
+  void fields(settings& s) override { real_->fields(s); }
+  offloading::service in(const service_world& world) const override {
+    auto service = real_->in(world);
+    how_(service, world);
+    return service;
+  }
+  client_actor spawn_client(caf::actor_system& sys,
+                            const vehicle_actor& vehicle) const override {
+    return real_->spawn_client(sys, vehicle);
+  }
+  std::shared_ptr<const plan_client> plans() const override {
+    return real_->plans();
+  }
+
+private:
+  service_type_ptr real_;
+  change how_;
+};
+
+/// As the real one at a provider; for changes.
+class real_at_provider : public offloading::provider_service {
+public:
+  explicit real_at_provider(std::shared_ptr<offloading::provider_service> real)
+      : real_{std::move(real)} {}
+
+  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+    return real_->make_function(vehicle);
+  }
+  payload termination_message(const service_end& end, time_point now) override {
+    return real_->termination_message(end, now);
+  }
+  broadcast_listener* listener() override { return real_->listener(); }
+
+private:
+  std::shared_ptr<offloading::provider_service> real_;
+};
+
+} // namespace sofof::test
