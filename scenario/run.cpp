@@ -112,36 +112,45 @@ private:
   bool is_told_ = false;
 };
 
+/// How a run is played: what it is looked at with while it goes on.
+struct stage {
+  const run_options& options;
+  const std::atomic<bool>& interrupted;
+  std::ostream& console;
+  locked_results& keeper;
+  loss_teller losses{};
+  progress shown{console, options.show};
+  stopwatch watch{};
+};
+
 /// Moves the run to its end, or to where it was interrupted.
-time_point advance(runtime& time, time_point end, const run_options& options,
-                   const std::atomic<bool>& interrupted, locked_results& keeper,
-                   loss_teller& losses, progress& shown, const stopwatch& watch,
-                   std::ostream& console) {
+time_point advance(runtime& time, time_point end, stage& on) {
+  const auto& options = on.options;
   const auto start = time.now();
   const auto total_s = options.endless ? 0 : to_seconds(end - start);
   const auto slice = options.realtime ? wall_slice : virtual_slice;
   const auto flush_s = options.realtime ? flush_every_real_s : flush_every_s;
   double flushed_s = 0;
   auto t = start;
-  while (t < end && !interrupted) {
+  while (t < end && !on.interrupted) {
     t = std::min(t + slice, end);
     time.run_until(t);
     if (options.news)
-      tell_news(options, shown, console);
-    const auto wall_s = watch.elapsed_s();
+      tell_news(options, on.shown, on.console);
+    const auto wall_s = on.watch.elapsed_s();
     const auto flush = wall_s - flushed_s > flush_s;
     if (flush)
       flushed_s = wall_s;
-    const auto offloaded = keeper.with([flush](results& r) {
+    const auto offloaded = on.keeper.with([flush](results& r) {
       if (flush)
         r.flush();
       return r.so_far().offloaded_now();
     });
-    losses.look_at(keeper, shown, console);
+    on.losses.look_at(on.keeper, on.shown, on.console);
     if (!options.endless)
-      shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
+      on.shown.update(to_seconds(t - start), total_s, offloaded, wall_s);
   }
-  shown.clear();
+  on.shown.clear();
   return t;
 }
 
@@ -203,6 +212,83 @@ kept_results make_keeper(const std::string& name, std::int64_t seed,
   }
 }
 
+/// What a run leaves when its actors have gone.
+struct played {
+  time_point ended;
+  std::optional<cpu_table> computed;
+  std::vector<std::pair<std::string, double>> decisions; ///< For timing.csv.
+};
+
+/// From the first actor to the last.
+/// @param on_start  Called once all are there; a run that it refuses has not
+///                  begun.
+/// @throws start_refused, and whatever ends a run early; the actors have gone
+/// then, too, and `has_begun` tells whether there are results.
+played play(const scenario& s, const part& here, runtime& time, time_point end,
+            const std::shared_ptr<locked_results>& keeper, stage& on,
+            const std::function<void(const world_actors&)>& on_start,
+            bool& has_begun) {
+  auto timed = s;
+  std::optional<deciding_times> deciding;
+  if (on.options.time_decisions)
+    deciding = add_timers(timed.policies);
+  const auto start = time.now();
+  const auto actors = build(
+      time.system(), timed, keeper, time.clock(), !on.options.realtime,
+      [keeper](const auto& why) { keeper->fail(why); }, here);
+  played run;
+  try {
+    if (on_start)
+      on_start(actors);
+    has_begun = true;
+    std::optional<cpu_meter> meter;
+    if (auto* ledger = ledger_of(time.system())) {
+      time.run_until(std::min(start + settling, end));
+      meter.emplace(*ledger, time.now());
+    }
+    run.ended = advance(time, end, on);
+    if (meter)
+      run.computed = meter->read(time.now());
+  } catch (const start_refused&) { // by a peer, perhaps a little later
+    has_begun = false;
+    dismiss(actors, time);
+    throw;
+  } catch (...) { // the disk is full, say, of a run that this ends
+    dismiss(actors, time);
+    throw;
+  }
+  dismiss(actors, time);
+  if (deciding)
+    run.decisions = deciding->figures();
+  return run;
+}
+
+/// Closes the files, and says how it was.
+run_outcome finish(const played& run, const run_info& info,
+                   const std::filesystem::path& folder, bool is_cut,
+                   stage& on) {
+  const auto last = on.keeper.with([&](results& r) {
+    if (run.computed)
+      r.take(*run.computed);
+    for (const auto& [name, value] : run.decisions)
+      r.take_timing(name, value);
+    return r.finish(run.ended, on.watch.elapsed_s(), is_cut);
+  });
+  on.losses.look_at(on.keeper, on.shown, on.console);
+  const auto is_lost = on.keeper.loss().has_value();
+  const auto is_safe = on.keeper.with([&](const results& r) {
+    if (on.options.show != progress::output::quiet)
+      on.console << table(r.so_far(), info, last, is_lost ? "" : folder,
+                          on.options.colour);
+    return r.so_far().safety().ok();
+  });
+  if (is_lost)
+    return run_outcome::failed;
+  if (last.interrupted)
+    return run_outcome::interrupted;
+  return is_safe ? run_outcome::good : run_outcome::failed;
+}
+
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
   if (!options.realtime)
     return make_virtual_runtime();
@@ -243,67 +329,19 @@ run_outcome run_part(const scenario& s, const run_options& options,
   const auto was_there = options.out && std::filesystem::exists(*options.out);
   info.start = time.now();
   const auto kept = make_keeper(name, s.seed, info, options);
-  const auto& folder = kept.folder;
-  const auto& keeper = kept.keeper;
-  loss_teller losses;
-  progress shown{console, options.show};
-  const stopwatch watch;
-  auto timed = s;
-  std::optional<deciding_times> deciding;
-  if (options.time_decisions)
-    deciding = add_timers(timed.policies);
-  const auto actors = build(
-      time.system(), timed, keeper, time.clock(), !options.realtime,
-      [keeper = keeper](const auto& why) { keeper->fail(why); }, here);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
-  time_point ended;
-  std::optional<cpu_table> computed;
-  bool is_started = false;
+  stage on{options, interrupted, console, *kept.keeper};
+  played run;
+  auto has_begun = false;
   try {
-    if (on_start)
-      on_start(actors);
-    is_started = true;
-    std::optional<cpu_meter> meter;
-    if (auto* ledger = ledger_of(time.system())) {
-      time.run_until(std::min(info.start + settling, end));
-      meter.emplace(*ledger, time.now());
-    }
-    ended = advance(time, end, options, interrupted, *keeper, losses, shown,
-                    watch, console);
-    if (meter)
-      computed = meter->read(time.now());
-  } catch (const start_refused&) {
-    dismiss(actors, time);
-    discard(folder, was_there);
-    throw;
-  } catch (...) { // the disk is full, say, of a run that this ends
-    dismiss(actors, time);
-    if (!is_started)
-      discard(folder, was_there);
+    run = play(s, here, time, end, kept.keeper, on, on_start, has_begun);
+  } catch (...) {
+    if (!has_begun)
+      discard(kept.folder, was_there);
     throw;
   }
-  dismiss(actors, time);
-  const auto last = keeper->with([&](results& r) {
-    if (computed)
-      r.take(*computed);
-    if (deciding)
-      for (const auto& [name, value] : deciding->figures())
-        r.take_timing(name, value);
-    return r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
-  });
-  losses.look_at(*keeper, shown, console);
-  const auto is_lost = keeper->loss().has_value();
-  const auto is_safe = keeper->with([&](const results& r) {
-    if (options.show != progress::output::quiet)
-      console << table(r.so_far(), info, last, is_lost ? "" : folder,
-                       options.colour);
-    return r.so_far().safety().ok();
-  });
-  if (is_lost)
-    return run_outcome::failed;
-  if (last.interrupted)
-    return run_outcome::interrupted;
-  return is_safe ? run_outcome::good : run_outcome::failed;
+  return finish(run, info, kept.folder, !options.endless && run.ended < end,
+                on);
 }
 
 } // namespace sofof
