@@ -34,7 +34,7 @@ public:
   void stop_safely();
 
   /// @param x  The car after a step of protocol::control_period.
-  void on_step(const vehicle_state& x) { ride_.take(x, emergency_); }
+  void on_step(const vehicle_state& x) { ride_.add(x, emergency_); }
 
   /// @returns the figures since the last call.
   drive_record flush();

@@ -12,7 +12,7 @@ struct lane_order::gaze {
   const driver& self;
   double after_m;
   station_id station;
-  std::optional<object_list> nearest;
+  std::optional<road_user_ahead> nearest;
 
   bool is_ahead(double ahead_m, station_id other) const {
     return ahead_m > 0 || (ahead_m == 0 && other < station);
@@ -25,8 +25,8 @@ struct lane_order::gaze {
     });
   }
 
-  void take(const occupant& o, double axle_m, unrolled_route::leg own,
-            double at_least_m = -1e300) {
+  void consider(const occupant& o, double axle_m, unrolled_route::leg own,
+                double at_least_m = -1e300) {
     const auto rear_m = std::max(axle_m - o.rear_m, at_least_m);
     const auto is_own_tail = o.station == self.known.station; // a lap ahead
     if (!is_own_tail && (!nearest || rear_m < nearest->rear_m))
@@ -61,17 +61,17 @@ void lane_order::sort(std::span<const driver> drivers) {
     });
 }
 
-std::optional<object_list> lane_order::ahead_of(std::size_t i) const {
+std::optional<road_user_ahead> lane_order::ahead_of(std::size_t i) const {
   const auto& d = drivers_[i];
   return find({d, d.known.s_m, d.known.station, {}});
 }
 
-std::optional<object_list> lane_order::beyond(std::size_t i,
-                                              const object_list& seen) const {
+std::optional<road_user_ahead>
+lane_order::beyond(std::size_t i, const road_user_ahead& seen) const {
   return find({drivers_[i], seen.axle_m, drivers_[seen.who].known.station, {}});
 }
 
-std::optional<object_list> lane_order::find(gaze from) const {
+std::optional<road_user_ahead> lane_order::find(gaze from) const {
   const auto& way = *from.self.way;
   const auto end_m = from.self.front_m() + sight_m;
   for (auto i = from.self.leg; way.has(i); ++i) {
@@ -93,7 +93,7 @@ void lane_order::look_along(gaze& from, unrolled_route::leg i) const {
   const auto& lane = lanes_[from.self.way->lane(i)];
   const auto o = from.first_ahead(lane, start_m);
   if (o != lane.end())
-    from.take(*o, start_m + o->s_m, i);
+    from.consider(*o, start_m + o->s_m, i);
 }
 
 void lane_order::look_at_forking(gaze& from, unrolled_route::leg i,
@@ -106,7 +106,7 @@ void lane_order::look_at_forking(gaze& from, unrolled_route::leg i,
   while (o != lane.end() && o->s_m < 0)
     ++o; // still where all come from, not on the other lane
   if (o != lane.end() && o->s_m - o->rear_m < e.other_to_m)
-    from.take(*o, start_m + o->s_m, i);
+    from.consider(*o, start_m + o->s_m, i);
 }
 
 void lane_order::look_at_joining(gaze& from, unrolled_route::leg i,
@@ -123,12 +123,12 @@ void lane_order::look_at_joining(gaze& from, unrolled_route::leg i,
       continue;
     // Who waits for the zone has all of it ahead, not a part of a body.
     const auto zone_m = way.start_m(i) + e.from_m;
-    from.take(o, end_m - o.to_end_m, i,
-              from.self.front_m() < zone_m ? zone_m : -1e300);
+    from.consider(o, end_m - o.to_end_m, i,
+                  from.self.front_m() < zone_m ? zone_m : -1e300);
   }
 }
 
-double lane_order::shared_to_m(std::size_t i, const object_list& seen,
+double lane_order::shared_to_m(std::size_t i, const road_user_ahead& seen,
                                double limit_m) const {
   const auto &own = *drivers_[i].way, &its = *drivers_[seen.who].way;
   for (auto a = seen.own_leg, b = seen.its_leg;; ++a, ++b) {

@@ -12,7 +12,7 @@
 namespace sofof {
 
 /// A road user ahead, as seen from another one's route.
-struct object_list {
+struct road_user_ahead {
   std::uint32_t who = 0; ///< Index of the driver seen.
   double axle_m = 0;     ///< Its rear axle, arc length on the other's route.
   double rear_m = 0;     ///< Its rear bumper, likewise.
@@ -34,15 +34,15 @@ public:
   /// @returns the nearest road user ahead of driver number `i`, within
   /// `sight_m`: on its way, or on a lane that begins or ends together with
   /// one of its own, as long as the bodies could touch there.
-  std::optional<object_list> ahead_of(std::size_t i) const;
+  std::optional<road_user_ahead> ahead_of(std::size_t i) const;
 
   /// @returns the next one ahead of `i` after `seen`.
-  std::optional<object_list> beyond(std::size_t i,
-                                    const object_list& seen) const;
+  std::optional<road_user_ahead> beyond(std::size_t i,
+                                        const road_user_ahead& seen) const;
 
   /// @returns up to where on the route of `i` the one seen stays in the way
   /// when it drives on, m; at most `limit_m`.
-  double shared_to_m(std::size_t i, const object_list& seen,
+  double shared_to_m(std::size_t i, const road_user_ahead& seen,
                      double limit_m) const;
 
 private:
@@ -56,7 +56,7 @@ private:
   };
   struct gaze; // a search along a driver's way
 
-  std::optional<object_list> find(gaze from) const;
+  std::optional<road_user_ahead> find(gaze from) const;
   void look_along(gaze& from, unrolled_route::leg i) const;
   void look_at_forking(gaze& from, unrolled_route::leg i,
                        const conflict_side& e) const;

@@ -109,7 +109,7 @@ void attempt::leave(int vehicle) {
 
 void attempt::enter(int vehicle, choice c) {
   if (c)
-    room_.take(vehicle, *c);
+    room_.occupy(vehicle, *c);
   choices_[vehicle] = c;
 }
 

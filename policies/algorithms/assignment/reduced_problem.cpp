@@ -46,7 +46,7 @@ bool room::fits(int vehicle, int provider) const {
   return true;
 }
 
-void room::take(int vehicle, int provider) {
+void room::occupy(int vehicle, int provider) {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     free_(provider, static_cast<int>(k)) -= (*shares_)[k](vehicle, provider);
 }
