@@ -12,11 +12,4 @@ bool first_response::use(time_point began) {
   return true;
 }
 
-double joint_miss_probability(std::span<const double> misses) {
-  double joint = 1;
-  for (const auto p : misses)
-    joint *= p;
-  return joint;
-}
-
 } // namespace sofof

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 
 namespace sofof {
 
@@ -47,10 +46,5 @@ private:
   std::optional<time_point> newest_; // answered: when it began
   std::uint64_t dropped_ = 0;
 };
-
-/// @param misses  Probability of each provider to miss a cycle, in [0, 1].
-/// @returns the probability that all miss it, if they do so independently of
-/// each other; links that share a radio do not, and miss more often.
-double joint_miss_probability(std::span<const double> misses);
 
 } // namespace sofof

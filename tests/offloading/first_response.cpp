@@ -4,6 +4,7 @@
 #include "policies/algorithms/forecast/continuity.hpp"
 #include "tests/support/at.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/joint_miss_probability.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::test;
 using namespace std::chrono_literals;
 using test::at;
 using test::dice;

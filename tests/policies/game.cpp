@@ -1,6 +1,7 @@
 // Tests of the offloading game: what theory promises of it.
 // Source: Chen, Jiao, Li & Fu, ToN 24(5), 2016.
 #include "policies/algorithms/game/best_response.hpp"
+#include "tests/support/game_laws.hpp"
 #include "tests/support/radio_cell.hpp"
 
 #include <doctest/doctest.h>
@@ -78,9 +79,9 @@ struct optimum {
 optimum brute_force(const offloading_game& game) {
   optimum best;
   for_each_profile(game, [&](const profile& a) {
-    best.least_cost = std::min(best.least_cost, game.total_cost(a));
+    best.least_cost = std::min(best.least_cost, total_cost(game, a));
     const auto offloading = offloaders(a);
-    if (offloading > best.most_users && game.beneficial_users(a) == offloading)
+    if (offloading > best.most_users && beneficial_users(game, a) == offloading)
       best.most_users = offloading;
   });
   return best;
@@ -242,10 +243,10 @@ TEST_CASE("every move lowers the potential") {
   for_each_start([](const offloading_game& game, profile a, auto seed) {
     std::uint64_t slot = 0;
     while (const auto move = decision_slot(game, a, slot++, lottery(seed))) {
-      const auto before = game.potential(a);
+      const auto before = potential(game, a);
       const auto cost_before = game.cost(a, move->player);
       a[move->player] = move->to;
-      REQUIRE(game.potential(a) < before);
+      REQUIRE(potential(game, a) < before);
       REQUIRE(game.cost(a, move->player) < cost_before);
     }
   });
@@ -260,11 +261,11 @@ TEST_CASE("the potential falls by what a mover is spared, times its weight") {
     };
     const auto move = decision_slot(game, a, 0, lottery(seed));
     REQUIRE(move);
-    const auto before = game.potential(a);
+    const auto before = potential(game, a);
     const auto level_before = level(move->player);
     a[move->player] = move->to;
     const auto weight = game.model().weight(game.players()[move->player]);
-    REQUIRE(std::abs(before - game.potential(a)
+    REQUIRE(std::abs(before - potential(game, a)
                      - weight * (level_before - level(move->player)))
             <= 1e-12 * std::abs(before));
   });
@@ -274,7 +275,7 @@ TEST_CASE("at the end nobody can do better alone") {
   for_each_start(
       [](const offloading_game& game, const profile& start, auto seed) {
         const auto a = play(game, start, lottery(seed)).choices;
-        REQUIRE(game.is_equilibrium(a));
+        REQUIRE(is_equilibrium(game, a));
         for (std::size_t n = 0; n < a.size(); ++n)
           for (choice c = locally; c <= game.channels(); ++c) {
             auto other = a;
@@ -287,7 +288,7 @@ TEST_CASE("at the end nobody can do better alone") {
 TEST_CASE("a crowd on one channel is no equilibrium") {
   for (const auto& model : both_models()) {
     const auto game = cell_game(1, model);
-    CHECK(!game.is_equilibrium(profile(30, 1)));
+    CHECK(!is_equilibrium(game, profile(30, 1)));
   }
 }
 
@@ -296,7 +297,7 @@ TEST_CASE("everybody who offloads at the end gains by it") {
       [](const offloading_game& game, const profile& start, auto seed) {
         const auto a = play(game, start, lottery(seed)).choices;
         REQUIRE(offloaders(a) > 0);
-        REQUIRE(game.beneficial_users(a) == offloaders(a));
+        REQUIRE(beneficial_users(game, a) == offloaders(a));
       });
 }
 
@@ -305,8 +306,8 @@ TEST_CASE("an equilibrium costs no more than the average crowd would") {
       [](const offloading_game& game, const profile& start, auto seed) {
         const auto a = play(game, start, lottery(seed)).choices;
         const auto bounds = costs_in_theory(game);
-        REQUIRE(game.total_cost(a) <= bounds.most * (1 + 1e-9));
-        REQUIRE(game.total_cost(a) >= bounds.least * (1 - 1e-9));
+        REQUIRE(total_cost(game, a) <= bounds.most * (1 + 1e-9));
+        REQUIRE(total_cost(game, a) >= bounds.least * (1 - 1e-9));
       });
 }
 
@@ -318,7 +319,7 @@ TEST_CASE("the price of anarchy is within what theory allows") {
       const auto best = brute_force(game);
       const auto a = play(game, game.all_local(), lottery(seed)).choices;
       const auto bounds = costs_in_theory(game);
-      const auto price = game.total_cost(a) / best.least_cost;
+      const auto price = total_cost(game, a) / best.least_cost;
       REQUIRE(price >= 1 - 1e-12);
       REQUIRE(price <= bounds.most / bounds.least * (1 + 1e-9));
 
@@ -326,7 +327,7 @@ TEST_CASE("the price of anarchy is within what theory allows") {
       if (!share)
         continue;
       bounded += *share > 0;
-      const auto gaining = static_cast<double>(game.beneficial_users(a));
+      const auto gaining = static_cast<double>(beneficial_users(game, a));
       REQUIRE(gaining <= static_cast<double>(best.most_users));
       REQUIRE(gaining >= *share * static_cast<double>(best.most_users));
     }
@@ -342,10 +343,10 @@ TEST_CASE("seven players on two channels pay a tenth more than they must") {
     const offloading_game game{users(7, seed), 2, taking_turns()};
     const auto best = brute_force(game);
     const auto a = play(game, game.all_local(), lottery(seed)).choices;
-    const auto price = game.total_cost(a) / best.least_cost;
+    const auto price = total_cost(game, a) / best.least_cost;
     cost += price / games;
     most_cost = std::max(most_cost, price);
-    gaining += static_cast<double>(game.beneficial_users(a))
+    gaining += static_cast<double>(beneficial_users(game, a))
                / static_cast<double>(best.most_users) / games;
   }
   CHECK(cost == doctest::Approx(1.096).epsilon(0.03));

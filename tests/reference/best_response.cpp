@@ -10,6 +10,7 @@
 // the text speaks of its interference model: see the last test.
 #include "policies/algorithms/game/best_response.hpp"
 
+#include "tests/support/game_laws.hpp"
 #include "tests/support/radio_cell.hpp"
 
 #include <doctest/doctest.h>
@@ -64,11 +65,11 @@ measured measure(std::size_t count,
     const auto blind = blindly_offloaded(game, run);
     const auto found = play(game, local, random_stream{run, "lottery"});
     const auto gaining = [&](const profile& a) {
-      return static_cast<double>(game.beneficial_users(a)) / runs;
+      return static_cast<double>(beneficial_users(game, a)) / runs;
     };
-    mean.best_response_cost += game.total_cost(found.choices) / runs;
-    mean.all_offload_cost += game.total_cost(blind) / runs;
-    mean.all_local_cost += game.total_cost(local) / runs;
+    mean.best_response_cost += total_cost(game, found.choices) / runs;
+    mean.all_offload_cost += total_cost(game, blind) / runs;
+    mean.all_local_cost += total_cost(game, local) / runs;
     mean.best_response_users += gaining(found.choices);
     mean.all_offload_users += gaining(blind);
     mean.slots += static_cast<double>(found.slots) / runs;

@@ -4,7 +4,7 @@
 
 #include "policies/algorithms/learning/q_learning.hpp"
 #include "policies/algorithms/learning/td_loss.hpp"
-#include "policies/algorithms/learning/value_iteration.hpp"
+#include "tests/support/value_iteration.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +12,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::test;
 
 TEST_CASE("the slopes of the loss are those of finite differences") {
   const random_stream draws{1, "slopes"};

@@ -1,6 +1,6 @@
 // Tabular learning against the exact values of small decision processes.
 #include "policies/algorithms/learning/q_learning.hpp"
-#include "policies/algorithms/learning/value_iteration.hpp"
+#include "tests/support/value_iteration.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +8,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::test;
 
 namespace {
 

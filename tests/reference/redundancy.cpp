@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "offloading/first_response.hpp"
 #include "policies/algorithms/forecast/normal_law.hpp"
+#include "tests/support/joint_miss_probability.hpp"
 #include "tests/support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::test;
 using namespace std::chrono_literals;
 using test::near;
 

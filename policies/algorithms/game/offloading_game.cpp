@@ -43,23 +43,6 @@ double offloading_game::cost(const profile& a, std::size_t n) const {
   return cost_of(n, a[n], received(a, n, a[n]));
 }
 
-double offloading_game::total_cost(const profile& a) const {
-  double sum = 0;
-  for (std::size_t n = 0; n < a.size(); ++n)
-    sum += cost(a, n);
-  return sum;
-}
-
-double offloading_game::potential(const profile& a) const {
-  double sum = 0;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    const auto level =
-        a[n] == locally ? thresholds_[n] : 0.5 * received(a, n, a[n]);
-    sum += weights_[n] * level;
-  }
-  return sum;
-}
-
 std::optional<choice>
 offloading_game::improvement(const profile& a, std::size_t n,
                              const std::vector<double>& loads) const {
@@ -74,21 +57,6 @@ offloading_game::improvement(const profile& a, std::size_t n,
   if (std::min(offloaded, local_costs_[n]) < enough)
     return best;
   return std::nullopt;
-}
-
-bool offloading_game::is_equilibrium(const profile& a) const {
-  const auto on_channels = loads(a);
-  for (std::size_t n = 0; n < a.size(); ++n)
-    if (improvement(a, n, on_channels))
-      return false;
-  return true;
-}
-
-std::size_t offloading_game::beneficial_users(const profile& a) const {
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < a.size(); ++n)
-    count += a[n] != locally && cost(a, n) <= local_costs_[n];
-  return count;
 }
 
 double offloading_game::cost_of(std::size_t n, choice c,

@@ -57,14 +57,6 @@ public:
   /// Cost of player n, s and J weighed.
   /// Source: Chen 2016, eq. (12).
   double cost(const profile& a, std::size_t n) const;
-  double total_cost(const profile& a) const;
-
-  /// Falls with every improvement of anybody, by as much weight as the mover
-  /// is spared times its own; computing locally counts as receiving one's
-  /// threshold. Rounding hides the moves of players who weigh less than
-  /// about 1e-8 of others.
-  /// Source: Chen 2016, eqs. (16) and (31).
-  double potential(const profile& a) const;
 
   /// The choice that is cheapest for player n while the others stay; of equal
   /// channels the first. O(N + M).
@@ -72,13 +64,6 @@ public:
   /// @returns nullopt when it saves less than `least_saving`.
   std::optional<choice> improvement(const profile& a, std::size_t n,
                                     const std::vector<double>& loads) const;
-
-  /// @returns whether nobody can improve: a Nash equilibrium.
-  bool is_equilibrium(const profile& a) const;
-
-  /// Players who offload and pay no more than they would locally.
-  /// Source: Chen 2016, Definition 1.
-  std::size_t beneficial_users(const profile& a) const;
 
 private:
   double cost_of(std::size_t n, choice c, double received) const;
