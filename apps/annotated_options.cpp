@@ -1,7 +1,7 @@
 // Options as a scenario has them, with what they mean beside.
 #include "apps/annotated_options.hpp"
 
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_printer.hpp"
 #include "base/options/units.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ namespace sofof {
 
 namespace {
 
-std::string text_of(settings::range r) {
-  constexpr settings::range any;
+std::string text_of(option_visitor::range r) {
+  constexpr option_visitor::range any;
   if (r.min > any.min && r.max < any.max)
     return fmt::format("{} to {}", r.min, r.max);
   if (r.min > any.min)
@@ -24,7 +24,7 @@ std::string text_of(settings::range r) {
 }
 
 /// Notes the options of one table.
-class lines final : public settings {
+class lines final : public option_visitor {
 public:
   struct line {
     std::string key, value, range;
@@ -56,22 +56,24 @@ public:
     put(key, "", value);
   }
   void table(std::string_view key,
-             const std::function<void(settings&)>& list) override {
+             const std::function<void(option_visitor&)>& list) override {
     lines part;
     list(part);
     const auto name = std::ranges::find(part.all, "name", &line::key);
     if (name != part.all.end())
       all.push_back({std::string{key}, name->value, {}});
   }
-  void tables(std::string_view, std::size_t,
-              const std::function<void(std::size_t, settings&)>&) override {}
+  void
+  tables(std::string_view, std::size_t,
+         const std::function<void(std::size_t, option_visitor&)>&) override {}
   void refuse(std::string_view, const std::string&) override {}
 
 private:
   // The value as a file has it.
   template <class... Value>
   void put(std::string_view key, std::string range, Value&... value) {
-    auto text = print_settings([&](settings& s) { s.field(key, value...); });
+    auto text =
+        print_options([&](option_visitor& s) { s.field(key, value...); });
     text.erase(0, key.size() + std::string_view{" = "}.size());
     text.pop_back(); // the end of the line
     all.push_back({std::string{key}, std::move(text), std::move(range)});
@@ -92,7 +94,7 @@ std::string comment_of(const option_info& note, const std::string& range) {
 } // namespace
 
 std::string print_documented(std::string_view header,
-                             const std::function<void(settings&)>& list,
+                             const std::function<void(option_visitor&)>& list,
                              const std::vector<option_info>& notes) {
   lines options;
   list(options);

@@ -1,7 +1,7 @@
 // Options as a scenario has them, with what they mean beside.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "policies/api/notes.hpp"
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace sofof {
 /// @param header  E.g. "[policies.lodm]".
 /// @param list    Lists the options: `name`, and those of the notes.
 std::string print_documented(std::string_view header,
-                             const std::function<void(settings&)>& list,
+                             const std::function<void(option_visitor&)>& list,
                              const std::vector<option_info>& notes);
 
 } // namespace sofof

@@ -26,14 +26,16 @@ struct role {
   std::string_view what;
   std::vector<policy_info> all;
   /// Lists the options of one.
-  std::function<void(settings&, std::string_view name)> options;
+  std::function<void(option_visitor&, std::string_view name)> options;
   bool several = false; ///< A list of them.
 };
 
 /// @param make  From a name to what has options.
 template <class Make>
 auto options_by(Make make) {
-  return [make](settings& s, std::string_view name) { make(name)->fields(s); };
+  return [make](option_visitor& s, std::string_view name) {
+    make(name)->visit_options(s);
+  };
 }
 
 std::vector<role> roles() {
@@ -59,7 +61,7 @@ std::string list(const role& one) {
 std::string describe(const role& sort, const policy_info& one) {
   const auto header = sort.several ? fmt::format("[[policies.{}]]", sort.key)
                                    : fmt::format("[policies.{}]", sort.key);
-  const auto options = [&](settings& s) {
+  const auto options = [&](option_visitor& s) {
     std::string name{one.name};
     s.field("name", name);
     sort.options(s, name);

@@ -60,7 +60,7 @@ channel::channel(std::shared_ptr<const channel_profile> profile,
 }
 
 duration channel::service_time(std::uint64_t cycle) const {
-  const auto& draws = of({way::down, message_class::result, cycle});
+  const auto& draws = of({direction::down, message_class::result, cycle});
   const auto& p = *profile_;
   return p.more_computing
          + from_seconds(p.service.draw_s(draws, cycle, service_lane)
@@ -75,7 +75,7 @@ duration channel::network_delay(const message_id& m, time_point sent) const {
   if (!p.replays)
     return extra
            + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));
-  if (m.direction == way::up)
+  if (m.to == direction::up)
     return extra;
   return extra
          + from_seconds(
@@ -98,8 +98,8 @@ double channel::drift(time_point sent) const {
   return std::exp(sd * g);
 }
 
-duration channel::burst_delay(way direction, std::uint64_t stall) const {
-  return from_seconds(network_draw_s(*profile_, of(direction).bursts, stall));
+duration channel::burst_delay(direction to, std::uint64_t stall) const {
+  return from_seconds(network_draw_s(*profile_, of(to).bursts, stall));
 }
 
 duration channel::airtime(const message_id& m, std::size_t octets) const {
@@ -150,12 +150,12 @@ channel::streams channel::split(std::string_view direction,
   return {s.part("results"), s.part("others"), s.part("bursts")};
 }
 
-const channel::streams& channel::of(way direction) const {
-  return direction == way::up ? up_ : down_;
+const channel::streams& channel::of(direction to) const {
+  return to == direction::up ? up_ : down_;
 }
 
 const random_stream& channel::of(const message_id& m) const {
-  const auto& streams = of(m.direction);
+  const auto& streams = of(m.to);
   return m.kind == message_class::result ? streams.results : streams.others;
 }
 

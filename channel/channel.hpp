@@ -17,7 +17,7 @@
 namespace sofof {
 
 /// Where a message goes: to the provider, or to the vehicle.
-enum class way { up, down };
+enum class direction { up, down };
 
 /// What is numbered with it. Each class has draws of its own in each
 /// direction, so that protocol messages never shift the noise of results.
@@ -28,7 +28,7 @@ enum class message_class {
 
 /// One message as the channel sees it.
 struct message_id {
-  way direction = way::down;
+  direction to = direction::down;
   message_class kind = message_class::result;
   std::uint64_t number = 0;
 };
@@ -53,12 +53,12 @@ public:
 
   /// Network delay of result number `cycle`.
   duration downlink_delay(std::uint64_t cycle, time_point sent) const {
-    return network_delay({way::down, message_class::result, cycle}, sent);
+    return network_delay({direction::down, message_class::result, cycle}, sent);
   }
 
   /// Network delay of all that stall number `stall` held back: it is released
   /// at the stall's end and travels together.
-  duration burst_delay(way direction, std::uint64_t stall) const;
+  duration burst_delay(direction to, std::uint64_t stall) const;
 
   /// Time that a message occupies the radio cell.
   /// @param octets  Of the message on the air.
@@ -86,7 +86,7 @@ private:
     random_stream bursts;
   };
   streams split(std::string_view direction, std::uint32_t provider) const;
-  const streams& of(way direction) const;
+  const streams& of(direction to) const;
   const random_stream& of(const message_id& m) const;
 
   random_stream of_radio_; // of this vehicle

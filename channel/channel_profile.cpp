@@ -1,7 +1,7 @@
 // The named channel profiles.
 #include "channel/channel_profile.hpp"
 
-#include "base/options/listing.hpp"
+#include "base/options/option_helpers.hpp"
 
 #include <array>
 #include <cmath>
@@ -96,11 +96,11 @@ constexpr std::array known_profiles{
     entry{"trace", trace},
 };
 
-constexpr settings::range chances{0, 1};
+constexpr option_visitor::range chances{0, 1};
 
 } // namespace
 
-void stall_options::fields(settings& s) {
+void stall_options::visit_options(option_visitor& s) {
   s.field("rate_hz", rate_hz, {0, 1e3});
   s.field("shortest", shortest, 0ns);
   s.field("longest", longest, 0ns);
@@ -112,7 +112,7 @@ void stall_options::fields(settings& s) {
     s.refuse("rate_hz", "has no effect while longest is \"0s\"");
 }
 
-void burst_loss_options::fields(settings& s) {
+void burst_loss_options::visit_options(option_visitor& s) {
   s.field("mean_good", mean_good, 0ns);
   s.field("mean_bad", mean_bad, 0ns);
   s.field("loss_good", loss_good, chances);
@@ -122,14 +122,14 @@ void burst_loss_options::fields(settings& s) {
              "has no effect alone; mean_good and mean_bad go together");
 }
 
-void drift_options::fields(settings& s) {
+void drift_options::visit_options(option_visitor& s) {
   s.field("sd", sd, {0, 3});
   s.field("period", period, 0ns);
   if (sd > 0 && period <= 0ns)
     s.refuse("sd", "has no effect while period is \"0s\"");
 }
 
-void spike_options::fields(settings& s) {
+void spike_options::visit_options(option_visitor& s) {
   s.field("probability", probability, chances);
   s.field("shortest", shortest, 0ns);
   s.field("longest", longest, 0ns);
@@ -139,7 +139,7 @@ void spike_options::fields(settings& s) {
     s.refuse("probability", "has no effect while longest is \"0s\"");
 }
 
-void outage_options::fields(settings& s) {
+void outage_options::visit_options(option_visitor& s) {
   s.field("from", from, 0ns);
   s.field("to", to, 0ns);
   if (to <= from)
@@ -156,18 +156,19 @@ double channel_profile::service_deviation_s() const {
                     joint_service_share * joint.deviation_s());
 }
 
-void channel_profile::fields(settings& s) {
+void channel_profile::visit_options(option_visitor& s) {
   s.field("workers", workers, {1, 1024});
   s.field("more_computing", more_computing, 0ns);
   s.field("more_delay", more_delay, 0ns);
   s.field("loss", loss, chances);
   s.field("cell_mbps", cell_mbps, {0, 1e6});
   s.field("scatters_trace", scatters_trace);
-  s.table("stalls", [this](settings& t) { stalls.fields(t); });
-  s.table("burst_loss", [this](settings& t) { burst_loss.fields(t); });
-  s.table("drift", [this](settings& t) { drift.fields(t); });
-  s.table("spikes", [this](settings& t) { spikes.fields(t); });
-  list_all(s, "outage", outages);
+  s.table("stalls", [this](option_visitor& t) { stalls.visit_options(t); });
+  s.table("burst_loss",
+          [this](option_visitor& t) { burst_loss.visit_options(t); });
+  s.table("drift", [this](option_visitor& t) { drift.visit_options(t); });
+  s.table("spikes", [this](option_visitor& t) { spikes.visit_options(t); });
+  visit_list(s, "outage", outages);
 }
 
 std::vector<std::string_view> channel_profile_names() {

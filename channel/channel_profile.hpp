@@ -1,7 +1,7 @@
 // What tells one kind of channel from another: its distributions and loss.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 #include "channel/delay_distribution.hpp"
 #include "channel/trace.hpp"
@@ -25,7 +25,7 @@ struct stall_options {
   duration shortest{};
   duration longest{};
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Two-state loss after Gilbert (1960) and Elliott (1963), in continuous time:
@@ -37,7 +37,7 @@ struct burst_loss_options {
   double loss_good = 0; ///< Probability in [0, 1].
   double loss_bad = 1;  ///< Probability in [0, 1].
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Good and bad phases of one vehicle's way to one provider: all its delays at
@@ -47,7 +47,7 @@ struct drift_options {
   double sd = 0;     ///< Of the logarithm of delays; 0: no drift.
   duration period{}; ///< From one independent value of g to the next.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Messages that take longer, at random: nothing before tells which.
@@ -56,7 +56,7 @@ struct spike_options {
   duration shortest{};    ///< Added to its delay, uniformly up to
   duration longest{};     ///< this.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// A time in which nothing gets through, for anybody: what is sent meanwhile is
@@ -65,7 +65,7 @@ struct outage_options {
   duration from{}; ///< Since the start of the run,
   duration to{};   ///< up to here.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Everything that tells one kind of channel from another. docs/channels.md
@@ -113,7 +113,7 @@ struct channel_profile {
   double service_deviation_s() const;
 
   /// What a scenario may change about a named profile.
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// @returns the names of all profiles, `trace` included.

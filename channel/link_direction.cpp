@@ -6,9 +6,9 @@
 
 namespace sofof {
 
-link_direction::link_direction(channel draws, way direction,
+link_direction::link_direction(channel draws, direction to,
                                std::shared_ptr<multi_server_queue> cell)
-    : draws_{std::move(draws)}, direction_{direction}, cell_{std::move(cell)},
+    : draws_{std::move(draws)}, direction_{to}, cell_{std::move(cell)},
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
 
 std::optional<time_point> link_direction::arrival(time_point sent,

@@ -19,7 +19,7 @@ class link_direction {
 public:
   /// @param cell  The radio cell's airtime queue, of one worker, shared by
   ///              the vehicles of a cell in this direction; null for none.
-  link_direction(channel draws, way direction,
+  link_direction(channel draws, direction to,
                  std::shared_ptr<multi_server_queue> cell);
 
   /// The run begins now: outages are counted from here, else from time zero.
@@ -38,7 +38,7 @@ public:
 
 private:
   channel draws_;
-  way direction_;
+  direction direction_;
   std::shared_ptr<multi_server_queue> cell_;
   outage_process stalls_;
   outage_process fades_;

@@ -2,7 +2,7 @@
 // on either side. Inputs and results are opaque here.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/service.hpp"
 #include "offloading/result_judge.hpp"
@@ -33,7 +33,7 @@ struct service_options {
   duration run_time_max{};
   task_options task; ///< What a cycle asks of who computes it.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// @returns the options with run times as on this computer: in proportion to

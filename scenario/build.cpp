@@ -65,7 +65,7 @@ duration fresh_limit(const scenario& s) {
 /// they would tell of an empty road, and speak against every car.
 std::vector<roadside_sensor>
 sensors_beside(const scenario& s, const std::vector<provider_cell>& cells,
-               const part& here) {
+               const process_share& here) {
   if (here.serves_others)
     return {};
   const auto noise = noise_of(s, "roadside sensors");
@@ -91,15 +91,16 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
   const channel draws{at.channel, noise_of(s, "network"), station, at.place,
                       at.options->radio};
   return {spawn_network_link(sys, at.provider,
-                             {{draws, way::up, at.cell_up},
-                              {draws, way::down, at.cell_down},
+                             {{draws, direction::up, at.cell_up},
+                              {draws, direction::down, at.cell_down},
                               std::nullopt}),
           at.options->position_m, at.options->range_m};
 }
 
 // Real delays take the place of modelled ones.
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                const part::remote_provider& to, const uplink_mouth& uplink) {
+                const process_share::remote_provider& to,
+                const uplink_mouth& uplink) {
   auto far = spawn_far_provider(sys, station, uplink);
   introduce(uplink, station, far);
   const auto& at = s.providers[to.place];
@@ -133,7 +134,7 @@ class builder {
 public:
   builder(caf::actor_system& sys, const scenario& s,
           std::shared_ptr<record_sink> sink, etsi::its_clock clock,
-          bool virtual_time, const part& here)
+          bool virtual_time, const process_share& here)
       : sys_{sys}, s_{s}, here_{here}, virtual_time_{virtual_time},
         where_{std::make_shared<const georeference>(
             geo_frame{s.world->map.origin()}, clock)},
@@ -214,7 +215,7 @@ private:
     return spawn_service_provider(sys_, std::move(setup));
   }
 
-  void add_uplink(const part::remote_provider& to) {
+  void add_uplink(const process_share::remote_provider& to) {
     world_.uplinks.push_back(to.spawn_uplink(world_.recorder));
     name(watched_, world_.uplinks.back(),
          fmt::format("the uplink to provider {}", s_.providers[to.place].name));
@@ -317,7 +318,7 @@ private:
 
   caf::actor_system& sys_;
   const scenario& s_;
-  const part& here_;
+  const process_share& here_;
   bool virtual_time_;
   georeference_ptr where_;
   std::function<broadcast(const its_pdu&, time_point)> decode_;
@@ -333,7 +334,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
                    std::function<void(const std::string&)> on_loss,
-                   const part& here) {
+                   const process_share& here) {
   builder all{sys, s, std::move(sink), clock, virtual_time, here};
   auto world = all.build();
   if (on_loss)

@@ -17,7 +17,7 @@
 namespace sofof {
 
 /// Which part of a scenario lives in this process: without changes, all of it.
-struct part {
+struct process_share {
   /// Whether this process drives a vehicle.
   std::function<bool(station_id)> drives = [](station_id) { return true; };
   /// Whether it runs a provider, by its place in the file, counting from 0.
@@ -62,7 +62,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
                    std::function<void(const std::string&)> on_loss = {},
-                   const part& here = {});
+                   const process_share& here = {});
 
 /// Ends all actors, group by group, so that what still runs is closed on both
 /// sides and recorded: the vehicles with their requesters first, the recorder

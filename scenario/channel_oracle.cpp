@@ -21,8 +21,8 @@ class results_to_come {
 public:
   results_to_come(const channel& draws,
                   const offloading::service_options& options, duration phase)
-      : draws_{draws}, way_{draws, way::down, nullptr}, options_{&options},
-        phase_{phase} {}
+      : draws_{draws}, way_{draws, direction::down, nullptr},
+        options_{&options}, phase_{phase} {}
 
   foreseen_results look(time_point from, time_point until) {
     const auto since = from.time_since_epoch() - phase_;

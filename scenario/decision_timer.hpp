@@ -54,7 +54,7 @@ public:
   std::optional<std::string> restore(std::string_view text) override {
     return what_->restore(text);
   }
-  void fields(settings& s) override { what_->fields(s); }
+  void visit_options(option_visitor& s) override { what_->visit_options(s); }
   std::string_view name() const override { return what_->name(); }
   std::string title() const override { return what_->title(); }
 

@@ -181,7 +181,7 @@ void check_stations(const scenario& s, const std::set<station_id>& wanted) {
 }
 
 std::vector<station_id> connected_stations(const scenario& s,
-                                           const part& here) {
+                                           const process_share& here) {
   std::vector<station_id> all;
   for (const auto& fleet : s.fleets)
     for (std::int64_t k = 0; fleet.connected && k < fleet.count; ++k)
@@ -215,7 +215,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   options.network = "real";
   options.whose = name;
   options.news = news_of(board, what, keys);
-  part here;
+  process_share here;
   here.drives = [](station_id) { return false; };
   here.provides = [place](std::size_t k) { return k == place; };
   here.serves_others = true;
@@ -270,7 +270,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console) {
   check_stations(s, what.stations);
-  part here;
+  process_share here;
   here.drives = [stations = what.stations](station_id x) {
     return stations.empty() || stations.contains(x);
   };
@@ -290,7 +290,8 @@ run_outcome drive(const scenario& s, const drive_options& what,
   time->filter(std::move(filter));
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");
-    if (std::ranges::find(here.remotes, place, &part::remote_provider::place)
+    if (std::ranges::find(here.remotes, place,
+                          &process_share::remote_provider::place)
         != here.remotes.end())
       throw input_error(fmt::format("--provider: {} is given twice; a provider "
                                     "has one address",

@@ -82,7 +82,7 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
   for (const auto& assignment : overrides)
     source.set(assignment);
   scenario all;
-  source.read([&](settings& s) { all.fields(s); });
+  source.read([&](option_visitor& s) { all.visit_options(s); });
   all.read_from.push_back(file);
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())

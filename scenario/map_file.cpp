@@ -1,7 +1,7 @@
 // Reads a map: lanes, houses and named routes.
 #include "scenario/map_file.hpp"
 
-#include "base/options/listing.hpp"
+#include "base/options/option_helpers.hpp"
 #include "base/options/toml_file.hpp"
 
 #include <fmt/format.h>
@@ -15,10 +15,10 @@ namespace sofof {
 
 namespace {
 
-constexpr settings::range positive{1e-3, 1e6};
+constexpr option_visitor::range positive{1e-3, 1e6};
 
 struct zone_entry : speed_zone {
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("from_m", from_m, {0, positive.max});
     s.field("limit_mps", limit_mps, {0.1, 100});
   }
@@ -27,7 +27,7 @@ struct zone_entry : speed_zone {
 struct lane_entry {
   lane is;
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("name", is.name);
     if (is.name.empty())
       s.refuse("name", "must not be empty.");
@@ -36,7 +36,7 @@ struct lane_entry {
     s.field("rank", rank, {0, 100});
     is.rank = static_cast<int>(rank);
     std::vector<zone_entry> zones{is.limits.begin(), is.limits.end()};
-    list_all(s, "limits", zones);
+    visit_list(s, "limits", zones);
     is.limits.assign(zones.begin(), zones.end());
     s.field("next", is.next);
     s.field("points_m", is.centre);
@@ -47,7 +47,7 @@ struct building_entry {
   building is;
   bool invented = false; // for the reader of the file
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("invented", invented);
     s.field("corners_m", is.corners);
     refuse_bad_polygon(s, "corners_m", is.corners);
@@ -59,7 +59,7 @@ struct route_entry {
   std::vector<std::string> lanes;
   bool closed = false;
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("name", name);
     if (name.empty())
       s.refuse("name", "must not be empty.");
@@ -76,15 +76,15 @@ struct map_entries {
   std::vector<building_entry> buildings;
   std::vector<route_entry> routes;
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("name", name);
-    s.table("origin", [this](settings& t) { list_origin(t); });
-    list_all(s, "lane", lanes);
-    list_all(s, "building", buildings);
-    list_all(s, "route", routes);
+    s.table("origin", [this](option_visitor& t) { list_origin(t); });
+    visit_list(s, "lane", lanes);
+    visit_list(s, "building", buildings);
+    visit_list(s, "route", routes);
   }
 
-  void list_origin(settings& t) {
+  void list_origin(option_visitor& t) {
     auto zone = std::int64_t{origin.utm_zone};
     t.field("utm_zone", zone, {1, 60});
     origin.utm_zone = static_cast<int>(zone);
@@ -148,7 +148,7 @@ streets_ptr parse_map(std::string_view text,
                       const std::filesystem::path& file) {
   const toml_file source{text, file.string()};
   map_entries all;
-  source.read([&](settings& s) { all.fields(s); });
+  source.read([&](option_visitor& s) { all.visit_options(s); });
   if (all.lanes.empty())
     source.refuse("", "the map has no [[lane]].");
   streets result{build_map(all, source), {}};

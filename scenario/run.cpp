@@ -49,7 +49,7 @@ cycle_energy energy_of(const scenario& s, std::string_view kind,
 }
 
 run_info describe(const scenario& s, const run_options& options,
-                  const part& here) {
+                  const process_share& here) {
   run_info info;
   info.scenario = s.name;
   info.version = options.version;
@@ -224,9 +224,9 @@ struct played {
 ///                  begun.
 /// @throws start_refused, and whatever ends a run early; the actors have gone
 /// then, too, and `has_begun` tells whether there are results.
-played play(const scenario& s, const part& here, runtime& time, time_point end,
-            const std::shared_ptr<locked_results>& keeper, stage& on,
-            const std::function<void(const world_actors&)>& on_start,
+played play(const scenario& s, const process_share& here, runtime& time,
+            time_point end, const std::shared_ptr<locked_results>& keeper,
+            stage& on, const std::function<void(const world_actors&)>& on_start,
             bool& has_begun) {
   auto timed = s;
   std::optional<deciding_times> deciding;
@@ -317,7 +317,7 @@ run_outcome run(const scenario& s, const run_options& options,
 }
 
 run_outcome run_part(const scenario& s, const run_options& options,
-                     const part& here, runtime& time,
+                     const process_share& here, runtime& time,
                      const std::atomic<bool>& interrupted,
                      std::ostream& console,
                      const std::function<void(const world_actors&)>& on_start) {

@@ -72,9 +72,9 @@ run_outcome run(const scenario& s, const run_options& options,
 ///                  What it throws leaves no results; nor does a start_refused
 ///                  that comes with the news.
 run_outcome
-run_part(const scenario& s, const run_options& options, const part& here,
-         runtime& time, const std::atomic<bool>& interrupted,
-         std::ostream& console,
+run_part(const scenario& s, const run_options& options,
+         const process_share& here, runtime& time,
+         const std::atomic<bool>& interrupted, std::ostream& console,
          const std::function<void(const world_actors&)>& on_start = {});
 
 } // namespace sofof

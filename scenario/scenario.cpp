@@ -1,8 +1,8 @@
 // One experiment: everything that a scenario file can say, with defaults.
 #include "scenario/scenario.hpp"
 
-#include "base/options/listing.hpp"
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_helpers.hpp"
+#include "base/options/option_printer.hpp"
 #include "base/protocol.hpp"
 #include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr settings::range any_length_m{0, 1e6};
-constexpr settings::range any_heading_deg{-360, 360};
-constexpr settings::range body_size_m{0.1, 50};
+constexpr option_visitor::range any_length_m{0, 1e6};
+constexpr option_visitor::range any_heading_deg{-360, 360};
+constexpr option_visitor::range body_size_m{0.1, 50};
 constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
 constexpr std::array<std::string_view, 2> crossing_rules{"granted",
                                                          "perceived"};
@@ -51,7 +51,7 @@ std::string right_place(std::string_view name) {
 
 } // namespace
 
-void fleet_options::fields(settings& s) {
+void fleet_options::visit_options(option_visitor& s) {
   s.field("count", count, {1, max_vehicles});
   s.field("first_station", first_station, {1, max_station});
   if (static_cast<double>(first_station + count - 1) > max_station)
@@ -68,10 +68,10 @@ void fleet_options::fields(settings& s) {
   s.field("connected", connected);
   s.field("appears_at", appears_at, 0ns);
   s.field("appear_every", appear_every, 0ns);
-  s.table("computer", [this](settings& t) { computer.fields(t); });
+  s.table("computer", [this](option_visitor& t) { computer.visit_options(t); });
 }
 
-void traffic_options::fields(settings& s) {
+void traffic_options::visit_options(option_visitor& s) {
   s.field("crossings", crossings);
   if (std::ranges::find(crossing_rules, crossings) == crossing_rules.end())
     s.refuse("crossings",
@@ -82,7 +82,7 @@ oriented_box obstacle_options::box() const {
   return {position_m, to_rad(heading_deg), length_m, width_m};
 }
 
-void obstacle_options::fields(settings& s) {
+void obstacle_options::visit_options(option_visitor& s) {
   s.field("position_m", position_m);
   s.field("heading_deg", heading_deg, any_heading_deg);
   s.field("length_m", length_m, body_size_m);
@@ -93,10 +93,10 @@ sensor roadside_options::make(random_stream noise) const {
   return {can, noise, position_m, to_rad(heading_deg), std::nullopt};
 }
 
-void roadside_options::fields(settings& s) {
+void roadside_options::visit_options(option_visitor& s) {
   s.field("position_m", position_m);
   s.field("heading_deg", heading_deg, any_heading_deg);
-  can.fields(s);
+  can.visit_options(s);
 }
 
 polygon provider_options::area() const {
@@ -111,7 +111,7 @@ bool provider_options::offers(std::string_view service) const {
          || std::ranges::find(services, service) != services.end();
 }
 
-void provider_options::fields(settings& s) {
+void provider_options::visit_options(option_visitor& s) {
   s.field("name", name);
   if (name.empty())
     s.refuse("name", "must not be empty.");
@@ -133,7 +133,7 @@ void provider_options::fields(settings& s) {
       s.refuse("services", "must name at least one service; leave it out to "
                            "offer all.");
   }
-  list_all(s, "sensor", sensors);
+  visit_list(s, "sensor", sensors);
   if (s.has("fails_at", fails_at.has_value()))
     s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
   if (s.has("returns_at", returns_at.has_value())) {
@@ -146,16 +146,16 @@ void provider_options::fields(settings& s) {
   if (s.has("radio", !radio.empty()))
     s.field("radio", radio);
   if (s.has("network", network.has_value()))
-    s.table("network", [this](settings& t) {
+    s.table("network", [this](option_visitor& t) {
       if (!network)
         network.emplace();
-      network->fields(t);
+      network->visit_options(t);
       if (network->channel && network->channel->replays)
         t.refuse("profile", "replays a file, which only [network] can.");
     });
 }
 
-void network_options::fields(settings& s) {
+void network_options::visit_options(option_visitor& s) {
   s.field("profile", profile);
   const auto known = find_channel_profile(profile);
   if (!known)
@@ -171,23 +171,23 @@ void network_options::fields(settings& s) {
     s.refuse("profile", "needs a file to replay: add trace = \"FILE\".");
   }
   auto options = channel && channel->name == profile ? *channel : *known;
-  options.fields(s);
+  options.visit_options(s);
   channel = std::make_shared<const channel_profile>(std::move(options));
 }
 
 policy_options::policy_options()
     : lodm{make_lodm("location")}, codm{make_codm("location")} {}
 
-void policy_options::fields(settings& s) {
-  s.table("lodm", [this](settings& t) {
-    list_named(t, lodm, make_lodm, "LODM policy", lodm_names(), right_place);
+void policy_options::visit_options(option_visitor& s) {
+  s.table("lodm", [this](option_visitor& t) {
+    visit_choice(t, lodm, make_lodm, "LODM policy", lodm_names(), right_place);
   });
-  s.table("codm", [this](settings& t) {
-    list_named(t, codm, make_codm, "CODM policy", codm_names(), right_place);
+  s.table("codm", [this](option_visitor& t) {
+    visit_choice(t, codm, make_codm, "CODM policy", codm_names(), right_place);
   });
 }
 
-void record_options::fields(settings& s) {
+void record_options::visit_options(option_visitor& s) {
   s.field("tracks_period", tracks_period, protocol::control_period);
   if (tracks_period % protocol::control_period != 0ns)
     s.refuse("tracks_period", "must be a multiple of \"10ms\", a vehicle's "
@@ -215,7 +215,7 @@ std::string scenario::profiles() const {
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void scenario::fields(settings& s) {
+void scenario::visit_options(option_visitor& s) {
   s.field("name", name);
   s.field("duration", length, 1ns);
   constexpr double max_seed = 0x1p63; // no int64 exceeds it
@@ -224,22 +224,24 @@ void scenario::fields(settings& s) {
     s.field("map", map_file);
   grid = s.has("street_grid", grid);
   if (grid)
-    s.table("street_grid", [this](settings& t) { grid_params.fields(t); });
-  s.table("traffic", [this](settings& t) { traffic.fields(t); });
-  list_all(s, "fleet", fleets);
-  s.table("sensors", [this](settings& t) { sensors.fields(t); });
-  list_all(s, "obstacle", obstacles);
-  list_all(s, "provider", providers);
-  s.table("network", [this](settings& t) { network.fields(t); });
-  s.table("v2x", [this](settings& t) { v2x.fields(t); });
-  s.tables("service", services.size(), [this](std::size_t i, settings& t) {
-    if (i == services.size())
-      services.emplace_back();
-    list_named(t, services[i], make_service_type, "kind of service",
-               service_type_names());
-  });
-  s.table("policies", [this](settings& t) { policies.fields(t); });
-  s.table("record", [this](settings& t) { record.fields(t); });
+    s.table("street_grid",
+            [this](option_visitor& t) { grid_params.visit_options(t); });
+  s.table("traffic", [this](option_visitor& t) { traffic.visit_options(t); });
+  visit_list(s, "fleet", fleets);
+  s.table("sensors", [this](option_visitor& t) { sensors.visit_options(t); });
+  visit_list(s, "obstacle", obstacles);
+  visit_list(s, "provider", providers);
+  s.table("network", [this](option_visitor& t) { network.visit_options(t); });
+  s.table("v2x", [this](option_visitor& t) { v2x.visit_options(t); });
+  s.tables("service", services.size(),
+           [this](std::size_t i, option_visitor& t) {
+             if (i == services.size())
+               services.emplace_back();
+             visit_choice(t, services[i], make_service_type, "kind of service",
+                          service_type_names());
+           });
+  s.table("policies", [this](option_visitor& t) { policies.visit_options(t); });
+  s.table("record", [this](option_visitor& t) { record.visit_options(t); });
 }
 
 const service_type* planning_service(const scenario& s) {
@@ -249,7 +251,7 @@ const service_type* planning_service(const scenario& s) {
 }
 
 std::string to_toml(scenario what) {
-  return print_settings([&](settings& s) { what.fields(s); });
+  return print_options([&](option_visitor& s) { what.visit_options(s); });
 }
 
 } // namespace sofof

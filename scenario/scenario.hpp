@@ -2,7 +2,7 @@
 #pragma once
 
 #include "actors/services/service_type.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "channel/channel.hpp"
 #include "messages/v2x/v2x_options.hpp"
 #include "policies/api/context.hpp"
@@ -44,7 +44,7 @@ struct fleet_options {
   duration appear_every{};
   computer_options computer{}; ///< In each of them.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// How road users deal with each other.
@@ -56,7 +56,7 @@ struct traffic_options {
 
   bool grants_crossings() const { return crossings == "granted"; }
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// A body that stands on the road, as a parked car does.
@@ -68,7 +68,7 @@ struct obstacle_options {
 
   oriented_box box() const;
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// A sensor at the roadside.
@@ -80,7 +80,7 @@ struct roadside_options {
   /// @param noise  A stream of its own.
   sensor make(random_stream noise) const;
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// The channel between vehicles and providers.
@@ -91,7 +91,7 @@ struct network_options {
   std::string trace;
   std::shared_ptr<const channel_profile> channel; ///< The profile, resolved.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Where a provider is, and what it offers.
@@ -117,7 +117,7 @@ struct provider_options {
 
   bool offers(std::string_view service) const;
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// How offloading is decided.
@@ -126,7 +126,7 @@ struct policy_options {
   std::shared_ptr<central_policy> codm; ///< Prototype.
 
   policy_options(); ///< The paper's: "location" for both.
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Rates of what is sent and written.
@@ -136,7 +136,7 @@ struct record_options {
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// The whole file.
@@ -173,7 +173,7 @@ struct scenario {
   std::string profiles() const;
 
   /// Lists everything once.
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// @returns the service that plans how vehicles drive; null if there is none.

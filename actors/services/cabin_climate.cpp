@@ -103,9 +103,9 @@ public:
 
   std::string_view name() const override { return "cabin_climate"; }
 
-  void fields(settings& s) override {
-    service_type::fields(s);
-    climate_.fields(s);
+  void visit_options(option_visitor& s) override {
+    service_type::visit_options(s);
+    climate_.visit_options(s);
   }
 
   // The world is nothing to it.

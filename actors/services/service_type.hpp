@@ -3,7 +3,7 @@
 #pragma once
 
 #include "actors/simulation/plan_client.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "messages/type_ids.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
@@ -35,7 +35,7 @@ public:
   virtual std::string_view name() const = 0;
 
   /// Lists the options, first the common ones.
-  virtual void fields(settings& s) { options.fields(s); }
+  virtual void visit_options(option_visitor& s) { options.visit_options(s); }
 
   /// @returns the service with these options in this world.
   virtual offloading::service in(const service_world& world) const = 0;

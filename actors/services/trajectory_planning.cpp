@@ -29,9 +29,10 @@ public:
 
   std::string_view name() const override { return "trajectory_planning"; }
 
-  void fields(settings& s) override {
-    service_type::fields(s);
-    s.table("planner", [this](settings& t) { planner_.fields(t); });
+  void visit_options(option_visitor& s) override {
+    service_type::visit_options(s);
+    s.table("planner",
+            [this](option_visitor& t) { planner_.visit_options(t); });
   }
 
   offloading::service in(const service_world& world) const override {

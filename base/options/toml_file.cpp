@@ -5,7 +5,7 @@
 #include "base/input_error.hpp"
 #include "base/options/toml_depth.hpp"
 #include "base/options/toml_nodes.hpp"
-#include "base/options/toml_settings.hpp"
+#include "base/options/toml_options.hpp"
 #include "base/options/toml_text.hpp"
 
 #include <fmt/format.h>
@@ -176,8 +176,8 @@ std::string toml_file::numbered(std::string_view key) const {
   return path;
 }
 
-void toml_file::read(const std::function<void(settings&)>& list) const {
-  toml_settings reader{content_->root, content_->file};
+void toml_file::read(const std::function<void(option_visitor&)>& list) const {
+  toml_options reader{content_->root, content_->file};
   list(reader);
   reader.finish();
 }

@@ -1,7 +1,7 @@
 // A TOML file in memory, with the place of everything in it.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -51,7 +51,7 @@ public:
 
   /// Loads: walks the options that `list` lists, and refuses what stands in
   /// the file and nobody asked for.
-  void read(const std::function<void(settings&)>& list) const;
+  void read(const std::function<void(option_visitor&)>& list) const;
 
   /// Refuses what stands at `key`; if nothing does, the place named is that of
   /// the nearest table around it.

@@ -3,7 +3,7 @@
 
 #include "base/input_error.hpp"
 #include "base/options/toml_depth.hpp"
-#include "base/options/toml_settings.hpp"
+#include "base/options/toml_options.hpp"
 #include "base/options/toml_text.hpp"
 
 #include <fmt/format.h>

@@ -2,11 +2,11 @@
 #include "experiments/benchmark/entrants.hpp"
 
 #include "base/input_error.hpp"
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_printer.hpp"
 #include "base/options/spelling.hpp"
 #include "base/options/toml_file.hpp"
 #include "base/options/toml_nodes.hpp"
-#include "base/options/toml_settings.hpp"
+#include "base/options/toml_options.hpp"
 #include "base/options/toml_text.hpp"
 #include "policies/registry.hpp"
 #include "scenario/scenario.hpp"
@@ -81,8 +81,8 @@ void check_name(std::string_view name, const std::string& place) {
 /// Reads them as a scenario would, and finds mistakes where they stand.
 policy_options read_policies(const toml::node& line, std::string_view file) {
   policy_options policies;
-  toml_settings reader{line, file};
-  policies.fields(reader);
+  toml_options reader{line, file};
+  policies.visit_options(reader);
   reader.finish();
   return policies;
 }
@@ -91,7 +91,7 @@ policy_options read_policies(const toml::node& line, std::string_view file) {
 bool are_usual(policy_options policies) {
   policy_options usual;
   const auto text = [](policy_options& x) {
-    return print_settings([&x](settings& s) { x.fields(s); });
+    return print_options([&x](option_visitor& s) { x.visit_options(s); });
   };
   return text(policies) == text(usual);
 }

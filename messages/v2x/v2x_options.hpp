@@ -1,7 +1,7 @@
 // When vehicles send what.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "base/options/spelling.hpp"
 #include "messages/v2x/generation_rules.hpp"
 
@@ -27,7 +27,7 @@ struct v2x_options {
   bool sends_cpms() const { return cpm != "off"; }
   bool is_release_2() const { return cpm_version == "ts103324"; }
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     using namespace std::string_view_literals;
     constexpr std::array cam_rules{"triggered"sv, "fixed_10hz"sv};
     constexpr std::array cpm_rules{"triggered"sv, "fixed_10hz"sv, "off"sv};
@@ -43,7 +43,7 @@ private:
                                 : generation_rule::triggered;
   }
 
-  static void word(settings& s, std::string_view key, std::string& value,
+  static void word(option_visitor& s, std::string_view key, std::string& value,
                    std::string_view what,
                    std::span<const std::string_view> known) {
     s.field(key, value);

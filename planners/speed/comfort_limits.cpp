@@ -5,7 +5,7 @@
 
 namespace sofof {
 
-void comfort_limits::fields(settings& s) {
+void comfort_limits::visit_options(option_visitor& s) {
   s.field("horizon_s", horizon_s, {1, 20});
   s.field("step_s", step_s, {0.02, 0.5});
   s.field("max_accel_mps2", max_accel_mps2, {0.3, 5});

@@ -1,7 +1,7 @@
 // What a comfortable and safe drive is.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 namespace sofof {
@@ -28,7 +28,7 @@ struct comfort_limits {
   /// Beyond comfort, before it is an emergency: corrections need a reserve.
   double firm_decel_mps2() const { return 1.25 * comfort_decel_mps2; }
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 } // namespace sofof

@@ -38,7 +38,7 @@ bool is_moving(const lane_obstacle& body) {
 
 } // namespace
 
-void spatial_params::fields(settings& s) {
+void spatial_params::visit_options(option_visitor& s) {
   s.field("horizon_m", horizon_m, {20, 200});
   s.field("step_m", step_m, {0.25, 2});
   if (horizon_m / step_m > ocp::most_steps)

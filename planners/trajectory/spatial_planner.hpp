@@ -2,7 +2,7 @@
 // again, for the best of several ways past the others.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "planners/path/path_planner.hpp"
 #include "planners/speed/speed_planner.hpp"
 #include "planners/trajectory/maneuver_candidates.hpp"
@@ -24,7 +24,7 @@ struct spatial_params {
   /// farther than this; 0: it does not.
   double cautious_sight_m = 0;
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Path–velocity decomposition over arc length; both parts by the

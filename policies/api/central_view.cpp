@@ -14,7 +14,7 @@ constexpr std::size_t most_others = 16;
 
 } // namespace
 
-void central_options::fields(settings& s) {
+void central_options::visit_options(option_visitor& s) {
   // The answer has to be back before vehicles give up.
   s.field("epoch_s", epoch_s,
           {1e-3, 0.8 * to_seconds(protocol::request_timeout)});

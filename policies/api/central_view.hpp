@@ -1,7 +1,7 @@
 // How a provider that decides about many at once sees them.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct central_options {
   double price = 0.05;   ///< Of a change, in units of gains, ≥ 0.
 
   /// Lists the options once.
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// @param utilisation  What a service takes of this provider, a share of all

@@ -19,8 +19,8 @@ public:
   virtual std::string_view objection(const Context& context,
                                      const Candidate& candidate) const = 0;
 
-  /// Lists the options once (base/options/settings.hpp).
-  virtual void fields(settings&) {}
+  /// Lists the options once (base/options/option_visitor.hpp).
+  virtual void visit_options(option_visitor&) {}
 
   virtual std::string_view name() const = 0;
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/ids.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 
 #include <memory>
@@ -72,8 +72,8 @@ public:
     return "this policy learns nothing";
   }
 
-  /// Lists the options once (base/options/settings.hpp).
-  virtual void fields(settings&) {}
+  /// Lists the options once (base/options/option_visitor.hpp).
+  virtual void visit_options(option_visitor&) {}
 
   virtual std::string_view name() const = 0;
   /// @returns its name, with those of governors behind it, for results.

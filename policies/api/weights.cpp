@@ -3,7 +3,7 @@
 
 namespace sofof {
 
-void list_weights(settings& s, cost_weights& weights) {
+void list_weights(option_visitor& s, cost_weights& weights) {
   s.field("time_weight", weights.time, {0, 1e3});
   s.field("energy_weight", weights.energy, {0, 1e3});
   s.field("violation_weight", weights.violation, {0, 1e3});

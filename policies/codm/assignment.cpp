@@ -42,7 +42,7 @@ public:
     const auto asked = assignment::problem_of(context, options_);
     return decisions_of(context, asked, solve(asked.what));
   }
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   double epoch_s() const override { return options_.epoch_s; }
   std::string_view name() const override { return "assignment"; }
   std::unique_ptr<central_policy> clone() const override {
@@ -72,8 +72,8 @@ best_assignment::solve(const assignment::problem& p) const {
   return branch_and_bound(p, nodes_).best;
 }
 
-void best_assignment::fields(settings& s) {
-  options_.fields(s);
+void best_assignment::visit_options(option_visitor& s) {
+  options_.visit_options(s);
   s.field("solver", solver_);
   if (std::ranges::find(solvers, solver_) == solvers.end())
     s.refuse("solver", unknown_word("solver", solver_, solvers)

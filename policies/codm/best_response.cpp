@@ -32,7 +32,7 @@ std::shared_ptr<const game::channel_model> model_of(std::string_view name) {
 class equilibrium final : public central_policy {
 public:
   std::vector<central_decision> decide(const central_context& context) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   double epoch_s() const override { return options_.epoch_s; }
   std::string_view name() const override { return "best_response"; }
   std::unique_ptr<central_policy> clone() const override {
@@ -81,8 +81,8 @@ equilibrium::decide(const central_context& context) {
   return all;
 }
 
-void equilibrium::fields(settings& s) {
-  options_.fields(s);
+void equilibrium::visit_options(option_visitor& s) {
+  options_.visit_options(s);
   s.field("model", model_);
   if (std::ranges::find(models, model_) == models.end())
     s.refuse("model", unknown_word("model", model_, models));

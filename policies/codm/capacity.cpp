@@ -21,7 +21,9 @@ public:
     }
     return all;
   }
-  void fields(settings& s) override { s.field("most", most_, {0, 1e3}); }
+  void visit_options(option_visitor& s) override {
+    s.field("most", most_, {0, 1e3});
+  }
   std::string_view name() const override { return "capacity"; }
   std::unique_ptr<central_policy> clone() const override {
     return std::make_unique<capacity>(*this);

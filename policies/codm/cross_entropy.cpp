@@ -23,8 +23,8 @@ public:
     fill_room(asked.what, found.choices);
     return decisions_of(context, asked, found);
   }
-  void fields(settings& s) override {
-    options_.fields(s);
+  void visit_options(option_visitor& s) override {
+    options_.visit_options(s);
     s.field("samples", samples_, {1, 1e5});
     s.field("elite", elite_, {1e-3, 1});
     s.field("iterations", iterations_, {0, 1e4});

@@ -57,8 +57,8 @@ public:
     }
   }
 
-  void fields(settings& s) override {
-    options_.fields(s);
+  void visit_options(option_visitor& s) override {
+    options_.visit_options(s);
     s.field("V", energy_weight_, {0, 1e9});
     s.field("violation_budget", budget_, {0, 1});
     s.field("unit_j", unit_j_, {0, 1e9});

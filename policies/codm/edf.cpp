@@ -39,7 +39,7 @@ admission_test test_of(std::string_view name) {
 class edf final : public central_policy {
 public:
   std::vector<central_decision> decide(const central_context& context) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   std::string_view name() const override { return "edf"; }
   std::unique_ptr<central_policy> clone() const override {
     return std::make_unique<edf>(*this);
@@ -88,7 +88,7 @@ std::vector<central_decision> edf::decide(const central_context& context) {
   return all;
 }
 
-void edf::fields(settings& s) {
+void edf::visit_options(option_visitor& s) {
   s.field("test", test_);
   if (std::ranges::find(tests, test_) == tests.end())
     s.refuse("test", unknown_word("test", test_, tests));

@@ -20,7 +20,7 @@ public:
     }
     return all;
   }
-  void fields(settings& s) override { stays_.fields(s); }
+  void visit_options(option_visitor& s) override { stays_.visit_options(s); }
   std::string_view name() const override { return "location"; }
   std::unique_ptr<central_policy> clone() const override {
     return std::make_unique<location_codm>(*this);

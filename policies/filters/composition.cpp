@@ -1,7 +1,7 @@
 // A policy made of parts: a filter, then a choice among what is left.
 #include "policies/filters/composition.hpp"
 
-#include "base/options/listing.hpp"
+#include "base/options/option_helpers.hpp"
 #include "policies/filters/location.hpp"
 
 namespace sofof {
@@ -58,13 +58,14 @@ std::unique_ptr<Filter> find(const std::vector<filter_entry<Filter>>& all,
   return nullptr;
 }
 
-void list_filter(settings& s, std::unique_ptr<local_filter>& filter) {
-  list_named(s, filter, make_local_filter, "filter", names_of(local_filters()));
+void list_filter(option_visitor& s, std::unique_ptr<local_filter>& filter) {
+  visit_choice(s, filter, make_local_filter, "filter",
+               names_of(local_filters()));
 }
 
-void list_filter(settings& s, std::unique_ptr<central_filter>& filter) {
-  list_named(s, filter, make_central_filter, "filter",
-             names_of(central_filters()));
+void list_filter(option_visitor& s, std::unique_ptr<central_filter>& filter) {
+  visit_choice(s, filter, make_central_filter, "filter",
+               names_of(central_filters()));
 }
 
 } // namespace
@@ -86,9 +87,9 @@ std::unique_ptr<central_filter> make_central_filter(std::string_view name) {
 }
 
 template <class Policy, class Filter>
-void filtered_policy<Policy, Filter>::fields(settings& s) {
-  choice_->fields(s);
-  s.table("filter", [this](settings& t) { list_filter(t, filter_); });
+void filtered_policy<Policy, Filter>::visit_options(option_visitor& s) {
+  choice_->visit_options(s);
+  s.table("filter", [this](option_visitor& t) { list_filter(t, filter_); });
 }
 
 template class filtered_policy<local_policy, local_filter>;

@@ -43,7 +43,7 @@ public:
   std::optional<std::string> restore(std::string_view text) override {
     return choice_->restore(text);
   }
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   std::string_view name() const override { return choice_->name(); }
   std::string title() const override { return choice_->title(); }
 

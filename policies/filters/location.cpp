@@ -50,7 +50,7 @@ std::string_view near_provider::objection(const local_context& context,
   return "path leaves r_off or ends before d_min";
 }
 
-void near_provider::fields(settings& s) {
+void near_provider::visit_options(option_visitor& s) {
   s.field("radius_m", radius_m_, {0, 1e6});
   s.field("min_distance_m", min_distance_m_, {0, 1e6});
 }
@@ -79,7 +79,7 @@ std::string_view stays_in_area::objection(const central_context& context,
   return {};
 }
 
-void stays_in_area::fields(settings& s) {
+void stays_in_area::visit_options(option_visitor& s) {
   s.field("min_time", min_time_, duration{0});
   s.field("map_tolerance_m", map_tolerance_m_, {0, 100});
 }

@@ -43,7 +43,7 @@ class near_provider final : public local_filter {
 public:
   std::string_view objection(const local_context& context,
                              const provider_view& provider) const override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<local_filter> clone() const override;
@@ -59,7 +59,7 @@ class stays_in_area final : public central_filter {
 public:
   std::string_view objection(const central_context& context,
                              const request_view& request) const override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }
   std::unique_ptr<central_filter> clone() const override;

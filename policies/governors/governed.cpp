@@ -1,7 +1,7 @@
 // An LODM and its governors.
 #include "policies/governors/governed.hpp"
 
-#include "base/options/listing.hpp"
+#include "base/options/option_helpers.hpp"
 #include "policies/governors/governors.hpp"
 
 namespace sofof {
@@ -38,13 +38,15 @@ double governed_lodm::epoch_s() const {
   return least;
 }
 
-void governed_lodm::fields(settings& s) {
-  whole_->fields(s);
-  s.tables("govern", governors_.size(), [this](std::size_t i, settings& t) {
-    if (i == governors_.size())
-      governors_.emplace_back();
-    list_named(t, governors_[i], make_governor, "governor", governor_names());
-  });
+void governed_lodm::visit_options(option_visitor& s) {
+  whole_->visit_options(s);
+  s.tables("govern", governors_.size(),
+           [this](std::size_t i, option_visitor& t) {
+             if (i == governors_.size())
+               governors_.emplace_back();
+             visit_choice(t, governors_[i], make_governor, "governor",
+                          governor_names());
+           });
 }
 
 std::string governed_lodm::title() const {

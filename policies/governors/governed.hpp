@@ -26,7 +26,7 @@ public:
     return whole_->restore(text);
   }
   /// Those of the policy, and the list `govern`.
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   std::string_view name() const override { return whole_->name(); }
   std::string title() const override;
   std::unique_ptr<local_policy> clone() const override;

@@ -25,8 +25,8 @@ public:
   /// As `policy::epoch_s`.
   virtual double epoch_s() const { return 0; }
 
-  /// Lists the options once (base/options/settings.hpp).
-  virtual void fields(settings&) {}
+  /// Lists the options once (base/options/option_visitor.hpp).
+  virtual void visit_options(option_visitor&) {}
 
   virtual std::string_view name() const = 0;
 

@@ -26,7 +26,7 @@ local_decision hysteresis_governor::govern(const local_context& context,
   return decision;
 }
 
-void hysteresis_governor::fields(settings& s) {
+void hysteresis_governor::visit_options(option_visitor& s) {
   s.field("margin", options_.margin, {0, 1e3});
   s.field("time_to_trigger", options_.time_to_trigger, duration{0});
   s.field("min_dwell", options_.dwell, duration{0});

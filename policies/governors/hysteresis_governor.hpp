@@ -16,7 +16,7 @@ class hysteresis_governor final : public governor {
 public:
   local_decision govern(const local_context& context,
                         const local_decision& wanted) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   double epoch_s() const override { return epoch_s_; }
   std::string_view name() const override { return "hysteresis"; }
   std::unique_ptr<governor> clone() const override {

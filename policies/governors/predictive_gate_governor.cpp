@@ -44,7 +44,7 @@ local_decision predictive_gate_governor::govern(const local_context& context,
   return decision;
 }
 
-void predictive_gate_governor::fields(settings& s) {
+void predictive_gate_governor::visit_options(option_visitor& s) {
   s.field("on", on_, {0, 1});
   s.field("off", off_, {0, 1});
   if (off_ < on_)

@@ -18,7 +18,7 @@ public:
   local_decision govern(const local_context& context,
                         const local_decision& wanted) override;
   double epoch_s() const override { return epoch_s_; }
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   std::string_view name() const override { return "predictive_gate"; }
   std::unique_ptr<governor> clone() const override {
     return std::make_unique<predictive_gate_governor>(*this);

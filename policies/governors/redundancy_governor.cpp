@@ -33,7 +33,7 @@ local_decision redundancy_governor::govern(const local_context& context,
   return decision;
 }
 
-void redundancy_governor::fields(settings& s) {
+void redundancy_governor::visit_options(option_visitor& s) {
   s.field("least_late", least_late_, {0, 1});
   s.field("hedge_after", hedge_after_, duration{0});
   if (hedge_after_ > longest_hedge)

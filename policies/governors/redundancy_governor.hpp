@@ -13,7 +13,7 @@ class redundancy_governor final : public governor {
 public:
   local_decision govern(const local_context& context,
                         const local_decision& wanted) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
   std::string_view name() const override { return "redundancy"; }
   std::unique_ptr<governor> clone() const override {
     return std::make_unique<redundancy_governor>(*this);

@@ -49,8 +49,8 @@ private:
 
 class alto_lodm final : public bandit_lodm {
 public:
-  void fields(settings& s) override {
-    bandit_lodm::fields(s);
+  void visit_options(option_visitor& s) override {
+    bandit_lodm::visit_options(s);
     s.field("beta", beta_, {0, 1e3});
     s.field("task_bits", task_bits_, {1, 1e12});
     s.field("worst_delay", worst_delay_, std::chrono::microseconds{1});

@@ -39,7 +39,7 @@ public:
     decision.advantage = kept - least;
     return decision;
   }
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     s.field("margin", margin_, {0, 1e3});
     s.field("probability", probability_, {0, 1});
     list_weights(s, weights_);

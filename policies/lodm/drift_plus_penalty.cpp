@@ -37,7 +37,7 @@ public:
       service.core.observe({outcome.missed, outcome.energy_j});
   }
 
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     s.field("V", options_.energy_weight, {0, 1e9});
     s.field("violation_budget", options_.violation_budget, {0, 1});
     s.field("energy_budget_j", energy_budget_j_, {0, 1e9});

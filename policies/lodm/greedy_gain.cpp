@@ -32,7 +32,7 @@ public:
     decision.advantage = most - kept;
     return decision;
   }
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     s.field("margin", margin_, {0, 1e3});
     list_weights(s, weights_);
     s.field("epoch_s", epoch_s_, {1e-3, 3600});

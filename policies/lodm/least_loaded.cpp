@@ -21,7 +21,9 @@ public:
       return {0, "no room"};
     return {best.id, "the less loaded of two"};
   }
-  void fields(settings& s) override { s.field("most", most_, {0, 1e3}); }
+  void visit_options(option_visitor& s) override {
+    s.field("most", most_, {0, 1e3});
+  }
   std::string_view name() const override { return "least_loaded"; }
   std::unique_ptr<local_policy> clone() const override {
     return std::make_unique<least_loaded>(*this);

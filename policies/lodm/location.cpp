@@ -22,7 +22,7 @@ public:
     }
     return {0, objection.empty() ? "nobody offers it" : objection};
   }
-  void fields(settings& s) override { near_.fields(s); }
+  void visit_options(option_visitor& s) override { near_.visit_options(s); }
   std::string_view name() const override { return "location"; }
   std::unique_ptr<local_policy> clone() const override {
     return std::make_unique<location>(*this);

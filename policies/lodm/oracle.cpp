@@ -40,7 +40,7 @@ public:
       return at_place(context, 0, "the gain has gone");
     return at_place(context, context.current, "nothing is late yet");
   }
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     s.field("lookahead", lookahead_, duration{0});
     s.field("horizon", horizon_, lookahead_);
     s.field("margin", margin_, {0, 1e3});

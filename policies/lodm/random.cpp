@@ -20,7 +20,7 @@ public:
       return {0, "drawn: no"};
     return {all[drawn_place(context, whom, all.size())].id, "drawn: yes"};
   }
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     s.field("probability", probability_, {0, 1});
   }
   std::string_view name() const override { return "random"; }

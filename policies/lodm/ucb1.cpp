@@ -91,8 +91,8 @@ std::optional<std::string> places::restore(std::string_view text) {
 
 class ucb1_lodm final : public bandit_lodm {
 public:
-  void fields(settings& s) override {
-    bandit_lodm::fields(s);
+  void visit_options(option_visitor& s) override {
+    bandit_lodm::visit_options(s);
     list_weights(s, weights_);
   }
   std::string_view name() const override { return "ucb1"; }

@@ -63,9 +63,10 @@ struct echo_world : virtual_world {
   }
   link_actor spawn_link() {
     const channel draws{profile(), random_stream{1, "network"}, station, 0};
-    return spawn_network_link(
-        system(), provider,
-        {{draws, way::up, nullptr}, {draws, way::down, nullptr}, {}});
+    return spawn_network_link(system(), provider,
+                              {{draws, direction::up, nullptr},
+                               {draws, direction::down, nullptr},
+                               {}});
   }
   onboard_requester_actor spawn_requester() {
     requester_setup s;

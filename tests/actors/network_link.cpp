@@ -44,7 +44,8 @@ struct linked_world : virtual_world {
     const random_stream seed{1, "network"};
     const channel draws{std::make_shared<const channel_profile>(profile), seed,
                         101, 0};
-    link_setup setup{{draws, way::up, cell}, {draws, way::down, cell}, {}};
+    link_setup setup{
+        {draws, direction::up, cell}, {draws, direction::down, cell}, {}};
     if (faults)
       setup.faults.emplace(seed.part("faults"), *faults);
     return own(spawn_network_link(system(), far.handle, std::move(setup)));

@@ -83,7 +83,7 @@ TEST_CASE("every kind lists its options once, defaults within their ranges, "
   for (const auto name : service_type_names()) {
     CAPTURE(name);
     option_list options;
-    make_service_type(name)->fields(options);
+    make_service_type(name)->visit_options(options);
     CHECK(options.refused.empty());
     for (const auto key :
          {"max_latency", "max_interarrival", "period", "input_period", "demand",
@@ -135,7 +135,7 @@ TEST_CASE("every kind keeps its own limits at home") {
 TEST_CASE("an unknown planner is refused") {
   option_list options;
   options.texts = {{"planner.name", "crystal_ball"}};
-  make_service_type("trajectory_planning")->fields(options);
+  make_service_type("trajectory_planning")->visit_options(options);
   CHECK(options.refused.contains("planner.name"));
 }
 

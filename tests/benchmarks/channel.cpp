@@ -17,7 +17,7 @@ void result_through(benchmark::State& state, const std::string& profile) {
   const auto definition =
       std::make_shared<const channel_profile>(*find_channel_profile(profile));
   const channel draws{definition, random_stream{1, "benchmark"}, 101, 1};
-  link_direction link{draws, way::down,
+  link_direction link{draws, direction::down,
                       std::make_shared<multi_server_queue>(1)};
   std::uint64_t cycle = 0;
   time_point created;

@@ -80,9 +80,10 @@ TEST_CASE("drift is a function of time, whatever is sent") {
   g(one, cycle(3));
   CHECK(g(one, cycle(1000)) == later);
   CHECK(g(one, cycle(1000), 77) == later);
-  CHECK(phase_channel(drifting())
-            .network_delay({way::up, message_class::other, 5}, cycle(1000))
-        == one.downlink_delay(0, cycle(1000)));
+  CHECK(
+      phase_channel(drifting())
+          .network_delay({direction::up, message_class::other, 5}, cycle(1000))
+      == one.downlink_delay(0, cycle(1000)));
   CHECK(g(phase_channel(drifting(), 2), cycle(1000)) != later);
   CHECK(g(phase_channel(drifting(), 1, 1), cycle(1000)) != later);
 }
@@ -121,7 +122,7 @@ TEST_CASE("spikes come at their rate, as long as they may be") {
 TEST_CASE("in an outage nothing gets through, before and after all does") {
   auto p = constant();
   p.outages = {{10s, 12s}, {20s, 21s}};
-  link_direction link{phase_channel(p), way::up, nullptr};
+  link_direction link{phase_channel(p), direction::up, nullptr};
   link.begin(time_point{5s});
   for (std::uint64_t n = 0; n < 800; ++n) {
     const auto since = n * 50ms;

@@ -56,7 +56,7 @@ TEST_CASE("a profile's constant parts are on top of all draws, each way") {
     CHECK(profile.mean_service_s() == doctest::Approx(mean_s + 0.008));
     for (std::uint64_t k = 0; k < 20; ++k) {
       CHECK(more.service_time(k) - plain.service_time(k) == 8ms);
-      for (const auto direction : {way::up, way::down}) {
+      for (const auto direction : {direction::up, direction::down}) {
         const message_id id{direction, message_class::result, k};
         CHECK(more.network_delay(id, {}) - plain.network_delay(id, {}) == 30ms);
       }

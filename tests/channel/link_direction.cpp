@@ -48,7 +48,8 @@ std::vector<std::optional<time_point>> results(link_direction link,
 
 double share_lost(const channel_profile& p, std::uint64_t count) {
   double lost = 0;
-  for (const auto& t : results({link_channel(p), way::down, nullptr}, count))
+  for (const auto& t :
+       results({link_channel(p), direction::down, nullptr}, count))
     lost += !t;
   return lost / static_cast<double>(count);
 }
@@ -56,7 +57,7 @@ double share_lost(const channel_profile& p, std::uint64_t count) {
 } // namespace
 
 TEST_CASE("an ideal link takes no time") {
-  link_direction link{link_channel(named("ideal")), way::up, nullptr};
+  link_direction link{link_channel(named("ideal")), direction::up, nullptr};
   CHECK(link.arrival(time_point{3ms}, kind::other, 0) == time_point{3ms});
   CHECK(link.arrival(time_point{3ms}, kind::result, 7) == time_point{3ms});
 }
@@ -64,7 +65,7 @@ TEST_CASE("an ideal link takes no time") {
 TEST_CASE("no message overtakes another") {
   auto p = named("paper-5g");
   p.network = delay_distribution::uniform(0ms, 200ms);
-  for (const auto direction : {way::up, way::down}) {
+  for (const auto direction : {direction::up, direction::down}) {
     link_direction link{link_channel(p), direction, nullptr};
     auto last = time_point{};
     for (std::uint64_t n = 0; n < 2000; ++n) {
@@ -79,8 +80,8 @@ TEST_CASE("no message overtakes another") {
 
 TEST_CASE("other messages do not shift the noise of results") {
   const auto p = named("paper-sim");
-  link_direction quiet{link_channel(p), way::down, nullptr};
-  link_direction busy{link_channel(p), way::down, nullptr};
+  link_direction quiet{link_channel(p), direction::down, nullptr};
+  link_direction busy{link_channel(p), direction::down, nullptr};
   std::uint64_t others = 0;
   for (std::uint64_t n = 0; n < 1000; ++n) {
     // Early enough not to hold the result up: the delay is below 31.5 ms.
@@ -94,9 +95,10 @@ TEST_CASE("other messages do not shift the noise of results") {
 }
 
 TEST_CASE("results that are not sent do not shift those that are") {
-  const auto all =
-      results({link_channel(named("cicv5g-n78")), way::down, nullptr}, 20'000);
-  link_direction half{link_channel(named("cicv5g-n78")), way::down, nullptr};
+  const auto all = results(
+      {link_channel(named("cicv5g-n78")), direction::down, nullptr}, 20'000);
+  link_direction half{link_channel(named("cicv5g-n78")), direction::down,
+                      nullptr};
   auto same = 0;
   for (std::uint64_t n = 0; n < all.size(); n += 2)
     same += half.arrival(cycle(n), kind::result, n) == all[n];
@@ -105,15 +107,16 @@ TEST_CASE("results that are not sent do not shift those that are") {
 
 TEST_CASE("vehicles, providers, directions and classes draw for themselves") {
   const auto p = named("cicv5g-n8");
-  const auto delay = [&](station_id s, std::uint32_t provider, way w, kind k) {
+  const auto delay = [&](station_id s, std::uint32_t provider, direction w,
+                         kind k) {
     return link_channel(p, s, provider).network_delay({w, k, 5}, cycle(5));
   };
-  const auto one = delay(1, 0, way::down, kind::result);
-  CHECK(one == delay(1, 0, way::down, kind::result));
-  CHECK(one != delay(2, 0, way::down, kind::result));
-  CHECK(one != delay(1, 1, way::down, kind::result));
-  CHECK(one != delay(1, 0, way::up, kind::result));
-  CHECK(one != delay(1, 0, way::down, kind::other));
+  const auto one = delay(1, 0, direction::down, kind::result);
+  CHECK(one == delay(1, 0, direction::down, kind::result));
+  CHECK(one != delay(2, 0, direction::down, kind::result));
+  CHECK(one != delay(1, 1, direction::down, kind::result));
+  CHECK(one != delay(1, 0, direction::up, kind::result));
+  CHECK(one != delay(1, 0, direction::down, kind::other));
 }
 
 TEST_CASE("what is sent in a stall arrives together after its end") {
@@ -121,7 +124,7 @@ TEST_CASE("what is sent in a stall arrives together after its end") {
   p.stalls.rate_hz = 0.1;
   const auto link = link_channel(p);
   auto stalls = link.stalls();
-  const auto arrivals = results({link, way::down, nullptr}, 20'000);
+  const auto arrivals = results({link, direction::down, nullptr}, 20'000);
   auto held = 0;
   for (std::uint64_t n = 1; n < arrivals.size(); ++n) {
     const auto stall = stalls.at(cycle(n));
@@ -129,7 +132,7 @@ TEST_CASE("what is sent in a stall arrives together after its end") {
       continue;
     ++held;
     const auto released =
-        stall->end + link.burst_delay(way::down, stall->number);
+        stall->end + link.burst_delay(direction::down, stall->number);
     // Later when something from before the stall is still under way.
     CHECK(*arrivals[n] >= released);
     if (cycle(n + 1) < stall->end)
@@ -162,9 +165,9 @@ TEST_CASE("messages of all vehicles queue for the radio cell") {
   auto p = named("ideal");
   p.airtime = delay_distribution::uniform(2ms, 2ms);
   const auto cell = std::make_shared<multi_server_queue>(1);
-  link_direction a{link_channel(p, 1), way::up, cell};
-  link_direction b{link_channel(p, 2), way::up, cell};
-  link_direction elsewhere{link_channel(p, 3), way::up, nullptr};
+  link_direction a{link_channel(p, 1), direction::up, cell};
+  link_direction b{link_channel(p, 2), direction::up, cell};
+  link_direction elsewhere{link_channel(p, 3), direction::up, nullptr};
   CHECK(a.arrival(time_point{0ms}, kind::other, 0) == time_point{2ms});
   CHECK(b.arrival(time_point{1ms}, kind::other, 0) == time_point{4ms});
   CHECK(elsewhere.arrival(time_point{1ms}, kind::other, 0) == time_point{3ms});
@@ -186,7 +189,8 @@ TEST_CASE("burst loss takes its share, in bursts") {
   auto p = named("ideal");
   p.burst_loss = {9s, 1s, 0.01, 0.8};
   constexpr auto count = 400'000;
-  const auto arrivals = results({link_channel(p), way::down, nullptr}, count);
+  const auto arrivals =
+      results({link_channel(p), direction::down, nullptr}, count);
   double lost = 0;
   double lost_twice = 0;
   for (auto n = 1; n < count; ++n) {
@@ -203,8 +207,9 @@ TEST_CASE("loss does not shift the delays of what arrives") {
   const auto p = named("paper-5g");
   auto lossy = p;
   lossy.loss = 0.3;
-  const auto all = results({link_channel(p), way::down, nullptr}, 50'000);
-  const auto some = results({link_channel(lossy), way::down, nullptr}, 50'000);
+  const auto all = results({link_channel(p), direction::down, nullptr}, 50'000);
+  const auto some =
+      results({link_channel(lossy), direction::down, nullptr}, 50'000);
   double arrived = 0;
   double delay_ms = 0;
   for (std::size_t n = 0; n < all.size(); ++n)
@@ -217,8 +222,8 @@ TEST_CASE("loss does not shift the delays of what arrives") {
 }
 
 TEST_CASE("a replayed result takes the measured round trip, a request none") {
-  link_direction down{link_channel(measured()), way::down, nullptr};
-  link_direction up{link_channel(measured()), way::up, nullptr};
+  link_direction down{link_channel(measured()), direction::down, nullptr};
+  link_direction up{link_channel(measured()), direction::up, nullptr};
   CHECK(down.arrival(time_point{0s}, kind::result, 0) == time_point{20ms});
   CHECK(down.arrival(time_point{1s}, kind::result, 1) == time_point{1030ms});
   CHECK(down.arrival(time_point{2s}, kind::result, 2) == time_point{2250ms});

@@ -12,7 +12,7 @@ using namespace sofof;
 namespace {
 
 /// Collects names; checks that defaults keep their ranges.
-class listing : public settings {
+class listing : public option_visitor {
 public:
   std::set<std::string, std::less<>> names;
 
@@ -33,10 +33,11 @@ public:
   void field(std::string_view, std::vector<std::string>&) override {}
   void field(std::string_view, point&) override {}
   void field(std::string_view, std::vector<point>&) override {}
-  void table(std::string_view, const std::function<void(settings&)>&) override {
-  }
-  void tables(std::string_view, std::size_t,
-              const std::function<void(std::size_t, settings&)>&) override {}
+  void table(std::string_view,
+             const std::function<void(option_visitor&)>&) override {}
+  void
+  tables(std::string_view, std::size_t,
+         const std::function<void(std::size_t, option_visitor&)>&) override {}
   void refuse(std::string_view, const std::string&) override {}
 };
 
@@ -46,7 +47,7 @@ template <class Params>
 void check_all_listed(std::size_t hidden = 0) {
   Params params;
   listing list;
-  params.fields(list);
+  params.visit_options(list);
   CHECK(list.names.size() == sizeof(Params) / sizeof(double) - hidden);
 }
 

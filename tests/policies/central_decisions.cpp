@@ -304,9 +304,9 @@ TEST_CASE("an unknown solver or model is refused, and a clone keeps a known "
           "one") {
   test::option_list options;
   options.texts = {{"solver", "simplex"}, {"model", "collision"}};
-  make_codm("assignment")->fields(options);
+  make_codm("assignment")->visit_options(options);
   options.names.clear();
-  make_codm("best_response")->fields(options);
+  make_codm("best_response")->visit_options(options);
   CHECK(options.refused.contains("solver"));
   CHECK(options.refused.contains("model"));
   scene at;

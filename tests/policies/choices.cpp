@@ -50,7 +50,7 @@ TEST_CASE("the random choice asks as often as it is told, everybody alike") {
   const auto lodm = make_lodm("random");
   test::option_list options;
   options.numbers = {{"probability", 0.75}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   auto counts = choices(*lodm, three());
   CHECK(counts[0] == doctest::Approx(750).epsilon(0.1));
   for (provider_id id = 1; id <= 3; ++id)
@@ -99,7 +99,7 @@ TEST_CASE("a filter is an option, and a clone keeps it") {
   const auto lodm = make_lodm("nearest");
   test::option_list options;
   options.texts = {{"filter.name", "none"}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(options.refused.empty());
   CHECK(choose(*lodm, {{2, {-10, -320}, 0}}) == 2);
   CHECK(choose(*lodm->clone(), {{2, {-10, -320}, 0}}) == 2);
@@ -109,7 +109,7 @@ TEST_CASE("an unknown filter is refused") {
   const auto lodm = make_lodm("nearest");
   test::option_list options;
   options.texts = {{"filter.name", "locaton"}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(options.refused.contains("filter.name"));
 }
 

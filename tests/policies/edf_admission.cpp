@@ -26,7 +26,7 @@ struct server {
     test::option_list options;
     options.texts = {{"test", test}, {"filter.name", "none"}};
     options.numbers = {{"margin", margin}};
-    codm->fields(options);
+    codm->visit_options(options);
     CHECK(options.refused.empty());
   }
 
@@ -120,7 +120,7 @@ TEST_CASE("a margin is added to computing times") {
 TEST_CASE("an unknown test is refused, and a clone keeps the known one") {
   test::option_list options;
   options.texts = {{"test", "utilization"}};
-  make_codm("edf")->fields(options);
+  make_codm("edf")->visit_options(options);
   CHECK(options.refused.contains("test"));
   CHECK(server::accepted(server{"demand"}.clone().decide(14)) == 2);
 }

@@ -30,7 +30,7 @@ TEST_CASE("a policy has its governors in its title") {
                    {"govern.1.name", "hysteresis"}};
   const auto lodm = make_lodm("nearest");
   CHECK(lodm->title() == "nearest");
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(lodm->name() == "nearest");
   CHECK(lodm->title() == "nearest + predictive_gate + hysteresis");
   CHECK(lodm->clone()->title() == lodm->title());
@@ -41,7 +41,7 @@ TEST_CASE("nobody waits longer than ten seconds for a hedge") {
   options.lengths = {{"govern", 1}};
   options.texts = {{"govern.0.name", "redundancy"}};
   options.times = {{"govern.0.hedge_after", 10'001ms}};
-  make_lodm("always")->fields(options);
+  make_lodm("always")->visit_options(options);
   CHECK(options.refused == decltype(options.refused){"govern.0.hedge_after"});
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("an unknown governor is refused") {
   option_list options;
   options.lengths = {{"govern", 1}};
   options.texts = {{"govern.0.name", "predictive_gait"}};
-  make_lodm("always")->fields(options);
+  make_lodm("always")->visit_options(options);
   CHECK(options.refused.contains("govern.0.name"));
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("the disc and the least way are options") {
   const auto lodm = make_lodm("location");
   test::option_list options;
   options.numbers = {{"radius_m", 100}, {"min_distance_m", 10}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   const auto decide = [&](const line& path) { return wants(*lodm, path); };
   CHECK(decide({{0, 0}, {11, 0}}));
   CHECK(!decide({{0, 0}, {10, 0}}));
@@ -233,7 +233,7 @@ TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
   test::option_list options;
   options.times = {{"min_time", 10s}};
   options.numbers = {{"map_tolerance_m", 1}};
-  codm->fields(options);
+  codm->visit_options(options);
   CHECK(!accepts(eastward(50, 300), 10));
   CHECK(accepts(eastward(0, 300), 10));
   CHECK(!accepts({{0, 2}, {100, 2}}, 10));
@@ -242,7 +242,7 @@ TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
 TEST_CASE_FIXTURE(codm_world, "a clone keeps the options") {
   test::option_list options;
   options.times = {{"min_time", 10s}};
-  codm->fields(options);
+  codm->visit_options(options);
   const auto copy = codm->clone();
   const auto route = eastward(50, 300);
   CHECK(!decide(*copy, route, 10, {"any"}).front().accept);

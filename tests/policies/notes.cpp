@@ -42,7 +42,7 @@ void check(const std::vector<policy_info>& all, Make make) {
     const auto made = make(notes.name);
     REQUIRE(made);
     CHECK(made->name() == notes.name);
-    made->fields(options);
+    made->visit_options(options);
     std::erase_if(options.names, [](const std::string& name) {
       return name.starts_with("filter.") || name == "govern";
     });

@@ -63,12 +63,12 @@ TEST_CASE("there is no policy of an unknown name") {
 TEST_CASE("every policy's defaults are within their ranges") {
   for (const auto name : lodm_names()) {
     test::option_list options;
-    make_lodm(name)->fields(options);
+    make_lodm(name)->visit_options(options);
     CHECK(options.refused.empty());
   }
   for (const auto name : codm_names()) {
     test::option_list options;
-    make_codm(name)->fields(options);
+    make_codm(name)->visit_options(options);
     CHECK(options.refused.empty());
   }
 }

@@ -35,7 +35,7 @@ codm_of(std::string_view name,
   options.texts = std::move(texts);
   options.texts["filter.name"] = "none";
   options.times = std::move(times);
-  codm->fields(options);
+  codm->visit_options(options);
   CHECK(options.refused.empty());
   return codm;
 }

@@ -32,12 +32,12 @@ TEST_CASE("the policy of the tutorial has an option, and stands behind a "
   const auto lodm = lodm_slow_only().make();
   test::option_list options;
   options.numbers = {{"most_mps", 3}, {"filter.min_distance_m", 99}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(asks(*lodm, 3));
   CHECK(!asks(*lodm, 4));
   options = {};
   options.numbers = {{"filter.min_distance_m", 101}};
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(!asks(*lodm, 3));
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("the provider's policy of the tutorial gives the room to the slowest "
   const auto codm = codm_slowest_first().make();
   test::option_list options;
   options.texts = {{"filter.name", "none"}};
-  codm->fields(options);
+  codm->visit_options(options);
   CHECK(codm->epoch_s() == 0.25);
   const std::vector<point> route{{0, 0}};
   std::vector<request_view> asked;

@@ -136,8 +136,8 @@ struct actor_world : virtual_world {
                         shuttle::station, static_cast<std::uint32_t>(k)};
     links.push_back(spawn_network_link(
         system(), providers.back(),
-        {{draws, way::up, nullptr},
-         {draws, way::down, nullptr},
+        {{draws, direction::up, nullptr},
+         {draws, direction::down, nullptr},
          link_faults{random_stream{seed, "faults"}.part(providers.size()),
                      faults}}));
   }

@@ -84,8 +84,8 @@ inline std::size_t octets_of_cam() {
 class library_link {
 public:
   library_link(agenda& time, const channel& draws, link_faults faults)
-      : time_{time}, up_{draws, way::up, nullptr},
-        down_{draws, way::down, nullptr}, faults_{std::move(faults)} {}
+      : time_{time}, up_{draws, direction::up, nullptr},
+        down_{draws, direction::down, nullptr}, faults_{std::move(faults)} {}
 
   void up(std::uint64_t number, std::size_t octets,
           std::function<void()> deliver) {

@@ -1,7 +1,7 @@
 // A watch beside a policy changes nothing about it.
 #include "scenario/decision_timer.hpp"
 
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_printer.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ public:
   }
   void observe(const cycle_outcome&) override { ++to_.cycles; }
   void observe(const episode_outcome&) override { ++to_.episodes; }
-  void fields(settings& s) override {
+  void visit_options(option_visitor& s) override {
     auto wanted = static_cast<std::int64_t>(wanted_);
     s.field("wanted", wanted, {0, 9});
     wanted_ = static_cast<provider_id>(wanted);
@@ -61,7 +61,7 @@ TEST_CASE("a timed policy is and does what the policy is and does") {
   timed.clone()->observe(episode_outcome{});
   CHECK(told.cycles == 1);
   CHECK(told.episodes == 1);
-  CHECK(print_settings([&](settings& s) { timed.fields(s); })
+  CHECK(print_options([&](option_visitor& s) { timed.visit_options(s); })
         == "wanted = 7\n");
 }
 

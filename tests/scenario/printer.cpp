@@ -1,5 +1,5 @@
 // The effective configuration as a file.
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_printer.hpp"
 #include "base/options/toml_file.hpp"
 #include "base/options/toml_text.hpp"
 #include "tests/scenario/example.hpp"
@@ -27,12 +27,12 @@ struct everything {
   std::vector<point> line;
   std::vector<std::int64_t> parts;
 
-  void fields(settings& s) {
-    s.table("inner", [this](settings& t) {
+  void visit_options(option_visitor& s) {
+    s.table("inner", [this](option_visitor& t) {
       t.field("at", at);
       t.field("line", line);
     });
-    s.tables("part", parts.size(), [this](std::size_t i, settings& t) {
+    s.tables("part", parts.size(), [this](std::size_t i, option_visitor& t) {
       if (i == parts.size())
         parts.emplace_back();
       t.field("number", parts[i], {});
@@ -62,13 +62,14 @@ everything unusual() {
 
 template <class T>
 std::string print(T x) {
-  return print_settings([&](settings& s) { x.fields(s); });
+  return print_options([&](option_visitor& s) { x.visit_options(s); });
 }
 
 template <class T>
 T read(const std::string& text) {
   T x;
-  toml_file{text, "printed"}.read([&](settings& s) { x.fields(s); });
+  toml_file{text, "printed"}.read(
+      [&](option_visitor& s) { x.visit_options(s); });
   return x;
 }
 

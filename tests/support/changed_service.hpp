@@ -22,7 +22,7 @@ public:
   }
 
   std::string_view name() const override { return real_->name(); }
-  void fields(settings& s) override { real_->fields(s); }
+  void visit_options(option_visitor& s) override { real_->visit_options(s); }
   offloading::service in(const service_world& world) const override {
     auto service = real_->in(world);
     how_(service, world);

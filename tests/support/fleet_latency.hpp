@@ -45,7 +45,7 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
   jobs.reserve(f.vehicles * cycles);
   for (std::uint32_t v = 0; v < f.vehicles; ++v) {
     channels.emplace_back(f.profile, seed, v, 0);
-    links.emplace_back(channels.back(), way::down, cell);
+    links.emplace_back(channels.back(), direction::down, cell);
     const auto phase =
         from_seconds(seed.part("phase").uniform(0, to_seconds(f.period), v));
     for (std::uint64_t c = 0; c < cycles; ++c)

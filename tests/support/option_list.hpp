@@ -2,7 +2,7 @@
 // their ranges, and can set some of them.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@ struct option_values {
   std::map<std::string, std::size_t, std::less<>> lengths{};
 };
 
-class option_list final : public settings, public option_values {
+class option_list final : public option_visitor, public option_values {
 public:
   option_list() = default;
   explicit option_list(option_values values)
@@ -64,21 +64,21 @@ public:
   void field(std::string_view key, point&) override { found(key); }
   void field(std::string_view key, std::vector<point>&) override { found(key); }
   void table(std::string_view key,
-             const std::function<void(settings&)>& list) override {
+             const std::function<void(option_visitor&)>& list) override {
     const auto outer = prefix_;
     prefix_ += std::string{key} + ".";
     list(*this);
     prefix_ = outer;
   }
-  void
-  tables(std::string_view key, std::size_t,
-         const std::function<void(std::size_t, settings&)>& list) override {
+  void tables(
+      std::string_view key, std::size_t,
+      const std::function<void(std::size_t, option_visitor&)>& list) override {
     found(key);
     std::size_t length = 0;
     set(lengths, key, length);
     for (std::size_t k = 0; k < length; ++k)
       table(std::string{key} + '.' + std::to_string(k),
-            [&](settings& s) { list(k, s); });
+            [&](option_visitor& s) { list(k, s); });
   }
   void refuse(std::string_view key, const std::string& why) override {
     CHECK(!why.empty());

@@ -81,7 +81,7 @@ inline std::unique_ptr<local_policy> make_lodm_with(std::string_view name,
   option_list options{std::move(values)};
   auto lodm = make_lodm(name);
   REQUIRE(lodm);
-  lodm->fields(options);
+  lodm->visit_options(options);
   CHECK(options.refused.empty());
   return lodm;
 }

@@ -36,8 +36,8 @@ TEST_CASE("a slow radio can eat up what offloading saves") {
 
 TEST_CASE("computer and task list their options once, within their ranges") {
   test::option_list options;
-  computer_options{}.fields(options);
-  task_options{}.fields(options);
+  computer_options{}.visit_options(options);
+  task_options{}.visit_options(options);
   CHECK(options.refused.empty());
   CHECK(options.names.size() == 7);
 }

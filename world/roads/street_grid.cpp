@@ -15,10 +15,10 @@ namespace sofof {
 
 namespace {
 
-constexpr settings::range sizes{2, 64};
-constexpr settings::range blocks_m{60, 1000};
-constexpr settings::range limits_mps{3, 30};
-constexpr settings::range half_widths_m{1.5, 2.5};
+constexpr option_visitor::range sizes{2, 64};
+constexpr option_visitor::range blocks_m{60, 1000};
+constexpr option_visitor::range limits_mps{3, 30};
+constexpr option_visitor::range half_widths_m{1.5, 2.5};
 
 /// Streets end this far from their junction's centre, m: enough for right
 /// turns with a radius of more than 6 m.
@@ -234,7 +234,7 @@ std::vector<route_ptr> plan_routes(const street_grid_params& params,
 }
 
 template <class Number>
-void check(std::string_view what, Number value, settings::range r) {
+void check(std::string_view what, Number value, option_visitor::range r) {
   const auto x = static_cast<double>(value);
   if (!(r.min <= x && x <= r.max))
     throw std::invalid_argument{fmt::format(
@@ -243,7 +243,7 @@ void check(std::string_view what, Number value, settings::range r) {
 
 } // namespace
 
-void street_grid_params::fields(settings& s) {
+void street_grid_params::visit_options(option_visitor& s) {
   s.field("columns", columns, sizes);
   s.field("rows", rows, sizes);
   s.field("block_m", block_m, blocks_m);

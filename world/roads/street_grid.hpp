@@ -1,7 +1,7 @@
 // A made-up town: streets in a grid, for experiments with many vehicles.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "world/roads/streets.hpp"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct street_grid_params {
   double limit_mps = 13.89;   ///< Everywhere, 3 to 30.
   double half_width_m = 1.75; ///< Half a lane, 1.5 to 2.5.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Builds two-way streets between all neighbouring junctions, right-hand

@@ -88,7 +88,7 @@ perceived_object measure(const road_body& body, const sensor& s,
 
 } // namespace
 
-void sensor_params::fields(settings& s) {
+void sensor_params::visit_options(option_visitor& s) {
   s.field("range_m", range_m, {0, 1000});
   s.field("field_of_view_deg", field_of_view_deg, {0, 360});
   s.field("position_noise_m", position_noise_m, {0, 100});

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/cell_grid.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "base/random.hpp"
 #include "base/time.hpp"
 #include "world/roads/road_body.hpp"
@@ -28,7 +28,7 @@ struct sensor_params {
   double heading_noise_rad = 0.01; ///< Standard deviation.
   bool occlusion = true; ///< Do bodies and buildings hide what is behind them?
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// A sensor, where it is now.

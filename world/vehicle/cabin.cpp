@@ -12,7 +12,7 @@ constexpr double probe_w = 1000;
 
 } // namespace
 
-void cabin_params::fields(settings& s) {
+void cabin_params::visit_options(option_visitor& s) {
   s.field("air_capacity_jpk", air_capacity_jpk, {1e3, 1e7});
   s.field("mass_capacity_jpk", mass_capacity_jpk, {1e3, 1e8});
   s.field("air_to_mass_wpk", air_to_mass_wpk, {0, 1e4});

@@ -1,7 +1,7 @@
 // The air in a car: a small thermal model, and what climate control does.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 namespace sofof {
 
@@ -15,7 +15,7 @@ struct cabin_params {
   double max_heating_w = 5000;
   double max_cooling_w = 4000;
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 struct cabin_state {

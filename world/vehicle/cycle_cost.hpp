@@ -1,7 +1,7 @@
 // What one cycle of a function costs a vehicle: on board, and offloaded.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 namespace sofof {
 
@@ -13,7 +13,7 @@ struct computer_options {
   double transmit_power_w = 0.2;  ///< p, 23 dBm.
   double uplink_mbps = 20;        ///< r, that it gets of the air.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// One cycle of a function.
@@ -22,7 +22,7 @@ struct task_options {
   double input_kbit = 160;  ///< b, what a provider has to be told.
   double overhead_j = 0;    ///< Of the framework itself, when offloaded.
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 /// Time from the begin of a cycle on, and energy out of the vehicle's battery.

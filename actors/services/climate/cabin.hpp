@@ -1,7 +1,7 @@
 // The cabin of a car: what it asks of climate control, and what it does then.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "messages/protocol/payload.hpp"
 #include "messages/type_ids.hpp"
 #include "world/vehicle/cabin.hpp"
@@ -45,11 +45,11 @@ struct climate_options {
   double horizon_s = 60;
   cabin_params cabin;
 
-  void fields(settings& s) {
+  void visit_options(option_visitor& s) {
     s.field("outside_c", outside_c, {-60, 60});
     s.field("set_point_c", set_point_c, {10, 30});
     s.field("horizon_s", horizon_s, {1, 3600});
-    s.table("cabin", [this](settings& t) { cabin.fields(t); });
+    s.table("cabin", [this](option_visitor& t) { cabin.visit_options(t); });
   }
 };
 

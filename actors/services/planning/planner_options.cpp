@@ -17,14 +17,14 @@ constexpr std::string_view simple_planner = "lane_follow";
 
 } // namespace
 
-void planner_options::fields(settings& s) {
+void planner_options::visit_options(option_visitor& s) {
   s.field("name", name);
   if (name != optimal_planner && name != simple_planner)
     s.refuse("name", fmt::format("there is no planner '{}'; choose {} or {}",
                                  name, optimal_planner, simple_planner));
-  style.fields(s);
-  s.table("onboard", [this](settings& t) { onboard.fields(t); });
-  s.table("mec", [this](settings& t) { mec.fields(t); });
+  style.visit_options(s);
+  s.table("onboard", [this](option_visitor& t) { onboard.visit_options(t); });
+  s.table("mec", [this](option_visitor& t) { mec.visit_options(t); });
 }
 
 std::unique_ptr<trajectory_planner> planner_options::make(const route_ptr& way,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "actors/services/planning/known_roads.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "planners/speed/comfort_limits.hpp"
 #include "planners/trajectory/spatial_planner.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
@@ -21,7 +21,7 @@ struct planner_options {
   spatial_params mec{
       .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
 
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 
   std::unique_ptr<trajectory_planner>
   make(const route_ptr& way, known_roads& roads, bool remote) const;

@@ -66,7 +66,7 @@ struct outlook {
 
   /// @returns the most that they add; only as much room has a worth as can be
   /// filled.
-  double bound(const Eigen::ArrayXXd& prices, const room& left) const {
+  double bound(const Eigen::ArrayXXd& prices, const free_capacity& left) const {
     const auto& free = left.free();
     return margins + (prices * (free < least).select(0, free.min(total))).sum();
   }
@@ -117,7 +117,7 @@ private:
   std::vector<decision> decisions_;
   std::vector<outlook> outlooks_;
   /// Before each decision, so that nothing need be undone.
-  std::vector<room> rooms_;
+  std::vector<free_capacity> rooms_;
   std::vector<choice> choices_;
   std::vector<choice> best_;
   double best_reached_;
@@ -130,7 +130,7 @@ search::search(const reduced_problem& s, const Eigen::ArrayXXd& prices,
                double reached, std::int64_t node_limit)
     : problem_{s}, prices_{prices},
       decisions_{decisions_of(s, prices)}, outlooks_{outlooks(s, decisions_)},
-      rooms_(s.vehicles() + 1, room{s.shares, s.providers()}),
+      rooms_(s.vehicles() + 1, free_capacity{s.shares, s.providers()}),
       choices_(s.vehicles()), best_reached_{reached}, node_limit_{node_limit} {}
 
 void search::keep(double reached) {

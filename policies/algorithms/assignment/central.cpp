@@ -31,8 +31,8 @@ double room_here(const central_context& context, duration wait) {
 
 } // namespace
 
-void assignment_options::fields(settings& s) {
-  central_options::fields(s);
+void assignment_options::visit_options(option_visitor& s) {
+  central_options::visit_options(s);
   s.field("wait", wait, duration{1});
 }
 

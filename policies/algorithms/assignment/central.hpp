@@ -16,7 +16,7 @@ struct assignment_options : central_options {
   duration wait = std::chrono::milliseconds{16};
 
   /// Lists the options once.
-  void fields(settings& s);
+  void visit_options(option_visitor& s);
 };
 
 struct central_problem {

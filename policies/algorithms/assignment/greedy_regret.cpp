@@ -55,7 +55,7 @@ private:
   bool exchange(int one, int other);
 
   const reduced_problem& problem_;
-  room room_;
+  free_capacity room_;
   std::vector<choice> choices_;
 };
 

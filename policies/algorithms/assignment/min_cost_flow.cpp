@@ -15,7 +15,7 @@ constexpr auto unreachable = std::numeric_limits<double>::infinity();
 /// @returns how many vehicles a provider can serve, if all want the same of it.
 std::optional<int> seats_at(const reduced_problem& s, int provider) {
   std::optional<int> first;
-  room left{s.shares, s.providers()};
+  free_capacity left{s.shares, s.providers()};
   int seats = 0;
   for (int v = 0; v < s.vehicles(); ++v) {
     if (s.advantage(v, provider) == 0)

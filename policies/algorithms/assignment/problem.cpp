@@ -98,7 +98,7 @@ double value(const problem& p, const std::vector<choice>& choices) {
 
 bool feasible(const problem& p, const std::vector<choice>& choices) {
   const auto shares = shares_of(p);
-  room left{shares, p.providers()};
+  free_capacity left{shares, p.providers()};
   for (int v = 0; v < p.vehicles(); ++v) {
     const auto c = choices[v];
     if (!c)

@@ -34,24 +34,25 @@ std::vector<pair_table> shares_of(const problem& p) {
   return result;
 }
 
-room::room(const std::vector<pair_table>& shares, int providers)
+free_capacity::free_capacity(const std::vector<pair_table>& shares,
+                             int providers)
     : shares_{&shares}, free_{Eigen::ArrayXXd::Constant(
                             providers, static_cast<Eigen::Index>(shares.size()),
                             1 + tolerance)} {}
 
-bool room::fits(int vehicle, int provider) const {
+bool free_capacity::fits(int vehicle, int provider) const {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     if ((*shares_)[k](vehicle, provider) > free_(provider, static_cast<int>(k)))
       return false;
   return true;
 }
 
-void room::occupy(int vehicle, int provider) {
+void free_capacity::occupy(int vehicle, int provider) {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     free_(provider, static_cast<int>(k)) -= (*shares_)[k](vehicle, provider);
 }
 
-void room::give_back(int vehicle, int provider) {
+void free_capacity::give_back(int vehicle, int provider) {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     free_(provider, static_cast<int>(k)) += (*shares_)[k](vehicle, provider);
 }
@@ -61,7 +62,7 @@ reduced_problem stakes_of(const problem& p) {
   reduced_problem result{pair_table::Zero(p.vehicles(), p.providers()),
                          shares_of(p),
                          value(p, std::vector<choice>(p.vehicles(), local)), 0};
-  const room empty{result.shares, p.providers()};
+  const free_capacity empty{result.shares, p.providers()};
   for (int v = 0; v < p.vehicles(); ++v)
     for (int i = 0; i < p.providers(); ++i)
       if (p.eligible(v, i) && empty.fits(v, i))

@@ -13,11 +13,11 @@ namespace sofof::assignment {
 std::vector<pair_table> shares_of(const problem& p);
 
 /// What is free of each provider's capacities, as shares.
-class room {
+class free_capacity {
 public:
   /// All of it is free.
   /// @param shares  Outlives the room.
-  room(const std::vector<pair_table>& shares, int providers);
+  free_capacity(const std::vector<pair_table>& shares, int providers);
 
   bool fits(int vehicle, int provider) const;
   void occupy(int vehicle, int provider);

@@ -27,7 +27,7 @@ solution sampled(const problem& p, const cross_entropy_options& options,
   for (const auto& m : meaning)
     counts.push_back(static_cast<int>(m.size()));
   const auto admit = [&](std::span<int> sample) {
-    room left{s.shares, s.providers()};
+    free_capacity left{s.shares, s.providers()};
     double reached = 0;
     for (int v = 0; v < s.vehicles(); ++v) {
       auto c = meaning[v][sample[v]];

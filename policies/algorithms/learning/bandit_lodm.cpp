@@ -128,7 +128,7 @@ std::optional<std::string> bandit_lodm::restore(std::string_view text) {
   return std::nullopt;
 }
 
-void bandit_lodm::fields(settings& s) {
+void bandit_lodm::visit_options(option_visitor& s) {
   s.field("trial", trial_, std::chrono::milliseconds{1});
   s.field("epoch_s", epoch_s_, {1e-3, 3600});
 }

@@ -49,7 +49,7 @@ public:
   double epoch_s() const override { return epoch_s_; }
   std::string snapshot() const override;
   std::optional<std::string> restore(std::string_view text) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
 
 protected:
   /// @returns a bandit that knows nothing.

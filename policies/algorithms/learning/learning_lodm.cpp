@@ -161,7 +161,7 @@ std::optional<std::string> learning_lodm::restore(std::string_view text) {
   return shared_->taught->restore(text);
 }
 
-void learning_lodm::fields(settings& s) {
+void learning_lodm::visit_options(option_visitor& s) {
   const auto learned = options_.learning;
   const auto how = options_.how;
   s.field("learning", options_.learning);

@@ -50,7 +50,7 @@ public:
   double epoch_s() const override { return options_.epoch_s; }
   std::string snapshot() const override;
   std::optional<std::string> restore(std::string_view text) override;
-  void fields(settings& s) override;
+  void visit_options(option_visitor& s) override;
 
 private:
   struct options {

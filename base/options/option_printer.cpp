@@ -1,5 +1,5 @@
 // Prints options as a TOML file.
-#include "base/options/settings_printer.hpp"
+#include "base/options/option_printer.hpp"
 
 #include "base/options/toml_text.hpp"
 #include "base/options/units.hpp"
@@ -26,7 +26,7 @@ std::string list_of(const std::vector<T>& items, Print print) {
 }
 
 /// Prints one table. Its tables follow behind its own keys, as TOML has it.
-class printer final : public settings {
+class printer final : public option_visitor {
 public:
   /// @param path  Dotted name of the table; empty for the whole file.
   explicit printer(std::string path) : path_{std::move(path)} {}
@@ -60,16 +60,16 @@ public:
   }
 
   void table(std::string_view key,
-             const std::function<void(settings&)>& list) override {
+             const std::function<void(option_visitor&)>& list) override {
     printer part{path_of(key)};
     list(part);
     const auto header = part.keys_.empty() ? "" : "\n[" + part.path_ + "]\n";
     tables_ += header + part.keys_ + part.tables_;
   }
 
-  void
-  tables(std::string_view key, std::size_t size,
-         const std::function<void(std::size_t, settings&)>& list) override {
+  void tables(
+      std::string_view key, std::size_t size,
+      const std::function<void(std::size_t, option_visitor&)>& list) override {
     for (std::size_t i = 0; i < size; ++i) {
       printer part{path_of(key)};
       list(i, part);
@@ -95,7 +95,7 @@ private:
 
 } // namespace
 
-std::string print_settings(const std::function<void(settings&)>& list) {
+std::string print_options(const std::function<void(option_visitor&)>& list) {
   printer all{""};
   list(all);
   return all.keys() + all.tables();

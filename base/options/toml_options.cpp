@@ -1,5 +1,5 @@
 // Loads options from a table of a TOML file.
-#include "base/options/toml_settings.hpp"
+#include "base/options/toml_options.hpp"
 
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
@@ -38,8 +38,8 @@ std::string describe(const toml::node& n) {
   }
 }
 
-std::string describe(settings::range r) {
-  constexpr settings::range all;
+std::string describe(option_visitor::range r) {
+  constexpr option_visitor::range all;
   if (r.max == all.max)
     return r.min == all.min ? "finite" : fmt::format("at least {}", r.min);
   if (r.min == all.min)
@@ -58,10 +58,10 @@ std::string place_of(const toml::source_region& region, std::string_view file) {
                      region.begin.column);
 }
 
-toml_settings::toml_settings(const toml::node& node, std::string_view file)
+toml_options::toml_options(const toml::node& node, std::string_view file)
     : node_{node}, file_{file} {}
 
-void toml_settings::field(std::string_view key, bool& value) {
+void toml_options::field(std::string_view key, bool& value) {
   if (const auto* n = find(key)) {
     if (!n->is_boolean())
       fail(*n, key, "must be true or false");
@@ -69,14 +69,14 @@ void toml_settings::field(std::string_view key, bool& value) {
   }
 }
 
-void toml_settings::field(std::string_view key, double& value, range r) {
+void toml_options::field(std::string_view key, double& value, range r) {
   if (const auto* n = find(key)) {
     value = read_number(*n, key);
     check(*n, key, value, r);
   }
 }
 
-void toml_settings::field(std::string_view key, std::int64_t& value, range r) {
+void toml_options::field(std::string_view key, std::int64_t& value, range r) {
   if (const auto* n = find(key)) {
     if (!n->is_integer())
       fail(*n, key, "must be a whole number");
@@ -85,12 +85,12 @@ void toml_settings::field(std::string_view key, std::int64_t& value, range r) {
   }
 }
 
-void toml_settings::field(std::string_view key, std::string& value) {
+void toml_options::field(std::string_view key, std::string& value) {
   if (const auto* n = find(key))
     value = read_string(*n, key);
 }
 
-void toml_settings::field(std::string_view key, duration& value, duration min) {
+void toml_options::field(std::string_view key, duration& value, duration min) {
   const auto* n = find(key);
   if (!n)
     return;
@@ -106,8 +106,8 @@ void toml_settings::field(std::string_view key, duration& value, duration min) {
   value = *read;
 }
 
-void toml_settings::field(std::string_view key,
-                          std::vector<std::string>& value) {
+void toml_options::field(std::string_view key,
+                         std::vector<std::string>& value) {
   if (const auto* n = find(key)) {
     value.clear();
     for (const auto& element : read_list(*n, key, "a list of texts"))
@@ -115,12 +115,12 @@ void toml_settings::field(std::string_view key,
   }
 }
 
-void toml_settings::field(std::string_view key, point& value) {
+void toml_options::field(std::string_view key, point& value) {
   if (const auto* n = find(key))
     value = read_point(*n, key);
 }
 
-void toml_settings::field(std::string_view key, std::vector<point>& value) {
+void toml_options::field(std::string_view key, std::vector<point>& value) {
   if (const auto* n = find(key)) {
     value.clear();
     for (const auto& element : read_list(*n, key, "a list of points [x, y]"))
@@ -128,20 +128,20 @@ void toml_settings::field(std::string_view key, std::vector<point>& value) {
   }
 }
 
-void toml_settings::table(std::string_view key,
-                          const std::function<void(settings&)>& list) {
+void toml_options::table(std::string_view key,
+                         const std::function<void(option_visitor&)>& list) {
   static const toml::table absent;
   const auto* n = find(key);
   if (n && !n->is_table() && !n->is_string())
     fail(*n, key, "must be a table");
-  toml_settings reader{n ? *n : absent, file_};
+  toml_options reader{n ? *n : absent, file_};
   list(reader);
   reader.finish();
 }
 
-void toml_settings::tables(
+void toml_options::tables(
     std::string_view key, std::size_t,
-    const std::function<void(std::size_t, settings&)>& list) {
+    const std::function<void(std::size_t, option_visitor&)>& list) {
   const auto* n = find(key);
   if (!n)
     return;
@@ -150,24 +150,24 @@ void toml_settings::tables(
        read_list(*n, key, fmt::format("a list of tables [[{}]]", key))) {
     if (!element.is_table() && !element.is_string())
       fail(element, key, "must be a list of tables");
-    toml_settings reader{element, file_};
+    toml_options reader{element, file_};
     list(i++, reader);
     reader.finish();
   }
 }
 
-bool toml_settings::has(std::string_view key, bool) {
+bool toml_options::has(std::string_view key, bool) {
   return find(key) != nullptr;
 }
 
-void toml_settings::refuse(std::string_view key, const std::string& why) {
+void toml_options::refuse(std::string_view key, const std::string& why) {
   const auto* n = find(key);
   throw input_error{fmt::format("{}: {}: {}{}",
                                 place_of((n ? *n : node_).source(), file_), key,
                                 why, why.ends_with('.') ? "" : ".")};
 }
 
-void toml_settings::finish() const {
+void toml_options::finish() const {
   const auto* table = node_.as_table();
   if (!table && std::ranges::find(asked_, "name") == asked_.end())
     fail(node_, "this", "must be a table");
@@ -183,7 +183,7 @@ void toml_settings::finish() const {
   }
 }
 
-const toml::node* toml_settings::find(std::string_view key) {
+const toml::node* toml_options::find(std::string_view key) {
   if (std::ranges::find(asked_, key) == asked_.end())
     asked_.emplace_back(key);
   if (const auto* table = node_.as_table())
@@ -191,36 +191,36 @@ const toml::node* toml_settings::find(std::string_view key) {
   return key == "name" ? &node_ : nullptr;
 }
 
-void toml_settings::fail(const toml::node& at, std::string_view key,
-                         std::string_view why) const {
+void toml_options::fail(const toml::node& at, std::string_view key,
+                        std::string_view why) const {
   throw input_error{fmt::format("{}: {} {}, but is {}.",
                                 place_of(at.source(), file_), key, why,
                                 describe(at))};
 }
 
-void toml_settings::check(const toml::node& at, std::string_view key,
-                          double value, range r) const {
+void toml_options::check(const toml::node& at, std::string_view key,
+                         double value, range r) const {
   if (!(value >= r.min && value <= r.max))
     fail(at, key, fmt::format("must be {}", describe(r)));
 }
 
-double toml_settings::read_number(const toml::node& n,
-                                  std::string_view key) const {
+double toml_options::read_number(const toml::node& n,
+                                 std::string_view key) const {
   if (!n.is_number())
     fail(n, key, "must be a number");
   return n.is_integer() ? static_cast<double>(**n.as_integer())
                         : **n.as_floating_point();
 }
 
-std::string toml_settings::read_string(const toml::node& n,
-                                       std::string_view key) const {
+std::string toml_options::read_string(const toml::node& n,
+                                      std::string_view key) const {
   if (!n.is_string())
     fail(n, key, "must be text in quotes");
   return **n.as_string();
 }
 
-point toml_settings::read_point(const toml::node& n,
-                                std::string_view key) const {
+point toml_options::read_point(const toml::node& n,
+                               std::string_view key) const {
   const auto* list = n.as_array();
   if (!list || list->size() != 2)
     fail(n, key, "must be a point [x, y] in m");
@@ -230,9 +230,9 @@ point toml_settings::read_point(const toml::node& n,
   return p;
 }
 
-const toml::array& toml_settings::read_list(const toml::node& n,
-                                            std::string_view key,
-                                            std::string_view wanted) const {
+const toml::array& toml_options::read_list(const toml::node& n,
+                                           std::string_view key,
+                                           std::string_view wanted) const {
   if (!n.is_array())
     fail(n, key, fmt::format("must be {}", wanted));
   return *n.as_array();

@@ -1,7 +1,7 @@
 // Prints options as a TOML file.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 #include <functional>
 #include <string>
@@ -10,6 +10,6 @@ namespace sofof {
 
 /// @returns TOML that loads again to exactly the options that `list` lists,
 /// defaults included. The same options always give the same bytes.
-std::string print_settings(const std::function<void(settings&)>& list);
+std::string print_options(const std::function<void(option_visitor&)>& list);
 
 } // namespace sofof

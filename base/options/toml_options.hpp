@@ -1,7 +1,7 @@
 // Loads options from a table of a TOML file.
 #pragma once
 
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 
 #include <toml++/toml.h>
 
@@ -20,14 +20,14 @@ std::string place_of(const toml::source_region& region, std::string_view file);
 
 /// Writes into options what one table says. What does not fit is thrown as
 /// `input_error` with its place.
-class toml_settings final : public settings {
+class toml_options final : public option_visitor {
 public:
   /// @param node  A table, or a string that stands for a table with that
   ///              `name`; outlives this.
   /// @param file  What the file is called; outlives this.
-  toml_settings(const toml::node& node, std::string_view file);
+  toml_options(const toml::node& node, std::string_view file);
 
-  using settings::field;
+  using option_visitor::field;
   void field(std::string_view key, bool& value) override;
   void field(std::string_view key, double& value, range r) override;
   void field(std::string_view key, std::int64_t& value, range r) override;
@@ -37,9 +37,10 @@ public:
   void field(std::string_view key, point& value) override;
   void field(std::string_view key, std::vector<point>& value) override;
   void table(std::string_view key,
-             const std::function<void(settings&)>& list) override;
-  void tables(std::string_view key, std::size_t size,
-              const std::function<void(std::size_t, settings&)>& list) override;
+             const std::function<void(option_visitor&)>& list) override;
+  void tables(
+      std::string_view key, std::size_t size,
+      const std::function<void(std::size_t, option_visitor&)>& list) override;
   bool has(std::string_view key, bool set) override;
   void refuse(std::string_view key, const std::string& why) override;
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
-#include "base/options/settings.hpp"
+#include "base/options/option_visitor.hpp"
 #include "base/options/spelling.hpp"
 
 #include <functional>
@@ -15,11 +15,12 @@ namespace sofof {
 
 /// Lists a list of tables, each of which has `fields`.
 template <class T>
-void list_all(settings& s, std::string_view key, std::vector<T>& items) {
-  s.tables(key, items.size(), [&](std::size_t i, settings& t) {
+void visit_list(option_visitor& s, std::string_view key,
+                std::vector<T>& items) {
+  s.tables(key, items.size(), [&](std::size_t i, option_visitor& t) {
     if (i == items.size())
       items.emplace_back();
-    items[i].fields(t);
+    items[i].visit_options(t);
   });
 }
 
@@ -31,8 +32,8 @@ void list_all(settings& s, std::string_view key, std::vector<T>& items) {
 /// @param hint    From an unknown name to a sentence on where it belongs, or
 ///                to nothing.
 template <class Pointer, class Make>
-void list_named(
-    settings& s, Pointer& object, Make make, std::string_view what,
+void visit_choice(
+    option_visitor& s, Pointer& object, Make make, std::string_view what,
     const std::vector<std::string_view>& known,
     const std::function<std::string(std::string_view name)>& hint = {}) {
   std::string name{object ? object->name() : ""};
@@ -46,11 +47,11 @@ void list_named(
     }
     object = std::move(made);
   }
-  object->fields(s);
+  object->visit_options(s);
 }
 
 /// Refuses corners that are no simple polygon.
-inline void refuse_bad_polygon(settings& s, std::string_view key,
+inline void refuse_bad_polygon(option_visitor& s, std::string_view key,
                                const std::vector<point>& corners) {
   try {
     polygon{corners};

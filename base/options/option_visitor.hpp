@@ -15,9 +15,9 @@ namespace sofof {
 
 /// Visits options by name. A loader writes into the references what a file
 /// says and leaves absent ones at their defaults; a printer reads them.
-/// Every option struct has one `void fields(settings&)` that lists its
-/// members once, with the ranges they must keep.
-class settings {
+/// Every option struct has one `void visit_options(option_visitor&)` that lists
+/// its members once, with the ranges they must keep.
+class option_visitor {
 public:
   /// What a number must keep; both ends are allowed values.
   struct range {
@@ -25,7 +25,7 @@ public:
     double max = 1e300;
   };
 
-  virtual ~settings() = default;
+  virtual ~option_visitor() = default;
 
   virtual void field(std::string_view key, bool& value) = 0;
   virtual void field(std::string_view key, double& value, range r) = 0;
@@ -41,13 +41,13 @@ public:
   /// it (then all of them are absent). A string in its place stands for
   /// `{ name = "…" }`.
   virtual void table(std::string_view key,
-                     const std::function<void(settings&)>& list) = 0;
+                     const std::function<void(option_visitor&)>& list) = 0;
   /// A list of tables: when printing, `list(i, s)` is called for each i below
   /// `size`; when loading, for each element i of the file, in order, and must
   /// make room for it.
   virtual void
   tables(std::string_view key, std::size_t size,
-         const std::function<void(std::size_t, settings&)>& list) = 0;
+         const std::function<void(std::size_t, option_visitor&)>& list) = 0;
   /// Whether an option is there at all, for those without a default.
   /// @param set  Whether it is set now; a printer returns it. A loader
   ///             returns whether its file has the key.
