@@ -2,6 +2,7 @@
 #include "experiments/report/html.hpp"
 
 #include "base/files/output_file.hpp"
+#include "experiments/report/compressed.hpp"
 #include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/drive_json.hpp"
 #include "experiments/report/page.hpp"
@@ -91,19 +92,6 @@ json to_json(const document& x) {
           {"sections", std::move(sections)}};
 }
 
-/// @returns JSON that no HTML parser takes for anything but text.
-std::string script_text(const json& x) {
-  const auto text = x.dump(-1, ' ', false, json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const auto c : text)
-    if (c == '<') // in strings only
-      safe += "\\u003c";
-    else
-      safe += c;
-  return safe;
-}
-
 std::string html_text(std::string_view text) {
   std::string safe;
   for (const auto c : text)
@@ -133,7 +121,8 @@ std::string html(const document& what) {
   std::string all{page.substr(0, title_at)};
   all += html_text(what.title);
   all += page.substr(between, body_at - between);
-  all += script_text(to_json(what));
+  all += compressed(
+      to_json(what).dump(-1, ' ', false, json::error_handler_t::replace));
   all += page.substr(body_at + body.size());
   return all;
 }

@@ -1,5 +1,6 @@
 // The page: a document as JSON that nothing breaks out of, numbers in few
 // characters.
+#include "experiments/report/compressed.hpp"
 #include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/drive_json.hpp"
 #include "experiments/report/html.hpp"
@@ -12,7 +13,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <vector>
+#include <zlib.h>
 
 namespace sofof::report {
 
@@ -21,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-std::string bytes_of(const std::string& base64) {
+std::string bytes_of(std::string_view base64) {
   constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                        "abcdefghijklmnopqrstuvwxyz"
                                        "0123456789+/";
@@ -41,42 +45,38 @@ std::string bytes_of(const std::string& base64) {
 
 /// Reads a column as the page does.
 std::vector<double> unpacked(const json& from) {
-  const std::size_t count = from.at(0);
-  const int places = from.at(1);
-  const int order = from.at(2);
-  const auto bytes = bytes_of(from.at(3));
-  std::vector<double> column;
-  for (std::size_t at = 0; column.size() < count;) {
-    const auto width = static_cast<unsigned char>(bytes.at(at++));
-    const auto here = std::min<std::size_t>(64, count - column.size());
-    for (std::size_t i = 0; i < here; ++i) {
-      std::int64_t value = 0;
-      for (std::size_t k = 0; k < width; ++k) {
-        const auto bit = i * width + k;
-        const auto byte = static_cast<unsigned char>(bytes.at(at + bit / 8));
-        value |= std::int64_t{byte >> bit % 8 & 1} << k;
-      }
-      column.push_back(
-          static_cast<double>(value % 2 != 0 ? -(value + 1) / 2 : value / 2));
-    }
-    at += (here * width + 7) / 8;
-  }
+  const int places = from.at(0);
+  const int order = from.at(1);
+  auto column = from.at(2).get<std::vector<double>>();
   for (int k = 0; k < order; ++k)
-    for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t i = 1; i < column.size(); ++i)
       column[i] += column[i - 1];
   for (auto& x : column)
     x /= std::pow(10, places);
-  if (from.size() > 4)
-    for (const std::size_t gap : from.at(4))
+  if (from.size() > 3)
+    for (const std::size_t gap : from.at(3))
       column[gap] = std::numeric_limits<double>::quiet_NaN();
   return column;
 }
 
+/// @returns what was compressed.
+std::string inflated(std::string_view base64) {
+  const auto bytes = bytes_of(base64);
+  std::string text(1 << 22, '\0');
+  auto size = static_cast<uLongf>(text.size());
+  REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
+                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size())
+          == Z_OK);
+  text.resize(size);
+  return text;
+}
+
 /// @returns the document of a page.
 json document_in(const std::string& page) {
-  constexpr std::string_view begin = "type=\"application/json\">";
+  constexpr std::string_view begin = "type=\"text/plain\">";
   const auto from = page.find(begin) + begin.size();
-  return json::parse(page.substr(from, page.find("</script", from) - from));
+  return json::parse(
+      inflated(page.substr(from, page.find("</script", from) - from)));
 }
 
 } // namespace
@@ -101,7 +101,15 @@ TEST_CASE("what hardly changes packs into little more than nothing") {
   std::vector<double> even(64000);
   for (std::size_t i = 0; i < even.size(); ++i)
     even[i] = 0.05 * static_cast<double>(i);
-  CHECK(delta_encoding(even, 3).at(3).get<std::string>().size() < 1500);
+  CHECK(compressed(delta_encoding(even, 3).dump()).size() < 1500);
+}
+
+TEST_CASE("whatever is compressed comes back") {
+  std::string all;
+  for (int i = 0; i < 70'000; ++i)
+    all += static_cast<char>(i * i % 251);
+  for (const auto& text : {std::string{}, std::string{"<script>"}, all})
+    CHECK(inflated(compressed(text)) == text);
 }
 
 TEST_CASE("no numbers, gaps, and numbers of any size can be delta_encoding") {

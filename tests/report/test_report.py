@@ -1,6 +1,7 @@
 """Reports as their readers meet them: in a browser. Called with the program;
 exits with 77 where there is no Chromium."""
 
+import base64
 import hashlib
 import json
 import os
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 from browser import Browser, program
 from look import look, rows_of
@@ -163,8 +165,10 @@ class Scatter(unittest.TestCase):
             text = page.read()
         cls.file = os.path.join(WORK, "dots.html")
         with open(cls.file, "w") as page:
+            packed = base64.b64encode(zlib.compress(
+                json.dumps(document).encode())).decode()
             page.write(text.replace("%title%", "Dots").replace(
-                "%document%", json.dumps(document)))
+                "%document%", packed))
 
     def seen(self, width):
         with Browser() as page:
