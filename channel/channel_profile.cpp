@@ -96,55 +96,7 @@ constexpr std::array known_profiles{
     entry{"trace", trace},
 };
 
-constexpr option_visitor::range chances{0, 1};
-
 } // namespace
-
-void stall_options::visit_options(option_visitor& s) {
-  s.field("rate_hz", rate_hz, {0, 1e3});
-  s.field("shortest", shortest, 0ns);
-  s.field("longest", longest, 0ns);
-  if (longest < shortest)
-    s.refuse("longest", "must not be less than shortest");
-  if (rate_hz * to_seconds(shortest + longest) / 2 >= 1)
-    s.refuse("rate_hz", "leaves no time between two stalls");
-  if (rate_hz > 0 && longest == 0ns)
-    s.refuse("rate_hz", "has no effect while longest is \"0s\"");
-}
-
-void burst_loss_options::visit_options(option_visitor& s) {
-  s.field("mean_good", mean_good, 0ns);
-  s.field("mean_bad", mean_bad, 0ns);
-  s.field("loss_good", loss_good, chances);
-  s.field("loss_bad", loss_bad, chances);
-  if ((mean_good > 0ns) != (mean_bad > 0ns))
-    s.refuse(mean_good > 0ns ? "mean_good" : "mean_bad",
-             "has no effect alone; mean_good and mean_bad go together");
-}
-
-void drift_options::visit_options(option_visitor& s) {
-  s.field("sd", sd, {0, 3});
-  s.field("period", period, 0ns);
-  if (sd > 0 && period <= 0ns)
-    s.refuse("sd", "has no effect while period is \"0s\"");
-}
-
-void spike_options::visit_options(option_visitor& s) {
-  s.field("probability", probability, chances);
-  s.field("shortest", shortest, 0ns);
-  s.field("longest", longest, 0ns);
-  if (longest < shortest)
-    s.refuse("longest", "must not be less than shortest");
-  if (probability > 0 && longest == 0ns)
-    s.refuse("probability", "has no effect while longest is \"0s\"");
-}
-
-void outage_options::visit_options(option_visitor& s) {
-  s.field("from", from, 0ns);
-  s.field("to", to, 0ns);
-  if (to <= from)
-    s.refuse("to", "must be later than from");
-}
 
 double channel_profile::mean_service_s() const {
   return service.mean_s() + joint_service_share * joint.mean_s()
@@ -154,21 +106,6 @@ double channel_profile::mean_service_s() const {
 double channel_profile::service_deviation_s() const {
   return std::hypot(service.deviation_s(),
                     joint_service_share * joint.deviation_s());
-}
-
-void channel_profile::visit_options(option_visitor& s) {
-  s.field("workers", workers, {1, 1024});
-  s.field("more_computing", more_computing, 0ns);
-  s.field("more_delay", more_delay, 0ns);
-  s.field("loss", loss, chances);
-  s.field("cell_mbps", cell_mbps, {0, 1e6});
-  s.field("scatters_trace", scatters_trace);
-  s.table("stalls", [this](option_visitor& t) { stalls.visit_options(t); });
-  s.table("burst_loss",
-          [this](option_visitor& t) { burst_loss.visit_options(t); });
-  s.table("drift", [this](option_visitor& t) { drift.visit_options(t); });
-  s.table("spikes", [this](option_visitor& t) { spikes.visit_options(t); });
-  visit_list(s, "outage", outages);
 }
 
 std::vector<std::string_view> channel_profile_names() {

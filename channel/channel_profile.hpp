@@ -1,6 +1,7 @@
 // What tells one kind of channel from another: its distributions and loss.
 #pragma once
 
+#include "base/options/option_helpers.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 #include "channel/delay_distribution.hpp"
@@ -25,7 +26,18 @@ struct stall_options {
   duration shortest{};
   duration longest{};
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("rate_hz", rate_hz, {0, 1e3});
+    s.field("shortest", shortest, 0ns);
+    s.field("longest", longest, 0ns);
+    if (longest < shortest)
+      s.refuse("longest", "must not be less than shortest");
+    if (rate_hz * to_seconds(shortest + longest) / 2 >= 1)
+      s.refuse("rate_hz", "leaves no time between two stalls");
+    if (rate_hz > 0 && longest == 0ns)
+      s.refuse("rate_hz", "has no effect while longest is \"0s\"");
+  }
 };
 
 /// Two-state loss after Gilbert (1960) and Elliott (1963), in continuous time:
@@ -37,7 +49,16 @@ struct burst_loss_options {
   double loss_good = 0; ///< Probability in [0, 1].
   double loss_bad = 1;  ///< Probability in [0, 1].
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("mean_good", mean_good, 0ns);
+    s.field("mean_bad", mean_bad, 0ns);
+    s.field("loss_good", loss_good, {0, 1});
+    s.field("loss_bad", loss_bad, {0, 1});
+    if ((mean_good > 0ns) != (mean_bad > 0ns))
+      s.refuse(mean_good > 0ns ? "mean_good" : "mean_bad",
+               "has no effect alone; mean_good and mean_bad go together");
+  }
 };
 
 /// Good and bad phases of one vehicle's way to one provider: all its delays at
@@ -47,7 +68,13 @@ struct drift_options {
   double sd = 0;     ///< Of the logarithm of delays; 0: no drift.
   duration period{}; ///< From one independent value of g to the next.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("sd", sd, {0, 3});
+    s.field("period", period, 0ns);
+    if (sd > 0 && period <= 0ns)
+      s.refuse("sd", "has no effect while period is \"0s\"");
+  }
 };
 
 /// Messages that take longer, at random: nothing before tells which.
@@ -56,7 +83,16 @@ struct spike_options {
   duration shortest{};    ///< Added to its delay, uniformly up to
   duration longest{};     ///< this.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("probability", probability, {0, 1});
+    s.field("shortest", shortest, 0ns);
+    s.field("longest", longest, 0ns);
+    if (longest < shortest)
+      s.refuse("longest", "must not be less than shortest");
+    if (probability > 0 && longest == 0ns)
+      s.refuse("probability", "has no effect while longest is \"0s\"");
+  }
 };
 
 /// A time in which nothing gets through, for anybody: what is sent meanwhile is
@@ -65,7 +101,13 @@ struct outage_options {
   duration from{}; ///< Since the start of the run,
   duration to{};   ///< up to here.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("from", from, 0ns);
+    s.field("to", to, 0ns);
+    if (to <= from)
+      s.refuse("to", "must be later than from");
+  }
 };
 
 /// Everything that tells one kind of channel from another. docs/channels.md
@@ -113,7 +155,21 @@ struct channel_profile {
   double service_deviation_s() const;
 
   /// What a scenario may change about a named profile.
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("workers", workers, {1, 1024});
+    s.field("more_computing", more_computing, 0ns);
+    s.field("more_delay", more_delay, 0ns);
+    s.field("loss", loss, {0, 1});
+    s.field("cell_mbps", cell_mbps, {0, 1e6});
+    s.field("scatters_trace", scatters_trace);
+    s.table("stalls", [this](option_visitor& t) { stalls.visit_options(t); });
+    s.table("burst_loss",
+            [this](option_visitor& t) { burst_loss.visit_options(t); });
+    s.table("drift", [this](option_visitor& t) { drift.visit_options(t); });
+    s.table("spikes", [this](option_visitor& t) { spikes.visit_options(t); });
+    visit_list(s, "outage", outages);
+  }
 };
 
 /// @returns the names of all profiles, `trace` included.

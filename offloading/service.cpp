@@ -7,19 +7,6 @@
 
 namespace sofof::offloading {
 
-void service_options::visit_options(option_visitor& s) {
-  using namespace std::chrono_literals;
-  s.field("max_latency", limits.max_latency, duration{1});
-  s.field("max_interarrival", limits.max_interarrival, duration{1});
-  s.field("period", period, 1ms);
-  s.field("input_period", input_period, 1ms);
-  s.field("demand", demand, {0, 1e3});
-  s.field("run_time_mean", run_time_mean, duration{0});
-  s.field("run_time_sd", run_time_sd, duration{0});
-  s.field("run_time_max", run_time_max, duration{0});
-  s.table("task", [this](option_visitor& t) { task.visit_options(t); });
-}
-
 service_options on(const computer_options& computer, service_options options) {
   if (computer.clock_ghz == usual_clock_ghz)
     return options;

@@ -9,6 +9,7 @@
 #include "offloading/service_function.hpp"
 #include "world/vehicle/cycle_cost.hpp"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -33,7 +34,18 @@ struct service_options {
   duration run_time_max{};
   task_options task; ///< What a cycle asks of who computes it.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("max_latency", limits.max_latency, duration{1});
+    s.field("max_interarrival", limits.max_interarrival, duration{1});
+    s.field("period", period, 1ms);
+    s.field("input_period", input_period, 1ms);
+    s.field("demand", demand, {0, 1e3});
+    s.field("run_time_mean", run_time_mean, duration{0});
+    s.field("run_time_sd", run_time_sd, duration{0});
+    s.field("run_time_max", run_time_max, duration{0});
+    s.table("task", [this](option_visitor& t) { task.visit_options(t); });
+  }
 };
 
 /// @returns the options with run times as on this computer: in proportion to

@@ -20,16 +20,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr option_visitor::range any_length_m{0, 1e6};
-constexpr option_visitor::range any_heading_deg{-360, 360};
-constexpr option_visitor::range body_size_m{0.1, 50};
-constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
-constexpr std::array<std::string_view, 2> crossing_rules{"granted",
-                                                         "perceived"};
-constexpr auto max_vehicles = 1e5;
-constexpr auto max_start_speed_mps = 50.0;
-constexpr double max_station = std::numeric_limits<station_id>::max();
-
 double to_rad(double angle_deg) {
   return angle_deg * std::numbers::pi / 180;
 }
@@ -51,52 +41,12 @@ std::string right_place(std::string_view name) {
 
 } // namespace
 
-void fleet_options::visit_options(option_visitor& s) {
-  s.field("count", count, {1, max_vehicles});
-  s.field("first_station", first_station, {1, max_station});
-  if (static_cast<double>(first_station + count - 1) > max_station)
-    s.refuse("first_station", "leaves too few numbers for all its vehicles.");
-  s.field("routes", routes);
-  if (routes.empty())
-    s.refuse("routes", "must name at least one route.");
-  s.field("placement", placement);
-  if (std::ranges::find(placements, placement) == placements.end())
-    s.refuse("placement", unknown_word("placement", placement, placements));
-  s.field("spacing_m", spacing_m, any_length_m);
-  s.field("start_m", start_m, any_length_m);
-  s.field("start_speed_mps", start_speed_mps, {0, max_start_speed_mps});
-  s.field("connected", connected);
-  s.field("appears_at", appears_at, 0ns);
-  s.field("appear_every", appear_every, 0ns);
-  s.table("computer", [this](option_visitor& t) { computer.visit_options(t); });
-}
-
-void traffic_options::visit_options(option_visitor& s) {
-  s.field("crossings", crossings);
-  if (std::ranges::find(crossing_rules, crossings) == crossing_rules.end())
-    s.refuse("crossings",
-             unknown_word("rule for crossings", crossings, crossing_rules));
-}
-
 oriented_box obstacle_options::box() const {
   return {position_m, to_rad(heading_deg), length_m, width_m};
 }
 
-void obstacle_options::visit_options(option_visitor& s) {
-  s.field("position_m", position_m);
-  s.field("heading_deg", heading_deg, any_heading_deg);
-  s.field("length_m", length_m, body_size_m);
-  s.field("width_m", width_m, body_size_m);
-}
-
 sensor roadside_options::make(random_stream noise) const {
   return {can, noise, position_m, to_rad(heading_deg), std::nullopt};
-}
-
-void roadside_options::visit_options(option_visitor& s) {
-  s.field("position_m", position_m);
-  s.field("heading_deg", heading_deg, any_heading_deg);
-  can.visit_options(s);
 }
 
 polygon provider_options::area() const {
@@ -109,50 +59,6 @@ polygon provider_options::area() const {
 bool provider_options::offers(std::string_view service) const {
   return services.empty()
          || std::ranges::find(services, service) != services.end();
-}
-
-void provider_options::visit_options(option_visitor& s) {
-  s.field("name", name);
-  if (name.empty())
-    s.refuse("name", "must not be empty.");
-  s.field("position_m", position_m);
-  if (s.has("area_m", !area_m.empty())) {
-    s.field("area_m", area_m);
-    refuse_bad_polygon(s, "area_m", area_m);
-    for (const auto key : {"area_radius_m", "area_corners"})
-      if (s.has(key, false))
-        s.refuse(key, "has no effect beside area_m; remove one of them.");
-  } else {
-    s.field("area_radius_m", area_radius_m, {1, any_length_m.max});
-    s.field("area_corners", area_corners, {3, 1000});
-  }
-  s.field("range_m", range_m, any_length_m);
-  if (s.has("services", !services.empty())) {
-    s.field("services", services);
-    if (services.empty())
-      s.refuse("services", "must name at least one service; leave it out to "
-                           "offer all.");
-  }
-  visit_list(s, "sensor", sensors);
-  if (s.has("fails_at", fails_at.has_value()))
-    s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
-  if (s.has("returns_at", returns_at.has_value())) {
-    s.field("returns_at", returns_at ? *returns_at : returns_at.emplace(), 1ns);
-    if (!fails_at)
-      s.refuse("returns_at", "has no effect without fails_at.");
-    else if (*returns_at <= *fails_at)
-      s.refuse("returns_at", "must be later than fails_at.");
-  }
-  if (s.has("radio", !radio.empty()))
-    s.field("radio", radio);
-  if (s.has("network", network.has_value()))
-    s.table("network", [this](option_visitor& t) {
-      if (!network)
-        network.emplace();
-      network->visit_options(t);
-      if (network->channel && network->channel->replays)
-        t.refuse("profile", "replays a file, which only [network] can.");
-    });
 }
 
 void network_options::visit_options(option_visitor& s) {
@@ -185,16 +91,6 @@ void policy_options::visit_options(option_visitor& s) {
   s.table("codm", [this](option_visitor& t) {
     visit_choice(t, codm, make_codm, "CODM policy", codm_names(), right_place);
   });
-}
-
-void record_options::visit_options(option_visitor& s) {
-  s.field("tracks_period", tracks_period, protocol::control_period);
-  if (tracks_period % protocol::control_period != 0ns)
-    s.refuse("tracks_period", "must be a multiple of \"10ms\", a vehicle's "
-                              "step.");
-  s.field("cycles", cycles);
-  s.field("margins", margins);
-  s.field("tracks", tracks);
 }
 
 const std::shared_ptr<const channel_profile>&

@@ -5,6 +5,7 @@
 #include "base/options/option_visitor.hpp"
 #include "base/options/spelling.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -48,6 +49,17 @@ void visit_choice(
     object = std::move(made);
   }
   object->visit_options(s);
+}
+
+/// An option whose value is one of a few words.
+/// @param what   E.g. "placement".
+/// @param known  All words.
+template <class Words>
+void visit_word(option_visitor& s, std::string_view key, std::string& value,
+                std::string_view what, const Words& known) {
+  s.field(key, value);
+  if (std::ranges::find(known, value) == std::ranges::end(known))
+    s.refuse(key, unknown_word(what, value, known));
 }
 
 /// Refuses corners that are no simple polygon.

@@ -14,13 +14,6 @@ constexpr std::size_t most_others = 16;
 
 } // namespace
 
-void central_options::visit_options(option_visitor& s) {
-  // The answer has to be back before vehicles give up.
-  s.field("epoch_s", epoch_s,
-          {1e-3, 0.8 * to_seconds(protocol::request_timeout)});
-  s.field("price", price, {0, 1});
-}
-
 double computing_s(double utilisation, const periodic_task& task,
                    std::size_t workers) {
   return utilisation * to_seconds(task.period) * static_cast<double>(workers);

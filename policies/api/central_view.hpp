@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/options/option_visitor.hpp"
+#include "base/protocol.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstddef>
@@ -17,7 +18,12 @@ struct central_options {
   double price = 0.05;   ///< Of a change, in units of gains, ≥ 0.
 
   /// Lists the options once.
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    // The answer has to be back before vehicles give up.
+    s.field("epoch_s", epoch_s,
+            {1e-3, 0.8 * to_seconds(protocol::request_timeout)});
+    s.field("price", price, {0, 1});
+  }
 };
 
 /// @param utilisation  What a service takes of this provider, a share of all

@@ -2,7 +2,7 @@
 // served.
 #include "policies/algorithms/game/best_response.hpp"
 
-#include "base/options/spelling.hpp"
+#include "base/options/option_helpers.hpp"
 #include "policies/algorithms/game/central.hpp"
 #include "policies/api/central_view.hpp"
 #include "policies/entry.hpp"
@@ -83,9 +83,7 @@ equilibrium::decide(const central_context& context) {
 
 void equilibrium::visit_options(option_visitor& s) {
   options_.visit_options(s);
-  s.field("model", model_);
-  if (std::ranges::find(models, model_) == models.end())
-    s.refuse("model", unknown_word("model", model_, models));
+  visit_word(s, "model", model_, "model", models);
 }
 
 } // namespace

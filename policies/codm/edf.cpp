@@ -1,5 +1,5 @@
 // CODM "edf": every result of every service is to be in time.
-#include "base/options/spelling.hpp"
+#include "base/options/option_helpers.hpp"
 #include "base/protocol.hpp"
 #include "policies/algorithms/scheduling/placement.hpp"
 #include "policies/entry.hpp"
@@ -89,9 +89,7 @@ std::vector<central_decision> edf::decide(const central_context& context) {
 }
 
 void edf::visit_options(option_visitor& s) {
-  s.field("test", test_);
-  if (std::ranges::find(tests, test_) == tests.end())
-    s.refuse("test", unknown_word("test", test_, tests));
+  visit_word(s, "test", test_, "test", tests);
   s.field("network", network_, duration{0});
   s.field("margin", margin_, {0, 10});
 }

@@ -15,11 +15,6 @@ namespace sofof {
 
 namespace {
 
-constexpr option_visitor::range sizes{2, 64};
-constexpr option_visitor::range blocks_m{60, 1000};
-constexpr option_visitor::range limits_mps{3, 30};
-constexpr option_visitor::range half_widths_m{1.5, 2.5};
-
 /// Streets end this far from their junction's centre, m: enough for right
 /// turns with a radius of more than 6 m.
 constexpr auto junction_m = 15.0;
@@ -243,20 +238,12 @@ void check(std::string_view what, Number value, option_visitor::range r) {
 
 } // namespace
 
-void street_grid_params::visit_options(option_visitor& s) {
-  s.field("columns", columns, sizes);
-  s.field("rows", rows, sizes);
-  s.field("block_m", block_m, blocks_m);
-  s.field("limit_mps", limit_mps, limits_mps);
-  s.field("half_width_m", half_width_m, half_widths_m);
-}
-
 streets_ptr make_street_grid(const street_grid_params& params) {
-  check("columns", params.columns, sizes);
-  check("rows", params.rows, sizes);
-  check("block_m", params.block_m, blocks_m);
-  check("limit_mps", params.limit_mps, limits_mps);
-  check("half_width_m", params.half_width_m, half_widths_m);
+  check("columns", params.columns, params.sizes);
+  check("rows", params.rows, params.sizes);
+  check("block_m", params.block_m, params.blocks_m);
+  check("limit_mps", params.limit_mps, params.limits_mps);
+  check("half_width_m", params.half_width_m, params.half_widths_m);
   const town_plan plan{params};
   streets town{{"street_grid", anchor, plan.lanes()}, {}};
   town.routes = plan_routes(params, plan, town.map);

@@ -18,7 +18,16 @@ struct street_grid_params {
   double limit_mps = 13.89;   ///< Everywhere, 3 to 30.
   double half_width_m = 1.75; ///< Half a lane, 1.5 to 2.5.
 
-  void visit_options(option_visitor& s);
+  static constexpr option_visitor::range sizes{2, 64}, blocks_m{60, 1000},
+      limits_mps{3, 30}, half_widths_m{1.5, 2.5};
+
+  void visit_options(option_visitor& s) {
+    s.field("columns", columns, sizes);
+    s.field("rows", rows, sizes);
+    s.field("block_m", block_m, blocks_m);
+    s.field("limit_mps", limit_mps, limits_mps);
+    s.field("half_width_m", half_width_m, half_widths_m);
+  }
 };
 
 /// Builds two-way streets between all neighbouring junctions, right-hand

@@ -88,15 +88,6 @@ perceived_object measure(const road_body& body, const sensor& s,
 
 } // namespace
 
-void sensor_params::visit_options(option_visitor& s) {
-  s.field("range_m", range_m, {0, 1000});
-  s.field("field_of_view_deg", field_of_view_deg, {0, 360});
-  s.field("position_noise_m", position_noise_m, {0, 100});
-  s.field("speed_noise_mps", speed_noise_mps, {0, 100});
-  s.field("heading_noise_rad", heading_noise_rad, {0, std::numbers::pi});
-  s.field("occlusion", occlusion);
-}
-
 scene::scene(std::span<const building> buildings)
     : house_cells_{cell_m}, body_cells_{cell_m} {
   for (const auto& b : buildings) {

@@ -12,6 +12,7 @@
 #include "world/sensing/viewpoint.hpp"
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,7 +29,14 @@ struct sensor_params {
   double heading_noise_rad = 0.01; ///< Standard deviation.
   bool occlusion = true; ///< Do bodies and buildings hide what is behind them?
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    s.field("range_m", range_m, {0, 1000});
+    s.field("field_of_view_deg", field_of_view_deg, {0, 360});
+    s.field("position_noise_m", position_noise_m, {0, 100});
+    s.field("speed_noise_mps", speed_noise_mps, {0, 100});
+    s.field("heading_noise_rad", heading_noise_rad, {0, std::numbers::pi});
+    s.field("occlusion", occlusion);
+  }
 };
 
 /// A sensor, where it is now.

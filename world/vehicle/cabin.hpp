@@ -15,7 +15,15 @@ struct cabin_params {
   double max_heating_w = 5000;
   double max_cooling_w = 4000;
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    s.field("air_capacity_jpk", air_capacity_jpk, {1e3, 1e7});
+    s.field("mass_capacity_jpk", mass_capacity_jpk, {1e3, 1e8});
+    s.field("air_to_mass_wpk", air_to_mass_wpk, {0, 1e4});
+    s.field("air_to_outside_wpk", air_to_outside_wpk, {0, 1e4});
+    s.field("solar_gain_w", solar_gain_w, {0, 2000});
+    s.field("max_heating_w", max_heating_w, {0, 20e3});
+    s.field("max_cooling_w", max_cooling_w, {0, 20e3});
+  }
 };
 
 struct cabin_state {

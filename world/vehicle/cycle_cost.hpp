@@ -13,7 +13,12 @@ struct computer_options {
   double transmit_power_w = 0.2;  ///< p, 23 dBm.
   double uplink_mbps = 20;        ///< r, that it gets of the air.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    s.field("clock_ghz", clock_ghz, {0.1, 100});
+    s.field("capacitance_js2", capacitance_js2, {0, 1e-20});
+    s.field("transmit_power_w", transmit_power_w, {0, 100});
+    s.field("uplink_mbps", uplink_mbps, {0.001, 1e6});
+  }
 };
 
 /// One cycle of a function.
@@ -22,7 +27,11 @@ struct task_options {
   double input_kbit = 160;  ///< b, what a provider has to be told.
   double overhead_j = 0;    ///< Of the framework itself, when offloaded.
 
-  void visit_options(option_visitor& s);
+  void visit_options(option_visitor& s) {
+    s.field("gigacycles", gigacycles, {0, 1e3});
+    s.field("input_kbit", input_kbit, {0, 1e6});
+    s.field("overhead_j", overhead_j, {0, 1e3});
+  }
 };
 
 /// Time from the begin of a cycle on, and energy out of the vehicle's battery.

@@ -1,0 +1,96 @@
+// What a scenario says of its road: vehicles, rules and obstacles.
+#pragma once
+
+#include "base/geometry.hpp"
+#include "base/ids.hpp"
+#include "base/options/option_helpers.hpp"
+#include "world/vehicle/cycle_cost.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof {
+
+/// Vehicles with consecutive station ids that share their routes.
+struct fleet_options {
+  std::int64_t count = 1;
+  std::int64_t first_station = 101;
+  /// Names of routes; station number i takes the i-th, round and round. One
+  /// with `*` at its end stands for all that begin so.
+  std::vector<std::string> routes{"round_trip"};
+  /// "equal": spread evenly over each route from `start_m` on; "convoy": one
+  /// behind the other, `spacing_m` apart, the first one at `start_m`.
+  std::string placement = "equal";
+  double spacing_m = 60;      ///< From rear axle to rear axle.
+  double start_m = 0;         ///< Arc length on the route, of the rear axle.
+  double start_speed_mps = 0; ///< They start driving, as fast as this.
+  /// Whether they can talk to providers; else they send nothing and never
+  /// offload.
+  bool connected = true;
+  /// The first one appears then, each next one so much later; who finds
+  /// somebody near its place waits.
+  duration appears_at{};
+  duration appear_every{};
+  computer_options computer{}; ///< In each of them.
+
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    constexpr double max_station = std::numeric_limits<station_id>::max();
+    s.field("count", count, {1, 1e5});
+    s.field("first_station", first_station, {1, max_station});
+    if (static_cast<double>(first_station + count - 1) > max_station)
+      s.refuse("first_station", "leaves too few numbers for all its vehicles.");
+    s.field("routes", routes);
+    if (routes.empty())
+      s.refuse("routes", "must name at least one route.");
+    constexpr std::array<std::string_view, 2> placements{"convoy", "equal"};
+    visit_word(s, "placement", placement, "placement", placements);
+    s.field("spacing_m", spacing_m, {0, 1e6});
+    s.field("start_m", start_m, {0, 1e6});
+    s.field("start_speed_mps", start_speed_mps, {0, 50});
+    s.field("connected", connected);
+    s.field("appears_at", appears_at, 0ns);
+    s.field("appear_every", appear_every, 0ns);
+    s.table("computer",
+            [this](option_visitor& t) { computer.visit_options(t); });
+  }
+};
+
+/// How road users deal with each other.
+struct traffic_options {
+  /// "granted": the road grants every crossing; "perceived": nobody is granted
+  /// anything, drivers judge crossings by what they perceive and by the ranks
+  /// of the lanes.
+  std::string crossings = "granted";
+
+  bool grants_crossings() const { return crossings == "granted"; }
+
+  void visit_options(option_visitor& s) {
+    constexpr std::array<std::string_view, 2> rules{"granted", "perceived"};
+    visit_word(s, "crossings", crossings, "rule for crossings", rules);
+  }
+};
+
+/// A body that stands on the road, as a parked car does.
+struct obstacle_options {
+  point position_m;       ///< Of its middle.
+  double heading_deg = 0; ///< Of its long axis, counter-clockwise from east.
+  double length_m = 4.5;
+  double width_m = 1.8;
+
+  oriented_box box() const;
+
+  void visit_options(option_visitor& s) {
+    s.field("position_m", position_m);
+    s.field("heading_deg", heading_deg, {-360, 360});
+    s.field("length_m", length_m, {0.1, 50});
+    s.field("width_m", width_m, {0.1, 50});
+  }
+};
+
+} // namespace sofof
