@@ -4,6 +4,7 @@
 #include "planners/speed/closed_form_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -60,6 +61,7 @@ constexpr double least_wanted_m2ps2 = 0.125;
 
 /// Way to rest when braking builds up at a jerk.
 double stopping_m(double v, double a, double decel, double jerk) {
+  assert(v >= 0 && decel > 0 && jerk > 0);
   const auto t = (a + decel) / jerk;
   if (t <= 0)
     return v * v / (2 * std::max(decel, -a));
@@ -83,6 +85,7 @@ double decel_to_be_late(double v, double way_m, double time_s) {
 
 bool keeps_windows(const speed_profile& motion, double step_s,
                    const speed_constraints& task) {
+  assert(step_s > 0);
   for (std::size_t i = 1; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     for (const auto& window : task.windows)
@@ -101,6 +104,9 @@ speed_planner::speed_planner(route_profile_ptr way, const comfort_limits& style,
     : way_{std::move(way)}, style_{style}, grid_{horizon},
       steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
   motion_.reserve(static_cast<std::size_t>(steps_) + 1);
+  assert(way_ && steps_ >= 1);
+  assert(grid_.ds_m > 0 && grid_.steps >= fewest_steps
+         && grid_.steps <= ocp::most_steps);
 }
 
 speed_planner::stop
@@ -116,11 +122,14 @@ speed_planner::find_stop(const speed_constraints& task) const {
     const auto seen = std::min(rear, task.ahead->at(foresight_s));
     end.wanted_m = std::min(end.wanted_m, seen - style_.standstill_gap_m);
     end.last_m = std::min(end.last_m, rear - least_gap_m);
+    assert(!(left < 0 || seen > rear)); // it does not come back
   }
+  assert(!(end.wanted_m > end.last_m));
   return end;
 }
 
 double speed_planner::needed_decel(const speed_constraints& task) const {
+  assert(task.speed_mps >= 0);
   auto needed = 0.0;
   if (std::isfinite(task.stop_m))
     needed =
@@ -134,6 +143,7 @@ double speed_planner::needed_decel(const speed_constraints& task) const {
     needed =
         std::max(needed, decel_to_be_late(task.speed_mps, window.at_m,
                                           window.earliest_s - window_slack_s));
+  assert(needed >= 0);
   return needed;
 }
 
@@ -150,6 +160,8 @@ speed_planner::result speed_planner::plan(const planned_path& path,
                                           double way_m,
                                           const speed_constraints& task,
                                           const ocp::budget& go_on) {
+  assert(!path.empty() && std::isfinite(way_m));
+  assert(task.speed_mps >= 0 && std::isfinite(task.accel_mps2));
   const auto end = find_stop(task);
   result r;
   if (needed_decel(task) > style_.firm_decel_mps2()
@@ -170,6 +182,7 @@ speed_planner::result speed_planner::plan(const planned_path& path,
     return r;
   }
   r.price = price(path, way_m);
+  assert(r.price >= 0 && motion_.front().s_m == 0);
   return r;
 }
 
@@ -177,9 +190,11 @@ speed_planner::result speed_planner::brake_only(const speed_constraints& task) {
   const auto decel =
       std::clamp(reserve * needed_decel(task),
                  comfort_limits::least_emergency_mps2, style_.max_decel_mps2);
+  assert(decel >= comfort_limits::least_emergency_mps2);
   brake({0, task.speed_mps, task.accel_mps2}, decel,
         emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
         steps_, motion_);
+  assert(motion_.size() == static_cast<std::size_t>(steps_) + 1);
   solved_ = false;
   result r;
   r.emergency = true;
@@ -280,6 +295,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
 
 void speed_planner::set_limits(const planned_path& path, double from_m,
                                double ds_m, int steps) {
+  assert(ds_m > 0 && steps >= fewest_steps && steps <= grid_.steps);
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (auto* column : {&w_max_, &wanted_, &bends_})
     column->resize(knots);
@@ -290,6 +306,7 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
     bends_[k] = path.curvature_1pm(s);
     const auto bend = std::max(path.sharpest_1pm(s), least_curvature_1pm);
     w_max_[k] = std::min(square(way_->line.limit_mps(s)), lateral / bend) / 2;
+    assert(w_max_[k] >= 0 && std::isfinite(bends_[k]));
   }
   // What comes behind the horizon must not find the car too fast.
   w_max_.back() =
@@ -298,6 +315,7 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
 
 void speed_planner::be_cautious(const speed_constraints& task, double from_m,
                                 double ds_m) {
+  assert(!(task.caution_mps < 0));
   const auto w = square(task.caution_mps) / 2;
   for (std::size_t k = 0; k < w_max_.size(); ++k)
     if (from_m + static_cast<double>(k) * ds_m <= task.caution_to_m)
@@ -306,6 +324,7 @@ void speed_planner::be_cautious(const speed_constraints& task, double from_m,
 
 void speed_planner::set_windows(const speed_constraints& task,
                                 const lane_motion& from, double ds_m) {
+  assert(ds_m > 0 && from.s_m >= 0);
   const auto knots = w_max_.size();
   earliest_.assign(knots, -never);
   latest_.assign(knots, never);
@@ -315,6 +334,7 @@ void speed_planner::set_windows(const speed_constraints& task,
                                   static_cast<double>(knots));
     const auto before = static_cast<std::size_t>(steps);
     const auto behind = static_cast<std::size_t>(std::ceil(steps));
+    assert(before <= behind && behind <= knots);
     for (auto k = before; k < knots; ++k)
       earliest_[k] = std::max(earliest_[k], window.earliest_s);
     if (behind < knots)
@@ -340,6 +360,7 @@ void speed_planner::set_windows(const speed_constraints& task,
 
 // Even firm braking comes too late for them.
 bool speed_planner::too_fast_for_bends() const {
+  assert(w_max_.size() == bends_.size());
   constexpr auto tolerance = 1.02;
   for (std::size_t k = 0; k < w_max_.size(); ++k)
     if (2 * w_max_[k] * std::abs(bends_[k])
@@ -351,6 +372,8 @@ bool speed_planner::too_fast_for_bends() const {
 // No bound may ask for more than braking can do.
 bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                                      double ds_m, double decel_mps2) {
+  assert(ds_m > 0 && decel_mps2 > 0);
+  assert(earliest_.size() == w_max_.size() && wanted_.size() == w_max_.size());
   const auto slow = from.speed_mps < low_speed_mps;
   const auto jerk = (slow ? share_at_low_speed : envelope_share_of_jerk)
                     * style_.max_jerk_mps3;
@@ -366,6 +389,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
         std::max(a - jerk * ds_m / std::max(v, setting_off::until_mps),
                  std::min(a, -decel_mps2));
     const auto next_w = w + ds_m * (a + next_a) / 2;
+    assert(w >= 0 && next_a <= a); // at least as firmly as before
     a = next_a;
     t += 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w)); // as there
     w = std::max(0.0, next_w);
@@ -386,6 +410,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
 // As the velocity problem prices its plans, but over time, so that plans of
 // different length can be compared.
 double speed_planner::price(const planned_path& path, double way_m) const {
+  assert(style_.step_s > 0 && !path.empty());
   constexpr velocity_weights weigh;
   auto sum = 0.0;
   for (std::size_t i = 1; i < motion_.size(); ++i) {
@@ -400,6 +425,7 @@ double speed_planner::price(const planned_path& path, double way_m) const {
 
 bool is_clear(const speed_profile& motion, double step_s,
               const speed_constraints& task) {
+  assert(step_s > 0);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     const auto& x = motion[i];
