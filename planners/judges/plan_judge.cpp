@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -125,6 +126,7 @@ bool plan_judge::ends_too_soon(const judged_plan& x) {
 
 plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   walk found;
+  assert(!x.plan.empty());
   const auto& path = x.way.path();
   const auto late_s = to_seconds(x.now - x.plan.start);
   auto worst_m = -boundless, soon_m = -boundless;
@@ -148,6 +150,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     const auto beyond_m = std::max(std::abs(d_m), std::abs(front_d_m))
                           + car_.width_m / 2 - bounds.half_width_m;
     found.beside_m = std::max(found.beside_m, std::abs(d_m));
+    assert(std::isfinite(beyond_m) && bounds.half_width_m > 0);
     if (at_first_m == boundless) {
       at_first_m = beyond_m;
       first_mps = p.speed_mps;
@@ -183,6 +186,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     if (x.plan.at(t).accel_mps2 < limits.hard_mps2)
       found.brakes_hard = true;
   const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
+  assert(soon_m <= worst_m && found.beside_m >= 0);
   found.worst_m = worst_m;
   found.beyond_m = soon_m;
   found.leaves_lane = soon_m > limits.most_beyond_soon_m && !leads_back;
@@ -197,6 +201,7 @@ std::optional<double> plan_judge::beyond_line_m(const judged_plan& x) const {
     return std::nullopt;
   const auto line_m = *x.seen.stop_at_m + limits.beyond_line_m;
   const auto v = x.own.speed_mps;
+  assert(std::isfinite(line_m) && std::isfinite(v));
   const auto room_m = line_m - (x.s_m + car_.front_m);
   if (room_m <= v * v / (2 * limits.own_line_decel_mps2))
     return std::nullopt; // it cannot stop there any more, whatever the plan
@@ -205,6 +210,7 @@ std::optional<double> plan_judge::beyond_line_m(const judged_plan& x) const {
   const auto stops_at_m =
       then.s_m + car_.front_m
       + then.speed_mps * then.speed_mps / (2 * limits.line_decel_mps2);
+  assert(stops_at_m >= then.s_m + car_.front_m);
   return stops_at_m - line_m;
 }
 
@@ -218,6 +224,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
   if (known) {
     const auto before = std::ranges::find(said_, fingerprint);
     const auto at = static_cast<std::size_t>(before - said_.begin());
+    assert(at < begins_.size());
     const auto apart_s = to_seconds(x.plan.start - begins_[at]);
     if (std::abs(apart_s) <= limits.same_time_s)
       return false; // it has come twice
@@ -227,6 +234,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
       said_.resize(limits.remembered);
       begins_.resize(limits.remembered);
     }
+    assert(said_.size() == begins_.size() && next_said_ < said_.size());
     said_[next_said_] = fingerprint;
     begins_[next_said_] = x.plan.start;
     next_said_ = (next_said_ + 1) % limits.remembered;
@@ -241,6 +249,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
 std::optional<foreseen_bodies::touch>
 plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
                         double until_s, double decel_mps2) {
+  assert(!plan.empty() && until_s >= 0 && decel_mps2 >= 0);
   motion_.clear();
   const auto late_s = to_seconds(x.now - plan.start);
   // What was seen was seen a little earlier.
@@ -256,6 +265,7 @@ plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
       v = p.speed_mps;
     } else {
       const auto slower = std::max(0.0, v - decel_mps2 * limits.step_s);
+      assert(v >= 0);
       s_m += limits.step_s * (v + slower) / 2;
       v = slower;
     }
@@ -273,6 +283,7 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   if (!bodies_.any_in_reach(end_m - x.s_m + margin_m, beside_m + margin_m,
                             until_s))
     return std::nullopt;
+  assert(beside_m >= 0 && until_s > 0);
   const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
   const auto soon =
@@ -300,6 +311,7 @@ bool plan_judge::has_reason_to_brake(const judged_plan& x) const {
   const auto v = x.own.speed_mps;
   const auto front_m = x.s_m + car_.front_m;
   const auto near_m = v * limits.brake_reason_s + limits.brake_reason_m;
+  assert(v >= 0 && front_m > x.s_m);
   if (x.seen.stop_at_m
       && *x.seen.stop_at_m - front_m < v * v / 4 + limits.brake_reason_m)
     return true;
@@ -313,12 +325,14 @@ bool plan_judge::has_reason_to_brake(const judged_plan& x) const {
 
 std::optional<objection> plan_judge::brake(const judged_plan& x,
                                            bool brakes_hard, double passed_s) {
+  assert(passed_s >= 0 && passed_s <= limits.longest_pause_s);
   if (has_reason_to_brake(x))
     braking_s_ = 0;
   else if (brakes_hard)
     braking_s_ += passed_s;
   else
     braking_s_ = std::max(0.0, braking_s_ - passed_s);
+  assert(braking_s_ >= 0);
   if (braking_s_ < limits.longest_hard_s)
     return std::nullopt;
   return objection{"braking", braking_s_, limits.longest_hard_s};
@@ -335,6 +349,7 @@ double plan_judge::free_speed_mps(const judged_plan& x) const {
     free = std::min({free, x.way.limit_mps(at_m),
                      std::sqrt(limits.comfortable_across_mps2 / bend)});
   }
+  assert(free >= 0 && std::isfinite(free));
   return free;
 }
 
@@ -353,6 +368,7 @@ bool plan_judge::wants_own_plan(const judged_plan& x) const {
 
 std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
                                                  double passed_s) {
+  assert(passed_s >= 0);
   const auto forgiven_s = limits.forgiven_share * passed_s;
   lost_s_ = std::max(0.0, lost_s_ - forgiven_s);
   driven_lost_s_ = std::max(0.0, driven_lost_s_ - forgiven_s);
@@ -360,6 +376,7 @@ std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
   if (x.own_plan && is_slow(x))
     compare(x);
   const auto lost_s = std::max(lost_s_, driven_lost_s_);
+  assert(lost_s_ >= 0 && driven_lost_s_ >= 0);
   if (lost_s < limits.most_lost_s)
     return std::nullopt;
   return objection{"standing", lost_s, limits.most_lost_s};
@@ -367,10 +384,12 @@ std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
 
 // What a plan promises, and from where to look at what is driven.
 void plan_judge::compare(const judged_plan& x) {
+  assert(x.own_plan);
   const auto since_s =
       compared_at_
           ? std::min(to_seconds(x.now - *compared_at_), limits.compared_every_s)
           : limits.compared_every_s;
+  assert(since_s >= 0);
   compared_at_ = x.now;
   if (x.own_plan->empty() || may_wait_beside(x))
     return;
@@ -392,6 +411,7 @@ void plan_judge::settle(const judged_plan& x) {
   if (!reference_at_)
     return;
   const auto passed_s = to_seconds(x.own.at - *reference_at_);
+  assert(!reference_.empty());
   if (passed_s < limits.driven_for_s)
     return;
   const auto begun = reference_.at(*reference_at_).s_m;
@@ -401,6 +421,7 @@ void plan_judge::settle(const judged_plan& x) {
   if (passed_s > 2 * limits.driven_for_s || may_wait_beside(x)
       || own_way_m < limits.least_driven_m)
     return;
+  assert(passed_s >= limits.driven_for_s && own_way_m > 0);
   driven_lost_s_ += passed_s * std::clamp(1 - way_m / own_way_m, 0.0, 1.0);
 }
 
