@@ -2,6 +2,7 @@
 #include "planners/plausibility/motion_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -37,6 +38,7 @@ perceived_object moved_on(perceived_object x, double dt_s) {
 
 double unexplained_m(const timed_body& before, const timed_body& after) {
   const auto dt = after.at - before.at;
+  assert(dt >= duration{});
   if (dt > longest_gap)
     return 0;
   const auto dt_s = to_seconds(dt);
@@ -67,10 +69,12 @@ double steady_word::check(const timed_body& word) {
   };
   if (believed_ && word.at <= believed_->at) // overtaken on its way
     return unexplained_m(word, *believed_);
+  assert(off_m_ >= 0);
   if (!is_old(believed_))
     off_m_ = unexplained_m(*believed_, word);
   else if (is_old(rival_))
     off_m_ = 0; // it begins anew
+  assert(off_m_ >= 0 && (off_m_ == 0 || believed_ || rival_));
   if (off_m_ > 0 && !agrees(word))
     return off_m_;
   believed_ = word;
@@ -86,6 +90,7 @@ bool steady_word::agrees(const timed_body& word) {
     rival_since_ = word.at;
   }
   rival_ = word;
+  assert(rivals_ >= 0 && rival_since_ <= word.at);
   return ++rivals_ >= words_that_agree
          && word.at - rival_since_ >= time_that_agrees;
 }
