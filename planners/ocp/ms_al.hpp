@@ -21,6 +21,7 @@
 #include "planners/ocp/status.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof::ocp {
@@ -38,6 +39,7 @@ public:
 
 private:
   static constexpr auto nearly = 10.; ///< Tolerances that are acceptable.
+  static constexpr auto rounding = 1e-9;
 
   /// `optimal`: the plan was already; `stuck`: the model has no plan within
   /// its bounds; `partial`: only as far as the model holds.
@@ -66,10 +68,12 @@ template <class Problem>
 solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
   constexpr auto no_gap = 1e-9;
   constexpr auto near = 10.; // the linear model's error, in what is allowed
+  assert(options_.max_inner >= 1 && options_.decrement >= 0);
   begin();
   for (;;) {
     problem_.linearise(w_);
     ++report_.linearisations;
+    assert(report_.linearisations <= std::max(1, options_.max_linearisations));
     joined_ = join() < no_gap;
     const auto how = newton(go_on);
     if (how == ended::optimal) {
@@ -100,6 +104,8 @@ solve_report ms_al<Problem>::solve(const budget& go_on) noexcept {
 template <class Problem>
 solve_status ms_al<Problem>::verdict(ended how) const noexcept {
   using enum solve_status;
+  assert(how != ended::optimal && report_.worst.scaled >= 0);
+  assert(report_.iterations <= options_.max_iterations);
   if (how == ended::broken || std::isnan(report_.cost))
     return numerical;
   if (report_.worst.scaled <= nearly && std::isfinite(report_.cost))
@@ -126,6 +132,7 @@ void ms_al<Problem>::adopt() noexcept {
 template <class Problem>
 void ms_al<Problem>::begin() noexcept {
   const auto m = w_.padded, n = w_.n;
+  assert(w_.is_sized());
   for (auto* x : {&w_.plan, &w_.direction}) {
     for (int k = n + 1; k < m; ++k)
       x->x0[k] = x->x1[k] = x->x2[k] = 0;
@@ -134,6 +141,7 @@ void ms_al<Problem>::begin() noexcept {
   }
   adopt();
   w_.rows.each([m](auto& r, int) {
+    assert(r.rho > 0 && r.tolerance > 0);
     for (int k = 0; k < m; ++k)
       r.y[k] = r.lo[k] > -no_bound || r.hi[k] < no_bound ? r.y[k] : 0;
   });
@@ -144,6 +152,7 @@ void ms_al<Problem>::begin() noexcept {
 template <class Problem>
 double ms_al<Problem>::join() noexcept {
   const auto n = w_.n;
+  assert(w_.is_sized());
   double largest = 0;
   const auto close = [n, &largest](column& gap, const column& x) {
     double most = 0;
@@ -172,6 +181,7 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
   w_.rows.each([](auto& r, int) { r.last_change = no_bound; });
   double last_change = no_bound;
   int standstill = 0;
+  assert(options_.patience >= 1);
   for (int inner = 0; inner < options_.max_inner; ++inner) {
     if (report_.iterations >= options_.max_iterations
         || !go_on(report_.iterations))
@@ -185,6 +195,8 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
     const auto longest = inner == 0 ? problem_.longest_step(w_) : 1.;
     // With gaps to close, the cost's slope does not say where to stop.
     const auto alpha = gaps ? longest : best_step(w_, cost, longest, decrement);
+    assert(!(longest < 0 || longest > 1));
+    assert(!(alpha < 0 || alpha > longest + rounding));
     step_along(w_, alpha);
     same_active_ = stick_out(w_);
     if (longest < 1)
@@ -212,6 +224,7 @@ auto ms_al<Problem>::newton(const budget& go_on) noexcept -> ended {
 /// where the true problem is? The last feedback is good enough to tell.
 template <class Problem>
 bool ms_al<Problem>::is_optimal() noexcept {
+  assert(joined_ && same_active_ && std::isfinite(report_.cost));
   expand_slope(w_);
   return resolve(w_) <= options_.decrement + options_.optimality * report_.cost;
 }
@@ -219,6 +232,8 @@ bool ms_al<Problem>::is_optimal() noexcept {
 /// @returns the decrement; negative or NaN when there is none.
 template <class Problem>
 double ms_al<Problem>::find_direction(bool gaps) noexcept {
+  assert(w_.is_sized());
+  assert(!(gaps && same_active_)); // `resolve` knows of none
   expand_slope(w_);
   if (!same_active_)
     expand_bend(w_);
@@ -238,6 +253,7 @@ template <class Problem>
 double ms_al<Problem>::publish() noexcept {
   const auto left = problem_.roll_out(w_);
   report_.cost = problem_.evaluate(w_);
+  assert(!(left < 0) && !(report_.cost < 0));
   measure_violation(w_, report_);
   return left;
 }

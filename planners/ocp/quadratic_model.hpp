@@ -17,6 +17,7 @@ struct cost_along {
 /// Gradient of cost and bounds.
 template <class Problem>
 void expand_slope(workspace<Problem>& w) noexcept {
+  assert(w.is_sized());
   const auto m = w.padded;
   const auto& slope = w.slope;
   auto& g = w.g;
@@ -29,6 +30,7 @@ void expand_slope(workspace<Problem>& w) noexcept {
   w.rows.each([m, &g](const auto& r, int) {
     for (int k = 0; k < m; ++k) {
       const double force = r.rho * r.v[k];
+      assert((r.v[k] != 0) == (r.active[k] != 0)); // found by stick_out
       gather(g.x0[k], force * r.g0[k]);
       gather(g.x1[k], force * r.g1[k]);
       gather(g.x2[k], force * r.g2[k]);
@@ -40,6 +42,7 @@ void expand_slope(workspace<Problem>& w) noexcept {
 /// Hessian of cost and active bounds.
 template <class Problem>
 void expand_bend(workspace<Problem>& w) noexcept {
+  assert(w.is_sized());
   const auto m = w.padded;
   const auto& cost = w.cost;
   auto& h = w.h;
@@ -58,6 +61,7 @@ void expand_bend(workspace<Problem>& w) noexcept {
   w.rows.each([m, &h](const auto& r, int) {
     for (int k = 0; k < m; ++k) {
       const double rho = r.active[k];
+      assert(rho == 0 || rho == r.rho);
       const auto r0 = rho * r.g0[k];
       const auto r1 = rho * r.g1[k];
       const auto r2 = rho * r.g2[k];
@@ -83,6 +87,8 @@ cost_along measure_direction(workspace<Problem>& w) noexcept {
   const auto& e = w.direction;
   const auto& c = w.cost;
   const auto& g = w.slope;
+  assert(w.is_sized());
+  assert(e.x0[0] == 0 && e.x1[0] == 0 && e.x2[0] == 0); // the start stays
   double slope = 0, bend = 0;
 #pragma omp simd reduction(+ : slope, bend)
   for (int k = 0; k < m; ++k) {
@@ -107,6 +113,8 @@ cost_along measure_direction(workspace<Problem>& w) noexcept {
 template <class Problem>
 double slope_at(const workspace<Problem>& w, const cost_along& cost,
                 double alpha) noexcept {
+  assert(w.is_sized());
+  assert(!(alpha < 0 || alpha > 1 + 1e-9));
   const auto m = w.padded;
   double slope = cost.slope + alpha * cost.bend;
   w.rows.each([&](const auto& r, int) {
@@ -128,6 +136,7 @@ double best_step(const workspace<Problem>& w, const cost_along& cost,
                  double longest, double decrement) noexcept {
   constexpr auto enough = 0.1; // of the slope at the start
   constexpr auto most_trials = 8;
+  assert(decrement >= 0 && !(longest < 0 || longest > 1));
   double a = 0, low = -decrement;
   double b = longest, high = slope_at(w, cost, b);
   if (high <= enough * decrement)
@@ -135,6 +144,7 @@ double best_step(const workspace<Problem>& w, const cost_along& cost,
   // Illinois: a secant that halves the slope of an end that stays.
   double alpha = b;
   for (int trial = 0; trial < most_trials; ++trial) {
+    assert(!(low > 0 || high < 0)); // the zero lies between a and b
     alpha = (a * high - b * low) / (high - low);
     const auto slope = slope_at(w, cost, alpha);
     if (std::abs(slope) <= enough * decrement)
@@ -153,6 +163,8 @@ double best_step(const workspace<Problem>& w, const cost_along& cost,
 /// Goes the share `alpha` of the way.
 template <class Problem>
 void step_along(workspace<Problem>& w, double alpha) noexcept {
+  assert(w.is_sized());
+  assert(!(alpha < 0 || alpha > 1 + 1e-9));
   const auto m = w.padded;
   const auto& c = w.cost;
   const auto& e = w.direction;
