@@ -40,6 +40,8 @@ plan_verdict plan_judge::judge_unreadable() {
 }
 
 plan_verdict plan_judge::judge(const judged_plan& x) {
+  assert(!x.plan.empty() && std::isfinite(x.s_m));
+  assert(!judged_at_ || *judged_at_ <= x.now);
   const auto passed_s = judged_at_ ? std::min(to_seconds(x.now - *judged_at_),
                                               limits.longest_pause_s)
                                    : 0;
@@ -52,28 +54,10 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   // Before the place: a car that cannot brake so hard is soon elsewhere.
   if (const auto fault = brake(x, found.brakes_hard, passed_s))
     return {false, fault};
-  const auto t = std::max(x.own.at, x.plan.start);
-  const auto first = x.plan.at(t);
-  const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
-  const auto here =
-      x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
-  const auto away_m = distance_m(first.at, here);
-  const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
-  const auto age_s = to_seconds(x.now - x.plan.start);
-  if (age_s < -limits.same_time_s)
+  const auto begins = look_at_start(x);
+  if (begins.age_s < -limits.same_time_s)
     return {false, {}}; // clocks differ
-  const auto repeats = is_repeated(x);
-  std::optional<objection> useless;
-  if (away_m > limits.same_place_m)
-    useless = {"place", away_m, limits.same_place_m};
-  else if (faster_mps > limits.same_speed_mps)
-    useless = {"place", faster_mps, limits.same_speed_mps};
-  else if (age_s > limits.most_age_s)
-    useless = {"age", age_s, limits.most_age_s};
-  else if (ends_too_soon(x))
-    useless = {"length", to_seconds(x.plan.end() - x.now), limits.horizon_s};
-  else if (repeats)
-    useless = {"repetition", 1, 0};
+  const auto useless = find_useless(x, begins);
   if (unusable_.add(useless.has_value()))
     return {false, useless};
   if (useless)
@@ -87,20 +71,22 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   const auto beyond_m = beyond_line_m(x);
   if (beyond_m > 0.0)
     return {false, objection{"stop_line", *beyond_m, 0}};
-  const auto touched = touch(x, found.beside_m);
-  const auto crosses = touched && touched->crosses;
-  crossing_.add(crosses);
-  const auto crashes = crossing_.all() && !own_plan_touches(x);
-  if (near_.add(touched && !crosses) || crashes)
-    return {false, objection{"others", touched->t_s, limits.horizon_s}};
+  if (const auto fault = run_into(x, found.beside_m))
+    return {false, fault};
   if (const auto fault = fall_behind(x, passed_s))
     return {false, fault};
+  list_margins(begins, found, beyond_m);
+  return {};
+}
 
+void plan_judge::list_margins(const beginning& begins, const walk& found,
+                              std::optional<double> beyond_m) {
+  assert(begins.away_m >= 0 && begins.faster_mps >= 0);
   std::size_t n = 0;
   for (const auto& left : {
-           margin{"place_m", limits.same_place_m - away_m},
-           margin{"speed_off_mps", limits.same_speed_mps - faster_mps},
-           margin{"age_s", limits.most_age_s - age_s},
+           margin{"place_m", limits.same_place_m - begins.away_m},
+           margin{"speed_off_mps", limits.same_speed_mps - begins.faster_mps},
+           margin{"age_s", limits.most_age_s - begins.age_s},
            margin{"road_m", limits.most_beyond_m - found.worst_m},
            margin{"speed_mps", -found.over_mps},
            margin{"along_mps2", limits.most_along_mps2 - found.along_mps2},
@@ -112,8 +98,40 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
     room_[n++] = left;
   if (beyond_m)
     room_[n++] = {"stop_line_m", -*beyond_m};
+  assert(n <= room_.size());
   margin_count_ = n;
-  return {};
+}
+
+// -- where it begins ------------------------------------------------------
+
+plan_judge::beginning plan_judge::look_at_start(const judged_plan& x) {
+  const auto t = std::max(x.own.at, x.plan.start);
+  const auto first = x.plan.at(t);
+  const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
+  const auto here =
+      x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
+  return {distance_m(first.at, here),
+          std::abs(first.speed_mps - x.own.speed_mps),
+          to_seconds(x.now - x.plan.start)};
+}
+
+// What comes too late, twice or to another place, whatever it says then.
+std::optional<objection> plan_judge::find_useless(const judged_plan& x,
+                                                  const beginning& begins) {
+  assert(begins.away_m >= 0 && begins.faster_mps >= 0);
+  const auto repeats = is_repeated(x); // which remembers it, too
+  if (begins.away_m > limits.same_place_m)
+    return objection{"place", begins.away_m, limits.same_place_m};
+  if (begins.faster_mps > limits.same_speed_mps)
+    return objection{"place", begins.faster_mps, limits.same_speed_mps};
+  if (begins.age_s > limits.most_age_s)
+    return objection{"age", begins.age_s, limits.most_age_s};
+  if (ends_too_soon(x))
+    return objection{"length", to_seconds(x.plan.end() - x.now),
+                     limits.horizon_s};
+  if (repeats)
+    return objection{"repetition", 1, 0};
+  return std::nullopt;
 }
 
 // -- the plan alone -------------------------------------------------------
@@ -126,7 +144,6 @@ bool plan_judge::ends_too_soon(const judged_plan& x) {
 
 plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   walk found;
-  assert(!x.plan.empty());
   const auto& path = x.way.path();
   const auto late_s = to_seconds(x.now - x.plan.start);
   auto worst_m = -boundless, soon_m = -boundless;
@@ -298,6 +315,20 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   if (!braking_avoids && !going_on_avoids)
     return std::nullopt;
   return touched;
+}
+
+// A body that crosses may yet turn: it counts when all of the last results
+// touch it, and the own plan does not.
+std::optional<objection> plan_judge::run_into(const judged_plan& x,
+                                              double beside_m) {
+  const auto touched = touch(x, beside_m);
+  const auto crosses = touched && touched->crosses;
+  crossing_.add(crosses);
+  const auto crashes = crossing_.all() && !own_plan_touches(x);
+  if (!near_.add(touched && !crosses) && !crashes)
+    return std::nullopt;
+  assert(touched); // or none of both had failed just now
+  return objection{"others", touched->t_s, limits.horizon_s};
 }
 
 bool plan_judge::own_plan_touches(const judged_plan& x) {
