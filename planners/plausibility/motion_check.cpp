@@ -52,6 +52,7 @@ double unexplained_m(const timed_body& before, const timed_body& after) {
       std::max(std::abs(a.speed_mps), std::abs(b.speed_mps));
   const auto place_limit_m =
       place_m + 0.1 * fastest_mps * dt_s + grip_mps2 / 4 * dt_s * dt_s;
+  assert(!(place_limit_m < place_m));
   const auto too_far_m = std::sqrt(dot(off, off)) - place_limit_m;
   const auto too_fast_mps =
       std::abs(b.speed_mps - a.speed_mps) - speed_mps - grip_mps2 * dt_s;

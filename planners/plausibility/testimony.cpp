@@ -71,6 +71,7 @@ bool testimony::is_confirmed(time_point now) const {
 
 bool testimony::is_denied_for_all() const {
   assert(denials_ >= 0 && denials_ <= looks_in_a_row);
+  assert(denied_.size() <= most_observers);
   if (denials_ >= looks_in_a_row)
     return true;
   const auto is_other = [&](const denial& x) {

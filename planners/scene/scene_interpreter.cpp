@@ -110,6 +110,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
 /// into the lane; several of one body where the way returns to it.
 void scene_interpreter::find_near(const own_place& me) {
   const auto count = static_cast<std::int64_t>(beads_.size());
+  assert(count > 0 && bead_m_ > 0);
   const auto front_m = me.s_m + params_.car.front_m;
   auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
   auto last = static_cast<std::int64_t>(

@@ -64,6 +64,8 @@ spatial_planner::spatial_planner(route_profile_ptr way,
       other_speed_{std::make_unique<speed_planner>(
           way_, style, grid_of<speed_planner>(params))} {
   assert(params_.candidates >= 1 && params_.alternations >= 1);
+  assert(params_.step_m > 0
+         && params_.horizon_m / params_.step_m <= ocp::most_steps);
 }
 
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
@@ -159,7 +161,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   if (path_->path().empty())
     return false;
   way_m_ = path_->path().way_m(car.s_m);
-  assert(std::isfinite(way_m_));
+  assert(way_m_ >= 0 && way_m_ <= path_->path().length_m());
   if (!path_->settled()) // it knows nothing of what is new
     for (const auto& body : bodies_)
       if (meets(body))
@@ -198,6 +200,7 @@ double spatial_planner::lane_m(double s_m) const {
 bool spatial_planner::meets(const lane_obstacle& body) const {
   constexpr auto step_m = 0.5;
   assert(!path_->path().empty());
+  assert(!(body.from_m > body.to_m));
   const auto half_m = car_.width_m / 2;
   for (auto s = body.from_m - style_.front_m; s < body.to_m + car_.rear_m;
        s += step_m) {
@@ -331,6 +334,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (!first)
       std::swap(speed_, other_speed_);
   }
+  assert(!found || std::isfinite(cheapest));
   return found;
 }
 
@@ -395,6 +399,7 @@ void spatial_planner::publish(time_point now, trajectory& out) const {
   const auto& path = path_->path();
   const auto& motion = speed_->motion();
   assert(!path.empty() && !motion.empty());
+  assert(motion.front().s_m == 0); // the car now
   out.start = now;
   out.points.resize(motion.size());
   for (std::size_t i = 0; i < motion.size(); ++i) {
