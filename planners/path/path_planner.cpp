@@ -37,7 +37,7 @@ ocp::solve_report path_planner::plan(const path_start& car,
   if (!follows(car)) {
     forget();
     if (solve(car.s_m, car.x, ocp::start::cold, others, go_on))
-      take(car.s_m, 0);
+      adopt_solution(car.s_m, 0);
     return report_;
   }
   const auto passed =
@@ -53,7 +53,7 @@ ocp::solve_report path_planner::plan(const path_start& car,
     solver_.shift(passed + 1 - frozen_);
   const auto how = settled_ ? ocp::start::warm : ocp::start::cold;
   if (solve(s, path_.knots[first].x, how, others, go_on))
-    take(s, static_cast<int>(first));
+    adopt_solution(s, static_cast<int>(first));
   // It may have moved on by a piece, but never from below the car.
   assert(path_.start_s_m <= car.s_m && car.s_m <= path_.end_s_m());
   return report_;
@@ -101,7 +101,7 @@ bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
 }
 
 // The solver's plan behind the knot that the car has passed last.
-void path_planner::take(double s_m, int first) {
+void path_planner::adopt_solution(double s_m, int first) {
   assert(settled_ && std::isfinite(s_m));
   assert(first >= 0 && first <= path_.size);
   frozen_ = first > 0 ? 1 : 0;

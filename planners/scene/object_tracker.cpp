@@ -139,10 +139,10 @@ duration object_tracker::lifetime(const track& x) const {
   return std::max(memory, 2 * silence + max_delay);
 }
 
-object_tracker::object_list
+object_tracker::observation
 object_tracker::make_sighting(time_point at, const perceived_object& o) const {
   const auto across_mps = o.speed_mps * noise_.heading_rad;
-  object_list s{o, {}, false, false};
+  observation s{o, {}, false, false};
   s.motion.mean << o.centre.x_m, o.speed_mps * std::cos(o.heading_rad),
       o.centre.y_m, o.speed_mps * std::sin(o.heading_rad);
   s.motion.covariance.diagonal() << noise_.position_m * noise_.position_m,
@@ -175,24 +175,24 @@ void object_tracker::match(std::uint32_t t, std::uint32_t s) {
 /// Lets tracks take sightings, the likeliest pairs first.
 void object_tracker::pair_up(time_point at) {
   std::ranges::sort(pairs_, {}, [](const pair& p) {
-    return std::tuple{!p.in_gate, p.cost, p.track, p.object_list};
+    return std::tuple{!p.in_gate, p.cost, p.track, p.observation};
   });
   is_taken_.assign(tracks_.size(), 0);
   for (const auto& p : pairs_) {
-    assert(p.track < tracks_.size() && p.object_list < sightings_.size());
-    auto& s = sightings_[p.object_list];
+    assert(p.track < tracks_.size() && p.observation < sightings_.size());
+    auto& s = sightings_[p.observation];
     if (is_taken_[p.track] || s.is_taken)
       continue;
     assert(p.in_gate || s.is_known);
     is_taken_[p.track] = 1;
     s.is_known = s.is_taken = true;
-    take(tracks_[p.track], at, s, p.in_gate);
+    correct(tracks_[p.track], at, s, p.in_gate);
   }
 }
 
 /// @param fits  Else the track begins anew, unless the sighting is old.
-void object_tracker::take(track& x, time_point at, const object_list& s,
-                          bool fits) {
+void object_tracker::correct(track& x, time_point at, const observation& s,
+                             bool fits) {
   assert(x.at == newest_ && at <= newest_);
   if (fits)
     x.motion.fuse(s.motion);
@@ -211,7 +211,7 @@ void object_tracker::take(track& x, time_point at, const object_list& s,
   assert(x.width_m > 0 && x.length_m > 0);
 }
 
-void object_tracker::give_birth(time_point at, const object_list& s) {
+void object_tracker::give_birth(time_point at, const observation& s) {
   if (tracks_.size() == max_tracks)
     tracks_.erase(std::ranges::min_element(tracks_, {}, &track::seen));
   assert(tracks_.size() < max_tracks);

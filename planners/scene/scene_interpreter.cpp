@@ -40,8 +40,7 @@ point offset(const path_point& p, double along_m, double left_m) {
 } // namespace
 
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                                     const route_ptr& way,
-                                     outlook_params params)
+                                     const route_ptr& way, scene_params params)
     : way_{way}, params_{params}, crossings_{std::move(lanes), way,
                                              params.car.width_m / 2
                                                  + params.margin_m,

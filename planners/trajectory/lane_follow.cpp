@@ -37,7 +37,7 @@ braking_style style_of(const comfort_limits& params) {
 } // namespace
 
 /// What the car has to mind at one moment of the plan.
-struct lane_follow::mind {
+struct lane_follow::traffic_ahead {
   double stop_at_m = std::numeric_limits<double>::infinity(); // front bumper
   bool led = false;
   double lead_rear_m = 0;
@@ -70,7 +70,7 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
   const auto& way = way_->line.way();
   const centring line{way, joined(way, now, input, previous),
                       params_.centring_length_m};
-  mind others;
+  traffic_ahead others;
   if (!way.closed())
     others.stop_at_m = way.length_m();
   if (input.others.stop_at_m)
@@ -103,7 +103,7 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
 
 /// The acceleration that the driver would like at `x`.
 double lane_follow::wanted_accel(const lane_motion& x,
-                                 const mind& others) const {
+                                 const traffic_ahead& others) const {
   const auto v = x.speed_mps;
   const auto front_m = x.s_m + params_.front_m;
   const auto firm = params_.firm_decel_mps2();
@@ -146,7 +146,8 @@ double lane_follow::jerk_limit(double accel_mps2) const {
                   params_.max_jerk_mps3 + jerk_per_braking_1ps * beyond);
 }
 
-double lane_follow::next_accel(const lane_motion& x, const mind& others) const {
+double lane_follow::next_accel(const lane_motion& x,
+                               const traffic_ahead& others) const {
   const auto dt = params_.step_s;
   const auto ahead = advance(x, x.accel_mps2, dt);
   auto wanted = std::max(wanted_accel(ahead, others), -params_.max_decel_mps2);
