@@ -1,6 +1,7 @@
 // Whether heating or cooling that another computer asks for may be done.
 #include "planners/judges/climate_judge.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -11,6 +12,7 @@ constexpr double rounding_w = 1;
 
 double limit_w(const cabin_params& params) {
   constexpr double share = 0.2;
+  assert(params.max_heating_w >= 0 && params.max_cooling_w >= 0);
   return share * (params.max_heating_w + params.max_cooling_w) + rounding_w;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,8 @@ plan_verdict plan_judge::judge_unreadable() {
 }
 
 plan_verdict plan_judge::judge(const judged_plan& x) {
+  assert(!x.plan.empty() && std::isfinite(x.s_m));
+  assert(!judged_at_ || *judged_at_ <= x.now);
   const auto passed_s = judged_at_ ? std::min(to_seconds(x.now - *judged_at_),
                                               limits.longest_pause_s)
                                    : 0;
@@ -51,28 +54,10 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   // Before the place: a car that cannot brake so hard is soon elsewhere.
   if (const auto fault = brake(x, found.brakes_hard, passed_s))
     return {false, fault};
-  const auto t = std::max(x.own.at, x.plan.start);
-  const auto first = x.plan.at(t);
-  const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
-  const auto here =
-      x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
-  const auto away_m = distance_m(first.at, here);
-  const auto faster_mps = std::abs(first.speed_mps - x.own.speed_mps);
-  const auto age_s = to_seconds(x.now - x.plan.start);
-  if (age_s < -limits.same_time_s)
+  const auto begins = look_at_start(x);
+  if (begins.age_s < -limits.same_time_s)
     return {false, {}}; // clocks differ
-  const auto repeats = is_repeated(x);
-  std::optional<objection> useless;
-  if (away_m > limits.same_place_m)
-    useless = {"place", away_m, limits.same_place_m};
-  else if (faster_mps > limits.same_speed_mps)
-    useless = {"place", faster_mps, limits.same_speed_mps};
-  else if (age_s > limits.most_age_s)
-    useless = {"age", age_s, limits.most_age_s};
-  else if (ends_too_soon(x))
-    useless = {"length", to_seconds(x.plan.end() - x.now), limits.horizon_s};
-  else if (repeats)
-    useless = {"repetition", 1, 0};
+  const auto useless = find_useless(x, begins);
   if (unusable_.add(useless.has_value()))
     return {false, useless};
   if (useless)
@@ -86,20 +71,22 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   const auto beyond_m = beyond_line_m(x);
   if (beyond_m > 0.0)
     return {false, objection{"stop_line", *beyond_m, 0}};
-  const auto touched = touch(x, found.beside_m);
-  const auto crosses = touched && touched->crosses;
-  crossing_.add(crosses);
-  const auto crashes = crossing_.all() && !own_plan_touches(x);
-  if (near_.add(touched && !crosses) || crashes)
-    return {false, objection{"others", touched->t_s, limits.horizon_s}};
+  if (const auto fault = run_into(x, found.beside_m))
+    return {false, fault};
   if (const auto fault = fall_behind(x, passed_s))
     return {false, fault};
+  list_margins(begins, found, beyond_m);
+  return {};
+}
 
+void plan_judge::list_margins(const beginning& begins, const walk& found,
+                              std::optional<double> beyond_m) {
+  assert(begins.away_m >= 0 && begins.faster_mps >= 0);
   std::size_t n = 0;
   for (const auto& left : {
-           margin{"place_m", limits.same_place_m - away_m},
-           margin{"speed_off_mps", limits.same_speed_mps - faster_mps},
-           margin{"age_s", limits.most_age_s - age_s},
+           margin{"place_m", limits.same_place_m - begins.away_m},
+           margin{"speed_off_mps", limits.same_speed_mps - begins.faster_mps},
+           margin{"age_s", limits.most_age_s - begins.age_s},
            margin{"road_m", limits.most_beyond_m - found.worst_m},
            margin{"speed_mps", -found.over_mps},
            margin{"along_mps2", limits.most_along_mps2 - found.along_mps2},
@@ -111,8 +98,40 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
     room_[n++] = left;
   if (beyond_m)
     room_[n++] = {"stop_line_m", -*beyond_m};
+  assert(n <= room_.size());
   margin_count_ = n;
-  return {};
+}
+
+// -- where it begins ------------------------------------------------------
+
+plan_judge::beginning plan_judge::look_at_start(const judged_plan& x) {
+  const auto t = std::max(x.own.at, x.plan.start);
+  const auto first = x.plan.at(t);
+  const point heading{std::cos(x.own.heading_rad), std::sin(x.own.heading_rad)};
+  const auto here =
+      x.own.position + x.own.speed_mps * to_seconds(t - x.own.at) * heading;
+  return {distance_m(first.at, here),
+          std::abs(first.speed_mps - x.own.speed_mps),
+          to_seconds(x.now - x.plan.start)};
+}
+
+// What comes too late, twice or to another place, whatever it says then.
+std::optional<objection> plan_judge::find_useless(const judged_plan& x,
+                                                  const beginning& begins) {
+  assert(begins.away_m >= 0 && begins.faster_mps >= 0);
+  const auto repeats = is_repeated(x); // which remembers it, too
+  if (begins.away_m > limits.same_place_m)
+    return objection{"place", begins.away_m, limits.same_place_m};
+  if (begins.faster_mps > limits.same_speed_mps)
+    return objection{"place", begins.faster_mps, limits.same_speed_mps};
+  if (begins.age_s > limits.most_age_s)
+    return objection{"age", begins.age_s, limits.most_age_s};
+  if (ends_too_soon(x))
+    return objection{"length", to_seconds(x.plan.end() - x.now),
+                     limits.horizon_s};
+  if (repeats)
+    return objection{"repetition", 1, 0};
+  return std::nullopt;
 }
 
 // -- the plan alone -------------------------------------------------------
@@ -148,6 +167,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     const auto beyond_m = std::max(std::abs(d_m), std::abs(front_d_m))
                           + car_.width_m / 2 - bounds.half_width_m;
     found.beside_m = std::max(found.beside_m, std::abs(d_m));
+    assert(std::isfinite(beyond_m) && bounds.half_width_m > 0);
     if (at_first_m == boundless) {
       at_first_m = beyond_m;
       first_mps = p.speed_mps;
@@ -183,6 +203,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     if (x.plan.at(t).accel_mps2 < limits.hard_mps2)
       found.brakes_hard = true;
   const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
+  assert(soon_m <= worst_m && found.beside_m >= 0);
   found.worst_m = worst_m;
   found.beyond_m = soon_m;
   found.leaves_lane = soon_m > limits.most_beyond_soon_m && !leads_back;
@@ -197,6 +218,7 @@ std::optional<double> plan_judge::beyond_line_m(const judged_plan& x) const {
     return std::nullopt;
   const auto line_m = *x.seen.stop_at_m + limits.beyond_line_m;
   const auto v = x.own.speed_mps;
+  assert(std::isfinite(line_m) && std::isfinite(v));
   const auto room_m = line_m - (x.s_m + car_.front_m);
   if (room_m <= v * v / (2 * limits.own_line_decel_mps2))
     return std::nullopt; // it cannot stop there any more, whatever the plan
@@ -205,6 +227,7 @@ std::optional<double> plan_judge::beyond_line_m(const judged_plan& x) const {
   const auto stops_at_m =
       then.s_m + car_.front_m
       + then.speed_mps * then.speed_mps / (2 * limits.line_decel_mps2);
+  assert(stops_at_m >= then.s_m + car_.front_m);
   return stops_at_m - line_m;
 }
 
@@ -218,6 +241,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
   if (known) {
     const auto before = std::ranges::find(said_, fingerprint);
     const auto at = static_cast<std::size_t>(before - said_.begin());
+    assert(at < begins_.size());
     const auto apart_s = to_seconds(x.plan.start - begins_[at]);
     if (std::abs(apart_s) <= limits.same_time_s)
       return false; // it has come twice
@@ -227,6 +251,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
       said_.resize(limits.remembered);
       begins_.resize(limits.remembered);
     }
+    assert(said_.size() == begins_.size() && next_said_ < said_.size());
     said_[next_said_] = fingerprint;
     begins_[next_said_] = x.plan.start;
     next_said_ = (next_said_ + 1) % limits.remembered;
@@ -241,6 +266,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
 std::optional<foreseen_bodies::touch>
 plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
                         double until_s, double decel_mps2) {
+  assert(!plan.empty() && until_s >= 0 && decel_mps2 >= 0);
   motion_.clear();
   const auto late_s = to_seconds(x.now - plan.start);
   // What was seen was seen a little earlier.
@@ -256,6 +282,7 @@ plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
       v = p.speed_mps;
     } else {
       const auto slower = std::max(0.0, v - decel_mps2 * limits.step_s);
+      assert(v >= 0);
       s_m += limits.step_s * (v + slower) / 2;
       v = slower;
     }
@@ -273,6 +300,7 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   if (!bodies_.any_in_reach(end_m - x.s_m + margin_m, beside_m + margin_m,
                             until_s))
     return std::nullopt;
+  assert(beside_m >= 0 && until_s > 0);
   const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
   const auto soon =
@@ -289,6 +317,20 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   return touched;
 }
 
+// A body that crosses may yet turn: it counts when all of the last results
+// touch it, and the own plan does not.
+std::optional<objection> plan_judge::run_into(const judged_plan& x,
+                                              double beside_m) {
+  const auto touched = touch(x, beside_m);
+  const auto crosses = touched && touched->crosses;
+  crossing_.add(crosses);
+  const auto crashes = crossing_.all() && !own_plan_touches(x);
+  if (!near_.add(touched && !crosses) && !crashes)
+    return std::nullopt;
+  assert(touched); // or none of both had failed just now
+  return objection{"others", touched->t_s, limits.horizon_s};
+}
+
 bool plan_judge::own_plan_touches(const judged_plan& x) {
   return x.own_plan && x.own_plan->is_sound()
          && first_touch(x, *x.own_plan, limits.horizon_s, 0);
@@ -300,6 +342,7 @@ bool plan_judge::has_reason_to_brake(const judged_plan& x) const {
   const auto v = x.own.speed_mps;
   const auto front_m = x.s_m + car_.front_m;
   const auto near_m = v * limits.brake_reason_s + limits.brake_reason_m;
+  assert(v >= 0 && front_m > x.s_m);
   if (x.seen.stop_at_m
       && *x.seen.stop_at_m - front_m < v * v / 4 + limits.brake_reason_m)
     return true;
@@ -313,12 +356,14 @@ bool plan_judge::has_reason_to_brake(const judged_plan& x) const {
 
 std::optional<objection> plan_judge::brake(const judged_plan& x,
                                            bool brakes_hard, double passed_s) {
+  assert(passed_s >= 0 && passed_s <= limits.longest_pause_s);
   if (has_reason_to_brake(x))
     braking_s_ = 0;
   else if (brakes_hard)
     braking_s_ += passed_s;
   else
     braking_s_ = std::max(0.0, braking_s_ - passed_s);
+  assert(braking_s_ >= 0);
   if (braking_s_ < limits.longest_hard_s)
     return std::nullopt;
   return objection{"braking", braking_s_, limits.longest_hard_s};
@@ -335,6 +380,7 @@ double plan_judge::free_speed_mps(const judged_plan& x) const {
     free = std::min({free, x.way.limit_mps(at_m),
                      std::sqrt(limits.comfortable_across_mps2 / bend)});
   }
+  assert(free >= 0 && std::isfinite(free));
   return free;
 }
 
@@ -353,6 +399,7 @@ bool plan_judge::wants_own_plan(const judged_plan& x) const {
 
 std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
                                                  double passed_s) {
+  assert(passed_s >= 0);
   const auto forgiven_s = limits.forgiven_share * passed_s;
   lost_s_ = std::max(0.0, lost_s_ - forgiven_s);
   driven_lost_s_ = std::max(0.0, driven_lost_s_ - forgiven_s);
@@ -360,6 +407,7 @@ std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
   if (x.own_plan && is_slow(x))
     compare(x);
   const auto lost_s = std::max(lost_s_, driven_lost_s_);
+  assert(lost_s_ >= 0 && driven_lost_s_ >= 0);
   if (lost_s < limits.most_lost_s)
     return std::nullopt;
   return objection{"standing", lost_s, limits.most_lost_s};
@@ -367,10 +415,12 @@ std::optional<objection> plan_judge::fall_behind(const judged_plan& x,
 
 // What a plan promises, and from where to look at what is driven.
 void plan_judge::compare(const judged_plan& x) {
+  assert(x.own_plan);
   const auto since_s =
       compared_at_
           ? std::min(to_seconds(x.now - *compared_at_), limits.compared_every_s)
           : limits.compared_every_s;
+  assert(since_s >= 0);
   compared_at_ = x.now;
   if (x.own_plan->empty() || may_wait_beside(x))
     return;
@@ -392,6 +442,7 @@ void plan_judge::settle(const judged_plan& x) {
   if (!reference_at_)
     return;
   const auto passed_s = to_seconds(x.own.at - *reference_at_);
+  assert(!reference_.empty());
   if (passed_s < limits.driven_for_s)
     return;
   const auto begun = reference_.at(*reference_at_).s_m;
@@ -401,6 +452,7 @@ void plan_judge::settle(const judged_plan& x) {
   if (passed_s > 2 * limits.driven_for_s || may_wait_beside(x)
       || own_way_m < limits.least_driven_m)
     return;
+  assert(passed_s >= limits.driven_for_s && own_way_m > 0);
   driven_lost_s_ += passed_s * std::clamp(1 - way_m / own_way_m, 0.0, 1.0);
 }
 

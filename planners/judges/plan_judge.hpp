@@ -176,6 +176,16 @@ private:
     bool brakes_hard = false;
   };
 
+  /// The beginning of a plan, against the vehicle.
+  struct beginning {
+    double away_m, faster_mps, age_s;
+  };
+
+  static beginning look_at_start(const judged_plan& x);
+  std::optional<objection> find_useless(const judged_plan& x,
+                                        const beginning& begins);
+  void list_margins(const beginning& begins, const walk& found,
+                    std::optional<double> beyond_m);
   walk follow(const judged_plan& x) const;
   /// How far beyond a line the vehicle could stop; nothing without one, or if
   /// it cannot stop there whatever the plan.
@@ -186,6 +196,7 @@ private:
                                                     const trajectory& plan,
                                                     double until_s,
                                                     double decel_mps2);
+  std::optional<objection> run_into(const judged_plan& x, double beside_m);
   bool own_plan_touches(const judged_plan& x);
   bool has_reason_to_brake(const judged_plan& x) const;
   std::optional<objection> brake(const judged_plan& x, bool brakes_hard,

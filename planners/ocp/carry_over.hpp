@@ -5,6 +5,7 @@
 #include "planners/ocp/workspace.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof::ocp {
@@ -20,6 +21,8 @@ struct regrid {
   static regrid after(double by_m, double old_ds_m, int old_steps, double ds_m,
                       int steps) {
     constexpr auto whole = 1e-6; // steps; what is closer is meant to be
+    assert(by_m >= 0 && old_ds_m > 0 && ds_m > 0);
+    assert(old_steps >= 1 && old_steps <= most_steps);
     const auto by = by_m / old_ds_m, rounded = std::round(by);
     return {std::abs(by - rounded) < whole ? rounded : by, ds_m / old_ds_m,
             old_steps, steps};
@@ -50,6 +53,9 @@ inline bool same_grid(double ds_m, int steps, double other_ds_m,
 /// @param scale  What the numbers are multiplied with.
 /// @param tail   What is assumed beyond the old end.
 inline void resample(column& c, const regrid& g, double scale, double tail) {
+  assert(g.first >= 0 && g.step > 0);
+  assert(g.last >= 1 && g.last <= most_steps);
+  assert(g.last_of_new >= 1 && g.last_of_new <= most_steps);
   const column old = c;
   // Knots as far apart as before: all are off by the same share.
   const auto even = g.step == 1;
@@ -64,6 +70,7 @@ inline void resample(column& c, const regrid& g, double scale, double tail) {
   for (; k < end; ++k) {
     const double at = g.first + g.step * k;
     const int i = std::min(static_cast<int>(at), g.last - 1);
+    assert(i >= 0 && at >= i);
     c[k] = scale * ((1 - (at - i)) * old[i] + (at - i) * old[i + 1]);
   }
   for (; k <= g.last_of_new; ++k)

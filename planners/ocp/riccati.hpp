@@ -4,6 +4,8 @@
 
 #include "planners/ocp/workspace.hpp"
 
+#include <cassert>
+
 namespace sofof::ocp {
 
 /// Least curvature in the control that counts as convex.
@@ -82,6 +84,7 @@ double factorise(Workspace& w) noexcept {
     const double n2 = g.x2[k] + (a02 * p0 + a12 * p1 + a22 * p2) + k2 * qu;
     p0 = n0, p1 = n1, p2 = n2;
   }
+  assert(!convex || !(decrement < 0));
   return convex ? decrement : -1;
 }
 
@@ -90,10 +93,12 @@ template <class Workspace>
 double resolve(Workspace& w) noexcept {
   const auto& m = w.model;
   const auto& g = w.g;
+  assert(w.n >= 1 && w.n <= most_steps);
   double p0 = g.x0[w.n], p1 = g.x1[w.n], p2 = g.x2[w.n];
   double decrement = 0;
   for (int k = w.n - 1; k >= 0; --k) {
     const double qu = g.u[k] + (m.b0[k] * p0 + m.b1[k] * p1 + m.b2[k] * p2);
+    assert(!(w.inverse[k] <= 0)); // factorised, and convex
     const double kff = -qu * w.inverse[k];
     w.kff[k] = kff;
     decrement -= qu * kff;
@@ -113,6 +118,7 @@ template <bool gaps, class Workspace>
 void sweep_forward(Workspace& w) noexcept {
   const auto& m = w.model;
   auto& e = w.direction;
+  assert(w.n >= 1 && w.n <= most_steps);
   double x0 = 0, x1 = 0, x2 = 0;
   for (int k = 0; k < w.n; ++k) {
     const double u = w.kff[k] + w.k0[k] * x0 + w.k1[k] * x1 + w.k2[k] * x2;

@@ -124,6 +124,11 @@ struct workspace {
   column inverse;              ///< 1 / Quu.
   stages direction;
 
+  /// @returns whether the lengths are ones that fit, and each other.
+  bool is_sized() const {
+    return n >= 1 && n <= most_steps && padded == ocp::padded(n + 1);
+  }
+
   /// @returns the knots 0..n.
   std::span<const double> knots(const column& c) const {
     return std::span{c}.first(static_cast<std::size_t>(n) + 1);

@@ -2,6 +2,7 @@
 #include "planners/path/path_planner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -19,6 +20,7 @@ constexpr double rate_max_1pm2 = 0.1;
 } // namespace
 
 bool path_planner::follows(const path_start& car) const {
+  assert(path_.empty() || path_.ds_m == grid_.ds_m);
   if (path_.empty() || car.s_m < path_.start_s_m
       || car.s_m >= path_.end_s_m() - path_.ds_m)
     return false;
@@ -35,11 +37,13 @@ ocp::solve_report path_planner::plan(const path_start& car,
   if (!follows(car)) {
     forget();
     if (solve(car.s_m, car.x, ocp::start::cold, others, go_on))
-      take(car.s_m, 0);
+      adopt_solution(car.s_m, 0);
     return report_;
   }
   const auto passed =
       static_cast<int>((car.s_m - path_.start_s_m) / path_.ds_m);
+  assert(passed >= 0 && passed + 1 < path_.size);
+  assert(frozen_ == 0 || frozen_ == 1);
   const auto idle = passed == 0 && frozen_ == 1 && others.empty() && !narrowed_;
   if (idle && settled_)
     return report_;
@@ -49,13 +53,17 @@ ocp::solve_report path_planner::plan(const path_start& car,
     solver_.shift(passed + 1 - frozen_);
   const auto how = settled_ ? ocp::start::warm : ocp::start::cold;
   if (solve(s, path_.knots[first].x, how, others, go_on))
-    take(s, static_cast<int>(first));
+    adopt_solution(s, static_cast<int>(first));
+  // It may have moved on by a piece, but never from below the car.
+  assert(path_.start_s_m <= car.s_m && car.s_m <= path_.end_s_m());
   return report_;
 }
 
 bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
                          std::span<const passing> others,
                          const ocp::budget& go_on) {
+  assert(grid_.steps >= 1 && grid_.steps <= ocp::most_steps);
+  assert(grid_.ds_m > 0);
   const auto n = static_cast<std::size_t>(grid_.steps);
   corridor_.open(*line_, s_m, grid_.ds_m, grid_.steps);
   for (const auto& other : others)
@@ -87,11 +95,15 @@ bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
           && report_.iterations > 0
           && corridor_.contains(solver_.offset_m(), solver_.heading_rad(),
                                 reduced_margin_m));
+  assert(!settled_ || solver_.steps() == grid_.steps);
+  assert(!settled_ || !std::isnan(report_.cost));
   return settled_;
 }
 
 // The solver's plan behind the knot that the car has passed last.
-void path_planner::take(double s_m, int first) {
+void path_planner::adopt_solution(double s_m, int first) {
+  assert(settled_ && std::isfinite(s_m));
+  assert(first >= 0 && first <= path_.size);
   frozen_ = first > 0 ? 1 : 0;
   auto at = path_.knots.begin();
   if (frozen_)
@@ -104,6 +116,7 @@ void path_planner::take(double s_m, int first) {
   path_.ds_m = grid_.ds_m;
   path_.start_s_m = s_m - frozen_ * path_.ds_m;
   path_.size = static_cast<int>(at - path_.knots.begin());
+  assert(path_.size >= 2 && path_.size <= planned_path::capacity);
   path_.measure([this](double s) { return line_->curvature_1pm(s); });
 }
 

@@ -60,7 +60,7 @@ public:
 private:
   bool solve(double s_m, const path_state& from, ocp::start how,
              std::span<const passing> others, const ocp::budget& go_on);
-  void take(double s_m, int first);
+  void adopt_solution(double s_m, int first);
 
   const reference_line* line_;
   grid grid_;

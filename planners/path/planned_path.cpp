@@ -2,6 +2,7 @@
 #include "planners/path/planned_path.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -16,23 +17,27 @@ std::size_t knot_at(double steps, double last) {
 } // namespace
 
 std::size_t planned_path::knot_before(double way_m) const {
+  assert(!empty() && ds_m > 0);
   // Knots are about ds apart: begin with that guess.
   auto k = knot_at(way_m / ds_m, size - 2);
   while (k > 0 && knots[k].way_m > way_m)
     --k;
   while (k + 2 < static_cast<std::size_t>(size) && knots[k + 1].way_m <= way_m)
     ++k;
+  assert(k + 1 < static_cast<std::size_t>(size));
   return k;
 }
 
 double planned_path::s_m(double way_m) const {
   const auto k = knot_before(way_m);
   const auto &a = knots[k], &b = knots[k + 1];
+  assert(a.way_m < b.way_m); // ways rise from knot to knot
   const auto share = (way_m - a.way_m) / (b.way_m - a.way_m);
   return start_s_m + ds_m * (static_cast<double>(k) + share);
 }
 
 double planned_path::way_m(double s_m) const {
+  assert(!empty() && ds_m > 0);
   const auto steps = (s_m - start_s_m) / ds_m;
   const auto k = knot_at(steps, size - 2);
   const auto &a = knots[k], &b = knots[k + 1];
@@ -40,6 +45,8 @@ double planned_path::way_m(double s_m) const {
 }
 
 planned_path::between planned_path::find(double s_m) const {
+  assert(!empty() && size <= capacity);
+  assert(ds_m > 0);
   const auto steps = (s_m - start_s_m) / ds_m;
   const auto k = knot_at(steps, size - 2);
   return {knots[k], knots[k + 1],
@@ -62,6 +69,7 @@ planned_path::place planned_path::at_s(double s_m) const {
   const auto [a, b, x] = find(s_m);
   // Way per reference way times the sine of the heading is the offset's slope.
   const auto stretch = (b.way_m - a.way_m) / ds_m;
+  assert(stretch > 0); // it leads along the line, and not across
   const auto from = stretch * a.sine, to = stretch * b.sine;
   const auto rise = (b.x.d_m - a.x.d_m) / ds_m;
   const auto rest = 1 - x;
@@ -70,6 +78,7 @@ planned_path::place planned_path::at_s(double s_m) const {
                  + ds_m * x * rest * (from * rest - to * x);
   const auto slope =
       6 * x * rest * rise + from * rest * (1 - 3 * x) - to * x * (2 - 3 * x);
+  assert(std::isnan(x) || std::isfinite(d));
   return {s_m,
           {d, std::asin(std::clamp(slope / stretch, -1.0, 1.0)),
            std::lerp(a.x.curvature_1pm, b.x.curvature_1pm, x)}};

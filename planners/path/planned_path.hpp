@@ -6,6 +6,7 @@
 #include "planners/problems/path_model.hpp"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -70,6 +71,8 @@ private:
 
 template <class Line>
 void planned_path::measure(const Line& line) {
+  assert(!empty() && size <= capacity);
+  assert(ds_m > 0);
   const auto stretch = [&](std::size_t k) {
     auto& here = knots[k];
     here.sine = std::sin(here.x.heading_rad);
@@ -80,6 +83,7 @@ void planned_path::measure(const Line& line) {
   auto before = stretch(0);
   for (std::size_t k = 1; k <= last(); ++k) {
     const auto here = stretch(k);
+    assert(before > 0 && here > 0); // not beyond the line's centre of bend
     knots[k].way_m = knots[k - 1].way_m + ds_m * (before + here) / 2;
     before = here;
   }

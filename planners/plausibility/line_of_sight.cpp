@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -22,6 +23,7 @@ bool meet(point a, point b, point c, point d) {
 }
 
 bool meets_rim(point a, point b, std::span<const point> rim) {
+  assert(rim.size() >= 3);
   auto from = rim.back();
   for (const auto to : rim) {
     if (meet(a, b, from, to))
@@ -57,6 +59,7 @@ line_of_sight::line_of_sight(std::span<const building> buildings)
     h.middle = {(west->x_m + east->x_m) / 2, (south->y_m + north->y_m) / 2};
     for (const auto p : b.corners)
       h.radius_m = std::max(h.radius_m, distance_m(h.middle, p));
+    assert(h.radius_m > 0);
     largest_m_ = std::max(largest_m_, h.radius_m);
     cells_.add(h.middle, h.middle, 0,
                static_cast<cell_grid::item>(houses_.size()));
@@ -69,7 +72,9 @@ bool line_of_sight::is_free(point eye, point p) const {
     return true;
   const auto middle = 0.5 * (eye + p);
   const auto reach_m = distance_m(eye, p) / 2 + largest_m_;
+  assert(largest_m_ > 0);
   return !cells_.any_near(middle, reach_m, [&](cell_grid::item i) {
+    assert(i < houses_.size());
     const auto& h = houses_[i];
     return distance_to_segment_m(h.middle, eye, p) <= h.radius_m
            && !h.shape.contains(eye)

@@ -2,6 +2,7 @@
 #include "planners/plausibility/motion_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -37,6 +38,7 @@ perceived_object moved_on(perceived_object x, double dt_s) {
 
 double unexplained_m(const timed_body& before, const timed_body& after) {
   const auto dt = after.at - before.at;
+  assert(dt >= duration{});
   if (dt > longest_gap)
     return 0;
   const auto dt_s = to_seconds(dt);
@@ -50,6 +52,7 @@ double unexplained_m(const timed_body& before, const timed_body& after) {
       std::max(std::abs(a.speed_mps), std::abs(b.speed_mps));
   const auto place_limit_m =
       place_m + 0.1 * fastest_mps * dt_s + grip_mps2 / 4 * dt_s * dt_s;
+  assert(!(place_limit_m < place_m));
   const auto too_far_m = std::sqrt(dot(off, off)) - place_limit_m;
   const auto too_fast_mps =
       std::abs(b.speed_mps - a.speed_mps) - speed_mps - grip_mps2 * dt_s;
@@ -67,10 +70,12 @@ double steady_word::check(const timed_body& word) {
   };
   if (believed_ && word.at <= believed_->at) // overtaken on its way
     return unexplained_m(word, *believed_);
+  assert(off_m_ >= 0);
   if (!is_old(believed_))
     off_m_ = unexplained_m(*believed_, word);
   else if (is_old(rival_))
     off_m_ = 0; // it begins anew
+  assert(off_m_ >= 0 && (off_m_ == 0 || believed_ || rival_));
   if (off_m_ > 0 && !agrees(word))
     return off_m_;
   believed_ = word;
@@ -86,6 +91,7 @@ bool steady_word::agrees(const timed_body& word) {
     rival_since_ = word.at;
   }
   rival_ = word;
+  assert(rivals_ >= 0 && rival_since_ <= word.at);
   return ++rivals_ >= words_that_agree
          && word.at - rival_since_ >= time_that_agrees;
 }

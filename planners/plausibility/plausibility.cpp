@@ -2,6 +2,7 @@
 #include "planners/plausibility/plausibility.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -60,7 +61,9 @@ bool plausibility::hear(station_id who, sender_id from,
   auto& x = stations_[who];
   x.sender = from;
   x.heard = self.at;
+  assert(stations_.size() <= most_stations);
   const auto off_m = x.word.check(self);
+  assert(off_m >= 0);
   x.jumps = off_m > 0;
   if (x.jumps)
     note(who, self.at, doubt_check::jump, off_m, 0);
@@ -84,17 +87,20 @@ void plausibility::sift(station_id who, time_point at,
       note(who, at, doubt_check::jump, off_m, seen_jump_m);
       continue;
     }
+    assert(kept <= i);
     bodies[kept] = bodies[i];
     if (i < ids.size())
       ids[kept] = ids[i];
     ++kept;
   }
+  assert(kept <= bodies.size() && words.size() <= most_words + bodies.size());
   bodies.resize(kept);
   ids.resize(std::min(ids.size(), kept));
 }
 
 void plausibility::judge(const road_observer& who, const road_look& look,
                          std::span<const track> tracks) {
+  assert(std::ranges::is_sorted(tracks, {}, &track::id));
   if (witnesses_.size() >= most_stations && !witnesses_.contains(key_of(who)))
     return;
   auto& w =
@@ -110,6 +116,7 @@ void plausibility::judge(const road_observer& who, const road_look& look,
       from_nowhere_.push_back(x.id);
   w.is.look(look);
   follow(w, tracks);
+  assert(bodies_.size() == tracks.size());
   has_suspects_ = false;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     auto& r = bodies_[i];
@@ -135,6 +142,7 @@ std::optional<time_point> plausibility::find_birth(std::uint32_t id) const {
 bool plausibility::comes_from_nowhere(const witness_record& w, const track& x,
                                       std::optional<time_point> born) const {
   const auto looked = w.is.at();
+  assert(!born || find_birth(x.id) == born);
   return (!born || *born > looked) && x.seen >= looked
          && looked - w.since >= known_for && x.station != w.who.number
          && w.is.overlooked(x, houses_);
@@ -143,6 +151,7 @@ bool plausibility::comes_from_nowhere(const witness_record& w, const track& x,
 /// Keeps a record of each track, and of no other.
 void plausibility::follow(const witness_record& w,
                           std::span<const track> tracks) {
+  assert(std::ranges::is_sorted(bodies_, {}, &body_record::id));
   std::swap(bodies_, before_);
   bodies_.clear();
   auto old = before_.begin();
@@ -161,6 +170,7 @@ void plausibility::follow(const witness_record& w,
       }
     }
     auto& r = bodies_.back();
+    assert(r.id == x.id);
     r.is_named = x.station.has_value();
     if (!r.is_named)
       continue;
@@ -181,6 +191,7 @@ bool plausibility::speaks_for_itself(const witness_record& w,
 void plausibility::judge(const witness_record& w, const track& x,
                          body_record& r) {
   const auto at = w.is.at();
+  assert(r.id == x.id && r.is_named == x.station.has_value());
   if (!w.who.is_ours
       && (r.is_named ? *x.station == w.who.number : w.is.stands_in(x)))
     return; // itself
@@ -195,6 +206,7 @@ void plausibility::judge(const witness_record& w, const track& x,
   if (at - x.seen > told_of || is_new || !w.is.overlooks(x, houses_))
     return;
   r.said.deny(w.who, at, w.is.is_sure(houses_));
+  assert(r.said.is_denied());
   const auto by = w.who.is_ours ? reputation::everybody : w.who.number;
   if (is_doubted(x, r, at, by))
     note(r, at, doubt_check::sight, to_seconds(at - r.born),
@@ -204,6 +216,8 @@ void plausibility::judge(const witness_record& w, const track& x,
 
 void plausibility::check_overlap(const track& x, body_record& r, time_point now,
                                  std::span<const track> tracks) {
+  assert(r.id == x.id && r.is_named);
+  assert(bodies_.size() == tracks.size());
   const auto mine = shrunk(predict(x, now).body());
   const auto is_in = [&](std::size_t i) {
     const auto& other = tracks[i];
@@ -231,6 +245,8 @@ void plausibility::check_overlap(const track& x, body_record& r, time_point now,
 bool plausibility::is_doubted(const track& x, const body_record& r,
                               time_point now,
                               std::optional<station_id> planned) const {
+  assert(r.id == x.id);
+  assert(!r.overlaps || r.overlaps_since);
   if (r.said.is_confirmed(now))
     return false;
   if (r.overlaps)
@@ -245,6 +261,7 @@ bool plausibility::is_doubted(const track& x, const body_record& r,
 bool plausibility::comes_from_liar(const track& x, const body_record& r,
                                    time_point now,
                                    std::optional<station_id> planned) const {
+  assert(r.id == x.id);
   const auto sender = r.said.teller();
   if (!sender || r.said.is_confirmed(now))
     return false;
@@ -276,6 +293,8 @@ plausibility::body_record plausibility::new_record(const track& x) const {
 void plausibility::believed(time_point now, std::optional<station_id> planned,
                             std::span<const track> tracks,
                             std::vector<track>& out) {
+  assert(std::ranges::is_sorted(tracks, {}, &track::id));
+  assert(out.empty() || out.data() != tracks.data());
   out.clear();
   const auto* own = planned ? find_witness(*planned) : nullptr;
   const auto has_new = own && !tracks.empty() && now - own->is.at() <= known_for
@@ -287,6 +306,7 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
   }
   const auto believes = [&](const track& x, const body_record& r,
                             std::optional<time_point> born) {
+    assert(r.id == x.id && (!has_new || own));
     if (r.is_suspect() && is_doubted(x, r, now, planned))
       return false;
     // A track before this one may just have made its sender a liar.
@@ -364,6 +384,8 @@ void plausibility::tidy(time_point now) {
   std::erase_if(stations_, [&](const auto& x) {
     return now - x.second.heard > forgotten_after && !x.second.doubted;
   });
+  assert(stations_.size() <= most_stations);
+  assert(witnesses_.size() <= most_stations);
   std::erase_if(witnesses_, [&](const auto& x) {
     return now - x.second.heard > forgotten_after;
   });

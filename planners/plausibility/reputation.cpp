@@ -2,6 +2,7 @@
 #include "planners/plausibility/reputation.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -28,10 +29,12 @@ void reputation::blame(sender_id who, station_id by, time_point now) {
     return;
   }
   auto& x = before->second;
+  assert(x.length >= first_term && x.length <= longest_term);
   if (now >= x.until)
     x.length = std::min(2 * x.length, longest_term);
   x.until = now + x.length;
   latest_ = std::max(latest_, x.until);
+  assert(is_distrusted(who, by, now));
 }
 
 bool reputation::is_distrusted(sender_id who, station_id by,

@@ -2,6 +2,7 @@
 #include "planners/plausibility/testimony.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -40,6 +41,8 @@ void testimony::confirm(const road_observer& who, time_point at) {
     confirmed_.push_back({who, at});
   else
     *std::ranges::min_element(confirmed_, {}, &confirmation::at) = {who, at};
+  assert(confirmed_.size() <= most_observers);
+  assert(std::ranges::find(denied_, who, &denial::by) == denied_.end());
 }
 
 void testimony::deny(const road_observer& who, time_point at, bool is_sure) {
@@ -55,6 +58,9 @@ void testimony::deny(const road_observer& who, time_point at, bool is_sure) {
     before->counts |= is_sure || at - before->since >= told_again;
   else if (denied_.size() < most_observers)
     denied_.push_back({who, at, is_sure});
+  assert(denied_.size() <= most_observers && is_denied());
+  assert(std::ranges::find(confirmed_, who, &confirmation::by)
+         == confirmed_.end());
 }
 
 bool testimony::is_confirmed(time_point now) const {
@@ -64,6 +70,8 @@ bool testimony::is_confirmed(time_point now) const {
 }
 
 bool testimony::is_denied_for_all() const {
+  assert(denials_ >= 0 && denials_ <= looks_in_a_row);
+  assert(denied_.size() <= most_observers);
   if (denials_ >= looks_in_a_row)
     return true;
   const auto is_other = [&](const denial& x) {

@@ -91,6 +91,7 @@ void witness::look(const road_look& l) {
   });
   for (std::size_t i = 0; i < l.seen.size(); ++i)
     told_.push_back({l.ids ? (*l.ids)[i] : 0, {l.seen_at, l.seen[i]}});
+  assert(told_.size() >= l.seen.size());
   is_complete_ = told_.size() >= l.in_sight;
 }
 
@@ -104,6 +105,7 @@ witness::sight witness::look_at(const track& x) const {
   auto found = sight::nothing;
   for (const auto& b : told_) {
     const auto told_s = age_s(b.is.at, at_);
+    assert(told_s >= 0 && known_s >= 0);
     const auto there = moved_on(b.is.what, told_s);
     if (!is_in_place(here, there, drift_m(known_s) + drift_m(told_s)))
       continue;
@@ -136,6 +138,7 @@ bool witness::overlooked(const track& x, const line_of_sight& houses) const {
       || look_at(x) != sight::nothing)
     return false;
   const auto off_m = drift_m(since_s);
+  assert(off_m >= 0 && since_s <= to_seconds(due_again));
   const Eigen::Vector2d ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   return std::ranges::all_of(std::array{-off_m, 0.0, off_m}, [&](double by_m) {
     auto moved = x;
@@ -185,6 +188,7 @@ bool witness::is_open(const perceived_object& body, const line_of_sight& houses,
   const point left{-along.y_m, along.x_m};
   const auto half_m = std::min(body.length_m, part_m) / 2 + margin_m;
   const auto side_m = std::min(body.width_m, part_m) / 2 + margin_m;
+  assert(half_m >= margin_m && side_m >= margin_m);
   const auto is_part_free = [&](double at_m) {
     const auto middle = body.centre + at_m * along;
     return is_free(middle) && is_free(middle + half_m * along + side_m * left)

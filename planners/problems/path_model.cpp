@@ -2,6 +2,7 @@
 #include "planners/problems/path_model.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,8 @@ namespace sofof::ocp {
 void path_model::linearise(workspace& w) const noexcept {
   const auto m = w.padded;
   const double half = ds / 2, h = ds;
+  assert(w.is_sized() && ds > 0);
+  assert(w.rows.discs >= 1 && w.rows.discs <= path_rows::most_discs);
   const auto& x = w.iterate;
   const auto& ref = reference;
   auto& a = w.model;
@@ -78,6 +81,7 @@ double path_model::roll_out(workspace& w) const noexcept {
   auto& plan = w.plan;
   std::array<double, 3> x{aim.x0[0], aim.x1[0], aim.x2[0]};
   double left = 0;
+  assert(w.is_sized() && ds > 0 && model_error > 0);
   for (int k = 0; k < w.n; ++k) {
     plan.x0[k] = x[0];
     plan.x1[k] = x[1];
@@ -86,6 +90,7 @@ double path_model::roll_out(workspace& w) const noexcept {
     const double e2 = x[2] - aim.x2[k];
     left = std::max(left, std::abs(e0) + std::abs(e1));
     const double u = aim.u[k] + (w.k0[k] * e0 + w.k1[k] * e1 + w.k2[k] * e2);
+    assert(bound.lo[k] <= bound.hi[k]);
     plan.u[k] = std::clamp(u, bound.lo[k], bound.hi[k]);
     x = path_step(x, plan.u[k], reference.curvature[k], reference.halfway[k],
                   ds);
@@ -103,6 +108,8 @@ double path_model::evaluate(workspace& w) const noexcept {
   const auto m = w.padded;
   const auto& x = w.plan;
   const auto& c = w.cost;
+  assert(w.is_sized());
+  assert(w.rows.discs >= 1 && w.rows.discs <= path_rows::most_discs);
   double twice = 0, least = 1, most = 0;
 #pragma omp simd reduction(+ : twice) reduction(min : least)                   \
     reduction(max : most)
@@ -131,6 +138,7 @@ double path_model::evaluate(workspace& w) const noexcept {
   }
   for (int k = w.n + 1; k < m; ++k)
     sine[k] = 0;
+  assert(!(twice < 0)); // no weight is
   const auto holds = least > least_q && most <= most_heading_rad;
   return holds ? twice / 2 : std::numeric_limits<double>::infinity();
 }

@@ -6,6 +6,7 @@
 #include "planners/ocp/workspace.hpp"
 
 #include <array>
+#include <cassert>
 
 namespace sofof {
 
@@ -29,6 +30,7 @@ namespace ocp {
 template <class T>
 std::array<T, 3> path_step(const std::array<T, 3>& x, T u, double reference,
                            double halfway, double ds) {
+  assert(ds > 0);
   const auto slopes = [](T d, T heading, T curvature, double ref) {
     const auto [sine, cosine] = sin_cos(heading);
     const T q = (1. - d * ref) / cosine;

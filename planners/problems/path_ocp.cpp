@@ -5,6 +5,7 @@
 #include "planners/ocp/ms_al.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -61,6 +62,8 @@ void path_ocp::set_up(const path_problem& p, const path_options& options,
   auto& ref = reference_;
   const auto n = w.n = p.steps;
   const auto m = w.padded = ocp::padded(n + 1);
+  assert(w.is_sized());
+  assert(p.curvature_1pm.size() == 2 * static_cast<std::size_t>(n) + 1);
   const auto* curvature = p.curvature_1pm.data();
   for (int k = 0; k < n; ++k) {
     ref.curvature[k] = curvature[2 * k];
@@ -83,6 +86,9 @@ void path_ocp::set_up(const path_problem& p, const path_options& options,
 
   const auto& rho = from == ocp::start::warm ? options.warm : options.cold;
   const auto& tolerance = options.tolerances;
+  assert(rho.corridor > 0 && rho.curvature > 0 && rho.rate > 0);
+  assert(tolerance.corridor > 0 && tolerance.curvature > 0
+         && tolerance.rate > 0);
   rows.discs = static_cast<int>(p.discs.size());
   for (std::size_t j = 0; j < p.discs.size(); ++j) {
     auto& row = rows.disc[j];
@@ -110,6 +116,7 @@ void path_ocp::set_up(const path_problem& p, const path_options& options,
 // leave the reference, and turn away from it.
 void path_ocp::guess(const path_problem& p) noexcept {
   const auto most = p.curvature_max_1pm;
+  assert(most >= 0 && w_.n == p.steps);
   auto& x = w_.plan;
   for (int k = 0; k <= p.steps; ++k) {
     x.x0[k] = x.x1[k] = x.u[k] = 0;
@@ -122,6 +129,7 @@ void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   started_ = started_ && ocp::can_move(by_m, ds_m, steps);
   if (!started_)
     return;
+  assert(w_.n >= 1 && ds_m_ > 0);
   const auto knots = ocp::regrid::after(by_m, ds_m_, w_.n, ds_m, steps);
   auto& x = w_.plan;
   for (auto* column : {&x.x0, &x.x1, &x.x2})
@@ -155,7 +163,15 @@ ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
                    .model_error = options.model_error};
   for (std::size_t j = 0; j < problem.discs.size(); ++j)
     model.ahead[j] = problem.discs[j].ahead_m;
+  assert(options.model_error > 0);
   const auto report = ocp::ms_al{model, w_, options.solver}.solve(go_on);
+  assert(!ocp::publishable(report.status) || std::isfinite(report.cost));
+  assert(!ocp::publishable(report.status)
+         || (offset_m()[0] == problem.start.d_m
+             && heading_rad()[0] == problem.start.heading_rad
+             && curvature_1pm()[0] == problem.start.curvature_1pm));
+  assert(!ocp::publishable(report.status)
+         || (ocp::all_finite(offset_m()) && ocp::all_finite(rate_1pm2())));
   started_ = report.status != ocp::solve_status::numerical;
   return report;
 }

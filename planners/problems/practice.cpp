@@ -2,6 +2,7 @@
 #include "planners/problems/practice.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,6 +16,8 @@ constexpr auto no_time = std::numeric_limits<double>::infinity();
 } // namespace
 
 slalom::slalom(int steps, double ds_m, double width_m) : width_m_{width_m} {
+  assert(steps >= 1 && steps <= ocp::most_steps);
+  assert(ds_m > 0 && width_m > 0);
   const auto knots = static_cast<std::size_t>(steps) + 1;
   curvature_.resize(2 * knots - 1);
   wanted_.assign(knots, 0);
@@ -41,6 +44,7 @@ const path_problem& slalom::at(int knot, const path_state& start) {
   constexpr auto near_knots = 6;
   constexpr auto near_m = 0.2; // what is near may be a little narrower
   const auto ds = problem_.ds_m, begin = knot * ds;
+  assert(curvature_.size() == 2 * static_cast<std::size_t>(problem_.steps) + 1);
   for (std::size_t i = 0; i < curvature_.size(); ++i)
     curvature_[i] = curvature_1pm(begin + static_cast<double>(i) * ds / 2);
   for (int k = 0; k <= problem_.steps; ++k) {
@@ -61,6 +65,7 @@ const path_problem& slalom::at(int knot, const path_state& start) {
 }
 
 practice_road::practice_road(event what, int steps, double ds_m) : what_{what} {
+  assert(steps >= 1 && steps <= ocp::most_steps && ds_m > 0);
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (auto* column : {&w_max_, &wanted_, &curvature_, &earliest_, &latest_})
     column->resize(knots);
@@ -98,6 +103,7 @@ const velocity_problem& practice_road::at(int knot, double now_s,
     if (what_ == event::slow_leader && k >= 14)
       earliest_[at] = (s - leader_m + gap_m) / leader_mps + gap_s - now_s;
   }
+  assert(w_max_.size() == static_cast<std::size_t>(n) + 1);
   problem_.stop_knot.reset();
   if (const auto k = place(stop_m); what_ == event::stop_line && k <= n)
     problem_.stop_knot = std::max(k, 1);
@@ -109,6 +115,7 @@ const velocity_problem& practice_road::at(int knot, double now_s,
     const auto at = static_cast<std::size_t>(k);
     if (k >= stop)
       w_max_[at] = 0;
+    assert(w_max_[at] >= 0);
     const auto after = k < n ? wanted_[at + 1] + ds * gentle_mps2 : no_time;
     wanted_[at] = std::max(least_w, std::min(w_max_[at], after));
     // Near the car the limit is one that it can still keep.

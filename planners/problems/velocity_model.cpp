@@ -1,7 +1,10 @@
 // The velocity problem's model, in loops that become vector code.
 #include "planners/problems/velocity_model.hpp"
 
+#include "planners/ocp/checks.hpp"
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof::ocp {
@@ -28,10 +31,16 @@ inline double speed(double w) {
 void velocity_model::linearise(workspace& w) const noexcept {
   const auto m = w.padded;
   const double h = ds, bow = h * h / 2;
+  assert(w.is_sized() && ds > 0);
   const auto& x = w.iterate;
   const auto& ref = reference;
   auto& a = w.model;
   auto& rows = w.rows;
+  // Or the model were not convex.
+  assert(all_at_least(
+             std::span{ref.speed_weight}.first(static_cast<std::size_t>(m)), 0)
+         && all_at_least(
+             std::span{ref.jerk_weight}.first(static_cast<std::size_t>(m)), 0));
   a.a12 = h;
   a.b1 = bow;
   a.b2 = h;
@@ -75,6 +84,8 @@ double velocity_model::roll_out(workspace& w) const noexcept {
   const auto& aim = w.iterate;
   auto& plan = w.plan;
   const double most = w.rows.jerk.hi[0];
+  assert(w.is_sized() && ds > 0 && most > 0);
+  assert(model_error.time_s > 0 && model_error.jerk_mps3 > 0);
   double t = aim.x0[0], at = aim.x1[0], acc = aim.x2[0];
   const auto& modelled = w.rows.jerk.c;
   double v = speed(at), late = 0, jerky = 0, before = 0;
@@ -95,6 +106,7 @@ double velocity_model::roll_out(workspace& w) const noexcept {
     at += ds * acc + ds * ds / 2 * u;
     acc += ds * u;
     const double next = speed(at);
+    assert(!(next < crawl_mps)); // so that times rise
     t += 2 * ds / (v + next);
     v = next;
   }
@@ -111,6 +123,7 @@ double velocity_model::evaluate(workspace& w) const noexcept {
   const auto& x = w.plan;
   const auto& ref = reference;
   auto& rows = w.rows;
+  assert(w.is_sized());
   double twice = 0;
 #pragma omp simd reduction(+ : twice)
   for (int k = 0; k < m; ++k) {
@@ -125,12 +138,14 @@ double velocity_model::evaluate(workspace& w) const noexcept {
     twice += ref.speed_weight[k] * (off * off) + w.cost.h22[k] * (acc * acc)
              + ref.jerk_weight[k] * (jerk * jerk);
   }
+  assert(!(twice < 0)); // no weight is
   return twice / 2;
 }
 
 double velocity_model::longest_step(const workspace& w) const noexcept {
   const auto& x = w.iterate.x1;
   const auto& e = w.direction.x1;
+  assert(w.is_sized());
   double most = 1; // of the fall over what may fall
 #pragma omp simd reduction(max : most)
   for (int k = 0; k < w.padded; ++k) {
@@ -138,6 +153,7 @@ double velocity_model::longest_step(const workspace& w) const noexcept {
     const double fall = -e[k] / may;
     most = fall > most ? fall : most;
   }
+  assert(most >= 1);
   return 1 / most;
 }
 

@@ -5,6 +5,7 @@
 #include "planners/ocp/ms_al.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -47,10 +48,12 @@ void velocity_ocp::set_up(const velocity_problem& p) noexcept {
   auto& ref = reference_;
   const auto n = w_.n = p.steps;
   const auto m = w_.padded = ocp::padded(n + 1);
+  assert(w_.is_sized());
   std::copy_n(p.wanted_m2ps2.data(), n + 1, ref.wanted.data());
   std::copy_n(p.curvature_1pm.data(), n + 1, ref.curvature.data());
   for (int k = 0; k <= n; ++k) {
     const double length = k < n ? p.ds_m : p.weights.end_m;
+    assert(ref.wanted[k] > 0 && length >= 0);
     ref.speed_weight[k] = length * p.weights.speed / ref.wanted[k];
     ref.jerk_weight[k] = k < n ? 2 * p.ds_m * p.weights.jerk : 0;
     w_.cost.h22[k] = 2 * length * p.weights.accel;
@@ -69,6 +72,11 @@ void velocity_ocp::set_bounds(const velocity_problem& p,
   const auto& l = p.limits;
   const auto& rho = from == ocp::start::warm ? options.warm : options.cold;
   const auto& tolerance = options.tolerances;
+  assert(w_.is_sized() && n == p.steps);
+  assert(rho.time > 0 && rho.speed > 0 && rho.accel > 0 && rho.total > 0
+         && rho.jerk > 0);
+  assert(tolerance.time > 0 && tolerance.speed > 0 && tolerance.accel > 0
+         && tolerance.total > 0 && tolerance.jerk > 0);
   rows.time.open(m, rho.time, tolerance.time);
   rows.speed.open(m, rho.speed, tolerance.speed);
   rows.accel.open(m, rho.accel, tolerance.accel);
@@ -81,6 +89,7 @@ void velocity_ocp::set_bounds(const velocity_problem& p,
   if (!rows.timed)
     rows.time.y.fill(0);
   const auto stop = p.stop_knot.value_or(n + 1);
+  assert(stop >= 1); // at knot 0 the car is as it is
   for (int k = 1; k <= n; ++k) {
     const auto rests = k >= stop;
     rows.speed.lo[k] = 0;
@@ -107,6 +116,8 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
   const auto& speed = w_.rows.speed;
   const auto h = p.ds_m;
   const auto n = p.steps;
+  assert(h > 0 && l.jerk_max_mps3 > 0);
+  assert(l.accel_min_mps2 <= 0 && l.accel_max_mps2 >= 0);
   const auto early = ocp::any_finite(p.earliest_s);
   const auto late = ocp::any_finite(p.latest_s);
   ocp::column most;
@@ -124,6 +135,7 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
     least = std::max(0., least + h * (lower + down) / 2);
     most[k + 1] = std::min(speed.hi[k + 1], most[k] + h * (upper + up) / 2);
     lower = down, upper = up;
+    assert(least >= 0 && v >= ocp::crawl_mps);
     worst.see(least - speed.hi[k + 1], speed.tolerance, speed_row, k + 1);
     const double next = ocp::speed_of(least);
     if (early) {
@@ -154,6 +166,7 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
 void velocity_ocp::guess(const velocity_problem& p) noexcept {
   constexpr auto ramp_mps2 = 1.;
   const auto h = p.ds_m;
+  assert(h > 0 && w_.n == p.steps);
   auto& x = w_.plan;
   x.x0[0] = p.start.t_s;
   x.x1[0] = p.start.w_m2ps2;
@@ -164,6 +177,7 @@ void velocity_ocp::guess(const velocity_problem& p) noexcept {
     x.x2[k + 1] = (x.x1[k + 1] - x.x1[k]) / h;
     x.u[k] = 0;
     const double next = ocp::speed_of(x.x1[k + 1]);
+    assert(next >= ocp::crawl_mps); // so that times rise
     x.x0[k + 1] = x.x0[k] + 2 * h / (v + next);
     v = next;
   }
@@ -176,6 +190,7 @@ void velocity_ocp::guess(const velocity_problem& p) noexcept {
 void velocity_ocp::follow(const velocity_problem& p) noexcept {
   constexpr auto pull = 1 / fading_m;
   const auto h = p.ds_m, bow = h * h / 2;
+  assert(started_ && w_.n == p.steps);
   // u = own − 2 pull a − pull² w, put into the dynamics: short chains.
   const auto ww = 1 - bow * pull * pull, wa = h - 2 * bow * pull;
   const auto aw = -h * pull * pull, aa = 1 - 2 * h * pull;
@@ -192,6 +207,7 @@ void velocity_ocp::follow(const velocity_problem& p) noexcept {
     a = aw * w + (aa * a + h * own);
     w = next;
     const double faster = ocp::speed_of(w);
+    assert(!(faster < ocp::crawl_mps));
     t += 2 * h / (v + faster);
     v = faster;
   }
@@ -209,12 +225,14 @@ bool velocity_ocp::rests_elsewhere(const velocity_problem& p) const noexcept {
   while (rest > 0 && w_.plan.x1[rest - 1] < rest_m2ps2)
     --rest;
   const auto stop = std::min(p.stop_knot.value_or(end), end);
+  assert(stop >= 1 && rest >= 0);
   return (rest < end) != (stop < end) || std::abs(rest - stop) * p.ds_m > far_m;
 }
 
 // By how much the plan is too early or too late, at worst.
 double velocity_ocp::misses_s() const noexcept {
   const auto& row = w_.rows.time;
+  assert(w_.is_sized());
   double most = 0;
 #pragma omp simd reduction(max : most)
   for (int k = 0; k <= w_.n; ++k) {
@@ -229,6 +247,7 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   started_ = started_ && ocp::can_move(by_m, ds_m, steps);
   if (!started_)
     return;
+  assert(w_.n >= 1 && ds_m_ > 0);
   const auto knots = ocp::regrid::after(by_m, ds_m_, w_.n, ds_m, steps);
   auto& x = w_.plan; // times are found anew, see follow
   ocp::resample(x.x1, knots, 1, x.x1[w_.n]);
@@ -270,7 +289,15 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
   const ocp::velocity_model model{.ds = problem.ds_m,
                                   .reference = reference_,
                                   .model_error = options.model_error};
+  assert(options.model_error.time_s > 0 && options.model_error.jerk_mps3 > 0);
   const auto report = ocp::ms_al{model, w_, options.solver}.solve(go_on);
+  assert(!ocp::publishable(report.status) || std::isfinite(report.cost));
+  assert(!ocp::publishable(report.status)
+         || (t_s()[0] == problem.start.t_s
+             && w_m2ps2()[0] == problem.start.w_m2ps2
+             && accel_mps2()[0] == problem.start.accel_mps2));
+  assert(!ocp::publishable(report.status)
+         || (ocp::all_finite(u_1ps2()) && std::ranges::is_sorted(t_s())));
   started_ = report.status != ocp::solve_status::numerical;
   return report;
 }

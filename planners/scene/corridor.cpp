@@ -2,6 +2,7 @@
 #include "planners/scene/corridor.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -35,18 +36,23 @@ constexpr double evasion_m = 20;
 constexpr double return_m = 25;
 /// A heading error carries the car on over this way before it steers back.
 constexpr double overshoot_m = 4;
+/// Of sums of bounds.
+[[maybe_unused]] constexpr double rounding_m = 1e-9;
 
 } // namespace
 
 // Most of the lane is the one of the cycle before.
 void corridor::open(const reference_line& line, double s_m, double ds_m,
                     int steps) {
+  assert(ds_m > 0 && std::isfinite(ds_m));
+  assert(steps >= 1 && steps <= ocp::most_steps);
   const auto moved = (s_m - s_m_) / ds_m;
   const auto same_grid = line_ == &line && ds_m == ds_m_ && steps == steps_
                          && std::abs(moved - std::round(moved)) < same_knot;
   const auto by = same_grid && moved >= 0 && moved <= steps
                       ? static_cast<int>(std::lround(moved))
                       : steps + 1;
+  assert(by >= 0); // what was measured moves towards the car only
   line_ = &line;
   s_m_ = s_m;
   ds_m_ = ds_m;
@@ -66,6 +72,8 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
 }
 
 void corridor::measure_lane(std::size_t part, int from, int to) {
+  assert(line_ && part < rows);
+  assert(from >= 0 && to <= steps_);
   const auto [ahead_m, radius_m] = parts[part];
   for (auto k = from; k <= to; ++k) {
     const auto s = s_m_ + k * ds_m_;
@@ -74,10 +82,13 @@ void corridor::measure_lane(std::size_t part, int from, int to) {
     const auto bow = part == 0 ? 0 : line_->bow_m(s, ahead_m);
     lane_lo_[part][k] = std::min(bow - room, -least_room_m);
     lane_hi_[part][k] = std::max(bow + room, least_room_m);
+    assert(!(lane_lo_[part][k] > lane_hi_[part][k])); // the line itself fits
   }
 }
 
 void corridor::pass(const lane_obstacle& body, side_of_road side) {
+  assert(line_ && steps_ >= 1); // opened
+  assert(!(body.from_m > body.to_m));
   for (int k = 0; k <= steps_; ++k) {
     const auto s = s_m_ + k * ds_m_;
     if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
@@ -85,6 +96,7 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       lo_[0][k] = std::min(lo_[0][k], -lane);
       hi_[0][k] = std::max(hi_[0][k], lane);
     }
+    assert(!(lo_[0][k] > hi_[0][k])); // the discs are held, not the axle
     for (std::size_t j = 1; j < rows; ++j) {
       const auto& p = parts[j];
       const auto at = s + p.ahead_m;
@@ -102,6 +114,7 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
 }
 
 void corridor::admit(const path_state& start) {
+  assert(line_ && steps_ >= 1); // opened
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
     const auto drift = overshoot_m * std::abs(start.heading_rad);
@@ -115,12 +128,16 @@ void corridor::admit(const path_state& start) {
       hi_[j][k] += over * fading;
       lo_[j][k] -= under * fading;
     }
+    assert(!(y > hi_[j][0] + rounding_m || y < lo_[j][0] - rounding_m));
   }
 }
 
 bool corridor::contains(std::span<const double> d_m,
                         std::span<const double> heading_rad,
                         double tolerance_m) const {
+  assert(d_m.size() == heading_rad.size());
+  assert(d_m.size() <= static_cast<std::size_t>(steps_) + 1);
+  assert(tolerance_m >= 0);
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t k = 1; k < d_m.size(); ++k) {
       const auto at = static_cast<int>(k);

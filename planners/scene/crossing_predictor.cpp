@@ -2,6 +2,7 @@
 #include "planners/scene/crossing_predictor.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -31,6 +32,7 @@ crossing_predictor::crossing_predictor(
     double foresight_s)
     : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
       corridor_m_{corridor_m}, foresight_s_{foresight_s} {
+  assert(corridor_m_ > 0 && foresight_s_ >= 0);
   zones_.reserve(many);
   arrivals_.reserve(many);
   foreseen_.reserve(many);
@@ -40,6 +42,7 @@ void crossing_predictor::judge(double from_m, double to_m,
                                std::span<other_body> others,
                                std::vector<crossing_user>& found,
                                std::vector<double>& yields) {
+  assert(from_m < to_m);
   find_zones(from_m, to_m);
   for (const auto& [own, middle] : zones_)
     if (lanes_->rank(own.other_side()) < own.rank)
@@ -55,12 +58,16 @@ void crossing_predictor::judge(double from_m, double to_m,
                        !gives_way(x, when, own.rank)});
       is_crossing = is_crossing || std::isfinite(when.leave_s);
     }
+  assert(std::ranges::is_sorted(found, {}, &crossing_user::from_m));
+  assert(std::ranges::is_sorted(yields));
 }
 
 void crossing_predictor::find_zones(double from_m, double to_m) {
+  assert(way_.longest_zone_m() >= 0);
   zones_.clear();
   way_.for_zones(from_m - way_.longest_zone_m(), to_m, [&](const zone& z) {
     const auto middle_m = (z.from_m + z.to_m) / 2;
+    assert(z.from_m <= z.to_m && z.from_m < to_m);
     if (z.to_m > from_m)
       zones_.push_back({z, way_.on()->path().at(middle_m).at});
     return true;
@@ -74,6 +81,7 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
     const auto& x = others[who].x;
     const auto within_m =
         std::min(foresight_s_ * forward_mps(x), lane_network::farthest_m);
+    assert(within_m >= 0 && x.length_m > 0);
     const auto gets_there = [&](const own_zone& z) {
       const auto reach_m = within_m + x.length_m + z.on.to_m - z.on.from_m;
       const auto apart = z.middle - x.centre();
@@ -83,8 +91,10 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
       continue;
     arrivals_.clear();
     lanes_->foresee(x, within_m, arrivals_);
-    for (const auto& when : arrivals_)
+    for (const auto& when : arrivals_) {
+      assert(when.enter_s <= when.leave_s);
       foreseen_.push_back({who, when});
+    }
   }
 }
 

@@ -19,7 +19,7 @@ struct lead_vehicle {
 };
 
 /// A stretch of the own way that another road user is going to cross, and
-/// when. Times are seconds after `surroundings::at`.
+/// when. Times are seconds after `driving_scene::at`.
 struct crossing_user {
   double from_m = 0, to_m = 0; ///< Arc length on the own route.
   double enter_s = 0;          ///< Its front comes onto the stretch; 0: it is

@@ -4,6 +4,7 @@
 #include "planners/scene/lane_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -30,12 +31,15 @@ bool is_sound(const reported_state& x) {
 } // namespace
 
 ego_estimator::ego_estimator(route_ptr way, double s_m)
-    : way_{std::move(way)}, first_s_m_{s_m} {}
+    : way_{std::move(way)}, first_s_m_{s_m} {
+  assert(way_ && std::isfinite(first_s_m_));
+}
 
 void ego_estimator::hear(const reported_state& told) {
   if (!is_sound(told) || (told_ && told.at <= told_->at))
     return;
   const auto guess_m = told_ ? at(told.at)->s_m : first_s_m_;
+  assert(std::isfinite(guess_m));
   const auto foot = way_->path().project(told.position, guess_m);
   const auto centre = way_->path().at(foot.s_m);
   if (distance_m(centre.at, told.position) > farthest_off_m) {
@@ -46,10 +50,13 @@ void ego_estimator::hear(const reported_state& told) {
   heard_ = {foot.s_m, foot.d_m,
             wrap_angle(told.heading_rad - centre.heading_rad),
             std::max(0.0, told.speed_mps)};
+  assert(std::isfinite(heard_.s_m)
+         && std::abs(heard_.d_m) < 2 * farthest_off_m);
   told_ = told;
 }
 
 void ego_estimator::follow(const trajectory& plan) {
+  assert(!plan.empty());
   if (known_ > 0 && plan.start <= plan_.start)
     return;
   const moment start{plan.start, on_route(plan.points.front())};
@@ -63,6 +70,7 @@ void ego_estimator::follow(const trajectory& plan) {
   newest_ = (newest_ + 1) % starts_.size();
   starts_[newest_] = start;
   known_ = std::min(known_ + 1, starts_.size());
+  assert(known_ == 1 || this->start(1).at == plan_.start); // the one before
   plan_.start = plan.start;
   plan_.points.assign(plan.points.begin(), plan.points.end());
 }
@@ -80,11 +88,13 @@ std::optional<planning_input> ego_estimator::at(time_point now) const {
 /// say how it went on until `now`, or it does not follow them.
 std::optional<ego_estimator::motion>
 ego_estimator::off_plan(time_point now) const {
+  assert(told_);
   if (known_ == 0 || now < plan_.start || now > plan_.end())
     return std::nullopt;
   const auto then = planned(told_->at);
   if (!then)
     return std::nullopt;
+  assert(told_->at <= plan_.end());
   const auto off = heard_ - *then;
   if (std::abs(off.s_m) > followed_m || std::abs(off.speed_mps) > followed_mps)
     return std::nullopt;
@@ -102,6 +112,7 @@ planning_input ego_estimator::along_plan(time_point now,
 }
 
 planning_input ego_estimator::alone(time_point now) const {
+  assert(told_);
   const auto& line = way_->path();
   const auto bend = told_->curvature_1pm - line.at(heard_.s_m).curvature_1pm;
   planning_input x;
@@ -112,6 +123,7 @@ planning_input ego_estimator::alone(time_point now) const {
   x.speed_mps = heard_.speed_mps;
   x.accel_mps2 = told_->accel_mps2;
   x = moved_forward(made_possible(x), now);
+  assert(x.speed_mps >= 0 && x.at >= told_->at);
   x.curvature_1pm = line.at(x.s_m).curvature_1pm + bend;
   return x;
 }
@@ -124,13 +136,16 @@ ego_estimator::planned(time_point t) const {
   if (t >= plan_.start)
     return on_route(plan_.at(t));
   std::size_t age = 1;
-  while (t < start(age).at)
-    ++age;
+  for (; t < start(age).at; ++age)
+    assert(age + 1 < known_);
+  assert(start(age).at <= t && t < start(age - 1).at);
   return between(start(age), start(age - 1), t);
 }
 
 ego_estimator::motion ego_estimator::between(const moment& a, const moment& b,
                                              time_point t) {
+  assert(a.at <= t && t <= b.at);
+  assert(a.at < b.at);
   const auto h_s = to_seconds(b.at - a.at);
   const auto x = to_seconds(t - a.at) / h_s, rest = 1 - x;
   const auto way = b.where - a.where;

@@ -3,6 +3,7 @@
 #include "planners/scene/foreseen_bodies.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +28,8 @@ bool is_far_behind(const perceived_object& x, double guess_m, double rear_m) {
 void foreseen_bodies::look(const route& way, double s_m,
                            std::span<const perceived_object> seen,
                            const vehicle_params& car) {
+  assert(std::isfinite(s_m));
+  assert(car.width_m > 0 && car.front_m > -car.rear_m);
   boxes_.clear();
   front_m_ = s_m + car.front_m;
   rear_m_ = s_m - car.rear_m;
@@ -75,6 +78,7 @@ void foreseen_bodies::look(const route& way, double s_m,
       x.core_m = o.width_m / 2 - uncertain_m;
       x.crosses = true;
     }
+    assert(x.brakes_mps2 >= 0 && (x.crosses || x.counts));
     boxes_.push_back(x);
   }
 }
@@ -88,6 +92,8 @@ double foreseen_bodies::along_m(const box& x, double t_s) {
 
 bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
                                    double until_s) const {
+  assert(beside_m >= 0 && until_s >= 0);
+  assert(rear_m_ <= front_m_);
   return std::ranges::any_of(boxes_, [&](const box& x) {
     const auto moves_m = std::abs(x.along_mps) * until_s;
     const auto comes_m = std::abs(x.across_mps) * until_s;
@@ -101,8 +107,10 @@ bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
 std::optional<foreseen_bodies::touch>
 foreseen_bodies::first_touch(std::span<const place_in_time> motion,
                              const vehicle_params& car) const {
+  assert(std::ranges::is_sorted(motion, {}, &place_in_time::t_s));
   const auto middle_m = (car.front_m - car.rear_m) / 2;
   const auto half_length_m = (car.front_m + car.rear_m) / 2;
+  assert(half_length_m > 0 && half_corridor_m_ >= 0);
   for (const auto& p : motion) {
     if (p.speed_mps < stands_mps)
       continue;
@@ -118,6 +126,8 @@ foreseen_bodies::first_touch(std::span<const place_in_time> motion,
 }
 
 bool foreseen_bodies::any_ahead(double within_m) const {
+  assert(within_m >= 0);
+  assert(rear_m_ <= front_m_);
   return std::ranges::any_of(boxes_, [&](const box& x) {
     if (x.s_m + x.half_length_m < front_m_
         || x.s_m - x.half_length_m > front_m_ + within_m)
@@ -130,6 +140,8 @@ bool foreseen_bodies::any_ahead(double within_m) const {
 }
 
 bool foreseen_bodies::any_near(double within_m, double beside_m) const {
+  assert(within_m >= 0 && beside_m >= 0);
+  assert(rear_m_ <= front_m_);
   return std::ranges::any_of(boxes_, [&](const box& x) {
     return x.s_m + x.half_length_m >= front_m_
            && x.s_m - x.half_length_m <= front_m_ + within_m

@@ -2,7 +2,9 @@
 #include "planners/scene/lane_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace sofof {
 namespace {
@@ -18,6 +20,7 @@ constexpr double min_stretch = 0.2;
 } // namespace
 
 lane_motion advance(const lane_motion& x, double accel_mps2, double dt_s) {
+  assert(dt_s >= 0);
   const auto mean = 0.5 * (x.accel_mps2 + accel_mps2);
   const auto speed = x.speed_mps + mean * dt_s;
   if (speed > 0)
@@ -26,6 +29,7 @@ lane_motion advance(const lane_motion& x, double accel_mps2, double dt_s) {
             + dt_s * (x.speed_mps + dt_s * (2 * x.accel_mps2 + accel_mps2) / 6),
         speed, accel_mps2};
   const auto way = mean < 0 ? x.speed_mps * x.speed_mps / (-2 * mean) : 0;
+  assert(!(way < 0)); // to rest, and not back
   return {x.s_m + way, 0, 0};
 }
 
@@ -35,6 +39,8 @@ planning_input moved_forward(planning_input x, time_point now) {
     return x;
   const auto then =
       advance({x.s_m, x.speed_mps, x.accel_mps2}, x.accel_mps2, dt_s);
+  assert(!(then.speed_mps < 0));
+  assert(x.speed_mps < 0 || !(then.s_m < x.s_m));
   x.d_m += (then.s_m - x.s_m) * std::sin(x.heading_error_rad);
   x.at = now;
   x.s_m = then.s_m;
@@ -44,6 +50,7 @@ planning_input moved_forward(planning_input x, time_point now) {
 }
 
 planning_input seen_from(const route& way, const trajectory_point& p) {
+  assert(std::isfinite(p.s_m));
   const auto centre = way.path().at(p.s_m);
   const point tangent{std::cos(centre.heading_rad),
                       std::sin(centre.heading_rad)};
@@ -51,6 +58,7 @@ planning_input seen_from(const route& way, const trajectory_point& p) {
   x.s_m = p.s_m;
   x.d_m = cross(tangent, p.at - centre.at);
   x.heading_error_rad = wrap_angle(p.heading_rad - centre.heading_rad);
+  assert(!(std::abs(x.heading_error_rad) > std::numbers::pi));
   x.curvature_1pm = p.curvature_1pm;
   x.speed_mps = p.speed_mps;
   x.accel_mps2 = p.accel_mps2;
@@ -59,6 +67,8 @@ planning_input seen_from(const route& way, const trajectory_point& p) {
 
 centring::centring(const route& way, const planning_input& x, double length_m)
     : way_{way} {
+  assert(length_m > 0);
+  assert(std::isfinite(x.s_m) && x.speed_mps >= 0);
   const auto length = std::max(length_m, min_centring_s * x.speed_mps);
   rate_1pm_ = decay_constants / length;
   offset_m_ = x.d_m;
@@ -68,12 +78,14 @@ centring::centring(const route& way, const planning_input& x, double length_m)
   const auto inner = std::max(min_stretch, 1 - bend * x.d_m);
   slope_ = std::tan(turned) * inner;
   const auto shrink = std::cos(turned) / inner;
+  assert(shrink > 0); // it drives along the lane, however it is turned
   const auto stands = x.speed_mps <= 0;
   motion_ = {x.s_m, shrink * x.speed_mps,
              shrink * (stands ? std::max(0.0, x.accel_mps2) : x.accel_mps2)};
 }
 
 trajectory_point centring::place(const lane_motion& x, double t_s) const {
+  assert(t_s >= 0 && rate_1pm_ > 0);
   const auto centre = way_.path().at(x.s_m);
   trajectory_point p{t_s,
                      x.s_m,
@@ -96,6 +108,7 @@ trajectory_point centring::place(const lane_motion& x, double t_s) const {
   const auto stretch = std::sqrt(inner * inner + slope * slope);
   const auto turned = std::atan(slope / inner);
   const auto cosine = inner / stretch;
+  assert(!(cosine <= 0 || cosine > 1));
   p.at =
       centre.at
       + d * point{-std::sin(centre.heading_rad), std::cos(centre.heading_rad)};

@@ -2,6 +2,7 @@
 #include "planners/scene/lane_network.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -35,9 +36,12 @@ struct lane_network::driver {
 lane_network::lane_network(const road_map& map)
     : meetings_{list_encounters(map)}, ranks_(2 * map.conflicts().size()),
       next_(map.lanes().size()), previous_(map.lanes().size()) {
+  assert(meetings_.size() == map.lanes().size());
   for (const auto& lane : meetings_)
-    for (const auto& e : lane)
+    for (const auto& e : lane) {
+      assert(e.side < ranks_.size() && e.from_m <= e.to_m);
       ranks_[e.side] = e.rank;
+    }
   std::unordered_map<std::string_view, std::size_t> index;
   for (const auto& l : map.lanes()) {
     index.emplace(l.name, paths_.size());
@@ -53,9 +57,11 @@ lane_network::lane_network(const road_map& map)
 }
 
 void lane_network::cut(std::size_t lane) {
+  assert(lane < paths_.size() && lane < half_widths_m_.size());
   const auto& line = paths_[lane];
   const auto count = std::ceil(line.length_m() / piece_m);
   const auto step_m = line.length_m() / count;
+  assert(count >= 1 && step_m > 0 && step_m <= piece_m);
   for (auto i = 0.0; i < count; ++i) {
     const piece p{lane, (i + 0.5) * step_m, line.at(i * step_m).at,
                   line.at((i + 1) * step_m).at};
@@ -66,6 +72,8 @@ void lane_network::cut(std::size_t lane) {
 }
 
 lane_network::placements lane_network::find(const oriented_box& body) const {
+  assert(std::isfinite(body.heading_rad) && std::isfinite(body.centre.x_m)
+         && std::isfinite(body.centre.y_m));
   const point along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
   placements found;
   const piece* best = nullptr;
@@ -81,7 +89,9 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
   // The pieces of a cell come in the order of lanes.
   cells_.for_each_near(body.centre, 0, [&](cell_grid::item i) {
     const auto& p = pieces_[i];
+    assert(!best || best->lane <= p.lane);
     const auto ahead = p.to - p.from;
+    assert(dot(ahead, ahead) > 0);
     const auto c = dot(ahead, along);
     if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
       return;
@@ -103,6 +113,8 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
 
 void lane_network::foresee(const track& x, double within_m,
                            std::vector<conflict_visit>& out) const {
+  assert(within_m >= 0 && within_m <= farthest_m);
+  assert(x.length_m > 0);
   const driver who{x.length_m / 2, x.speed_mps(), within_m, out.size(), out};
   for (const auto& [lane, s_m] : find(x.body())) {
     drive(who, lane, -s_m);
@@ -115,6 +127,8 @@ void lane_network::foresee(const track& x, double within_m,
 /// @param start_m  Where the lane begins, from the body's centre on.
 void lane_network::meet(const driver& who, std::size_t lane,
                         double start_m) const {
+  assert(lane < meetings_.size());
+  assert(who.half_length_m > 0 && who.first <= who.out.size());
   for (const auto& e : meetings_[lane]) {
     const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
     const auto left_m = start_m + e.to_m + who.half_length_m;
@@ -126,6 +140,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
                               way_m > 0 ? way_m / who.speed_mps : 0.0,
                               stands ? std::numeric_limits<double>::infinity()
                                      : left_m / who.speed_mps};
+    assert(here.way_m >= 0 && here.enter_s <= here.leave_s);
     const auto known = std::find_if(
         who.out.begin() + static_cast<std::ptrdiff_t>(who.first), who.out.end(),
         [&](const conflict_visit& a) { return a.side == e.side; });
@@ -143,6 +158,7 @@ void lane_network::drive(const driver& who, std::size_t lane,
                          double start_m) const {
   meet(who, lane, start_m);
   const auto end_m = start_m + paths_[lane].length_m();
+  assert(end_m > start_m); // or lanes that end in each other had no end
   if (end_m - who.half_length_m <= who.within_m)
     for (const auto following : next_[lane])
       drive(who, following, end_m);

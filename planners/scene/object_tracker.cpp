@@ -2,6 +2,7 @@
 #include "planners/scene/object_tracker.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -75,6 +76,7 @@ void object_tracker::update(time_point at,
   for (const auto& o : seen.first(std::min(seen.size(), max_seen)))
     if (is_sound(o))
       sightings_.push_back(make_sighting(at, o));
+  assert(sightings_.size() <= max_seen && tracks_.size() <= max_tracks);
   pairs_.clear();
   for (std::uint32_t t = 0; t < tracks_.size(); ++t)
     for (std::uint32_t s = 0; s < sightings_.size(); ++s)
@@ -83,6 +85,7 @@ void object_tracker::update(time_point at,
   for (const auto& s : sightings_)
     if (!s.is_known)
       give_birth(at, s);
+  assert(std::ranges::is_sorted(tracks_, {}, &track::id));
 }
 
 void object_tracker::hear(time_point at, station_id who,
@@ -105,9 +108,11 @@ void object_tracker::hear(time_point at, station_id who,
   pair_up(at);
   if (pairs_.empty())
     give_birth(at, sightings_.front());
+  assert(pairs_.empty() || pairs_.front().track < tracks_.size());
   auto& self_track =
       pairs_.empty() ? tracks_.back() : tracks_[pairs_.front().track];
   self_track.station = who;
+  assert(std::ranges::count(tracks_, self_track.station, &track::station) == 1);
 }
 
 /// Brings all tracks to `at`, if that is later, and forgets.
@@ -121,6 +126,10 @@ bool object_tracker::pass_time(time_point at) {
     for (auto& x : tracks_)
       x = predict(x, newest_);
   }
+  assert(at <= newest_);
+  assert(std::ranges::all_of(tracks_, [&](const track& x) {
+    return x.at == newest_ && x.seen <= x.at;
+  }));
   return newest_ - at <= max_delay;
 }
 
@@ -130,10 +139,10 @@ duration object_tracker::lifetime(const track& x) const {
   return std::max(memory, 2 * silence + max_delay);
 }
 
-object_tracker::object_list
+object_tracker::observation
 object_tracker::make_sighting(time_point at, const perceived_object& o) const {
   const auto across_mps = o.speed_mps * noise_.heading_rad;
-  object_list s{o, {}, false, false};
+  observation s{o, {}, false, false};
   s.motion.mean << o.centre.x_m, o.speed_mps * std::cos(o.heading_rad),
       o.centre.y_m, o.speed_mps * std::sin(o.heading_rad);
   s.motion.covariance.diagonal() << noise_.position_m * noise_.position_m,
@@ -144,17 +153,20 @@ object_tracker::make_sighting(time_point at, const perceived_object& o) const {
 
 /// Enters a track and a sighting as a pair, if they may be of one body.
 void object_tracker::match(std::uint32_t t, std::uint32_t s) {
+  assert(t < tracks_.size() && s < sightings_.size());
   const auto& x = tracks_[t];
   auto& other = sightings_[s];
   const auto distance2_m2 =
       (other.motion.mean.col(0) - x.motion.mean.col(0)).squaredNorm();
   const auto variance_m2 =
       x.motion.covariance(0, 0) + other.motion.covariance(0, 0);
+  assert(variance_m2 > 0);
   const auto is_same =
       in_one_place(distance2_m2, x.width_m, other.object.width_m);
   if (distance2_m2 > gate * variance_m2 && !is_same)
     return; // as far apart, they are outside the gate whatever their speeds
   const auto [distance2, cost] = x.motion.compare(other.motion);
+  assert(std::isfinite(cost)); // or pairs had no order
   other.is_known = other.is_known || is_same;
   if (distance2 <= gate || is_same)
     pairs_.push_back({distance2 <= gate, cost, t, s});
@@ -163,22 +175,25 @@ void object_tracker::match(std::uint32_t t, std::uint32_t s) {
 /// Lets tracks take sightings, the likeliest pairs first.
 void object_tracker::pair_up(time_point at) {
   std::ranges::sort(pairs_, {}, [](const pair& p) {
-    return std::tuple{!p.in_gate, p.cost, p.track, p.object_list};
+    return std::tuple{!p.in_gate, p.cost, p.track, p.observation};
   });
   is_taken_.assign(tracks_.size(), 0);
   for (const auto& p : pairs_) {
-    auto& s = sightings_[p.object_list];
+    assert(p.track < tracks_.size() && p.observation < sightings_.size());
+    auto& s = sightings_[p.observation];
     if (is_taken_[p.track] || s.is_taken)
       continue;
+    assert(p.in_gate || s.is_known);
     is_taken_[p.track] = 1;
     s.is_known = s.is_taken = true;
-    take(tracks_[p.track], at, s, p.in_gate);
+    correct(tracks_[p.track], at, s, p.in_gate);
   }
 }
 
 /// @param fits  Else the track begins anew, unless the sighting is old.
-void object_tracker::take(track& x, time_point at, const object_list& s,
-                          bool fits) {
+void object_tracker::correct(track& x, time_point at, const observation& s,
+                             bool fits) {
+  assert(x.at == newest_ && at <= newest_);
   if (fits)
     x.motion.fuse(s.motion);
   else if (at == newest_)
@@ -193,11 +208,14 @@ void object_tracker::take(track& x, time_point at, const object_list& s,
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
   x.length_m += share_of_new * (o.length_m - x.length_m);
   x.width_m += share_of_new * (o.width_m - x.width_m);
+  assert(x.width_m > 0 && x.length_m > 0);
 }
 
-void object_tracker::give_birth(time_point at, const object_list& s) {
+void object_tracker::give_birth(time_point at, const observation& s) {
   if (tracks_.size() == max_tracks)
     tracks_.erase(std::ranges::min_element(tracks_, {}, &track::seen));
+  assert(tracks_.size() < max_tracks);
+  assert(tracks_.empty() || tracks_.back().id <= last_id_);
   const auto& o = s.object;
   tracks_.push_back({++last_id_,
                      {},

@@ -68,7 +68,7 @@ public:
   std::span<const track> tracks() const { return tracks_; }
 
 private:
-  struct object_list {
+  struct observation {
     perceived_object object;
     motion_estimate motion;
     bool is_known; // to be of a body with a track
@@ -77,23 +77,23 @@ private:
   struct pair {
     bool in_gate;
     double cost;
-    std::uint32_t track, object_list;
+    std::uint32_t track, observation;
   };
 
   bool pass_time(time_point at);
   duration lifetime(const track& x) const;
-  object_list make_sighting(time_point at, const perceived_object& o) const;
+  observation make_sighting(time_point at, const perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
-  void take(track& x, time_point at, const object_list& s, bool fits);
-  void give_birth(time_point at, const object_list& s);
+  void correct(track& x, time_point at, const observation& s, bool fits);
+  void give_birth(time_point at, const observation& s);
 
   sighting_noise noise_;
   sighting_rhythm rhythm_;
   time_point newest_{-longest_time};
   std::uint32_t last_id_ = 0;
   std::vector<track> tracks_;
-  std::vector<object_list> sightings_;
+  std::vector<observation> sightings_;
   std::vector<pair> pairs_;
   std::vector<char> is_taken_; // of each track
 };

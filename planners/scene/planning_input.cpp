@@ -2,6 +2,7 @@
 #include "planners/scene/planning_input.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -20,6 +21,7 @@ constexpr double most_accel_mps2 = 20;
 planning_input made_possible(planning_input x) {
   const auto cut = [](double& number, double least, double most) {
     number = std::isnan(number) ? 0 : std::clamp(number, least, most);
+    assert(number >= least && number <= most); // 0 has to be possible, too
   };
   cut(x.s_m, -longest_way_m, longest_way_m);
   cut(x.d_m, -widest_off_m, widest_off_m);

@@ -2,6 +2,7 @@
 #include "planners/scene/reference_line.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -13,10 +14,12 @@ constexpr double max_step_m = 0.25;
 } // namespace
 
 reference_line::reference_line(route_ptr way) : way_{std::move(way)} {
+  assert(way_ && way_->length_m() > 0);
   const auto length_m = way_->length_m();
   const auto steps =
       std::max(1L, std::lround(std::ceil(length_m / max_step_m)));
   const auto step_m = length_m / static_cast<double>(steps);
+  assert(step_m > 0 && step_m <= max_step_m);
   steps_per_m_ = 1 / step_m;
   laps_per_m_ = 1 / length_m;
   for (long i = 0; i <= steps; ++i) {
@@ -27,6 +30,7 @@ reference_line::reference_line(route_ptr way) : way_{std::move(way)} {
 }
 
 reference_line::place reference_line::find(double s_m) const {
+  assert(table_.size() >= 2);
   const auto length_m = way_->length_m();
   if (way_->closed())
     s_m -= std::floor(s_m * laps_per_m_) * length_m;
@@ -35,6 +39,7 @@ reference_line::place reference_line::find(double s_m) const {
   const auto i =
       steps >= 0 ? std::min(static_cast<std::size_t>(steps), table_.size() - 2)
                  : 0;
+  assert(!(steps < static_cast<double>(i)));
   return {table_[i], table_[i + 1], steps - static_cast<double>(i)};
 }
 

@@ -2,6 +2,7 @@
 #include "planners/scene/scene_interpreter.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -39,15 +40,16 @@ point offset(const path_point& p, double along_m, double left_m) {
 } // namespace
 
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                                     const route_ptr& way,
-                                     outlook_params params)
+                                     const route_ptr& way, scene_params params)
     : way_{way}, params_{params}, crossings_{std::move(lanes), way,
                                              params.car.width_m / 2
                                                  + params.margin_m,
                                              params.foresight_s} {
+  assert(params_.horizon_m > 0 && params_.margin_m >= 0);
   const auto& line = way->path();
   const auto count = std::ceil(line.length_m() / coarse_m);
   bead_m_ = line.length_m() / count;
+  assert(bead_m_ > 0 && bead_m_ <= coarse_m);
   for (auto i = 0.0; i < count; ++i)
     beads_.push_back(line.at(i * bead_m_).at);
   if (!way->closed())
@@ -55,6 +57,7 @@ scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
   for (std::size_t i = 0; i < way->sequence().size(); ++i)
     half_lane_m_ =
         std::max(half_lane_m_, way->half_width_m(way->start_of_m(i)));
+  assert(!beads_.empty() && half_lane_m_ > 0);
   others_.reserve(usual_cars);
   near_.reserve(usual_cars);
 }
@@ -62,6 +65,7 @@ scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
 void scene_interpreter::describe(time_point now, const own_place& me,
                                  std::span<const track> tracks,
                                  driving_scene& out) {
+  assert(std::isfinite(me.s_m) && std::isfinite(me.d_m));
   out.at = now;
   out.lead.reset();
   out.crossings.clear();
@@ -76,6 +80,8 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   }
   find_near(me);
   find_bodies(me, out);
+  assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
+  assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
 }
 
 /// Brings the others, without the own vehicle, to the present.
@@ -86,6 +92,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
       offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
   others_.clear();
   for (const auto& known : tracks) {
+    assert(std::isfinite(known.heading_rad));
     if (me.station && known.station == me.station)
       continue;
     const auto x = predict(known, now);
@@ -93,6 +100,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     if (!known.station
         && in_one_place(dot(apart, apart), x.width_m, car.width_m))
       continue;
+    assert(x.length_m > 0 && x.width_m > 0);
     others_.push_back({x, false});
   }
 }
@@ -101,6 +109,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
 /// into the lane; several of one body where the way returns to it.
 void scene_interpreter::find_near(const own_place& me) {
   const auto count = static_cast<std::int64_t>(beads_.size());
+  assert(count > 0 && bead_m_ > 0);
   const auto front_m = me.s_m + params_.car.front_m;
   auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
   auto last = static_cast<std::int64_t>(
@@ -111,6 +120,7 @@ void scene_interpreter::find_near(const own_place& me) {
     last = std::clamp<std::int64_t>(last, 0, count - 1);
   }
   const auto start = (first % count + count) % count; // on the lap
+  assert(first <= last && start >= 0 && start < count);
   near_.clear();
   for (std::size_t who = 0; who < others_.size(); ++who) {
     const auto& x = others_[who].x;
@@ -118,6 +128,7 @@ void scene_interpreter::find_near(const own_place& me) {
         radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
     auto away_m = [&](std::int64_t i) {
       const auto on_lap = start + (i - first);
+      assert(on_lap >= 0);
       return distance_m(x.centre(),
                         beads_[static_cast<std::size_t>(
                             on_lap < count ? on_lap : on_lap % count)]);
@@ -132,6 +143,7 @@ void scene_interpreter::find_near(const own_place& me) {
       }
       if (here_m < before_m && (i == last || here_m <= away_m(i + 1))) {
         const auto guess_m = static_cast<double>(i) * bead_m_;
+        assert(std::isfinite(guess_m));
         near_.push_back({guess_m - bead_m_ - radius_m(x), guess_m, who});
       }
       before_m = here_m;
@@ -147,6 +159,7 @@ void scene_interpreter::find_near(const own_place& me) {
 /// @returns nothing when it stays out of the lane and the way of the car.
 std::optional<scene_interpreter::footprint>
 scene_interpreter::measure(const near& where) const {
+  assert(where.who < others_.size());
   const auto& x = others_[where.who].x;
   const auto& line = way_->path();
   const auto on = line.project(x.centre(), where.guess_m, bead_m_);
@@ -171,6 +184,7 @@ scene_interpreter::measure(const near& where) const {
     return {};
 
   const auto pieces = std::ceil(x.length_m / outline_m);
+  assert(pieces >= 1);
   const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
@@ -188,6 +202,7 @@ scene_interpreter::measure(const near& where) const {
     }
   if (print.low_m >= wide_m || print.high_m <= -wide_m)
     return {};
+  assert(print.from_m <= print.to_m && print.low_m <= print.high_m);
   return print;
 }
 
@@ -195,6 +210,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   const auto front_m = me.s_m + params_.car.front_m;
   const auto rear_m = me.s_m - params_.car.rear_m;
   const auto need_m = 2 * corridor_m();
+  assert(rear_m < front_m && need_m > 0);
   for (const auto& where : near_) {
     if (out.lead && where.low_m > out.lead->rear_s_m)
       break;
@@ -216,6 +232,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
       out.lead = {x.station.value_or(0), b.from_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
   }
+  assert(!out.lead || out.lead->speed_mps >= 0);
   if (out.lead)
     std::erase_if(out.beside, [&](const lane_obstacle& o) {
       return o.from_m > out.lead->rear_s_m;

@@ -16,7 +16,7 @@
 namespace sofof {
 
 /// How a vehicle looks at the others.
-struct outlook_params {
+struct scene_params {
   double horizon_m = 200; ///< Ahead of the own front.
   /// To keep on either side of the own body.
   double margin_m = (corridor::room_beside_m - vehicle_params{}.width_m) / 2;
@@ -47,7 +47,7 @@ class scene_interpreter {
 public:
   /// @param lanes  Of the map that the route is on; not null.
   scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                    const route_ptr& way, outlook_params params);
+                    const route_ptr& way, scene_params params);
 
   /// Describes all but `stop_at_m`, which it leaves as it is: what is granted
   /// is not seen.
@@ -81,7 +81,7 @@ private:
   }
 
   route_ptr way_;
-  outlook_params params_;
+  scene_params params_;
   crossing_predictor crossings_;
   std::vector<point> beads_; // along the way, equidistant
   double bead_m_ = 0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -16,6 +17,7 @@ constexpr auto manoeuvre_m2ps3 = 4.0;
 } // namespace
 
 void motion_estimate::advance(double dt_s) {
+  assert(dt_s >= 0);
   constexpr auto q = manoeuvre_m2ps3;
   mean.col(0) += dt_s * mean.col(1);
   auto& p = covariance;
@@ -23,19 +25,23 @@ void motion_estimate::advance(double dt_s) {
   p(0, 1) += dt_s * (p(1, 1) + dt_s * q / 2);
   p(1, 0) = p(0, 1);
   p(1, 1) += dt_s * q;
+  assert(p(0, 0) >= 0 && p(1, 1) >= 0 && p.determinant() >= 0);
 }
 
 void motion_estimate::fuse(const motion_estimate& other) {
   const Eigen::Matrix2d sum = covariance + other.covariance;
+  assert(sum(0, 0) > 0 && sum.determinant() > 0);
   const Eigen::Matrix2d gain = covariance * sum.inverse();
   mean += (other.mean - mean) * gain.transpose();
   covariance -= gain * covariance;
   covariance(1, 0) = covariance(0, 1);
+  assert(covariance(0, 0) > 0 && covariance(1, 1) > 0);
 }
 
 motion_estimate::mismatch
 motion_estimate::compare(const motion_estimate& other) const {
   const Eigen::Matrix2d sum = covariance + other.covariance;
+  assert(sum(0, 0) > 0 && sum.determinant() > 0);
   const Eigen::Matrix2d apart = other.mean - mean;
   const auto distance2 = (apart * sum.inverse()).cwiseProduct(apart).sum();
   return {distance2, distance2 + 2 * std::log(sum.determinant())};

@@ -2,6 +2,7 @@
 #include "planners/speed/braking.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -12,6 +13,8 @@ constexpr double no_room_m = 1e-3;
 } // namespace
 
 double stop_accel(double speed_mps, double room_m, const braking_style& style) {
+  assert(style.decel_mps2 > 0 && style.jerk_mps3 > 0);
+  assert(!(speed_mps < 0));
   const auto b = style.decel_mps2, j = style.jerk_mps3;
   if (room_m <= 0)
     return -b;
@@ -21,6 +24,7 @@ double stop_accel(double speed_mps, double room_m, const braking_style& style) {
   const auto fades = room_m <= fading_m;
   const auto profile_mps = fades ? std::cbrt(4.5 * j * room_m * room_m)
                                  : std::sqrt(2 * b * (room_m - fading_m / 4));
+  assert(!(profile_mps <= 0)); // there is room
   const auto slope_1ps = fades ? profile_mps / (1.5 * room_m) : b / profile_mps;
   const auto accel =
       style.rate_1ps() * (profile_mps - speed_mps) - slope_1ps * speed_mps;
@@ -32,6 +36,8 @@ double stop_accel(double speed_mps, double room_m, const braking_style& style) {
 
 double follow_accel(double speed_mps, double room_m, const leader& ahead,
                     const braking_style& style) {
+  assert(style.decel_mps2 > 0 && style.jerk_mps3 > 0);
+  assert(style.time_gap_s > 0 && !(speed_mps < 0));
   const auto b = style.decel_mps2, gap_s = style.time_gap_s;
   const auto excess_m = room_m - gap_s * speed_mps;
   // Closing speed over the excess of the gap: linear when near, at constant
@@ -41,6 +47,7 @@ double follow_accel(double speed_mps, double room_m, const leader& ahead,
   const auto closing_mps =
       near ? excess_m / gap_s : std::sqrt(2 * b * (excess_m - near_m / 2));
   const auto slope_1ps = near ? 1 / gap_s : b / closing_mps;
+  assert(!(slope_1ps <= 0));
   const auto slower_mps = ahead.speed_mps - speed_mps;
   return (ahead.accel_mps2 + slope_1ps * slower_mps
           + style.rate_1ps() * (slower_mps + closing_mps))
@@ -48,6 +55,7 @@ double follow_accel(double speed_mps, double room_m, const leader& ahead,
 }
 
 double needed_decel(double speed_mps, double room_m, const leader& ahead) {
+  assert(!(speed_mps < 0));
   const auto room = std::max(room_m, no_room_m);
   const auto braking = std::max(0.0, -ahead.accel_mps2);
   const auto closing = speed_mps - ahead.speed_mps;

@@ -3,6 +3,7 @@
 #include "planners/speed/speed_envelope.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -42,6 +43,7 @@ double allowed_at(const route& way, double s_m, const comfort_limits& params) {
 /// what is allowed between them.
 way_table allowed(const route& way, double step_m, long size,
                   const comfort_limits& params) {
+  assert(step_m > 0 && size > 0);
   way_table half{{}, way.closed()}; // in half steps
   for (long i = 0; i < 2 * size; ++i)
     half.values.push_back(
@@ -50,6 +52,7 @@ way_table allowed(const route& way, double step_m, long size,
   for (long i = 0; i < 2 * size; i += 2)
     u.values.push_back(std::min(
         {half[i - 2], half[i - 1], half[i], half[i + 1], half[i + 2]}));
+  assert(std::ranges::all_of(u.values, [](double x) { return x > 0; }));
   return u;
 }
 
@@ -57,11 +60,14 @@ way_table allowed(const route& way, double step_m, long size,
 /// `accel`, which builds up from the slow place at `jerk`.
 void ramp_from_slow(way_table& u, long way, double step_m, double accel,
                     double jerk) {
+  assert(way == 1 || way == -1);
+  assert(accel > 0 && jerk > 0);
   auto slope = 0.0;
   const auto entries = u.closed ? 2 * u.size() : u.size();
   for (long k = 1; k < entries; ++k) {
     const auto i = (way > 0 ? k : entries - 1 - k) % u.size();
     const auto slow = u[i - way];
+    assert(slow > 0);
     slope = std::min(accel, slope + jerk * step_m / std::sqrt(2 * slow));
     u.values[i] = std::min(u[i], slow + slope * step_m);
     slope = std::clamp((u[i] - slow) / step_m, 0.0, accel);
@@ -71,6 +77,7 @@ void ramp_from_slow(way_table& u, long way, double step_m, double accel,
 /// Cuts the corners where speeding up ends and braking sets in: the mean over
 /// as much way as the car makes while its brake builds up.
 way_table rounded(const way_table& u, double step_m, double build_up_s) {
+  assert(step_m > 0 && build_up_s > 0);
   auto round = u;
   for (long i = 0; i < u.size(); ++i) {
     const auto reach =
@@ -80,6 +87,7 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
     for (long k = 1; k <= reach; ++k)
       sum += u[i - k] + u[i + k];
     round.values[i] = std::min(u[i], sum / static_cast<double>(2 * reach + 1));
+    assert(round.values[i] > 0);
   }
   return round;
 }
@@ -88,6 +96,8 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 
 speed_envelope::speed_envelope(const route& way, const comfort_limits& params)
     : length_m_{way.length_m()}, closed_{way.closed()} {
+  assert(length_m_ > 0 && params.max_accel_mps2 > 0);
+  assert(params.comfort_decel_mps2 > 0 && params.max_jerk_mps3 > 0);
   const auto steps =
       std::max(2L, std::lround(std::ceil(length_m_ / longest_step_m)));
   const auto step_m = length_m_ / static_cast<double>(steps);
@@ -99,6 +109,7 @@ speed_envelope::speed_envelope(const route& way, const comfort_limits& params)
   auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params);
   ramp_from_slow(u, 1, step_m, params.max_accel_mps2, jerk);
   ramp_from_slow(u, -1, step_m, decel, jerk);
+  assert(u.size() == (closed_ ? steps : steps + 1));
   u = rounded(u, step_m, decel / jerk);
 
   for (long i = 0; i <= steps; ++i)
@@ -107,12 +118,14 @@ speed_envelope::speed_envelope(const route& way, const comfort_limits& params)
 }
 
 speed_envelope::sample speed_envelope::at(double s_m) const {
+  assert(std::isfinite(s_m) && table_.size() >= 2);
   if (closed_)
     s_m -= std::floor(s_m * laps_per_m_) * length_m_;
   const auto steps = std::clamp(s_m, 0.0, length_m_) * steps_per_m_;
   const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
   const auto share = std::min(steps - static_cast<double>(i), 1.0);
   const auto &low = table_[i], &high = table_[i + 1];
+  assert(low.speed_mps > 0 && high.speed_mps > 0);
   return {low.speed_mps + share * (high.speed_mps - low.speed_mps),
           low.accel_mps2 + share * (high.accel_mps2 - low.accel_mps2)};
 }

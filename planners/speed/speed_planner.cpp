@@ -4,6 +4,7 @@
 #include "planners/speed/closed_form_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -60,6 +61,7 @@ constexpr double least_wanted_m2ps2 = 0.125;
 
 /// Way to rest when braking builds up at a jerk.
 double stopping_m(double v, double a, double decel, double jerk) {
+  assert(v >= 0 && decel > 0 && jerk > 0);
   const auto t = (a + decel) / jerk;
   if (t <= 0)
     return v * v / (2 * std::max(decel, -a));
@@ -83,6 +85,7 @@ double decel_to_be_late(double v, double way_m, double time_s) {
 
 bool keeps_windows(const speed_profile& motion, double step_s,
                    const speed_constraints& task) {
+  assert(step_s > 0);
   for (std::size_t i = 1; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     for (const auto& window : task.windows)
@@ -101,6 +104,9 @@ speed_planner::speed_planner(route_profile_ptr way, const comfort_limits& style,
     : way_{std::move(way)}, style_{style}, grid_{horizon},
       steps_{static_cast<int>(std::lround(style.horizon_s / style.step_s))} {
   motion_.reserve(static_cast<std::size_t>(steps_) + 1);
+  assert(way_ && steps_ >= 1);
+  assert(grid_.ds_m > 0 && grid_.steps >= fewest_steps
+         && grid_.steps <= ocp::most_steps);
 }
 
 speed_planner::stop
@@ -116,11 +122,14 @@ speed_planner::find_stop(const speed_constraints& task) const {
     const auto seen = std::min(rear, task.ahead->at(foresight_s));
     end.wanted_m = std::min(end.wanted_m, seen - style_.standstill_gap_m);
     end.last_m = std::min(end.last_m, rear - least_gap_m);
+    assert(!(left < 0 || seen > rear)); // it does not come back
   }
+  assert(!(end.wanted_m > end.last_m));
   return end;
 }
 
 double speed_planner::needed_decel(const speed_constraints& task) const {
+  assert(task.speed_mps >= 0);
   auto needed = 0.0;
   if (std::isfinite(task.stop_m))
     needed =
@@ -134,6 +143,7 @@ double speed_planner::needed_decel(const speed_constraints& task) const {
     needed =
         std::max(needed, decel_to_be_late(task.speed_mps, window.at_m,
                                           window.earliest_s - window_slack_s));
+  assert(needed >= 0);
   return needed;
 }
 
@@ -150,6 +160,8 @@ speed_planner::result speed_planner::plan(const planned_path& path,
                                           double way_m,
                                           const speed_constraints& task,
                                           const ocp::budget& go_on) {
+  assert(!path.empty() && std::isfinite(way_m));
+  assert(task.speed_mps >= 0 && std::isfinite(task.accel_mps2));
   const auto end = find_stop(task);
   result r;
   if (needed_decel(task) > style_.firm_decel_mps2()
@@ -170,6 +182,7 @@ speed_planner::result speed_planner::plan(const planned_path& path,
     return r;
   }
   r.price = price(path, way_m);
+  assert(r.price >= 0 && motion_.front().s_m == 0);
   return r;
 }
 
@@ -177,9 +190,11 @@ speed_planner::result speed_planner::brake_only(const speed_constraints& task) {
   const auto decel =
       std::clamp(reserve * needed_decel(task),
                  comfort_limits::least_emergency_mps2, style_.max_decel_mps2);
+  assert(decel >= comfort_limits::least_emergency_mps2);
   brake({0, task.speed_mps, task.accel_mps2}, decel,
         emergency_share_of_jerk * style_.emergency_jerk_mps3, style_.step_s,
         steps_, motion_);
+  assert(motion_.size() == static_cast<std::size_t>(steps_) + 1);
   solved_ = false;
   result r;
   r.emergency = true;
@@ -190,85 +205,22 @@ speed_planner::result speed_planner::brake_only(const speed_constraints& task) {
 bool speed_planner::drive(const planned_path& path, double way_m,
                           const speed_constraints& task, const stop& end,
                           result& r, const ocp::budget& go_on) {
-  lane_motion from{0, task.speed_mps, task.accel_mps2};
-  auto from_s = 0.0;
-  motion_.assign(1, from);
-  if (setting_off::is_needed(from, grid_.ds_m)) {
-    const setting_off ramp{from, envelope_share_of_jerk * style_.max_jerk_mps3};
-    ramp.drive(style_.step_s, steps_, motion_);
-    from = ramp.end;
-    from_s = ramp.takes_s;
-  }
-  const auto comfortable_m =
-      from.s_m
-      + stopping_m(from.speed_mps, from.accel_mps2, style_.comfort_decel_mps2,
-                   envelope_share_of_jerk * style_.max_jerk_mps3);
-  const auto stop_m = std::clamp(comfortable_m, end.wanted_m,
-                                 std::max(end.wanted_m, end.last_m))
-                      - from.s_m;
-  const auto sight_m = path.length_m() - way_m - from.s_m;
-  const auto full_m = std::min(sight_m, grid_.ds_m * grid_.steps);
-  const auto stops = stop_m < full_m;
-  const auto length_m = stops ? stop_m : full_m;
-  if (!(length_m > 0))
+  const auto start = begin(task);
+  const auto& from = start.from;
+  const auto ahead = find_stretch(path.length_m() - way_m, from, end);
+  if (!ahead)
     return false;
-  const auto steps =
-      std::clamp(static_cast<int>(std::ceil(length_m / grid_.ds_m)),
-                 fewest_steps, grid_.steps);
-  const auto ds_m = length_m / steps;
-  const auto comfort = style_.comfort_decel_mps2;
-  const auto firm = style_.firm_decel_mps2();
-  const auto pose = [&] {
-    set_limits(path, way_m + from.s_m, ds_m, steps);
-    be_cautious(task, from.s_m, ds_m);
-    w_max_.back() = std::min(w_max_.back(), comfort * (stop_m - length_m));
-    set_windows(task, from, ds_m);
-  };
-  pose();
-  auto decel = comfort;
-  if (!yield_to_braking(from, from_s, ds_m, share_of_braking * comfort)) {
-    decel = firm;
-    pose();
-    yield_to_braking(from, from_s, ds_m, share_of_braking * firm);
-    r.emergency = too_fast_for_bends();
-  }
-
-  velocity_problem p;
-  p.steps = steps;
-  p.ds_m = ds_m;
-  p.start = {from_s, square(from.speed_mps) / 2, from.accel_mps2};
-  p.w_max_m2ps2 = w_max_;
-  p.wanted_m2ps2 = wanted_;
-  p.curvature_1pm = bends_;
-  p.earliest_s = earliest_;
-  p.latest_s = latest_;
-  if (stops)
-    p.stop_knot = steps;
-  const auto recovers = from.accel_mps2 < -firm - beyond_firm_mps2;
-  p.limits.accel_min_mps2 = std::min(-decel, from.accel_mps2);
-  p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
-  // From low speeds jerk grows between knots, with speed.
-  const auto slow = from.speed_mps < low_speed_mps;
-  p.limits.jerk_max_mps3 =
-      recovers ? recovery_jerk_mps3
-               : (slow ? share_at_low_speed : 1) * style_.max_jerk_mps3;
-  p.limits.total_max_mps2 = std::hypot(style_.max_lateral_accel_mps2, firm);
-
-  const auto s = path.s_m(way_m + from.s_m);
-  const auto warm = solved_ && solved_stop_ == stops && s >= solved_s_m_
-                    && s < solved_s_m_ + longest_shift_m;
-  if (warm)
-    solver_.carry_over(s - solved_s_m_, ds_m, steps);
-  r.report =
-      solver_.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
-  if (warm && !ocp::publishable(r.report.status))
-    r.report = solver_.solve(p, ocp::start::cold, {}, go_on);
-  solved_ = ocp::publishable(r.report.status);
-  solved_stop_ = stops;
-  solved_s_m_ = s;
+  const auto decel = set_bounds(path, way_m, task, start, *ahead, r.emergency);
+  assert(decel > 0);
+  const auto recovers =
+      from.accel_mps2 < -style_.firm_decel_mps2() - beyond_firm_mps2;
+  solve(pose(start, *ahead, decel, recovers), path.s_m(way_m + from.s_m), r,
+        go_on);
   if (r.report.iterations == 0 && !solved_)
     return false;
-  drive_along(solver_, ds_m, from.s_m, from_s, style_.step_s, steps_, motion_);
+  drive_along(solver_, ahead->ds_m, from.s_m, start.at_s, style_.step_s, steps_,
+              motion_);
+  assert(motion_.size() <= static_cast<std::size_t>(steps_) + 1);
   r.how = speed_mode::optimal;
   r.emergency |= recovers;
   // Where braking is too weak, even a solved plan comes too early.
@@ -278,8 +230,126 @@ bool speed_planner::drive(const planned_path& path, double way_m,
                            && is_clear(motion_, style_.step_s, task));
 }
 
+// A car that stands, or nearly so, sets off first.
+speed_planner::beginning speed_planner::begin(const speed_constraints& task) {
+  assert(task.speed_mps >= 0);
+  const lane_motion now{0, task.speed_mps, task.accel_mps2};
+  motion_.assign(1, now);
+  if (!setting_off::is_needed(now, grid_.ds_m))
+    return {now, 0};
+  const setting_off ramp{now, envelope_share_of_jerk * style_.max_jerk_mps3};
+  ramp.drive(style_.step_s, steps_, motion_);
+  assert(ramp.end.s_m >= 0 && ramp.end.speed_mps > 0);
+  return {ramp.end, ramp.takes_s};
+}
+
+// As far as the path is known, or to where the car has to stop, there in
+// comfort if that is before the last place to.
+std::optional<speed_planner::stretch>
+speed_planner::find_stretch(double path_left_m, const lane_motion& from,
+                            const stop& end) const {
+  assert(from.s_m >= 0 && from.speed_mps >= 0);
+  const auto comfortable_m =
+      from.s_m
+      + stopping_m(from.speed_mps, from.accel_mps2, style_.comfort_decel_mps2,
+                   envelope_share_of_jerk * style_.max_jerk_mps3);
+  const auto stop_m = std::clamp(comfortable_m, end.wanted_m,
+                                 std::max(end.wanted_m, end.last_m))
+                      - from.s_m;
+  const auto sight_m = path_left_m - from.s_m;
+  const auto full_m = std::min(sight_m, grid_.ds_m * grid_.steps);
+  const auto stops = stop_m < full_m;
+  const auto length_m = stops ? stop_m : full_m;
+  if (!(length_m > 0))
+    return std::nullopt;
+  const auto steps =
+      std::clamp(static_cast<int>(std::ceil(length_m / grid_.ds_m)),
+                 fewest_steps, grid_.steps);
+  assert(length_m <= grid_.ds_m * steps + small);
+  return stretch{stop_m, length_m, length_m / steps, steps, stops};
+}
+
+// All bounds, knot by knot, for braking in comfort, or firmly where comfort
+// does not do.
+// @returns the braking that they allow, m/s².
+double speed_planner::set_bounds(const planned_path& path, double way_m,
+                                 const speed_constraints& task,
+                                 const beginning& start, const stretch& ahead,
+                                 bool& emergency) {
+  const auto comfort = style_.comfort_decel_mps2;
+  const auto firm = style_.firm_decel_mps2();
+  const auto& from = start.from;
+  assert(comfort > 0 && firm >= comfort);
+  assert(!(ahead.stop_m < ahead.length_m)); // or it would stop before the end
+  const auto set = [&] {
+    set_limits(path, way_m + from.s_m, ahead.ds_m, ahead.steps);
+    be_cautious(task, from.s_m, ahead.ds_m);
+    w_max_.back() =
+        std::min(w_max_.back(), comfort * (ahead.stop_m - ahead.length_m));
+    set_windows(task, from, ahead.ds_m);
+  };
+  set();
+  if (yield_to_braking(from, start.at_s, ahead.ds_m,
+                       share_of_braking * comfort))
+    return comfort;
+  set();
+  yield_to_braking(from, start.at_s, ahead.ds_m, share_of_braking * firm);
+  emergency = too_fast_for_bends();
+  return firm;
+}
+
+velocity_problem speed_planner::pose(const beginning& start,
+                                     const stretch& ahead, double decel_mps2,
+                                     bool recovers) const {
+  assert(w_max_.size() == static_cast<std::size_t>(ahead.steps) + 1);
+  assert(earliest_.size() == w_max_.size() && latest_.size() == w_max_.size());
+  const auto& from = start.from;
+  velocity_problem p;
+  p.steps = ahead.steps;
+  p.ds_m = ahead.ds_m;
+  p.start = {start.at_s, square(from.speed_mps) / 2, from.accel_mps2};
+  p.w_max_m2ps2 = w_max_;
+  p.wanted_m2ps2 = wanted_;
+  p.curvature_1pm = bends_;
+  p.earliest_s = earliest_;
+  p.latest_s = latest_;
+  if (ahead.stops)
+    p.stop_knot = ahead.steps;
+  p.limits.accel_min_mps2 = std::min(-decel_mps2, from.accel_mps2);
+  p.limits.accel_max_mps2 = std::max(style_.max_accel_mps2, from.accel_mps2);
+  // From low speeds jerk grows between knots, with speed.
+  const auto slow = from.speed_mps < low_speed_mps;
+  p.limits.jerk_max_mps3 =
+      recovers ? recovery_jerk_mps3
+               : (slow ? share_at_low_speed : 1) * style_.max_jerk_mps3;
+  p.limits.total_max_mps2 =
+      std::hypot(style_.max_lateral_accel_mps2, style_.firm_decel_mps2());
+  return p;
+}
+
+// From the plan before, if that leads on to `s_m`; else, or if it is of no
+// help, from scratch.
+void speed_planner::solve(const velocity_problem& p, double s_m, result& r,
+                          const ocp::budget& go_on) {
+  assert(std::isfinite(s_m));
+  const auto stops = p.stop_knot.has_value();
+  const auto warm = solved_ && solved_stop_ == stops && s_m >= solved_s_m_
+                    && s_m < solved_s_m_ + longest_shift_m;
+  if (warm)
+    solver_.carry_over(s_m - solved_s_m_, p.ds_m, p.steps);
+  r.report =
+      solver_.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
+  if (warm && !ocp::publishable(r.report.status))
+    r.report = solver_.solve(p, ocp::start::cold, {}, go_on);
+  solved_ = ocp::publishable(r.report.status);
+  assert(!solved_ || solver_.steps() == p.steps);
+  solved_stop_ = stops;
+  solved_s_m_ = s_m;
+}
+
 void speed_planner::set_limits(const planned_path& path, double from_m,
                                double ds_m, int steps) {
+  assert(ds_m > 0 && steps >= fewest_steps && steps <= grid_.steps);
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (auto* column : {&w_max_, &wanted_, &bends_})
     column->resize(knots);
@@ -290,6 +360,7 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
     bends_[k] = path.curvature_1pm(s);
     const auto bend = std::max(path.sharpest_1pm(s), least_curvature_1pm);
     w_max_[k] = std::min(square(way_->line.limit_mps(s)), lateral / bend) / 2;
+    assert(w_max_[k] >= 0 && std::isfinite(bends_[k]));
   }
   // What comes behind the horizon must not find the car too fast.
   w_max_.back() =
@@ -298,6 +369,7 @@ void speed_planner::set_limits(const planned_path& path, double from_m,
 
 void speed_planner::be_cautious(const speed_constraints& task, double from_m,
                                 double ds_m) {
+  assert(!(task.caution_mps < 0));
   const auto w = square(task.caution_mps) / 2;
   for (std::size_t k = 0; k < w_max_.size(); ++k)
     if (from_m + static_cast<double>(k) * ds_m <= task.caution_to_m)
@@ -306,6 +378,7 @@ void speed_planner::be_cautious(const speed_constraints& task, double from_m,
 
 void speed_planner::set_windows(const speed_constraints& task,
                                 const lane_motion& from, double ds_m) {
+  assert(ds_m > 0 && from.s_m >= 0);
   const auto knots = w_max_.size();
   earliest_.assign(knots, -never);
   latest_.assign(knots, never);
@@ -315,6 +388,7 @@ void speed_planner::set_windows(const speed_constraints& task,
                                   static_cast<double>(knots));
     const auto before = static_cast<std::size_t>(steps);
     const auto behind = static_cast<std::size_t>(std::ceil(steps));
+    assert(before <= behind && behind <= knots);
     for (auto k = before; k < knots; ++k)
       earliest_[k] = std::max(earliest_[k], window.earliest_s);
     if (behind < knots)
@@ -340,6 +414,7 @@ void speed_planner::set_windows(const speed_constraints& task,
 
 // Even firm braking comes too late for them.
 bool speed_planner::too_fast_for_bends() const {
+  assert(w_max_.size() == bends_.size());
   constexpr auto tolerance = 1.02;
   for (std::size_t k = 0; k < w_max_.size(); ++k)
     if (2 * w_max_[k] * std::abs(bends_[k])
@@ -351,6 +426,8 @@ bool speed_planner::too_fast_for_bends() const {
 // No bound may ask for more than braking can do.
 bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
                                      double ds_m, double decel_mps2) {
+  assert(ds_m > 0 && decel_mps2 > 0);
+  assert(earliest_.size() == w_max_.size() && wanted_.size() == w_max_.size());
   const auto slow = from.speed_mps < low_speed_mps;
   const auto jerk = (slow ? share_at_low_speed : envelope_share_of_jerk)
                     * style_.max_jerk_mps3;
@@ -366,6 +443,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
         std::max(a - jerk * ds_m / std::max(v, setting_off::until_mps),
                  std::min(a, -decel_mps2));
     const auto next_w = w + ds_m * (a + next_a) / 2;
+    assert(w >= 0 && next_a <= a); // at least as firmly as before
     a = next_a;
     t += 2 * ds_m / (ocp::speed_of(w) + ocp::speed_of(next_w)); // as there
     w = std::max(0.0, next_w);
@@ -386,6 +464,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
 // As the velocity problem prices its plans, but over time, so that plans of
 // different length can be compared.
 double speed_planner::price(const planned_path& path, double way_m) const {
+  assert(style_.step_s > 0 && !path.empty());
   constexpr velocity_weights weigh;
   auto sum = 0.0;
   for (std::size_t i = 1; i < motion_.size(); ++i) {
@@ -400,6 +479,7 @@ double speed_planner::price(const planned_path& path, double way_m) const {
 
 bool is_clear(const speed_profile& motion, double step_s,
               const speed_constraints& task) {
+  assert(step_s > 0);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto t = static_cast<double>(i) * step_s;
     const auto& x = motion[i];

@@ -9,6 +9,7 @@
 #include "planners/speed/speed_constraints.hpp"
 #include "planners/speed/speed_profile.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace sofof {
@@ -60,10 +61,32 @@ private:
   struct stop { // of the rear axle, from the car on
     double wanted_m, last_m;
   };
+  /// Where the velocity problem begins: the car, or where it has set off.
+  struct beginning {
+    lane_motion from; // way from the car on
+    double at_s;      // from now on
+  };
+  /// What the velocity problem covers, from its beginning on.
+  struct stretch {
+    double stop_m, length_m, ds_m;
+    int steps;
+    bool stops; // at its end
+  };
   stop find_stop(const speed_constraints& task) const;
   double needed_decel(const speed_constraints& task) const;
   bool drive(const planned_path& path, double way_m,
              const speed_constraints& task, const stop& end, result& r,
+             const ocp::budget& go_on);
+  beginning begin(const speed_constraints& task);
+  std::optional<stretch> find_stretch(double path_left_m,
+                                      const lane_motion& from,
+                                      const stop& end) const;
+  double set_bounds(const planned_path& path, double way_m,
+                    const speed_constraints& task, const beginning& start,
+                    const stretch& ahead, bool& emergency);
+  velocity_problem pose(const beginning& start, const stretch& ahead,
+                        double decel_mps2, bool recovers) const;
+  void solve(const velocity_problem& p, double s_m, result& r,
              const ocp::budget& go_on);
   void set_limits(const planned_path& path, double from_m, double ds_m,
                   int steps);

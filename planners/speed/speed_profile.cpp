@@ -2,6 +2,7 @@
 #include "planners/speed/speed_profile.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -35,12 +36,14 @@ struct interval {
   /// When x is reached, between 0 and `most`, where it is passed.
   /// @param far  The way after `most`.
   double when(double x, double most, double far) const {
+    assert(most > 0 && !(far < x));
     auto t = most * x / far;
     for (int i = 0; i < newton_steps; ++i) {
       const auto y = at(t);
       t = std::clamp(t + (x - y.s_m) / std::max(y.speed_mps, resting_mps / 2),
                      0.0, most);
     }
+    assert(!(t < 0 || t > most));
     return t;
   }
 };
@@ -51,6 +54,8 @@ void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
                  double start_s, double step_s, int steps, speed_profile& out) {
   const auto w = plan.w_m2ps2(), a = plan.accel_mps2(), u = plan.u_1ps2();
   const auto intervals = u.size();
+  assert(w.size() == intervals + 1 && a.size() == intervals + 1);
+  assert(ds_m > 0 && step_s > 0 && start_s >= 0 && steps >= 0);
   std::size_t k = 0;
   // The state now, `x` metres behind knot k, `t` seconds from the beginning.
   auto now = lane_motion{0, std::sqrt(2 * std::max(0.0, w[0])), a[0]};
@@ -63,6 +68,7 @@ void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
       const auto dt = std::min(step_s, until - t);
       const auto then = here.at(dt);
       const auto left_m = ds_m - now.s_m;
+      assert(!(left_m < 0) && dt > 0);
       if (then.speed_mps < resting_mps && then.accel_mps2 <= 0) {
         rests = true;
       } else if (then.s_m < left_m) {
@@ -82,6 +88,7 @@ void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
     }
     if (k == intervals)
       return;
+    assert(out.empty() || !(way < out.back().s_m)); // never back
     out.push_back({way, now.speed_mps, now.accel_mps2});
   }
 }

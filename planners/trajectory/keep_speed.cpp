@@ -3,6 +3,9 @@
 
 #include "planners/scene/lane_motion.hpp"
 
+#include <cassert>
+#include <cmath>
+
 namespace sofof {
 namespace {
 
@@ -14,6 +17,8 @@ constexpr double nothing_to_centre_m = 15.0;
 
 trajectory keep_speed(const route& way, time_point now, double s_m,
                       double speed_mps) {
+  assert(std::isfinite(s_m));
+  assert(speed_mps >= 0);
   planning_input from;
   from.s_m = s_m;
   from.speed_mps = speed_mps;

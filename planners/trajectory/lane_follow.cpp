@@ -3,6 +3,7 @@
 #include "planners/trajectory/lane_follow.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -36,7 +37,7 @@ braking_style style_of(const comfort_limits& params) {
 } // namespace
 
 /// What the car has to mind at one moment of the plan.
-struct lane_follow::mind {
+struct lane_follow::traffic_ahead {
   double stop_at_m = std::numeric_limits<double>::infinity(); // front bumper
   bool led = false;
   double lead_rear_m = 0;
@@ -54,7 +55,9 @@ struct lane_follow::mind {
 };
 
 lane_follow::lane_follow(route_profile_ptr way, comfort_limits params)
-    : way_{std::move(way)}, params_{params}, style_{style_of(params)} {}
+    : way_{std::move(way)}, params_{params}, style_{style_of(params)} {
+  assert(way_ && params_.step_s > 0);
+}
 
 lane_follow::lane_follow(route_ptr way, const comfort_limits& params)
     : lane_follow{std::make_shared<const route_profile>(std::move(way), params),
@@ -63,10 +66,11 @@ lane_follow::lane_follow(route_ptr way, const comfort_limits& params)
 plan_report lane_follow::plan(time_point now, const planning_input& input,
                               const trajectory* previous, trajectory& out,
                               const ocp::budget&) {
+  assert(previous != &out);
   const auto& way = way_->line.way();
   const centring line{way, joined(way, now, input, previous),
                       params_.centring_length_m};
-  mind others;
+  traffic_ahead others;
   if (!way.closed())
     others.stop_at_m = way.length_m();
   if (input.others.stop_at_m)
@@ -79,6 +83,7 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
   }
 
   const auto steps = std::lround(params_.horizon_s / params_.step_s);
+  assert(steps >= 1);
   out.start = now;
   out.points.resize(static_cast<std::size_t>(steps) + 1);
   plan_report report;
@@ -90,6 +95,7 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
     if (i == steps)
       break;
     others.advance(params_.step_s);
+    assert(!(x.speed_mps < 0));
     x = advance(x, next_accel(x, others), params_.step_s);
   }
   return report;
@@ -97,11 +103,12 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
 
 /// The acceleration that the driver would like at `x`.
 double lane_follow::wanted_accel(const lane_motion& x,
-                                 const mind& others) const {
+                                 const traffic_ahead& others) const {
   const auto v = x.speed_mps;
   const auto front_m = x.s_m + params_.front_m;
   const auto firm = params_.firm_decel_mps2();
   const auto limit = way_->envelope.at(x.s_m);
+  assert(limit.speed_mps > 0 && firm > 0);
 
   auto wanted = std::min(params_.max_accel_mps2,
                          limit.accel_mps2 * v / limit.speed_mps
@@ -125,6 +132,7 @@ double lane_follow::wanted_accel(const lane_motion& x,
     needed = std::max(needed, needed_decel(v, gap_m - min_lead_gap_m, lead));
     floor = std::min(floor, lead.accel_mps2);
   }
+  assert(needed >= 0);
   wanted = std::max(wanted, floor);
   return needed > firm ? std::min(wanted, -needed) : wanted;
 }
@@ -138,14 +146,17 @@ double lane_follow::jerk_limit(double accel_mps2) const {
                   params_.max_jerk_mps3 + jerk_per_braking_1ps * beyond);
 }
 
-double lane_follow::next_accel(const lane_motion& x, const mind& others) const {
+double lane_follow::next_accel(const lane_motion& x,
+                               const traffic_ahead& others) const {
   const auto dt = params_.step_s;
   const auto ahead = advance(x, x.accel_mps2, dt);
   auto wanted = std::max(wanted_accel(ahead, others), -params_.max_decel_mps2);
   if (x.speed_mps < standing_mps && x.accel_mps2 <= 0
       && wanted < worth_starting_mps2)
     wanted = std::min(wanted, -worth_starting_mps2);
+  assert(wanted >= -params_.max_decel_mps2);
   const auto change = dt * jerk_limit(std::min(wanted, x.accel_mps2));
+  assert(change > 0);
   return std::clamp(wanted, x.accel_mps2 - change, x.accel_mps2 + change);
 }
 

@@ -25,10 +25,10 @@ public:
                    const ocp::budget& go_on = {}) override;
 
 private:
-  struct mind;
-  double wanted_accel(const lane_motion& x, const mind& others) const;
+  struct traffic_ahead;
+  double wanted_accel(const lane_motion& x, const traffic_ahead& others) const;
   double jerk_limit(double accel_mps2) const;
-  double next_accel(const lane_motion& x, const mind& others) const;
+  double next_accel(const lane_motion& x, const traffic_ahead& others) const;
 
   route_profile_ptr way_;
   comfort_limits params_;

@@ -2,6 +2,7 @@
 #include "planners/trajectory/maneuver_candidates.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -15,6 +16,7 @@ constexpr double gap_before_s = 1.5;
 double soonest_s(double way_m, const crossing_car& car) {
   const auto v = car.speed_mps, a = car.max_accel_mps2;
   const auto top = std::max(v, car.top_mps);
+  assert(v >= 0 && a > 0);
   const auto until_top = (top * top - v * v) / (2 * a);
   if (way_m < until_top)
     return (std::sqrt(v * v + 2 * a * way_m) - v) / a;
@@ -33,6 +35,8 @@ void put_first(auto& orders, std::uint32_t choice) {
 void list_orders(std::span<const crossing_user> users, const crossing_car& car,
                  const std::function<double(double)>& way, std::uint32_t first,
                  std::size_t most, std::vector<crossing_order>& out) {
+  assert(most >= 1 && car.max_accel_mps2 > 0);
+  assert(car.speed_mps >= 0 && way);
   struct place {
     double line_m, clear_m; // way to before and behind the crossing
     const crossing_user* user;
@@ -68,8 +72,10 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
   put_first(out, first);
   if (out.size() > most)
     out.resize(std::max<std::size_t>(most, 1));
-  if (n == 0)
+  if (n == 0) {
+    assert(out.size() == 1 && out.front().count == 0);
     return;
+  }
   crossing_order order;
   order.choice = crossing_order::waits;
   for (std::size_t i = 0; i < n; ++i)
@@ -77,6 +83,7 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
   for (std::size_t i = 0; i < n; ++i)
     if (minded[i].line_m <= order.stop_m)
       order.opens_s = std::max(order.opens_s, minded[i].user->leave_s);
+  assert(order.stop_m >= 0); // before the first crossing, and not behind
   out.push_back(order);
   put_first(out, first);
 }
@@ -91,6 +98,7 @@ bool leaves_room(const lane_obstacle& body, side_of_road side,
 void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
                 std::uint32_t first, std::size_t most,
                 std::vector<passing_order>& out) {
+  assert(most >= 1 && !(half_width_m < 0));
   const auto n = std::min(bodies.size(), most_bodies);
   const auto side_in = [](std::uint32_t choice, std::size_t i) {
     return (choice >> i & 1U) != 0 ? side_of_road::right : side_of_road::left;
@@ -104,6 +112,7 @@ void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
       continue;
     if (used == out.size())
       out.emplace_back();
+    assert(used < out.size());
     auto& order = out[used++];
     order.choice = choice;
     order.bodies.clear();
@@ -111,6 +120,7 @@ void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
       order.bodies.push_back({bodies[i], side_in(choice, i)});
   }
   out.resize(used);
+  assert(n > 0 || used == 1); // nothing can be passed in one way
   put_first(out, first);
   if (out.size() > most)
     out.resize(std::max<std::size_t>(most, 1));

@@ -4,6 +4,7 @@
 #include "planners/scene/lane_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -17,6 +18,7 @@ constexpr double centring_length_m = 15.0;
 
 /// Braking builds up, holds, and fades out as the car comes to rest.
 double next_accel(const lane_motion& x, double decel_mps2) {
+  assert(decel_mps2 > 0 && x.speed_mps >= 0);
   const auto soon = advance(x, x.accel_mps2, step_s);
   const auto fading = std::sqrt(2 * jerk_mps3 * soon.speed_mps);
   const auto wanted = -std::min(decel_mps2, fading);
@@ -28,6 +30,7 @@ double next_accel(const lane_motion& x, double decel_mps2) {
 
 trajectory safe_stop(const route& way, time_point now,
                      const planning_input& state, double decel_mps2) {
+  assert(decel_mps2 > 0);
   const centring line{way, moved_forward(state, now), centring_length_m};
   auto x = line.motion();
   const auto braking_s = x.speed_mps / decel_mps2
@@ -42,6 +45,8 @@ trajectory safe_stop(const route& way, time_point now,
     plan.points.push_back(line.place(x, static_cast<double>(i) * step_s));
     x = advance(x, next_accel(x, decel_mps2), step_s);
   }
+  // Who speeds up harder at first comes to rest later.
+  assert(x.speed_mps == 0 || state.accel_mps2 > decel_mps2);
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include "planners/trajectory/safe_stop.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -61,11 +62,17 @@ spatial_planner::spatial_planner(route_profile_ptr way,
       speed_{std::make_unique<speed_planner>(way_, style,
                                              grid_of<speed_planner>(params))},
       other_speed_{std::make_unique<speed_planner>(
-          way_, style, grid_of<speed_planner>(params))} {}
+          way_, style, grid_of<speed_planner>(params))} {
+  assert(params_.candidates >= 1 && params_.alternations >= 1);
+  assert(params_.step_m > 0
+         && params_.horizon_m / params_.step_m <= ocp::most_steps);
+}
 
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
                                   const trajectory* previous, trajectory& out,
                                   const ocp::budget& go_on) {
+  assert(previous != &out);
+  assert(!previous || !previous->empty());
   if (previous && made_ && previous->start > *made_)
     forget();
   made_ = now;
@@ -74,6 +81,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   const scene at{now, joined(lane(), now, input, previous), input.others,
                  to_seconds(now - input.others.at)};
   s_m_ = at.start.s_m;
+  assert(std::isfinite(s_m_) && at.start.speed_mps >= 0);
   auto done = false;
   for (auto round = 0; round < params_.alternations; ++round) {
     auto better = report;
@@ -108,6 +116,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
     report.emergency = true;
     out = safe_stop(lane(), now, at.start);
   }
+  assert(out.start == now && out.is_sound());
   return report;
 }
 
@@ -128,6 +137,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
       {at.start.d_m, at.start.heading_error_rad, at.start.curvature_1pm}};
   list_bodies(at);
   list_sides(bodies_, lane_m(car.s_m), sides_, most(), all_sides_);
+  assert(path_ != other_path_ && all_sides_.size() <= most());
   auto cheapest = std::numeric_limits<double>::infinity();
   for (const auto& sides : all_sides_) {
     // All begin with the knot that the car is coming to, as in the path that
@@ -151,6 +161,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   if (path_->path().empty())
     return false;
   way_m_ = path_->path().way_m(car.s_m);
+  assert(way_m_ >= 0 && way_m_ <= path_->path().length_m());
   if (!path_->settled()) // it knows nothing of what is new
     for (const auto& body : bodies_)
       if (meets(body))
@@ -174,9 +185,11 @@ void spatial_planner::list_bodies(const scene& at) {
       bodies_.push_back(where);
     } else if (where.from_m > front_s) {
       blocked_s_m_ = where.from_m;
-      return;
+      break;
     }
   }
+  assert(bodies_.size() <= most_bodies);
+  assert(blocked_s_m_ > front_s);
 }
 
 double spatial_planner::lane_m(double s_m) const {
@@ -186,6 +199,8 @@ double spatial_planner::lane_m(double s_m) const {
 
 bool spatial_planner::meets(const lane_obstacle& body) const {
   constexpr auto step_m = 0.5;
+  assert(!path_->path().empty());
+  assert(!(body.from_m > body.to_m));
   const auto half_m = car_.width_m / 2;
   for (auto s = body.from_m - style_.front_m; s < body.to_m + car_.rear_m;
        s += step_m) {
@@ -201,6 +216,7 @@ lane_obstacle spatial_planner::met(const lane_obstacle& body,
                                    double age_s) const {
   if (!is_moving(body) || path_->path().empty() || speed_->motion().empty())
     return body;
+  assert(std::isfinite(way_m_));
   auto where = body;
   where.from_m = speed_constraints::never;
   where.to_m = -speed_constraints::never;
@@ -216,6 +232,9 @@ lane_obstacle spatial_planner::met(const lane_obstacle& body,
       where.to_m = std::max(where.to_m, to);
     }
   }
+  // Beside it once, or never.
+  assert(where.from_m <= where.to_m
+         || where.from_m == speed_constraints::never);
   return where;
 }
 
@@ -226,6 +245,7 @@ double spatial_planner::way_from_car(double s_m) const {
 }
 
 speed_constraints spatial_planner::task(const scene& at) const {
+  assert(at.start.speed_mps >= 0 && std::isfinite(at.start.accel_mps2));
   speed_constraints t;
   t.speed_mps = at.start.speed_mps;
   t.accel_mps2 = at.start.accel_mps2;
@@ -252,11 +272,13 @@ speed_constraints spatial_planner::task(const scene& at) const {
     t.ahead = {way_from_car(lead.rear_s_m - style_.front_m),
                {lead.speed_mps, brakes ? lead.accel_mps2 : 0}};
   }
+  assert(!t.ahead || t.ahead->lead.accel_mps2 <= 0);
   return t;
 }
 
 bool spatial_planner::plan_speed(const scene& at, plan_report& report,
                                  const ocp::budget& go_on) {
+  assert(!path_->path().empty() && !all_sides_.empty());
   users_.clear();
   for (auto user : at.others.crossings) {
     user.enter_s -= at.age_s;
@@ -271,6 +293,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       users_, car, [this](double s) { return way_from_car(s); }, order_, most(),
       all_orders_);
   const auto free = task(at);
+  assert(!all_orders_.empty() && speed_ != other_speed_);
   auto found = false, calm = false;
   auto cheapest = std::numeric_limits<double>::infinity();
   report.candidates =
@@ -298,6 +321,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       report.velocity = result.report.status;
     if (!good || !better)
       continue;
+    assert(!std::isnan(price));
     found = true;
     calm = !result.emergency;
     cheapest = price;
@@ -310,6 +334,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (!first)
       std::swap(speed_, other_speed_);
   }
+  assert(!found || std::isfinite(cheapest));
   return found;
 }
 
@@ -323,6 +348,7 @@ bool spatial_planner::keep(const trajectory& previous, const scene& at,
              > longest_kept_s)
     return false;
   const auto steps = static_cast<std::size_t>(left_s / style_.step_s);
+  assert(steps >= 1);
   kept_.clear();
   out.start = at.now;
   out.points.resize(steps + 1);
@@ -333,12 +359,14 @@ bool spatial_planner::keep(const trajectory& previous, const scene& at,
     kept_.push_back({way_from_car(p.s_m), p.speed_mps, p.accel_mps2});
   }
   kept_from_ = kept_from_.value_or(previous.start);
+  assert(kept_.size() == out.points.size() && *kept_from_ <= at.now);
   return is_clear(kept_, style_.step_s, task(at)) && avoids_crossings()
          && passes(out, at.others.beside);
 }
 
 // Nobody who goes first is met where both cross.
 bool spatial_planner::avoids_crossings() const {
+  assert(!kept_.empty());
   return std::ranges::none_of(users_, [this](const crossing_user& user) {
     const auto from = way_from_car(user.from_m - style_.front_m);
     const auto to = way_from_car(user.to_m + car_.rear_m);
@@ -354,6 +382,7 @@ bool spatial_planner::avoids_crossings() const {
 
 bool spatial_planner::passes(const trajectory& plan,
                              std::span<const lane_obstacle> bodies) const {
+  assert(!plan.empty());
   const auto half_m = car_.width_m / 2;
   return std::ranges::none_of(bodies, [&](const lane_obstacle& body) {
     return std::ranges::any_of(plan.points, [&](const trajectory_point& p) {
@@ -369,6 +398,8 @@ bool spatial_planner::passes(const trajectory& plan,
 void spatial_planner::publish(time_point now, trajectory& out) const {
   const auto& path = path_->path();
   const auto& motion = speed_->motion();
+  assert(!path.empty() && !motion.empty());
+  assert(motion.front().s_m == 0); // the car now
   out.start = now;
   out.points.resize(motion.size());
   for (std::size_t i = 0; i < motion.size(); ++i) {

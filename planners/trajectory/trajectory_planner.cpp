@@ -4,6 +4,7 @@
 #include "planners/scene/lane_motion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -32,8 +33,10 @@ planning_input joined(const route& way, time_point now,
                       const planning_input& input, const trajectory* previous) {
   if (previous && !previous->empty() && previous->start <= now
       && now <= previous->end()) {
+    assert(previous->points.front().t_s == 0);
     const auto seen = moved_forward(own(input), previous->start);
     const auto then = previous->at(std::max(input.at, previous->start));
+    assert(std::isfinite(then.s_m) && then.speed_mps >= 0);
     if (std::abs(then.s_m - seen.s_m) <= same_drive_m
         && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
       return seen_from(way, previous->at(now));

@@ -1,4 +1,4 @@
-// What every planner does: from motion and surroundings to a trajectory.
+// What every planner does: from own motion and the scene to a trajectory.
 #pragma once
 
 #include "planners/ocp/status.hpp"

@@ -103,7 +103,7 @@ TEST_CASE("following bodies takes nothing from the heap") {
 
 TEST_CASE("looking round takes nothing from the heap but the first time") {
   const auto map = toy::cross_roads();
-  outlook_params params;
+  scene_params params;
   params.judges_crossings = true;
   scene_interpreter eyes{std::make_shared<const lane_network>(map),
                          toy::make_route(map, {4, 0, 2}), params};

@@ -47,7 +47,7 @@ track on_way(const route& way, double s_m, double speed_mps = 0) {
 
 /// A vehicle that looks round.
 struct onlooker {
-  onlooker(const road_map& map, route_ptr route, outlook_params params = {})
+  onlooker(const road_map& map, route_ptr route, scene_params params = {})
       : way{route}, eyes{std::make_shared<const lane_network>(map), route,
                          params} {}
 
@@ -69,7 +69,7 @@ const road_map& east_street() {
   return map;
 }
 
-onlooker on_street(outlook_params params = {}) {
+onlooker on_street(scene_params params = {}) {
   const std::vector<std::string> lanes{"lane"};
   return {east_street(), east_street().make_route("lane", lanes, false),
           params};
@@ -330,7 +330,7 @@ namespace {
 onlooker at_cross_roads(std::vector<std::size_t> junctions, double s_m,
                         bool equal = false, bool judges = true) {
   const auto map = toy::cross_roads(equal);
-  outlook_params params;
+  scene_params params;
   params.judges_crossings = judges;
   onlooker o{map, toy::make_route(map, junctions), params};
   o.me.s_m = s_m;
@@ -464,7 +464,7 @@ TEST_CASE("who merges is crossing first, and then the lead") {
 }
 
 TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
-  outlook_params params;
+  scene_params params;
   params.judges_crossings = true;
   onlooker o{lehr().map, lehr().route("west_to_east"), params};
   o.me.s_m = 200;
@@ -482,7 +482,7 @@ TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
 }
 
 TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
-  outlook_params params;
+  scene_params params;
   params.judges_crossings = true;
   onlooker o{lehr().map, lehr().route("west_to_north"), params};
   o.me.s_m = 200;
