@@ -64,14 +64,14 @@ bool source_selector::input_due(const source& x, time_point now) const {
 
 /// @returns whether there was anything to send.
 bool source_selector::feed(source& x, time_point now) {
-  if (newest_.what.type().empty())
+  if (newest_.what.empty())
     return false;
   x.last_sent = now;
   const auto stands = is_standby(x);
   auto input =
       service_.encode_input({x.session, newest_.at, newest_.what, used_},
                             !x.in_use || stands || x.knows_it_stands_by);
-  if (input.what.type().empty())
+  if (input.what.empty())
     return false;
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
@@ -125,7 +125,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
     refuse(result.running, *judged.refused, now);
   else if (judged.useless)
     leave_out(*x, *judged.useless, now);
-  else if (!judged.what.type().empty())
+  else if (!judged.what.empty())
     take(*x,
          {result.running, result.cycle, result.created, std::move(judged.what),
           result.about, result.doubt},
