@@ -28,15 +28,12 @@ provider::station_record::find(const service_name& service) const {
 // -- timers -------------------------------------------------------------------
 
 void provider::wake_at(time_point t, timer what) {
-  timers_.emplace(++last_timer_, what);
-  port_.wake_at(t, last_timer_);
+  port_.wake_at(t, timers_.add(what));
 }
 
 void provider::on_timer(std::uint64_t number, time_point now) {
-  assert(number <= last_timer_);
-  const auto due = timers_.extract(number);
-  if (!due.empty())
-    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+  if (const auto due = timers_.take(number))
+    std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 
 // One timer for each record is under way; it moves on with the latest message.

@@ -5,6 +5,7 @@
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
 #include "offloading/peer.hpp"
+#include "offloading/timer_list.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstddef>
@@ -224,8 +225,7 @@ private:
   provider_port& port_;
   stations stations_;
   std::vector<open_request> waiting_; // for the end of an epoch
-  std::map<std::uint64_t, timer> timers_;
-  std::uint64_t last_timer_ = 0;
+  timer_list<timer> timers_;
   std::uint32_t last_session_ = 0;
   std::uint64_t last_record_ = 0;
   std::uint64_t decisions_ = 0;

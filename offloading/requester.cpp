@@ -46,15 +46,12 @@ void requester::announce_placement() {
 // -- timers -------------------------------------------------------------------
 
 void requester::wake_at(time_point t, timer what) {
-  timers_.emplace(++last_timer_, std::move(what));
-  port_.wake_at(t, last_timer_);
+  port_.wake_at(t, timers_.add(std::move(what)));
 }
 
 void requester::on_timer(std::uint64_t number, time_point now) {
-  assert(number <= last_timer_);
-  const auto due = timers_.extract(number);
-  if (!due.empty())
-    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+  if (const auto due = timers_.take(number))
+    std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 
 void requester::expire(const request_timeout& x, time_point now) {

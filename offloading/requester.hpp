@@ -8,10 +8,10 @@
 #include "offloading/peer.hpp"
 #include "offloading/service_state.hpp"
 #include "offloading/standby.hpp"
+#include "offloading/timer_list.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -202,8 +202,7 @@ private:
   std::vector<service_state> services_;
   known_providers providers_;
   ego_state ego_;
-  std::map<std::uint64_t, timer> timers_;
-  std::uint64_t last_timer_ = 0;
+  timer_list<timer> timers_;
   std::uint32_t last_request_ = 0;
   std::uint64_t decisions_ = 0;
   duration epoch_{}; // of the policy; 0: none
