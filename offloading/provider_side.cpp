@@ -104,6 +104,8 @@ private:
   }
 
   void handle(session_parts& session, const timer& due) {
+    assert(session.session.counter == due.session);
+    assert(due.of != timer_of::provider);
     switch (due.of) {
       case timer_of::provider:
         break;
@@ -152,7 +154,9 @@ private:
   void leave(peer_id) override {}
 
   void start(const session_start& start) override {
+    assert(start.session.counter != 0);
     auto setup = port_.make_function(start);
+    assert(setup.function && setup.finish);
     setup.running = start.session;
     setup.period = periods_.at(start.session.kind);
     setup.phase = start.phase;

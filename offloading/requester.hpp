@@ -140,6 +140,8 @@ private:
     explicit operator bool() const { return session != nullptr; }
   };
 
+  void pass(time_point now);
+  bool is_consistent() const;
   service_state* find(const service_name& service);
   found_session find(const session_id& session);
   void wake_at(time_point t, timer what);
@@ -206,6 +208,7 @@ private:
   std::uint32_t last_request_ = 0;
   std::uint64_t decisions_ = 0;
   duration epoch_{}; // of the policy; 0: none
+  time_point now_;   // of the latest call
 };
 
 } // namespace sofof::offloading

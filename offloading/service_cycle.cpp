@@ -80,6 +80,7 @@ void service_cycle::await_next(time_point now) {
 }
 
 void service_cycle::run(time_point now) {
+  assert(state_ == lifecycle_state::active);
   const auto is_ahead = next_number(now) > grid_number(now) + 1;
   if (newest_.what.empty() || is_ahead)
     return;

@@ -16,6 +16,7 @@ class vehicle_side::parts final : public requester_port {
 public:
   parts(vehicle_side_setup setup, vehicle_port& port, time_point now)
       : port_{port}, now_{now} {
+    assert(setup.policy);
     requester_setup asks;
     asks.station = setup.station;
     asks.policy = std::move(setup.policy);
@@ -123,7 +124,9 @@ private:
                .period = service.requested.needs.period,
                .phase = service.phase,
                .finish = std::move(service.finish)},
-              wants} {}
+              wants} {
+      assert(make_judge);
+    }
 
     void start() {
       own.on_step(lifecycle_step::configure, all.now_);
@@ -257,6 +260,7 @@ private:
   }
 
   void handle(const timer& due) {
+    assert(due.service || due.of == timer_of::requester);
     switch (due.of) {
       case timer_of::requester:
         return requester_->on_timer(due.number, now_);
