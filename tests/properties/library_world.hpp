@@ -19,37 +19,43 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace sofof::test {
 
-/// What happens, in the order of time and of these calls.
+/// What happens, in the order of time and of these calls; few things at once.
+/// @tparam Event  A variant.
 template <class Event>
 class agenda {
 public:
   time_point now() const { return now_; }
 
-  void at(time_point t, Event what) {
+  template <class Kind>
+  void at(time_point t, Kind&& what) {
     if (free_.empty()) {
       free_.push_back(events_.size());
       events_.emplace_back();
     }
     const auto place = free_.back();
     free_.pop_back();
-    events_[place] = std::move(what);
-    entries_.push_back({std::max(t, now_), ++made_, place});
-    std::ranges::push_heap(entries_, later);
+    events_[place].template emplace<std::remove_cvref_t<Kind>>(
+        std::forward<Kind>(what));
+    const auto due = std::max(t, now_);
+    entries_.insert(
+        std::ranges::lower_bound(entries_, due, std::greater{}, &entry::at),
+        {due, place});
   }
 
   /// @param handle  Takes an event; may call `at`.
   template <class Function>
   void run_until(time_point end, Function handle) {
-    while (!entries_.empty() && entries_.front().at <= end) {
-      std::ranges::pop_heap(entries_, later);
+    while (!entries_.empty() && entries_.back().at <= end) {
       const auto next = entries_.back();
       entries_.pop_back();
       now_ = next.at;
@@ -62,18 +68,13 @@ public:
 private:
   struct entry {
     time_point at;
-    std::uint64_t number = 0;
     std::size_t place = 0; // of the event
   };
-  static bool later(const entry& a, const entry& b) {
-    return a.at != b.at ? a.at > b.at : a.number > b.number;
-  }
 
   time_point now_;
-  std::vector<entry> entries_;
-  std::deque<Event> events_; // they stay where they are
+  std::vector<entry> entries_; // the next one last
+  std::deque<Event> events_;   // they stay where they are
   std::vector<std::size_t> free_;
-  std::uint64_t made_ = 0;
 };
 
 /// The car moves on.
@@ -120,11 +121,13 @@ public:
       : time_{time}, up_{draws, way::up, nullptr},
         down_{draws, way::down, nullptr}, faults_{std::move(faults)} {}
 
-  void up(std::uint64_t number, std::size_t octets, event arrival) {
-    carry(up_, message_class::other, number, octets, std::move(arrival));
+  template <class Arrival>
+  void up(std::uint64_t number, std::size_t octets, Arrival&& arrival) {
+    carry(up_, message_class::other, number, octets,
+          std::forward<Arrival>(arrival));
   }
   void down(message_class kind, std::uint64_t number, std::size_t octets,
-            event arrival) {
+            down_arrival&& arrival) {
     carry(down_, kind, number, octets, std::move(arrival));
   }
   /// Knows the sessions from what passes.
@@ -149,8 +152,9 @@ public:
   }
 
 private:
+  template <class Arrival>
   void carry(link_direction& direction, message_class kind,
-             std::uint64_t number, std::size_t octets, event arrival) {
+             std::uint64_t number, std::size_t octets, Arrival&& arrival) {
     const auto t = direction.arrival(time_.now(), kind, number, octets);
     if (!t)
       return;
@@ -159,7 +163,7 @@ private:
       return;
     if (fate.copy_after) // first: at the same time they are alike
       time_.at(*t + *fate.copy_after, arrival);
-    time_.at(*t + fate.extra_delay, std::move(arrival));
+    time_.at(*t + fate.extra_delay, std::forward<Arrival>(arrival));
   }
 
   agenda<event>& time_;
