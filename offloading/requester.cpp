@@ -63,7 +63,7 @@ void requester::announce_placement() {
 // -- timers -------------------------------------------------------------------
 
 void requester::wake_at(time_point t, timer what) {
-  port_.wake_at(t, timers_.add(std::move(what)));
+  port_.wake_at(t, timers_.add(what));
 }
 
 void requester::on_timer(std::uint64_t number, time_point now) {
