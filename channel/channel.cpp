@@ -115,7 +115,7 @@ bool channel::lost(const message_id& m, bool fading) const {
   const auto& burst = profile_->burst_loss;
   const auto arrives =
       (1 - profile_->loss) * (1 - (fading ? burst.loss_bad : burst.loss_good));
-  return of(m).uniform(m.number, loss_lane) >= arrives;
+  return arrives < 1 && of(m).uniform(m.number, loss_lane) >= arrives;
 }
 
 outage_process channel::stalls() const {

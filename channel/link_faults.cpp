@@ -10,7 +10,7 @@ link_faults::link_faults(random_stream stream,
 link_faults::fate link_faults::of(std::uint64_t number) const {
   enum lane : std::uint32_t { loss, duplicate, reorder, extra, copy };
   const auto happens = [&](double probability, lane l) {
-    return stream_.uniform(number, l) < probability;
+    return probability > 0 && stream_.uniform(number, l) < probability;
   };
   const auto some_delay = [&](lane l) {
     return from_seconds(to_seconds(options_.longest_extra_delay)

@@ -25,18 +25,28 @@ provider::station_record::find(const service_name& service) const {
   return i == sessions.end() ? nullptr : &*i;
 }
 
+bool provider::station_record::is_consistent() const {
+  const auto is_only_one = [this](const provider_session& x) {
+    return find(x.running.kind) == &x && x.running.counter != 0;
+  };
+  return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
+}
+
+void provider::pass(time_point now) {
+  assert(now >= now_);
+  now_ = now;
+}
+
 // -- timers -------------------------------------------------------------------
 
 void provider::wake_at(time_point t, timer what) {
-  timers_.emplace(++last_timer_, what);
-  port_.wake_at(t, last_timer_);
+  port_.wake_at(t, timers_.add(what));
 }
 
 void provider::on_timer(std::uint64_t number, time_point now) {
-  assert(number <= last_timer_);
-  const auto due = timers_.extract(number);
-  if (!due.empty())
-    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+  pass(now);
+  if (const auto due = timers_.take(number))
+    std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 
 // One timer for each record is under way; it moves on with the latest message.
@@ -62,12 +72,14 @@ void provider::expire(const epoch_end&, time_point now) {
 
 void provider::on_sign_of_life(station_id station, peer_id from,
                                time_point now) {
+  pass(now);
   const auto known = stations_.find(station);
   if (known != stations_.end() && known->second.requester == from)
     known->second.heard = now;
 }
 
 void provider::on_cam(const cam& c, peer_id from, time_point now) {
+  pass(now);
   const auto known = stations_.find(c.station);
   if (known != stations_.end() && c.at < known->second.latest.at)
     return; // overtaken on its way
@@ -88,6 +100,8 @@ void provider::on_cam(const cam& c, peer_id from, time_point now) {
   if (station.requester != from)
     meet(c.station, station, from, now);
   assert(station.requester == from);
+  assert(station.heard <= now);
+  assert(station.is_consistent());
   station.latest = c;
   station.heard = now;
   if (now >= station.next_offer)
@@ -97,6 +111,7 @@ void provider::on_cam(const cam& c, peer_id from, time_point now) {
 // A new requester knows nothing of what ran for the one before.
 void provider::meet(station_id id, station_record& station, peer_id requester,
                     time_point now) {
+  assert(station.requester != requester);
   if (station.requester) {
     drop_waiting(id);
     leave(station, end_reason::peer_lost, now);
@@ -107,6 +122,7 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
   station.requester = requester;
   station.next_offer = now;
   station.last_request = 0;
+  assert(serves(requester));
 }
 
 // Its requester speaks for the station no longer.
@@ -131,6 +147,7 @@ bool provider::serves(peer_id requester) const {
 
 void provider::offer(station_record& station, time_point now) {
   assert(station.requester);
+  assert(now >= station.next_offer);
   service_offer offered{.provider = setup_.id,
                         .position = setup_.position,
                         .kinds = {},
@@ -142,6 +159,8 @@ void provider::offer(station_record& station, time_point now) {
   for (const auto& service : setup_.services)
     if (!station.find(service.name))
       offered.kinds.push_back(service.name);
+  assert(offered.kinds.size() + station.sessions.size()
+         == setup_.services.size());
   if (offered.kinds.empty())
     return;
   station.next_offer = now + protocol::offer_period;
@@ -154,6 +173,7 @@ void provider::forget(stations::iterator i, end_reason reason, time_point now) {
 }
 
 void provider::on_lost(peer_id peer, time_point now) {
+  pass(now);
   for (auto i = stations_.begin(); i != stations_.end();) {
     const auto next = std::next(i);
     if (i->second.requester == peer)
@@ -163,6 +183,7 @@ void provider::on_lost(peer_id peer, time_point now) {
 }
 
 void provider::shut_down(time_point now) {
+  pass(now);
   while (!stations_.empty())
     forget(stations_.begin(), end_reason::shutdown, now);
 }
@@ -170,6 +191,7 @@ void provider::shut_down(time_point now) {
 // -- the end of a session -----------------------------------------------------
 
 void provider::on_end(const service_end& e, time_point now) {
+  pass(now);
   if (e.from != side::requester)
     return;
   const auto i = stations_.find(e.running.station);
@@ -179,6 +201,7 @@ void provider::on_end(const service_end& e, time_point now) {
 
 void provider::on_function_lost(const session_id& session, end_reason why,
                                 time_point now) {
+  pass(now);
   const auto i = stations_.find(session.station);
   if (i != stations_.end())
     end(i->second, session, why, true, now);

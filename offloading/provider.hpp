@@ -5,6 +5,7 @@
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
 #include "offloading/peer.hpp"
+#include "offloading/timer_list.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstddef>
@@ -172,6 +173,9 @@ private:
     std::vector<provider_session> sessions;
 
     const provider_session* find(const service_name& service) const;
+    /// Whether it has a requester, and no service runs for it twice; between
+    /// two calls it always is.
+    bool is_consistent() const;
   };
   using stations = std::map<station_id, station_record>;
 
@@ -189,6 +193,7 @@ private:
     std::vector<std::size_t> places; // of what is asked, among the services
   };
 
+  void pass(time_point now);
   void wake_at(time_point t, timer what);
   void expire(const station_check& x, time_point now);
   void expire(const epoch_end&, time_point now);
@@ -224,13 +229,13 @@ private:
   provider_port& port_;
   stations stations_;
   std::vector<open_request> waiting_; // for the end of an epoch
-  std::map<std::uint64_t, timer> timers_;
-  std::uint64_t last_timer_ = 0;
+  timer_list<timer> timers_;
   std::uint32_t last_session_ = 0;
   std::uint64_t last_record_ = 0;
   std::uint64_t decisions_ = 0;
-  duration epoch_{};      // of the policy; 0: none
-  bool in_epoch_ = false; // one has begun
+  duration epoch_{};                   // of the policy; 0: none
+  bool in_epoch_ = false;              // one has begun
+  time_point now_ = time_point::min(); // of the latest call
 };
 
 } // namespace sofof::offloading

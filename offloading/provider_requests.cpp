@@ -12,12 +12,14 @@ namespace sofof::offloading {
 
 void provider::on_request(const service_request& request, peer_id from,
                           time_point now) {
+  pass(now);
   const auto i = stations_.find(request.station);
   if (request.provider != setup_.id || i == stations_.end()) {
     refuse(request, from, "not in the area");
     return;
   }
   auto& station = i->second;
+  assert(station.is_consistent());
   if (request.number <= station.last_request)
     return; // a duplicate, or overtaken by a newer one
   station.last_request = request.number;
@@ -25,6 +27,7 @@ void provider::on_request(const service_request& request, peer_id from,
     answer({{request, from}}, now);
     return;
   }
+  assert(waiting_.empty() || in_epoch_);
   drop_waiting(request.station); // it has given that up
   waiting_.push_back({request, from});
   if (!std::exchange(in_epoch_, true))
@@ -117,6 +120,7 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
                           utilisation_by(x.running.kind), x.candidates});
       running.push_back(x.running);
     }
+  assert(running.size() == sessions.size());
   auto decided = setup_.policy->decide({.now = now,
                                         .requests = asked,
                                         .sessions = sessions,
@@ -134,6 +138,7 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
           now);
   if (decided.size() > asked.size())
     decided.resize(asked.size());
+  assert(decided.size() <= asked.size());
   return decided;
 }
 
@@ -155,12 +160,14 @@ void provider::respond(const open_request& open,
     }
     response.verdicts.push_back(std::move(v));
   }
+  assert(response.verdicts.size() == request.kinds.size());
   port_.send(open.from, response);
 }
 
 void provider::start(station_record& station, const session_id& session,
                      const open_request& open, const central_decision& how,
                      time_point now) {
+  assert(session.counter != 0);
   assert(!station.find(session.kind));
   assert(find(session.kind));
   const auto& service = *find(session.kind);
@@ -169,6 +176,7 @@ void provider::start(station_record& station, const session_id& session,
   auto task = task_of(service);
   task.offset = how.offset.value_or(
       random_phase(drawn.part("remote phase"), service.period));
+  assert(task.offset >= duration{0} && task.offset < service.period);
   station.sessions.push_back(
       {session, now, task, how.worker, open.what.candidates});
   port_.start({.session = session,

@@ -2,8 +2,10 @@
 #include "offloading/provider_side.hpp"
 
 #include "base/protocol.hpp"
+#include "offloading/timer_list.hpp"
 
 #include <cassert>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -17,104 +19,127 @@ public:
     provider_.emplace(std::move(setup), *this);
   }
 
-  template <class Function>
-  void tell(Function what, time_point now) {
-    turns_.post(part_, [this, what = std::move(what)](time_point t) {
-      what(*provider_, t);
-    });
-    turns_.run(now);
+  void on_cam(const cam& c, peer_id from, time_point now) {
+    begin_call(now);
+    provider_->on_cam(c, from, now);
   }
 
   void on_message(peer_id from, to_provider message, time_point now) {
-    std::visit([&](auto& x) { accept(from, std::move(x), now); }, message);
-    turns_.run(now);
+    begin_call(now);
+    std::visit([&](auto& x) { handle(from, std::move(x)); }, message);
+  }
+
+  void on_lost(peer_id requester, time_point now) {
+    begin_call(now);
+    provider_->on_lost(requester, now);
   }
 
   void on_timer(std::uint64_t number, time_point now) {
-    turns_.wake(number);
-    turns_.run(now);
+    begin_call(now);
+    if (const auto due = timers_.take(number))
+      handle(*due);
+  }
+
+  void shut_down(time_point now) {
+    begin_call(now);
+    provider_->shut_down(now);
   }
 
 private:
+  enum class timer_of { provider, function, result, first_input };
+
+  struct timer {
+    timer_of of = timer_of::provider;
+    std::uint32_t session = 0; // its counter, but for the provider's
+    std::uint64_t number = 0;  // as whom it is for has numbered it
+  };
+
   /// The function of one session.
-  struct session_parts final : cycle_port,
-                               std::enable_shared_from_this<session_parts> {
+  struct session_parts final : cycle_port {
     parts& all;
     session_id session;
     peer_id requester;
-    turn_queue::part feeds = turn_queue::make_part(),
-                     runs = turn_queue::make_part();
-    bool fed = false, ended = false;
-    std::optional<service_cycle> cycle;
+    bool fed = false;
+    service_cycle cycle;
+    timer_list<service_result> results; // of its cycles
 
-    session_parts(parts& owner, const session_start& start)
-        : all{owner}, session{start.session}, requester{start.requester} {}
+    session_parts(parts& owner, const session_start& start, cycle_setup setup)
+        : all{owner}, session{start.session}, requester{start.requester},
+          cycle{std::move(setup), *this} {}
 
+    void wake_at(time_point t, timer_of of, std::uint64_t number) {
+      all.wake_at(t, {of, session.counter, number});
+    }
     void wake_at(time_point t, std::uint64_t number) override {
-      all.wake(runs, t, [me = shared_from_this(), number](time_point now) {
-        me->cycle->on_timer(number, now);
-      });
+      wake_at(t, timer_of::function, number);
     }
     void deliver_at(time_point t, service_result result) override {
-      all.wake(feeds, t,
-               [me = shared_from_this(),
-                result = std::move(result)](time_point) mutable {
-                 if (!me->ended)
-                   me->all.port_.send(me->requester, std::move(result));
-               });
+      wake_at(t, timer_of::result, results.add(std::move(result)));
     }
   };
-  using session_ptr = std::shared_ptr<session_parts>;
 
-  session_ptr find(const session_id& session) const {
-    const auto i = sessions_.find(session);
-    return i == sessions_.end() ? nullptr : i->second;
+  /// @returns null for a session that has ended, or that there never was.
+  session_parts* find(const session_id& session) {
+    const auto i = sessions_.find(session.counter);
+    const auto runs = i != sessions_.end() && i->second.session == session;
+    return runs ? &i->second : nullptr;
   }
 
-  void wake(const turn_queue::part& part, time_point t, turn_queue::turn what) {
-    port_.wake_at(t, turns_.post_later(part, std::move(what)));
+  // -- calls --------------------------------------------------------------
+
+  void begin_call(time_point now) {
+    assert(now >= now_);
+    now_ = now;
   }
 
-  void step(const session_ptr& to, lifecycle_step step) {
-    turns_.post(to->runs,
-                [to, step](time_point t) { to->cycle->on_step(step, t); });
+  void wake_at(time_point t, const timer& what) {
+    port_.wake_at(t, timers_.add(what));
   }
 
-  // -- what comes over the air
-  // --------------------------------------------------
+  void handle(const timer& due) {
+    if (due.of == timer_of::provider)
+      provider_->on_timer(due.number, now_);
+    else if (const auto i = sessions_.find(due.session); i != sessions_.end())
+      handle(i->second, due);
+  }
 
-  void accept(peer_id from, service_request request, time_point) {
-    turns_.post(part_, [this, from, x = std::move(request)](time_point t) {
-      provider_->on_request(x, from, t);
-    });
+  void handle(session_parts& session, const timer& due) {
+    assert(session.session.counter == due.session);
+    assert(due.of != timer_of::provider);
+    switch (due.of) {
+      case timer_of::provider:
+        break;
+      case timer_of::function:
+        return session.cycle.on_timer(due.number, now_);
+      case timer_of::result:
+        return port_.send(session.requester,
+                          session.results.take(due.number).value());
+      case timer_of::first_input:
+        // The response was lost on its way, or the vehicle has changed its
+        // mind.
+        if (!session.fed)
+          provider_->on_function_lost(session_id{session.session},
+                                      end_reason::no_data, now_);
+    }
   }
-  void accept(peer_id, service_end end, time_point) {
-    turns_.post(part_, [this, x = std::move(end)](time_point t) {
-      provider_->on_end(x, t);
-    });
+
+  // -- what comes over the air --------------------------------------------
+
+  void handle(peer_id from, const service_request& request) {
+    provider_->on_request(request, from, now_);
   }
+  void handle(peer_id, const service_end& end) { provider_->on_end(end, now_); }
   // Only the requester of a session feeds it.
-  void accept(peer_id from, service_input input, time_point) {
-    const auto to = find(input.running);
-    if (to && to->requester == from)
-      turns_.post(to->feeds,
-                  [this, to, x = std::move(input)](time_point) mutable {
-                    feed(to, std::move(x));
-                  });
-  }
-
-  void feed(const session_ptr& to, service_input input) {
-    if (to->ended)
+  void handle(peer_id from, service_input&& input) {
+    auto* to = find(input.running);
+    if (!to || to->requester != from)
       return;
-    turns_.post(to->runs, [to, x = std::move(input)](time_point t) mutable {
-      to->cycle->on_input(std::move(x), t);
-    });
+    to->cycle.on_input(std::move(input), now_);
     if (!std::exchange(to->fed, true))
-      step(to, lifecycle_step::activate);
+      to->cycle.on_step(lifecycle_step::activate, now_);
   }
 
-  // -- what the provider wants
-  // --------------------------------------------------
+  // -- what the provider wants --------------------------------------------
 
   void send(peer_id requester, const service_offer& offer) override {
     port_.send(requester, offer);
@@ -129,54 +154,35 @@ private:
   void leave(peer_id) override {}
 
   void start(const session_start& start) override {
-    assert(!find(start.session));
-    const auto begun = std::make_shared<session_parts>(*this, start);
+    assert(start.session.counter != 0);
     auto setup = port_.make_function(start);
+    assert(setup.function && setup.finish);
     setup.running = start.session;
     setup.period = periods_.at(start.session.kind);
     setup.phase = start.phase;
     setup.keeps_phase = start.keeps_phase;
-    begun->cycle.emplace(std::move(setup), *begun);
-    sessions_.emplace(start.session, begun);
-    step(begun, lifecycle_step::configure);
-    turns_.post(begun->feeds, [this, begun](time_point t) {
-      wake(begun->feeds, t + protocol::start_timeout,
-           [this, begun](time_point) { check(begun); });
-    });
+    const auto [i, is_new] = sessions_.try_emplace(start.session.counter, *this,
+                                                   start, std::move(setup));
+    assert(is_new);
+    i->second.cycle.on_step(lifecycle_step::configure, now_);
+    i->second.wake_at(now_ + protocol::start_timeout, timer_of::first_input, 0);
   }
-
-  // The response was lost on its way, or the vehicle has changed its mind.
-  void check(const session_ptr& session) {
-    if (session->fed || session->ended)
-      return;
-    turns_.post(part_, [this, id = session->session](time_point t) {
-      provider_->on_function_lost(id, end_reason::no_data, t);
-    });
-  }
-
   void end(const service_end& end) override {
-    const auto ended = find(end.running);
-    assert(ended);
-    sessions_.erase(end.running);
-    turns_.post(ended->feeds, [this, ended](time_point) {
-      ended->ended = true;
-      step(ended, lifecycle_step::deactivate);
-      step(ended, lifecycle_step::shut_down);
-    });
+    assert(find(end.running));
+    sessions_.erase(end.running.counter);
   }
 
   void record(const episode_record& x) override { port_.record(x); }
 
   void wake_at(time_point t, std::uint64_t number) override {
-    wake(part_, t,
-         [this, number](time_point now) { provider_->on_timer(number, now); });
+    wake_at(t, {timer_of::provider, 0, number});
   }
 
   provider_side_port& port_;
-  turn_queue turns_;
-  turn_queue::part part_ = turn_queue::make_part(); // of the provider
+  time_point now_ = time_point::min(); // of the latest call
+  timer_list<timer> timers_;
   std::map<service_name, duration> periods_;
-  std::map<session_id, session_ptr> sessions_;
+  std::map<std::uint32_t, session_parts> sessions_; // by their counters
   std::optional<provider> provider_;
 };
 
@@ -186,8 +192,7 @@ provider_side::provider_side(provider_setup setup, provider_side_port& port)
 provider_side::~provider_side() = default;
 
 void provider_side::on_cam(const cam& c, peer_id from, time_point now) {
-  parts_->tell([c, from](provider& x, time_point t) { x.on_cam(c, from, t); },
-               now);
+  parts_->on_cam(c, from, now);
 }
 
 void provider_side::on_message(peer_id from, to_provider message,
@@ -196,8 +201,7 @@ void provider_side::on_message(peer_id from, to_provider message,
 }
 
 void provider_side::on_lost(peer_id requester, time_point now) {
-  parts_->tell(
-      [requester](provider& x, time_point t) { x.on_lost(requester, t); }, now);
+  parts_->on_lost(requester, now);
 }
 
 void provider_side::on_timer(std::uint64_t number, time_point now) {
@@ -205,7 +209,7 @@ void provider_side::on_timer(std::uint64_t number, time_point now) {
 }
 
 void provider_side::shut_down(time_point now) {
-  parts_->tell([](provider& x, time_point t) { x.shut_down(t); }, now);
+  parts_->shut_down(now);
 }
 
 } // namespace sofof::offloading

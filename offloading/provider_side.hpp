@@ -3,12 +3,9 @@
 
 #include "offloading/provider.hpp"
 #include "offloading/service_cycle.hpp"
-#include "offloading/turn_queue.hpp"
 #include "offloading/vehicle_side.hpp"
 
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <memory>
 
 namespace sofof::offloading {

@@ -12,16 +12,33 @@ namespace sofof::offloading {
 
 requester::requester(requester_setup setup, requester_port& port,
                      time_point now)
-    : setup_{std::move(setup)}, port_{port} {
-  assert(setup_.policy);
+    : setup_{std::move(setup)}, port_{port}, now_{now} {
+  assert(setup_.policy && setup_.path_ahead);
   for (auto& service : setup_.services) {
     assert(!find(service.name));
+    assert(service.termination_message);
     services_.push_back({.service = std::move(service), .since = now});
   }
   announce_placement();
   epoch_ = from_seconds(setup_.policy->epoch_s());
   if (epoch_ > duration{0})
     wake_at(now + epoch_, epoch_end{});
+}
+
+void requester::pass(time_point now) {
+  assert(now >= now_);
+  now_ = now;
+}
+
+// Only providers that are known run or are asked for anything.
+bool requester::is_consistent() const {
+  const auto is_known = [this](const requester_session& x) {
+    return providers_.contains(x.provider);
+  };
+  return std::ranges::all_of(services_, [&](const service_state& service) {
+    return service.is_consistent()
+           && std::ranges::all_of(service.sessions, is_known);
+  });
 }
 
 service_state* requester::find(const service_name& service) {
@@ -46,15 +63,13 @@ void requester::announce_placement() {
 // -- timers -------------------------------------------------------------------
 
 void requester::wake_at(time_point t, timer what) {
-  timers_.emplace(++last_timer_, std::move(what));
-  port_.wake_at(t, last_timer_);
+  port_.wake_at(t, timers_.add(what));
 }
 
 void requester::on_timer(std::uint64_t number, time_point now) {
-  assert(number <= last_timer_);
-  const auto due = timers_.extract(number);
-  if (!due.empty())
-    std::visit([&](const auto& x) { expire(x, now); }, due.mapped());
+  pass(now);
+  if (const auto due = timers_.take(number))
+    std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 
 void requester::expire(const request_timeout& x, time_point now) {
@@ -75,12 +90,14 @@ void requester::expire(const start_timeout& x, time_point now) {
 void requester::expire(const epoch_end&, time_point now) {
   assert(epoch_ > duration{0});
   wake_at(now + epoch_, epoch_end{});
-  for (const auto& x : services_)
+  for (const auto& x : services_) {
+    assert(x.service.needs.period > duration{0});
     if (!x.is_remote())
       setup_.policy->observe(cycle_outcome{
           now, x.service.name.view(), 0, x.service.on_board.time_s, false,
           x.service.on_board.energy_j,
           to_seconds(epoch_) / to_seconds(x.service.needs.period)});
+  }
   weigh([](const service_state&) { return true; }, std::nullopt, now);
 }
 
@@ -88,8 +105,10 @@ void requester::expire(const epoch_end&, time_point now) {
 
 void requester::on_offer(const service_offer& offer, peer_id from,
                          time_point now) {
+  pass(now);
   log("offer", {offer.provider, setup_.station, {}, 0}, {}, now);
   auto& provider = meet(offer.provider, from);
+  assert(provider.offered_at <= now);
   if (provider.peer != from)
     return;
   provider.offer = offer;
@@ -99,11 +118,13 @@ void requester::on_offer(const service_offer& offer, peer_id from,
     return;
   weigh([&](const service_state& x) { return provider.offers(x.service.name); },
         offer.provider, now);
+  assert(is_consistent());
 }
 
 known_provider& requester::meet(provider_id id, peer_id peer) {
   if (const auto i = providers_.find(id); i != providers_.end())
     return i->second;
+  assert(!is_in_use(id));
   // A peer speaks for one provider, which has booted since.
   const auto is_same = [peer](const auto& known) {
     return known.second.peer == peer;
@@ -151,6 +172,7 @@ void requester::distrust_peer_of(provider_id provider, time_point now) {
 }
 
 void requester::on_lost(peer_id peer, time_point now) {
+  pass(now);
   for (auto i = providers_.begin(); i != providers_.end();) {
     if (i->second.peer != peer) {
       ++i;
@@ -169,6 +191,7 @@ void requester::on_lost(peer_id peer, time_point now) {
     }
     assert(!is_in_use(id));
   }
+  assert(is_consistent());
 }
 
 // -- decision and request -----------------------------------------------------
@@ -177,6 +200,7 @@ void requester::on_lost(peer_id peer, time_point now) {
 template <class Predicate>
 void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
                       time_point now) {
+  assert(!offering || providers_.contains(*offering));
   std::map<provider_id, std::vector<service_name>> wanted;
   const auto path = setup_.path_ahead(ego_);
   for (auto& service : services_)
@@ -185,8 +209,10 @@ void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
            decide(service, service.views(providers_, offering, now), offering,
                   path, now))
         wanted[id].push_back(service.service.name);
-  for (auto& [id, names] : wanted)
+  for (auto& [id, names] : wanted) {
+    assert(providers_.at(id).offered_at <= now);
     request(id, std::move(names), path, now);
+  }
 }
 
 // @param providers  That come into question.
@@ -196,6 +222,7 @@ requester::decide(service_state& service,
                   std::span<const provider_view> providers,
                   std::optional<provider_id> offering,
                   std::span<const point> path, time_point now) {
+  assert(service.is_consistent());
   const auto knows = [&](provider_id id) {
     return std::ranges::find(providers, id, &provider_view::id)
            != providers.end();
@@ -219,6 +246,7 @@ requester::decide(service_state& service,
           decision.why, now);
     return {};
   }
+  assert(wanted.size() <= 2);
   service.wanted = wanted;
   set_standby(service, wanted.size() > 1 ? decision.hedge_after : duration{0});
   std::erase_if(wanted, [&](provider_id id) { return service.find(id); });
@@ -231,6 +259,8 @@ local_decision requester::ask_policy(const service_state& service,
                                      std::span<const provider_view> providers,
                                      std::span<const point> path,
                                      time_point now) {
+  assert(!providers.empty());
+  assert(service.since <= now);
   const auto& x = service.service;
   return setup_.policy->decide({.now = now,
                                 .kind = x.name.view(),
@@ -259,6 +289,7 @@ void requester::set_standby(service_state& service, duration after) {
 
 void requester::request(provider_id id, std::vector<service_name> wanted,
                         const std::vector<point>& path, time_point now) {
+  assert(id != 0);
   assert(!wanted.empty());
   auto& provider = providers_.at(id);
   assert(!provider.open_request);

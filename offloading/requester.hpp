@@ -8,10 +8,10 @@
 #include "offloading/peer.hpp"
 #include "offloading/service_state.hpp"
 #include "offloading/standby.hpp"
+#include "offloading/timer_list.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -140,6 +140,8 @@ private:
     explicit operator bool() const { return session != nullptr; }
   };
 
+  void pass(time_point now);
+  bool is_consistent() const;
   service_state* find(const service_name& service);
   found_session find(const session_id& session);
   void wake_at(time_point t, timer what);
@@ -202,11 +204,11 @@ private:
   std::vector<service_state> services_;
   known_providers providers_;
   ego_state ego_;
-  std::map<std::uint64_t, timer> timers_;
-  std::uint64_t last_timer_ = 0;
+  timer_list<timer> timers_;
   std::uint32_t last_request_ = 0;
   std::uint64_t decisions_ = 0;
   duration epoch_{}; // of the policy; 0: none
+  time_point now_;   // of the latest call
 };
 
 } // namespace sofof::offloading

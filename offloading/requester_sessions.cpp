@@ -28,6 +28,7 @@ end_reason reason_of(qos_breach breach) {
 // -- verdicts -----------------------------------------------------------------
 
 void requester::on_response(const service_response& response, time_point now) {
+  pass(now);
   const auto i = providers_.find(response.provider);
   const auto expected =
       i != providers_.end() && i->second.open_request == response.number;
@@ -54,6 +55,7 @@ void requester::on_response(const service_response& response, time_point now) {
   }
   if (expected)
     refuse_requested(response.provider, "not answered", now);
+  assert(is_consistent());
 }
 
 void requester::refuse_requested(provider_id provider, std::string_view why,
@@ -68,6 +70,7 @@ void requester::accept(service_state& service, requester_session& session,
                        const verdict& v, time_point now) {
   assert(session.at == phase::requested);
   assert(v.running.provider == session.provider);
+  assert(v.running.counter != 0); // that is the vehicle's own function
   session.at = phase::starting;
   session.running = v.running;
   session.accepted = now;
@@ -105,11 +108,14 @@ void requester::refuse(service_state& service, provider_id provider,
 // -- data ---------------------------------------------------------------------
 
 void requester::on_result(const service_result& result, time_point now) {
+  pass(now);
   const auto found = find(result.running);
   if (!found) {
     complain(result.running, now);
     return;
   }
+  assert(found.session->at != phase::requested);
+  assert(found.session->accepted <= now);
   auto& service = *found.service;
   const auto provider = result.running.provider;
   const auto latency = now - result.created;
@@ -138,11 +144,14 @@ void requester::complain(const session_id& session, time_point now) {
 }
 
 void requester::on_first_data(const session_id& session, time_point now) {
+  pass(now);
+  assert(session.counter != 0);
   const auto found = find(session);
   if (!found || found.session->at != phase::starting)
     return;
   auto& service = *found.service;
   auto& started = *found.session;
+  assert(started.accepted <= now);
   if (!service.is_remote())
     service.since = now;
   started.joined =
@@ -157,12 +166,15 @@ void requester::on_first_data(const session_id& session, time_point now) {
   else
     log("switch", session, "remote", now);
   leave_unwanted(service, now);
+  assert(is_consistent());
 }
 
 // -- the end of a session -----------------------------------------------------
 
 void requester::on_violation(const qos_violation& violation, time_point now) {
+  pass(now);
   const auto& session = violation.running;
+  assert(session.counter != 0);
   const auto reason = reason_of(violation.breach);
   if (violation.breach == qos_breach::implausible) {
     // Also if the session has ended in the same instant.
@@ -183,9 +195,12 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, now);
   end(service, session.provider, reason, true, now);
+  assert(!service.find(session.provider));
+  assert(is_consistent());
 }
 
 void requester::on_end(const service_end& e, time_point now) {
+  pass(now);
   if (const auto found = find(e.running); found && e.from == side::provider)
     end(*found.service, e.running.provider, e.reason, false, now);
 }
@@ -236,6 +251,7 @@ void requester::end(service_state& service, provider_id provider,
   assert(service.find(provider));
   const auto ended = *service.find(provider);
   assert(ended.at != phase::requested);
+  assert(ended.running.provider == provider);
   service.drop(provider);
   service_end e{ended.running, reason, side::requester};
   port_.end(e);
@@ -255,6 +271,8 @@ void requester::end(service_state& service, provider_id provider,
 
 void requester::log_end(service_state& service, const requester_session& ended,
                         end_reason reason, time_point now) {
+  assert(ended.accepted <= now);
+  assert(!service.find(ended.provider));
   const auto was_remote = ended.at == phase::remote;
   const auto comes_home = was_remote && !service.is_remote();
   port_.record(episode_record{ended.running, side::requester, ended.accepted,

@@ -80,11 +80,12 @@ void service_cycle::await_next(time_point now) {
 }
 
 void service_cycle::run(time_point now) {
+  assert(state_ == lifecycle_state::active);
   const auto is_ahead = next_number(now) > grid_number(now) + 1;
-  if (newest_.what.type().empty() || is_ahead)
+  if (newest_.what.empty() || is_ahead)
     return;
   auto output = setup_.function->run(now, newest_);
-  if (output.what.type().empty())
+  if (output.what.empty())
     return;
   const auto cycle = take_number(now);
   const auto done = setup_.finish(now, cycle);

@@ -53,6 +53,18 @@ bool service_state::is_remote() const {
          != sessions.end();
 }
 
+bool service_state::is_consistent() const {
+  const auto is_sound = [this](const requester_session& x) {
+    const auto runs = x.running.provider == x.provider
+                      && x.running.kind == service.name
+                      && x.running.counter != 0;
+    return (x.at == phase::requested || runs) && find(x.provider) == &x
+           && (x.at != phase::remote || x.accepted <= x.first_data);
+  };
+  return std::ranges::all_of(sessions, is_sound)
+         && (!standing_by || wants(standing_by->provider));
+}
+
 std::optional<provider_id> service_state::current() const {
   const auto i =
       std::ranges::find_if(sessions, [this](const requester_session& x) {
@@ -90,6 +102,7 @@ provider_view service_state::view_of(const known_provider& provider,
   const auto& needs = service.needs;
   assert(needs.max_latency > duration{0}
          && needs.max_interarrival > duration{0});
+  assert(provider.offered_at <= now);
   const auto& link = link_of(offer.provider);
   // A provider that stands by is silent for no fault.
   const auto as_of =
@@ -108,6 +121,7 @@ provider_view service_state::view_of(const known_provider& provider,
 std::vector<provider_view>
 service_state::views(const known_providers& providers,
                      std::optional<provider_id> offering, time_point now) {
+  assert(is_consistent());
   std::vector<provider_view> all;
   for (const auto& session : sessions)
     if (const auto i = providers.find(session.provider); i != providers.end())
@@ -122,6 +136,7 @@ service_state::views(const known_providers& providers,
   for (const auto& known : providers)
     if (known.first != offering)
       add(known);
+  assert(all.size() <= providers.size()); // none of them twice
   return all;
 }
 
@@ -137,6 +152,7 @@ service_state::candidates(const known_providers& providers, point from,
     all.resize(protocol::most_candidates);
     std::ranges::sort(all, {}, &provider_view::id);
   }
+  assert(all.size() <= protocol::most_candidates);
   assert(std::ranges::is_sorted(all, {}, &provider_view::id));
   std::vector<candidate> told;
   for (const auto& view : all)

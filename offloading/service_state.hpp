@@ -83,6 +83,9 @@ struct service_state {
   bool is_standby(provider_id provider) const;
   bool is_moving() const; ///< Whether an answer or first data is awaited.
   bool is_remote() const;
+  /// Whether no provider runs it twice, those that have accepted have a session
+  /// of it, and whoever stands by is wanted; it always is.
+  bool is_consistent() const;
   /// @returns the provider that has run it for longest, of those that do not
   /// stand by; nullopt: it is local.
   std::optional<provider_id> current() const;

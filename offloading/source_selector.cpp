@@ -32,6 +32,26 @@ std::string in_words(const objection& why) {
 source_selector::source_selector(selected_service service, selector_port& port)
     : service_{std::move(service)}, port_{port}, answers_{service_.period} {
   assert(service_.encode_input && service_.continues);
+  assert(service_.limits.max_latency > duration{0});
+}
+
+void source_selector::pass(time_point now) {
+  assert(now >= now_);
+  now_ = now;
+}
+
+// Each source has a session of its own; while one is in use, the watchdog
+// watches by the name of such a one.
+bool source_selector::is_consistent() const {
+  const auto has_its_own = [this](const source& x) {
+    return x.judge && x.session.counter != 0
+           && std::ranges::count(sources_, x.session, &source::session) == 1;
+  };
+  const auto is_watched = [this](const source& x) {
+    return x.in_use && x.session == watched_;
+  };
+  return std::ranges::all_of(sources_, has_its_own)
+         && (!is_remote() || std::ranges::any_of(sources_, is_watched));
 }
 
 source_selector::source* source_selector::find(const session_id& session) {
@@ -50,6 +70,7 @@ bool source_selector::is_standby(const source& x) const {
 // -- input --------------------------------------------------------------------
 
 void source_selector::on_input(service_input input, time_point now) {
+  pass(now);
   newest_ = std::move(input);
   port_.feed_local(newest_);
   for (auto& x : sources_)
@@ -64,15 +85,17 @@ bool source_selector::input_due(const source& x, time_point now) const {
 
 /// @returns whether there was anything to send.
 bool source_selector::feed(source& x, time_point now) {
-  if (newest_.what.type().empty())
+  if (newest_.what.empty())
     return false;
+  assert(!x.last_sent || *x.last_sent <= now);
   x.last_sent = now;
   const auto stands = is_standby(x);
   auto input =
       service_.encode_input({x.session, newest_.at, newest_.what, used_},
                             !x.in_use || stands || x.knows_it_stands_by);
-  if (input.what.type().empty())
+  if (input.what.empty())
     return false;
+  assert(input.running == x.session);
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
   input.on_call = x.knows_it_stands_by = stands;
@@ -83,8 +106,10 @@ bool source_selector::feed(source& x, time_point now) {
 void source_selector::on_session(const session_id& session,
                                  std::unique_ptr<result_judge> judge,
                                  time_point now) {
+  pass(now);
   assert(judge);
   assert(session.counter != 0);
+  assert(!find(session));
   auto& x = sources_.emplace_back();
   x.session = session;
   x.judge = std::move(judge);
@@ -94,6 +119,8 @@ void source_selector::on_session(const session_id& session,
 // -- results ------------------------------------------------------------------
 
 void source_selector::on_result(const service_result& result, time_point now) {
+  pass(now);
+  assert(is_consistent());
   if (result.running.counter == 0) {
     if (!is_remote())
       use(result, now);
@@ -125,7 +152,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
     refuse(result.running, *judged.refused, now);
   else if (judged.useless)
     leave_out(*x, *judged.useless, now);
-  else if (!judged.what.type().empty())
+  else if (!judged.what.empty())
     take(*x,
          {result.running, result.cycle, result.created, std::move(judged.what),
           result.about, result.doubt},
@@ -136,6 +163,8 @@ void source_selector::on_result(const service_result& result, time_point now) {
 /// are then as good as none.
 bool source_selector::can_judge(source& x, const service_result& result,
                                 time_point now) {
+  assert(result.running == x.session);
+  assert(result.cycle == x.last_cycle);
   const auto can = result.doubt <= service_.limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
@@ -165,6 +194,9 @@ void source_selector::leave_out(source& x, const objection& why,
 void source_selector::take(source& x, const service_result& result,
                            time_point now, bool in_limits,
                            std::span<const margin> margins) {
+  assert(result.running == x.session);
+  assert(!in_limits || !x.in_doubt);
+  assert(in_limits || margins.empty());
   if (in_limits && !is_standby(x) && result.created > began_)
     await_cycle_after(result.created);
   const auto alone = !is_remote() || (x.in_use && in_use() == 1);
@@ -191,6 +223,7 @@ void source_selector::take(source& x, const service_result& result,
     port_.watch_arrival({watched_, now, now});
   if (!x.in_use && in_limits)
     begin(x, now);
+  assert(x.in_use || !usable);
   if (usable)
     use(result, now);
   if (in_use() > 1)
@@ -202,6 +235,8 @@ void source_selector::take(source& x, const service_result& result,
 void source_selector::record_cycle(const source& x,
                                    const service_result& result, time_point now,
                                    bool used, std::span<const margin> margins) {
+  assert(!x.last_received || *x.last_received <= now);
+  assert(!used || result.created <= now);
   std::optional<duration> gap; // only while in use every period
   if (x.last_received)
     gap = now - *x.last_received;
@@ -233,6 +268,7 @@ void source_selector::use(const service_result& result, time_point now) {
 
 void source_selector::on_standby(std::optional<standby> chosen,
                                  time_point now) {
+  pass(now);
   standby_ = chosen;
   announce_roles(now);
   await_cycle_after(began_);
@@ -256,6 +292,8 @@ void source_selector::await_cycle_after(time_point start) {
 /// One more cycle has begun, or should have; more of them if this process has
 /// stood still.
 void source_selector::on_timer(std::uint64_t number, time_point now) {
+  pass(now);
+  assert(number <= timer_);
   if (number != timer_ || !is_remote())
     return;
   assert(standby_);
@@ -271,7 +309,10 @@ void source_selector::on_timer(std::uint64_t number, time_point now) {
 
 /// One of several that has not been in time for long is of no use.
 void source_selector::give_up_silent(time_point now) {
+  assert(in_use() > 1);
   for (auto& x : sources_) {
+    assert(x.calls_in_vain >= 0);
+    assert(!x.last_in_time || *x.last_in_time <= now);
     const auto silent = is_standby(x) ? x.calls_in_vain * service_.period
                                       : now - x.last_in_time.value_or(now);
     if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
@@ -298,6 +339,7 @@ void source_selector::begin(source& x, time_point now) {
   }
   port_.report_first_data(x.session);
   announce_roles(now);
+  assert(is_consistent());
 }
 
 void source_selector::watch(const session_id& session, time_point last) {
@@ -306,11 +348,13 @@ void source_selector::watch(const session_id& session, time_point last) {
 }
 
 void source_selector::on_end(const service_end& end, time_point now) {
+  pass(now);
   const auto* ended = find(end.running);
   if (!ended)
     return;
   const auto was_in_use = ended->in_use;
   sources_.erase(sources_.begin() + (ended - sources_.data()));
+  assert(!find(end.running));
   if (!was_in_use)
     return;
   if (!is_remote()) {
@@ -322,12 +366,14 @@ void source_selector::on_end(const service_end& end, time_point now) {
     return;
   }
   announce_roles(now);
-  if (watched_ != end.running)
-    return;
-  const auto next = std::ranges::find_if(
-      sources_, [this](const source& x) { return x.in_use && !is_standby(x); });
-  assert(next != sources_.end());
-  watch(next->session, used_at_);
+  if (watched_ == end.running) {
+    const auto next = std::ranges::find_if(sources_, [this](const source& x) {
+      return x.in_use && !is_standby(x);
+    });
+    assert(next != sources_.end());
+    watch(next->session, used_at_);
+  }
+  assert(is_consistent());
 }
 
 } // namespace sofof::offloading

@@ -134,6 +134,8 @@ private:
     int calls_in_vain = 0;
   };
 
+  void pass(time_point now);
+  bool is_consistent() const;
   source* find(const session_id& session);
   std::ptrdiff_t in_use() const;
   bool is_standby(const source& x) const;
@@ -166,9 +168,10 @@ private:
   std::uint64_t timer_ = 0; // the one that counts
   session_id watched_;      // by whose name the watchdog watches
   service_input newest_;
-  payload used_;         // the last result that the client got,
-  session_id used_from_; // of which session,
-  time_point used_at_;   // and when
+  payload used_;                       // the last result that the client got,
+  session_id used_from_;               // of which session,
+  time_point used_at_;                 // and when
+  time_point now_ = time_point::min(); // of the latest call
 };
 
 } // namespace sofof::offloading

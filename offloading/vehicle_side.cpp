@@ -1,7 +1,13 @@
 // The parts of a vehicle's side, and what each tells the others.
 #include "offloading/vehicle_side.hpp"
 
+#include "offloading/service_cycle.hpp"
+#include "offloading/timer_list.hpp"
+#include "offloading/watchdog.hpp"
+
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 namespace sofof::offloading {
@@ -9,7 +15,8 @@ namespace sofof::offloading {
 class vehicle_side::parts final : public requester_port {
 public:
   parts(vehicle_side_setup setup, vehicle_port& port, time_point now)
-      : port_{port} {
+      : port_{port}, now_{now} {
+    assert(setup.policy);
     requester_setup asks;
     asks.station = setup.station;
     asks.policy = std::move(setup.policy);
@@ -17,57 +24,71 @@ public:
     asks.path_ahead = std::move(setup.path_ahead);
     for (auto& service : setup.services) {
       asks.services.push_back(service.requested);
-      const auto name = service.requested.name;
-      services_.emplace(name, std::make_unique<service_parts>(
-                                  *this, setup.station, std::move(service)));
+      services_.push_back(std::make_unique<service_parts>(*this, setup.station,
+                                                          std::move(service)));
     }
     requester_.emplace(std::move(asks), *this, now);
-    for (auto& [name, service] : services_)
+    for (const auto& service : services_)
       service->start();
-    turns_.run(now);
   }
 
   void on_motion(const ego_state& ego) { requester_->on_motion(ego); }
 
   void on_input(const service_name& service, service_input input,
                 time_point now) {
-    if (const auto i = services_.find(service); i != services_.end())
-      i->second->on_input(std::move(input));
-    turns_.run(now);
+    begin_call(now);
+    if (auto* known = find(service))
+      known->selector.on_input(std::move(input), now);
+    end_call();
   }
 
-  void on_message(peer_id from, to_vehicle message, time_point now) {
-    turns_.post(part_, [this, from, x = std::move(message)](time_point t) {
-      std::visit([&](const auto& y) { handle(from, y, t); }, x);
-    });
-    turns_.run(now);
+  void on_message(peer_id from, const to_vehicle& message, time_point now) {
+    begin_call(now);
+    std::visit([&](const auto& x) { handle(from, x); }, message);
+    end_call();
   }
 
   void on_lost(peer_id provider, time_point now) {
-    tell_requester(
-        [provider](requester& x, time_point t) { x.on_lost(provider, t); });
-    turns_.run(now);
+    begin_call(now);
+    requester_->on_lost(provider, now);
+    end_call();
   }
 
   void on_timer(std::uint64_t number, time_point now) {
-    turns_.wake(number);
-    turns_.run(now);
+    begin_call(now);
+    if (const auto due = timers_.take(number))
+      handle(*due);
+    end_call();
   }
 
   void shut_down(time_point now) {
-    tell_requester([](requester& x, time_point t) { x.shut_down(t); });
-    turns_.run(now);
+    begin_call(now);
+    requester_->shut_down(now);
+    end_call();
   }
 
 private:
   struct service_parts;
 
+  enum class timer_of { requester, selector, dog, own, result };
+
+  struct timer {
+    timer_of of = timer_of::requester;
+    service_parts* service = nullptr; // but for the requester's
+    std::uint64_t number = 0;         // as whom it is for has numbered it
+  };
+
   /// What the vehicle's own function wants.
   struct own_port final : cycle_port {
     service_parts& service;
     explicit own_port(service_parts& x) : service{x} {}
-    void wake_at(time_point t, std::uint64_t number) override;
-    void deliver_at(time_point t, service_result result) override;
+    void wake_at(time_point t, std::uint64_t number) override {
+      service.wake_at(t, timer_of::own, number);
+    }
+    void deliver_at(time_point t, service_result result) override {
+      service.wake_at(t, timer_of::result,
+                      service.results.add(std::move(result)));
+    }
   };
 
   /// A selector, its watchdog, and the vehicle's own function.
@@ -75,14 +96,13 @@ private:
     parts& all;
     service_name name;
     std::function<std::unique_ptr<result_judge>()> make_judge;
-    turn_queue::part selects = turn_queue::make_part(),
-                     watches = turn_queue::make_part(),
-                     runs = turn_queue::make_part();
     source_selector selector;
     watchdog dog;
     std::uint64_t dog_timer = 0; // the one that counts
     own_port wants{*this};
     service_cycle own;
+    timer_list<service_result> results;                // of its cycles
+    std::vector<std::pair<session_id, peer_id>> feeds; // its sessions
 
     service_parts(parts& owner, station_id station, onboard_service service)
         : all{owner}, name{service.requested.name}, make_judge{std::move(
@@ -104,106 +124,87 @@ private:
                .period = service.requested.needs.period,
                .phase = service.phase,
                .finish = std::move(service.finish)},
-              wants} {}
-
-    template <class Function>
-    void tell_selector(Function what) {
-      all.turns_.post(selects,
-                      [this, what = std::move(what)](time_point t) mutable {
-                        what(selector, t);
-                      });
-    }
-    template <class Function>
-    void tell_own(Function what) {
-      all.turns_.post(runs, [this, what = std::move(what)](
-                                time_point t) mutable { what(own, t); });
+              wants} {
+      assert(make_judge);
     }
 
     void start() {
-      for (const auto step :
-           {lifecycle_step::configure, lifecycle_step::activate})
-        tell_own(
-            [step](service_cycle& x, time_point t) { x.on_step(step, t); });
+      own.on_step(lifecycle_step::configure, all.now_);
+      own.on_step(lifecycle_step::activate, all.now_);
     }
-    void on_input(service_input input) {
-      tell_selector(
-          [input = std::move(input)](source_selector& x, time_point t) mutable {
-            x.on_input(std::move(input), t);
-          });
+
+    void wake_at(time_point t, timer_of of, std::uint64_t number) {
+      all.wake_at(t, {of, this, number});
+    }
+
+    // -- what the requester wants ---------------------------------------------
+
+    void begin(const session_id& session, peer_id provider) {
+      feeds.emplace_back(session, provider);
+      selector.on_session(session, make_judge(), all.now_);
+    }
+    void end(const service_end& end) {
+      selector.on_end(end, all.now_);
+      std::erase_if(feeds,
+                    [&](const auto& fed) { return fed.first == end.running; });
     }
 
     // -- what the selector wants ----------------------------------------------
 
     void feed_local(const service_input& input) override {
-      tell_own([input](service_cycle& x, time_point t) mutable {
-        x.on_input(std::move(input), t);
-      });
+      own.on_input(input, all.now_);
     }
     void feed_remote(service_input input) override {
-      all.port_.send(all.providers_.at(input.running), std::move(input));
+      const auto to = std::ranges::find(feeds, input.running,
+                                        &std::pair<session_id, peer_id>::first);
+      assert(to != feeds.end());
+      all.port_.send(to->second, std::move(input));
     }
     void use(const service_result& result) override { all.port_.use(result); }
     void go_remote() override {
-      tell_own([](service_cycle& x, time_point t) {
-        x.on_step(lifecycle_step::deactivate, t);
-      });
+      own.on_step(lifecycle_step::deactivate, all.now_);
     }
     void go_local(service_input input) override {
-      feed_local(input);
-      tell_own([](service_cycle& x, time_point t) {
-        x.on_step(lifecycle_step::activate, t);
-      });
+      own.on_input(std::move(input), all.now_);
+      own.on_step(lifecycle_step::activate, all.now_);
     }
     void announce_source(bool remote) override {
       all.port_.on_source(name, remote);
     }
     void report_first_data(const session_id& session) override {
-      all.tell_requester([session](requester& x, time_point t) {
-        x.on_first_data(session, t);
-      });
+      all.reports_.emplace_back(session);
     }
     void report(qos_violation violation) override {
-      all.tell_requester(
-          [violation = std::move(violation)](requester& x, time_point t) {
-            x.on_violation(violation, t);
-          });
+      all.reports_.emplace_back(std::move(violation));
     }
 
     void watch(const session_id& session, time_point last) override {
-      all.turns_.post(watches, [this, session, last](time_point) {
-        dog.arm(session, last);
-        set_dog_timer();
-      });
+      dog.arm(session, last);
+      set_dog_timer();
     }
     void watch_arrival(const arrival& result) override {
-      all.turns_.post(watches, [this, result](time_point t) {
-        if (auto late = dog.on_arrival(result, t))
-          bark(std::move(*late));
-      });
+      if (auto late = dog.on_arrival(result, all.now_))
+        bark(std::move(*late));
     }
     void watch_useless(const session_id& session,
                        const std::string& why) override {
-      all.turns_.post(watches, [this, session, why](time_point) {
-        dog.on_useless(session, why);
-      });
+      dog.on_useless(session, why);
     }
     void watch_end(const service_end& end) override {
-      all.turns_.post(watches, [this, session = end.running](time_point) {
-        if (dog.disarm(session))
-          ++dog_timer;
-      });
+      if (dog.disarm(end.running))
+        ++dog_timer;
     }
 
     void set_dog_timer() {
-      all.wake(watches, dog.deadline().value(),
-               [this, number = ++dog_timer](time_point t) {
-                 if (number != dog_timer)
-                   return;
-                 if (auto gap = dog.on_deadline(t))
-                   bark(std::move(*gap));
-                 else
-                   set_dog_timer();
-               });
+      wake_at(dog.deadline().value(), timer_of::dog, ++dog_timer);
+    }
+    void on_dog_timer(std::uint64_t number) {
+      if (number != dog_timer)
+        return;
+      if (auto gap = dog.on_deadline(all.now_))
+        bark(std::move(*gap));
+      else
+        set_dog_timer();
     }
     void bark(qos_violation violation) {
       ++dog_timer;
@@ -214,43 +215,82 @@ private:
     void record(event_record x) override { all.port_.record(std::move(x)); }
 
     void wake_at(time_point t, std::uint64_t number) override {
-      all.wake(selects, t, [this, number](time_point now) {
-        selector.on_timer(number, now);
-      });
+      wake_at(t, timer_of::selector, number);
     }
   };
 
-  template <class Function>
-  void tell_requester(Function what) {
-    turns_.post(part_, [this, what = std::move(what)](time_point t) {
-      what(*requester_, t);
-    });
+  service_parts* find(const service_name& service) {
+    const auto i = std::ranges::find_if(
+        services_, [&](const auto& known) { return known->name == service; });
+    return i == services_.end() ? nullptr : i->get();
+  }
+  service_parts& at(const service_name& service) {
+    auto* known = find(service);
+    assert(known);
+    return *known;
   }
 
-  // Something that a part handles then.
-  void wake(const turn_queue::part& part, time_point t, turn_queue::turn what) {
-    port_.wake_at(t, turns_.post_later(part, std::move(what)));
+  // -- calls --------------------------------------------------------------
+
+  void begin_call(time_point now) {
+    assert(now >= now_);
+    assert(reports_.empty());
+    now_ = now;
   }
 
-  // -- what comes over the air
-  // --------------------------------------------------
-
-  void handle(peer_id from, const service_offer& x, time_point now) {
-    requester_->on_offer(x, from, now);
+  // What selectors and watchdogs have found the requester hears at the end of a
+  // call; it may lead to more.
+  void end_call() {
+    for (std::size_t k = 0; k < reports_.size(); ++k) {
+      const auto found = std::move(reports_[k]);
+      std::visit([this](const auto& x) { handle(x); }, found);
+    }
+    reports_.clear();
   }
-  void handle(peer_id from, const service_response& x, time_point now) {
+
+  void handle(const session_id& given_first_data) {
+    requester_->on_first_data(given_first_data, now_);
+  }
+  void handle(const qos_violation& violation) {
+    requester_->on_violation(violation, now_);
+  }
+
+  void wake_at(time_point t, const timer& what) {
+    port_.wake_at(t, timers_.add(what));
+  }
+
+  void handle(const timer& due) {
+    assert(due.service || due.of == timer_of::requester);
+    switch (due.of) {
+      case timer_of::requester:
+        return requester_->on_timer(due.number, now_);
+      case timer_of::selector:
+        return due.service->selector.on_timer(due.number, now_);
+      case timer_of::dog:
+        return due.service->on_dog_timer(due.number);
+      case timer_of::own:
+        return due.service->own.on_timer(due.number, now_);
+      case timer_of::result:
+        return due.service->selector.on_result(
+            due.service->results.take(due.number).value(), now_);
+    }
+  }
+
+  // -- what comes over the air --------------------------------------------
+
+  void handle(peer_id from, const service_offer& x) {
+    requester_->on_offer(x, from, now_);
+  }
+  void handle(peer_id from, const service_response& x) {
     answering_ = from;
-    requester_->on_response(x, now);
+    requester_->on_response(x, now_);
   }
-  void handle(peer_id, const service_result& x, time_point now) {
-    requester_->on_result(x, now);
+  void handle(peer_id, const service_result& x) {
+    requester_->on_result(x, now_);
   }
-  void handle(peer_id, const service_end& x, time_point now) {
-    requester_->on_end(x, now);
-  }
+  void handle(peer_id, const service_end& x) { requester_->on_end(x, now_); }
 
-  // -- what the requester wants
-  // -------------------------------------------------
+  // -- what the requester wants -------------------------------------------
 
   void send(peer_id provider, const service_request& request) override {
     port_.send(provider, request);
@@ -259,65 +299,33 @@ private:
     port_.send(provider, end);
   }
   void begin(const session_id& session) override {
-    providers_[session] = answering_;
-    auto& service = *services_.at(session.kind);
-    service.tell_selector(
-        [session, &service](source_selector& x, time_point t) {
-          x.on_session(session, service.make_judge(), t);
-        });
+    at(session.kind).begin(session, answering_);
   }
   void forward(const service_result& result) override {
-    services_.at(result.running.kind)
-        ->tell_selector([result](source_selector& x, time_point t) {
-          x.on_result(result, t);
-        });
+    at(result.running.kind).selector.on_result(result, now_);
   }
-  void end(const service_end& end) override {
-    services_.at(end.running.kind)
-        ->tell_selector([this, end](source_selector& x, time_point t) {
-          x.on_end(end, t);
-          providers_.erase(end.running);
-        });
-  }
+  void end(const service_end& end) override { at(end.running.kind).end(end); }
   void set_standby(const service_name& service,
                    const std::optional<standby>& chosen) override {
-    services_.at(service)->tell_selector(
-        [chosen](source_selector& x, time_point t) {
-          x.on_standby(chosen, t);
-        });
+    at(service).selector.on_standby(chosen, now_);
   }
   void on_placement(bool) override {}
   void record(event_record x) override { port_.record(std::move(x)); }
   void record(const decision_record& x) override { port_.record(x); }
   void record(const episode_record& x) override { port_.record(x); }
   void wake_at(time_point t, std::uint64_t number) override {
-    wake(part_, t,
-         [this, number](time_point now) { requester_->on_timer(number, now); });
+    wake_at(t, {timer_of::requester, nullptr, number});
   }
 
   vehicle_port& port_;
-  turn_queue turns_;
-  turn_queue::part part_ = turn_queue::make_part(); // of the requester
-  std::map<service_name, std::unique_ptr<service_parts>> services_;
+  time_point now_; // of the latest call
+  timer_list<timer> timers_;
+  std::vector<std::unique_ptr<service_parts>> services_;
   std::optional<requester> requester_;
-  std::map<session_id, peer_id> providers_; // of the sessions
-  peer_id answering_{};                     // whose response is handled
+  /// First data and violations that it has not heard of yet.
+  std::vector<std::variant<session_id, qos_violation>> reports_;
+  peer_id answering_{}; // whose response is handled
 };
-
-void vehicle_side::parts::own_port::wake_at(time_point t,
-                                            std::uint64_t number) {
-  service.all.wake(service.runs, t, [this, number](time_point now) {
-    service.own.on_timer(number, now);
-  });
-}
-
-void vehicle_side::parts::own_port::deliver_at(time_point t,
-                                               service_result result) {
-  service.all.wake(service.selects, t,
-                   [this, result = std::move(result)](time_point now) {
-                     service.selector.on_result(result, now);
-                   });
-}
 
 vehicle_side::vehicle_side(vehicle_side_setup setup, vehicle_port& port,
                            time_point now)
@@ -334,9 +342,9 @@ void vehicle_side::on_input(const service_name& service, service_input input,
   parts_->on_input(service, std::move(input), now);
 }
 
-void vehicle_side::on_message(peer_id from, to_vehicle message,
+void vehicle_side::on_message(peer_id from, const to_vehicle& message,
                               time_point now) {
-  parts_->on_message(from, std::move(message), now);
+  parts_->on_message(from, message, now);
 }
 
 void vehicle_side::on_lost(peer_id provider, time_point now) {

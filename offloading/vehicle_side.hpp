@@ -2,17 +2,12 @@
 #pragma once
 
 #include "offloading/requester.hpp"
-#include "offloading/service_cycle.hpp"
+#include "offloading/service_function.hpp"
 #include "offloading/source_selector.hpp"
-#include "offloading/turn_queue.hpp"
-#include "offloading/watchdog.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -85,8 +80,9 @@ public:
 };
 
 /// A requester, and for each service a source selector, a watchdog and the
-/// vehicle's own function; they talk to each other in turns, all at the time of
-/// the call. Whoever owns it carries messages and timers, tells it where the
+/// vehicle's own function. The requester calls the selectors, these their
+/// watchdogs and functions; what those find goes up when a call is done, before
+/// it returns. Whoever owns it carries messages and timers, tells it where the
 /// vehicle is (every protocol::ego_period) and what its services work on, and
 /// broadcasts CAMs, by which providers find it.
 ///
@@ -104,7 +100,7 @@ public:
   void on_input(const service_name& service, service_input input,
                 time_point now);
 
-  void on_message(peer_id from, to_vehicle message, time_point now);
+  void on_message(peer_id from, const to_vehicle& message, time_point now);
 
   /// A provider cannot be reached any more.
   void on_lost(peer_id provider, time_point now);

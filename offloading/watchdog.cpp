@@ -24,6 +24,7 @@ bool watchdog::disarm(const session_id& session) {
 
 std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
                                                   time_point now) {
+  assert(result.running.counter != 0);
   assert(result.received <= now);
   if (watched_ != result.running)
     return std::nullopt;

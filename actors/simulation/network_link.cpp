@@ -2,10 +2,9 @@
 #include "actors/simulation/network_link.hpp"
 
 #include "actors/runtime/time.hpp"
+#include "messages/protocol/octets.hpp"
 #include "messages/v2x/geonet.hpp"
 
-#include <caf/binary_serializer.hpp>
-#include <caf/byte_buffer.hpp>
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
@@ -19,18 +18,16 @@ namespace {
 
 /// What a message takes on the air: an ITS message with what the layers below
 /// add to it, anything else as our own protocol has it.
-std::size_t octets_of(const its_pdu& message) {
+std::size_t octets_on_air(const its_pdu& message) {
   return message.octets.size() + geonet_octets;
 }
 
 template <class Message>
-std::size_t octets_of(const Message& message) {
+std::size_t octets_on_air(const Message& message) {
   if constexpr (requires { message.what.type(); })
     if (const auto pdu = message.what.template as<its_pdu>())
-      return octets_of(*pdu);
-  caf::byte_buffer bytes;
-  caf::binary_serializer sink{nullptr, bytes};
-  return sink.apply(message) ? bytes.size() : 0;
+      return octets_on_air(*pdu);
+  return octets_of(message);
 }
 
 struct link_state {
@@ -77,7 +74,7 @@ struct link_state {
              std::uint64_t number, const Receiver& receiver,
              const Message& message, Ts&&... xs) {
     const auto t =
-        direction.arrival(now(self), kind, number, octets_of(message));
+        direction.arrival(now(self), kind, number, octets_on_air(message));
     if (!t)
       return;
     if (!setup->faults) {

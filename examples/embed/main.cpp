@@ -60,7 +60,7 @@ constexpr offloading::peer_id car{1}, server{2};
 
 struct roadside final : offloading::provider_side_port {
   network& net;
-  std::function<void(offloading::to_vehicle)> to_car;
+  std::function<void(const offloading::to_vehicle&)> to_car;
   explicit roadside(network& x) : net{x} {}
 
   void send(offloading::peer_id, offloading::to_vehicle message) override {
@@ -134,8 +134,8 @@ int main() {
   network net;
   roadside near{net};
   vehicle own{net, near};
-  near.to_car = [&](offloading::to_vehicle message) {
-    own.side.on_message(server, std::move(message), net.now);
+  near.to_car = [&](const offloading::to_vehicle& message) {
+    own.side.on_message(server, message, net.now);
   };
   for (int tick = 0; tick < 400; ++tick) { // 40 s at 15 m/s
     const cam here{101, net.now, {-300 + 1.5 * tick, 0}, 0, 15};

@@ -19,23 +19,25 @@ namespace sofof {
 static_assert(std::endian::native == std::endian::little,
               "bytes are written as they lie in memory");
 
-/// Writes values one after the other. A struct takes part through
+/// Takes values one after the other as plain bytes. A struct takes part through
 /// `archive(auto& bytes, T& x) { bytes(x.first, x.second); }`.
-class byte_writer {
+/// @tparam Sink  Has `append(const std::byte* from, std::size_t size)`.
+template <class Sink>
+class byte_output {
 public:
   template <class... Ts>
   void operator()(const Ts&... xs) {
     (write(xs), ...);
   }
 
-  std::vector<std::byte> take() { return std::move(out_); }
+protected:
+  Sink sink_;
 
 private:
   template <class T>
   void write(const T& x) {
     if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
-      const auto* from = reinterpret_cast<const std::byte*>(&x);
-      out_.insert(out_.end(), from, from + sizeof(T));
+      sink_.append(reinterpret_cast<const std::byte*>(&x), sizeof(T));
     } else {
       // `archive` serves both directions, hence takes a mutable reference.
       archive(*this, const_cast<T&>(x));
@@ -60,8 +62,32 @@ private:
     for (auto c : text)
       write(c);
   }
+};
 
-  std::vector<std::byte> out_;
+/// Keeps bytes.
+struct byte_buffer_sink {
+  std::vector<std::byte> bytes;
+  void append(const std::byte* from, std::size_t size) {
+    bytes.insert(bytes.end(), from, from + size);
+  }
+};
+
+/// Counts bytes.
+struct byte_count_sink {
+  std::size_t count = 0;
+  void append(const std::byte*, std::size_t size) { count += size; }
+};
+
+/// Writes values.
+class byte_writer : public byte_output<byte_buffer_sink> {
+public:
+  std::vector<std::byte> take() { return std::move(sink_.bytes); }
+};
+
+/// Tells how many bytes `byte_writer` would write.
+class byte_counter : public byte_output<byte_count_sink> {
+public:
+  std::size_t count() const { return sink_.count; }
 };
 
 /// Reads what `byte_writer` wrote. Bytes from a stranger are no danger: once

@@ -4,6 +4,7 @@
 
 #include "messages/protocol/bytes.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,41 +27,41 @@ public:
   template <class T>
   static payload of(T value) {
     static_assert(!payload_name<T>.empty(), "the type needs a payload_name");
-    payload p;
-    p.type_ = payload_name<T>;
-    p.value_ = std::make_shared<const T>(std::move(value));
-    p.encode_ = [](const void* x) {
-      byte_writer out;
-      out(*static_cast<const T*>(x));
-      return out.take();
-    };
-    return p;
+    return payload{std::make_shared<const own<T>>(std::move(value))};
   }
+
+  bool empty() const { return !held_; }
 
   /// @returns the value, or null when it is of another type or when the bytes
   /// it came in are broken.
   template <class T>
   std::shared_ptr<const T> as() const {
-    if (type_ != payload_name<T>)
+    if (type() != payload_name<T>)
       return nullptr;
-    if (value_)
-      return std::static_pointer_cast<const T>(value_);
+    if (const auto* value = static_cast<const T*>(held_->value()))
+      return {held_, value};
     auto value = std::make_shared<T>();
-    byte_reader in{bytes_};
+    const auto bytes = held_->encoded();
+    byte_reader in{bytes};
     in(*value);
     return in.done() ? value : nullptr;
   }
 
   /// @returns the name of the type; empty for no payload.
-  std::string_view type() const { return type_; }
+  std::string_view type() const {
+    return held_ ? held_->type() : std::string_view{};
+  }
 
   std::vector<std::byte> encoded() const {
-    return value_ ? encode_(value_.get()) : bytes_;
+    return held_ ? held_->encoded() : std::vector<std::byte>{};
   }
+
+  /// @returns how many bytes `encoded` has.
+  std::size_t encoded_size() const { return held_ ? held_->size() : 0; }
 
   template <class Inspector>
   friend bool inspect(Inspector& f, payload& x) {
-    std::string type{x.type_};
+    std::string type{x.type()};
     std::vector<std::byte> bytes;
     if constexpr (!Inspector::is_loading)
       bytes = x.encoded();
@@ -68,17 +69,65 @@ public:
       return false;
     if constexpr (Inspector::is_loading) {
       x = payload{};
-      x.type_ = std::move(type);
-      x.bytes_ = std::move(bytes);
+      if (!type.empty())
+        x.held_ =
+            std::make_shared<const foreign>(std::move(type), std::move(bytes));
     }
     return true;
   }
 
 private:
-  std::string type_;
-  std::shared_ptr<const void> value_;
-  std::vector<std::byte> (*encode_)(const void*) = nullptr;
-  std::vector<std::byte> bytes_;
+  /// What copies share.
+  class content {
+  public:
+    virtual ~content() = default;
+    virtual std::string_view type() const = 0;
+    virtual const void* value() const = 0; // null: there are only bytes
+    virtual std::vector<std::byte> encoded() const = 0;
+    virtual std::size_t size() const = 0; // of these
+  };
+
+  /// A value of this process.
+  template <class T>
+  class own final : public content {
+  public:
+    explicit own(T value) : value_{std::move(value)} {}
+    std::string_view type() const override { return payload_name<T>; }
+    const void* value() const override { return &value_; }
+    std::vector<std::byte> encoded() const override {
+      byte_writer out;
+      out(value_);
+      return out.take();
+    }
+    std::size_t size() const override {
+      byte_counter out;
+      out(value_);
+      return out.count();
+    }
+
+  private:
+    T value_;
+  };
+
+  /// What another process has sent.
+  class foreign final : public content {
+  public:
+    foreign(std::string type, std::vector<std::byte> bytes)
+        : type_{std::move(type)}, bytes_{std::move(bytes)} {}
+    std::string_view type() const override { return type_; }
+    const void* value() const override { return nullptr; }
+    std::vector<std::byte> encoded() const override { return bytes_; }
+    std::size_t size() const override { return bytes_.size(); }
+
+  private:
+    std::string type_;
+    std::vector<std::byte> bytes_;
+  };
+
+  explicit payload(std::shared_ptr<const content> held)
+      : held_{std::move(held)} {}
+
+  std::shared_ptr<const content> held_;
 };
 
 } // namespace sofof

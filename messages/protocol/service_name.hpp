@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <compare>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,7 +29,13 @@ public:
 
   std::string_view view() const { return text_.data(); }
 
-  friend auto operator<=>(const service_name&, const service_name&) = default;
+  friend bool operator==(const service_name& a, const service_name& b) {
+    return std::memcmp(a.text_.data(), b.text_.data(), sizeof(text_)) == 0;
+  }
+  friend std::strong_ordering operator<=>(const service_name& a,
+                                          const service_name& b) {
+    return std::memcmp(a.text_.data(), b.text_.data(), sizeof(text_)) <=> 0;
+  }
 
   template <class Inspector>
   friend bool inspect(Inspector& f, service_name& x) {

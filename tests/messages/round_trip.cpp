@@ -1,5 +1,6 @@
 // Tests of messages between processes: they arrive as they were sent, and
 // broken bytes are refused.
+#include "messages/protocol/octets.hpp"
 #include "tests/messages/random_messages.hpp"
 #include "tests/messages/wire.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -35,6 +36,18 @@ TEST_CASE("every message arrives as it was sent") {
       const auto arrived = load<message>(save(x));
       REQUIRE(arrived);
       REQUIRE(same(x, *arrived));
+    }
+  });
+}
+
+TEST_CASE("the octets of a message are counted without writing it") {
+  filler random{4};
+  for_every_message([&](auto x) {
+    using message = decltype(x);
+    CAPTURE(name_of_type<message>());
+    for (int k = 0; k < 200; ++k) {
+      random.fill(x);
+      REQUIRE(octets_of(x) == save(x).size());
     }
   });
 }

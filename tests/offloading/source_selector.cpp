@@ -254,7 +254,7 @@ TEST_CASE_FIXTURE(selecting, "a standby is fed only when a cycle is not "
   news();
   selector.on_standby(standby{2, 30ms}, at(70ms));
   CHECK(news() == lines{"feed B, stand by"});
-  selector.on_input({own, at(200ms), of(2)}, at(200ms));
+  selector.on_input({own, at(110ms), of(2)}, at(110ms));
   CHECK(news() == lines{"feed A"});
   REQUIRE_FALSE(port.wakes.empty());
   const auto [due, number] = port.wakes.back();

@@ -5,6 +5,7 @@
 #include "base/random_phase.hpp"
 #include "channel/link_direction.hpp"
 #include "channel/multi_server_queue.hpp"
+#include "messages/protocol/octets.hpp"
 #include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/geonet.hpp"
@@ -14,36 +15,52 @@
 #include "tests/properties/ledger.hpp"
 #include "tests/support/echo_service.hpp"
 
-#include <caf/binary_serializer.hpp>
-#include <caf/byte_buffer.hpp>
-
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
-#include <optional>
-#include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sofof::test {
 
-/// What happens, in the order of time and of these calls.
+/// What happens, in the order of time and of these calls; few things at once.
+/// @tparam Event  A variant.
+template <class Event>
 class agenda {
 public:
   time_point now() const { return now_; }
-  void at(time_point t, std::function<void()> what) {
-    entries_.push_back({std::max(t, now_), ++made_, std::move(what)});
-    std::ranges::push_heap(entries_, later);
+
+  template <class Kind>
+  void at(time_point t, Kind&& what) {
+    if (free_.empty()) {
+      free_.push_back(events_.size());
+      events_.emplace_back();
+    }
+    const auto place = free_.back();
+    free_.pop_back();
+    events_[place].template emplace<std::remove_cvref_t<Kind>>(
+        std::forward<Kind>(what));
+    const auto due = std::max(t, now_);
+    entries_.insert(
+        std::ranges::lower_bound(entries_, due, std::greater{}, &entry::at),
+        {due, place});
   }
-  void run_until(time_point end) {
-    while (!entries_.empty() && entries_.front().at <= end) {
-      std::ranges::pop_heap(entries_, later);
-      const auto next = std::move(entries_.back());
+
+  /// @param handle  Takes an event; may call `at`.
+  template <class Function>
+  void run_until(time_point end, Function handle) {
+    while (!entries_.empty() && entries_.back().at <= end) {
+      const auto next = entries_.back();
       entries_.pop_back();
       now_ = next.at;
-      next.what();
+      handle(events_[next.place]);
+      free_.push_back(next.place);
     }
     now_ = end;
   }
@@ -51,25 +68,42 @@ public:
 private:
   struct entry {
     time_point at;
-    std::uint64_t number = 0;
-    std::function<void()> what;
+    std::size_t place = 0; // of the event
   };
-  static bool later(const entry& a, const entry& b) {
-    return a.at != b.at ? a.at > b.at : a.number > b.number;
-  }
 
   time_point now_;
-  std::vector<entry> entries_;
-  std::uint64_t made_ = 0;
+  std::vector<entry> entries_; // the next one last
+  std::deque<Event> events_;   // they stay where they are
+  std::vector<std::size_t> free_;
 };
 
-/// @returns what a message takes on the air, as network_link has it.
+/// The car moves on.
+struct tick {};
+
+struct vehicle_timer {
+  std::uint64_t number = 0;
+};
+
+struct provider_timer {
+  std::size_t provider = 0;
+  std::uint64_t number = 0;
+};
+
+/// A provider gets something.
 template <class Message>
-std::size_t octets_of(const Message& message) {
-  caf::byte_buffer bytes;
-  caf::binary_serializer sink{nullptr, bytes};
-  return sink.apply(message) ? bytes.size() : 0;
-}
+struct up_arrival {
+  std::size_t provider = 0;
+  Message message;
+};
+
+/// The vehicle gets something of a provider.
+struct down_arrival {
+  std::size_t provider = 0;
+  offloading::to_vehicle message;
+};
+
+using event = std::variant<tick, vehicle_timer, provider_timer, up_arrival<cam>,
+                           up_arrival<offloading::to_provider>, down_arrival>;
 
 inline std::size_t octets_of_cam() {
   static const auto size = [] {
@@ -83,42 +117,44 @@ inline std::size_t octets_of_cam() {
 /// As network_link has it.
 class library_link {
 public:
-  library_link(agenda& time, const channel& draws, link_faults faults)
+  library_link(agenda<event>& time, const channel& draws, link_faults faults)
       : time_{time}, up_{draws, direction::up, nullptr},
         down_{draws, direction::down, nullptr}, faults_{std::move(faults)} {}
 
-  void up(std::uint64_t number, std::size_t octets,
-          std::function<void()> deliver) {
-    carry(up_, message_class::other, number, octets, std::move(deliver));
+  template <class Arrival>
+  void up(std::uint64_t number, std::size_t octets, Arrival&& arrival) {
+    carry(up_, message_class::other, number, octets,
+          std::forward<Arrival>(arrival));
   }
   void down(message_class kind, std::uint64_t number, std::size_t octets,
-            std::function<void()> deliver) {
-    carry(down_, kind, number, octets, std::move(deliver));
+            down_arrival&& arrival) {
+    carry(down_, kind, number, octets, std::move(arrival));
   }
   /// Knows the sessions from what passes.
   void look_at(const offloading::to_vehicle& message) {
     if (const auto* response = std::get_if<service_response>(&message))
       for (const auto& v : response->verdicts)
         if (v.accepted)
-          sessions_.insert(v.running);
+          sessions_.push_back(v.running);
     if (const auto* end = std::get_if<service_end>(&message))
-      sessions_.erase(end->running);
+      std::erase(sessions_, end->running);
   }
   /// @returns whether it is carried: not the input of a session that has ended.
   bool look_at(const offloading::to_provider& message) {
     if (const auto* end = std::get_if<service_end>(&message))
-      sessions_.erase(end->running);
+      std::erase(sessions_, end->running);
     const auto* input = std::get_if<service_input>(&message);
-    return !input || sessions_.contains(input->running);
+    return !input
+           || std::ranges::find(sessions_, input->running) != sessions_.end();
   }
   std::uint64_t time_number() const {
     return static_cast<std::uint64_t>(time_.now().time_since_epoch().count());
   }
 
 private:
+  template <class Arrival>
   void carry(link_direction& direction, message_class kind,
-             std::uint64_t number, std::size_t octets,
-             std::function<void()> deliver) {
+             std::uint64_t number, std::size_t octets, Arrival&& arrival) {
     const auto t = direction.arrival(time_.now(), kind, number, octets);
     if (!t)
       return;
@@ -126,15 +162,15 @@ private:
     if (fate.lost)
       return;
     if (fate.copy_after) // first: at the same time they are alike
-      time_.at(*t + *fate.copy_after, deliver);
-    time_.at(*t + fate.extra_delay, std::move(deliver));
+      time_.at(*t + *fate.copy_after, arrival);
+    time_.at(*t + fate.extra_delay, std::forward<Arrival>(arrival));
   }
 
-  agenda& time_;
+  agenda<event>& time_;
   link_direction up_, down_;
   link_faults faults_;
   std::uint64_t carried_ = 0;
-  std::set<session_id> sessions_;
+  std::vector<session_id> sessions_;
 };
 
 struct library_world {
@@ -143,22 +179,21 @@ struct library_world {
 
   struct provider_node final : offloading::provider_side_port {
     library_world& world;
-    int number;
+    std::size_t number;
     std::shared_ptr<multi_server_queue> workers;
     library_link link;
     bool alive = true;
     std::unique_ptr<offloading::provider_side> side;
 
-    provider_node(library_world& w, int k)
+    provider_node(library_world& w, std::size_t k)
         : world{w}, number{k}, workers{std::make_shared<multi_server_queue>(
                                    w.profile->workers)},
           link{w.time, draws(),
-               link_faults{random_stream{w.seed, "faults"}.part(
-                               static_cast<std::uint64_t>(k) + 1),
+               link_faults{random_stream{w.seed, "faults"}.part(k + 1),
                            w.faults}} {
       offloading::provider_setup setup;
       setup.id = static_cast<provider_id>(k + 1);
-      setup.area = area_of_provider(k);
+      setup.area = area_of_provider(static_cast<int>(k));
       for (const auto* name : {"one", "two"})
         setup.services.push_back(
             {.name = name, .period = period, .max_latency = period});
@@ -176,9 +211,7 @@ struct library_world {
       return {world.profile, random_stream{world.seed, "network"},
               shuttle::station, static_cast<std::uint32_t>(number)};
     }
-    offloading::peer_id peer() const {
-      return offloading::peer_id{static_cast<std::uint64_t>(number) + 1};
-    }
+    offloading::peer_id peer() const { return offloading::peer_id{number + 1}; }
 
     void send(offloading::peer_id, offloading::to_vehicle message) override {
       link.look_at(message);
@@ -187,10 +220,7 @@ struct library_world {
           std::visit([](const auto& x) { return octets_of(x); }, message);
       link.down(result ? message_class::result : message_class::other,
                 result ? result->cycle : link.time_number(), octets,
-                [this, message] {
-                  if (world.alive)
-                    world.side->on_message(peer(), message, world.time.now());
-                });
+                down_arrival{number, std::move(message)});
     }
     offloading::cycle_setup
     make_function(const offloading::session_start&) override {
@@ -204,10 +234,7 @@ struct library_world {
     }
     void record(const episode_record& x) override { world.book->add(x); }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
-      world.time.at(t, [this, number_of_timer] {
-        if (alive)
-          side->on_timer(number_of_timer, world.time.now());
-      });
+      world.time.at(t, provider_timer{number, number_of_timer});
     }
   };
 
@@ -217,15 +244,14 @@ struct library_world {
 
     void send(offloading::peer_id to,
               offloading::to_provider message) override {
-      auto& p = *world.providers.at(static_cast<std::size_t>(to) - 1);
+      const auto k = static_cast<std::size_t>(to) - 1;
+      auto& p = *world.providers.at(k);
       if (!p.link.look_at(message))
         return;
       const auto octets =
           std::visit([](const auto& x) { return octets_of(x); }, message);
-      p.link.up(p.link.time_number(), octets, [&p, message] {
-        if (p.alive)
-          p.side->on_message(vehicle_peer, message, p.world.time.now());
-      });
+      p.link.up(p.link.time_number(), octets,
+                up_arrival<offloading::to_provider>{k, std::move(message)});
     }
     void use(const service_result& result) override {
       world.diary->on_result(result);
@@ -238,10 +264,7 @@ struct library_world {
         world.book->add(*episode);
     }
     void wake_at(time_point t, std::uint64_t number) override {
-      world.time.at(t, [this, number] {
-        if (world.alive)
-          world.side->on_timer(number, world.time.now());
-      });
+      world.time.at(t, vehicle_timer{number});
     }
   };
 
@@ -249,7 +272,7 @@ struct library_world {
   link_fault_options faults;
   std::shared_ptr<const channel_profile> profile;
   streets_ptr world = one_long_street();
-  agenda time;
+  agenda<event> time;
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
   std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
   std::vector<std::unique_ptr<provider_node>> providers;
@@ -263,7 +286,8 @@ struct library_world {
       : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
-      providers.push_back(std::make_unique<provider_node>(*this, k));
+      providers.push_back(
+          std::make_unique<provider_node>(*this, static_cast<std::size_t>(k)));
     offloading::vehicle_side_setup setup;
     setup.station = shuttle::station;
     setup.policy = make_lodm("always");
@@ -276,7 +300,7 @@ struct library_world {
       setup.services.push_back(echo_of(name));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
                                                       time.now());
-    tick();
+    handle(tick{});
   }
 
   offloading::onboard_service echo_of(const char* name) const {
@@ -298,13 +322,12 @@ struct library_world {
     return service;
   }
 
-  void tick() {
+  void handle(tick) {
     using namespace std::chrono_literals;
+    if (!alive)
+      return;
     const auto t = time.now();
-    time.at(t + 50ms, [this] {
-      if (alive)
-        tick();
-    });
+    time.at(t + 50ms, tick{});
     car.step();
     if (car.sends_cam())
       send_cam(car.ego(t));
@@ -313,21 +336,44 @@ struct library_world {
     for (const auto* name : {"one", "two"})
       side->on_input(name, {{}, t, payload::of(echo{car.said})}, t);
   }
+  void handle(const vehicle_timer& x) {
+    if (alive)
+      side->on_timer(x.number, now());
+  }
+  void handle(const provider_timer& x) {
+    if (auto& p = *providers[x.provider]; p.alive)
+      p.side->on_timer(x.number, now());
+  }
+  // CAMs of a vehicle that is gone are not decoded any more.
+  void handle(const up_arrival<cam>& x) {
+    if (auto& p = *providers[x.provider]; p.alive && alive)
+      p.side->on_cam(x.message, vehicle_peer, now());
+  }
+  void handle(up_arrival<offloading::to_provider>& x) {
+    if (auto& p = *providers[x.provider]; p.alive)
+      p.side->on_message(vehicle_peer, std::move(x.message), now());
+  }
+  void handle(const down_arrival& x) {
+    if (alive)
+      side->on_message(providers[x.provider]->peer(), x.message, now());
+  }
 
   void send_cam(const ego_state& ego) {
     constexpr std::uint64_t cam_message = 2;
     side->on_motion(ego);
-    for (auto& p : providers)
-      p->link.up(p->link.time_number() ^ cam_message << 56, octets_of_cam(),
-                 [&node = *p, own = ego.own] {
-                   if (node.alive && node.world.alive)
-                     node.side->on_cam(own, vehicle_peer,
-                                       node.world.time.now());
-                 });
+    for (std::size_t k = 0; k < providers.size(); ++k) {
+      auto& link = providers[k]->link;
+      link.up(link.time_number() ^ cam_message << 56, octets_of_cam(),
+              up_arrival<cam>{k, ego.own});
+    }
   }
 
   time_point now() const { return time.now(); }
-  void run_for(duration d) { time.run_until(time.now() + d); }
+  void run_for(duration d) {
+    time.run_until(time.now() + d, [this](event& next) {
+      std::visit([this](auto& x) { handle(x); }, next);
+    });
+  }
 
   /// Runs on, and checks every 10 ms that the newest result is fresh.
   void run_and_check(duration d) {

@@ -1,0 +1,107 @@
+// How many octets a message takes between processes.
+#pragma once
+
+#include "messages/protocol/payload.hpp"
+#include "messages/protocol/service_name.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace sofof {
+
+/// Goes through a message as the serializer does that writes it, and counts
+/// what that would write.
+class octet_counter {
+public:
+  static constexpr bool is_loading = false;
+
+  std::size_t count() const { return count_; }
+
+  template <class T>
+  octet_counter& object(T&) {
+    return *this;
+  }
+
+  template <class T>
+  auto field(std::string_view, T& x) {
+    return [this, &x] { return add(x); };
+  }
+  template <class Get, class Set>
+  auto field(std::string_view, Get get, Set set) {
+    return [this, get, set] { return apply(get, set); };
+  }
+
+  template <class... Fields>
+  bool fields(Fields... all) {
+    return (all() && ...);
+  }
+
+  template <class Get, class Set>
+  bool apply(Get get, Set) {
+    auto x = get();
+    return add(x);
+  }
+
+private:
+  template <class T>
+  bool add(T& x) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>) {
+      count_ += sizeof(T);
+      return true;
+    } else {
+      return inspect(*this, x);
+    }
+  }
+  template <class Rep, class Period>
+  bool add(std::chrono::duration<Rep, Period>&) {
+    count_ += sizeof(Rep);
+    return true;
+  }
+  template <class T>
+  bool add(std::optional<T>& x) {
+    ++count_; // whether it is there
+    return !x || add(*x);
+  }
+  template <class T>
+  bool add(std::vector<T>& xs) {
+    add_size(xs.size());
+    for (auto& x : xs)
+      if (!add(x))
+        return false;
+    return true;
+  }
+  bool add(std::string& text) { return add_bytes(text.size()); }
+  bool add(service_name& name) { return add_bytes(name.view().size()); }
+  bool add(payload& x) {
+    return add_bytes(x.type().size()) && add_bytes(x.encoded_size());
+  }
+
+  bool add_bytes(std::size_t size) {
+    add_size(size);
+    count_ += size;
+    return true;
+  }
+  // Seven bits an octet.
+  void add_size(std::size_t size) {
+    do
+      ++count_;
+    while ((size >>= 7) != 0);
+  }
+
+  std::size_t count_ = 0;
+};
+
+/// @returns what a message takes in CAF's binary form.
+template <class Message>
+std::size_t octets_of(const Message& message) {
+  octet_counter f;
+  // `inspect` serves both directions, hence takes a mutable reference.
+  return inspect(f, const_cast<Message&>(message)) ? f.count() : 0;
+}
+
+} // namespace sofof
