@@ -36,7 +36,7 @@ public:
       if (context) {
         tell(*context);
         for (const auto& doubt : context->news())
-          if (doubts_.take(clock_()))
+          if (doubts_.try_spend(clock_()))
             news.push_back(record_of(doubt));
       }
     return news;

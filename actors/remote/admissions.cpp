@@ -107,7 +107,7 @@ struct admissions_state {
     if (arrivals.size() >= most_names)
       arrivals.clear();
     return arrivals.try_emplace(who, arrivals_s, arrivals_at_once)
-        .first->second.take(now(self));
+        .first->second.try_spend(now(self));
   }
 
   void gone(const caf::actor_addr& who) {
@@ -125,7 +125,7 @@ struct admissions_state {
   }
 
   void tell(const std::set<station_id>& stations, bool is_here) {
-    if (chatter.take(now(self)))
+    if (chatter.try_spend(now(self)))
       setup->on_peer(stations, is_here);
   }
 

@@ -32,8 +32,8 @@ struct entrance_state {
       self->demonitor(admissions);
   }
 
-  caf::result<peer_welcome, session_actor> take(const peer_hello& hello,
-                                                const uplink_actor& peer) {
+  caf::result<peer_welcome, session_actor> on_hello(const peer_hello& hello,
+                                                    const uplink_actor& peer) {
     // Actor ids can be guessed: another process must not use it up.
     const auto& sender = self->current_sender();
     if (!sender || sender->node() != process)
@@ -110,7 +110,7 @@ entrance(entrance_actor::stateful_pointer<entrance_state> self,
   self->set_default_handler(caf::drop); // what no interface has
   return {
       [self](const peer_hello& hello, const uplink_actor& peer) {
-        return self->state.take(hello, peer);
+        return self->state.on_hello(hello, peer);
       },
   };
 }

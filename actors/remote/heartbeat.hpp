@@ -24,7 +24,7 @@ public:
     return {sign, now, now};
   }
 
-  void take(const pong& echo, time_point now) {
+  void on_pong(const pong& echo, time_point now) {
     // It lived when it heard the sign, and nobody answers before he is asked.
     alive_ = std::max(alive_, std::min(echo.of.sent, now));
     clocks_.add({echo.of.sent, echo.received, echo.answered, now});

@@ -26,7 +26,7 @@ struct far_provider_state {
   }
 
   // Inputs for its managers come here: there are as many of it.
-  void take(const service_response& response) {
+  void on_response(const service_response& response) {
     if (!near)
       return;
     const auto accepted =
@@ -37,7 +37,7 @@ struct far_provider_state {
                    provider_manager_actor{link_actor{self}}));
   }
 
-  void take(const service_end& end) {
+  void on_end(const service_end& end) {
     if (end.from == side::provider)
       down(end);
     else
@@ -60,12 +60,12 @@ provider_proxy(link_actor::stateful_pointer<far_provider_state> self,
         self->state.near = requester;
         self->send(self->state.uplink, request);
       },
-      [self](const service_end& end) { self->state.take(end); },
+      [self](const service_end& end) { self->state.on_end(end); },
       [self](const service_result& result) { self->state.down(result); },
       [self](const service_offer& offer) { self->state.down(offer); },
       [self](const service_response& response,
              const std::vector<provider_manager_actor>&) {
-        self->state.take(response);
+        self->state.on_response(response);
       },
       [self](const service_input& input) {
         self->send(self->state.uplink, input);

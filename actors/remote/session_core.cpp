@@ -86,7 +86,7 @@ struct session_state {
   }
 
   bool is_heard() {
-    const auto is = attention->take(now(self));
+    const auto is = attention->try_spend(now(self));
     if (!is)
       drop(0, "the peer says too much");
     return is;
@@ -102,7 +102,7 @@ struct session_state {
   }
 
   bool is_allowed(station_id station) {
-    const auto is = allowances.at(station).take(now(self));
+    const auto is = allowances.at(station).try_spend(now(self));
     if (!is)
       drop(station, "says too much");
     return is;
@@ -128,13 +128,13 @@ struct session_state {
 
   // What is dropped is acknowledged, too: its stream would stop for a while.
   // What is not goes first.
-  void take(station_id station, const its_pdu& message) {
+  void on_its_message(station_id station, const its_pdu& message) {
     if (!speaks_for(station))
       return;
     hand_on(station, message);
     tell_peer(stream_of(station, message));
   }
-  void take(const service_input& input) {
+  void on_input(const service_input& input) {
     if (!speaks_for(input.running.station))
       return;
     hand_on(input);
@@ -155,7 +155,7 @@ struct session_state {
           voice_of(station));
   }
 
-  void take(const service_request& request) {
+  void on_request(const service_request& request) {
     if (!speaks_for(request.station))
       return;
     if (request.route.size() > longest_route
@@ -181,7 +181,7 @@ struct session_state {
     self->send(manager->second, std::move(here));
   }
 
-  void end(const service_end& e) {
+  void on_requester_end(const service_end& e) {
     if (!speaks_for(e.running.station))
       return;
     forget(e.running);
@@ -190,8 +190,8 @@ struct session_state {
 
   // -- what the provider says -----------------------------------------------
 
-  void take(const service_response& response,
-            const std::vector<provider_manager_actor>& given) {
+  void on_response(const service_response& response,
+                   const std::vector<provider_manager_actor>& given) {
     auto manager = given.begin();
     for (const auto& v : response.verdicts)
       if (v.accepted && manager != given.end())
@@ -199,18 +199,18 @@ struct session_state {
     tell_peer(response);
   }
 
-  void take(const service_result& result) {
+  void on_result(const service_result& result) {
     const auto stream = stream_of(result.running, stream_id::what::result);
     if (const auto next = results->offer(stream, result, now(self)))
       tell_peer(*next);
   }
 
-  void acknowledge(const stream_id& stream) {
+  void on_acknowledgement(const stream_id& stream) {
     if (const auto next = results->acknowledge(stream, now(self)))
       tell_peer(*next);
   }
 
-  void tell_end(const service_end& e) {
+  void on_provider_end(const service_end& e) {
     forget(e.running);
     tell_peer(e);
   }
@@ -279,15 +279,17 @@ session_core(session_impl::stateful_pointer<session_state> self,
       [self](const caf::exit_msg&) { self->state.leave("replaced"); });
   return {
       [self](station_id station, const its_pdu& message) {
-        self->state.take(station, message);
+        self->state.on_its_message(station, message);
       },
-      [self](const service_request& request) { self->state.take(request); },
-      [self](const service_input& input) { self->state.take(input); },
+      [self](const service_request& request) {
+        self->state.on_request(request);
+      },
+      [self](const service_input& input) { self->state.on_input(input); },
       [self](const service_end& e) {
         if (e.from == side::requester)
-          self->state.end(e);
+          self->state.on_requester_end(e);
         else
-          self->state.tell_end(e);
+          self->state.on_provider_end(e);
       },
       [self](const ping& sign) {
         if (self->state.is_heard())
@@ -295,20 +297,20 @@ session_core(session_impl::stateful_pointer<session_state> self,
       },
       [self](const pong& echo) {
         if (self->state.is_heard())
-          self->state.life->take(echo, now(self));
+          self->state.life->on_pong(echo, now(self));
       },
       [self](const stream_id& stream) {
         if (self->state.is_heard())
-          self->state.acknowledge(stream);
+          self->state.on_acknowledgement(stream);
       },
       [self](station_id station, const service_offer& offer) {
         self->state.tell_peer(station, offer);
       },
       [self](const service_response& response,
              const std::vector<provider_manager_actor>& managers) {
-        self->state.take(response, managers);
+        self->state.on_response(response, managers);
       },
-      [self](const service_result& result) { self->state.take(result); },
+      [self](const service_result& result) { self->state.on_result(result); },
       [self](tick_atom) { self->state.tick(); },
       [self](const std::string& why) { self->state.drop(0, why); },
   };

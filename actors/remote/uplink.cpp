@@ -228,18 +228,18 @@ struct uplink_state {
       tell_session(std::get<service_input>(what));
   }
 
-  void acknowledge(const stream_id& stream) {
+  void on_acknowledgement(const stream_id& stream) {
     if (auto next = words->acknowledge(stream, now(self)))
       send(stream, *next);
   }
 
   // Whose turn has not come is not connected yet.
-  void ask(const service_request& request) {
+  void on_request(const service_request& request) {
     if (session && !turns.contains(request.station))
       tell_session(request);
   }
 
-  void end(const service_end& e) {
+  void on_requester_end(const service_end& e) {
     forget(e.running);
     if (session)
       tell_session(e);
@@ -271,7 +271,7 @@ struct uplink_state {
   }
 
   // By the answer the session knows our clock, and thus how old CAMs are.
-  void answer(const ping& sign) {
+  void on_ping(const ping& sign) {
     const auto t = now(self);
     tell_session(heartbeat::answer(sign, t));
     if (std::exchange(is_heard, true))
@@ -297,12 +297,12 @@ struct uplink_state {
   }
 
   // Who accepts at once and hangs up again has not succeeded.
-  void take(const pong& echo) {
-    life->take(echo, now(self));
+  void on_pong(const pong& echo) {
+    life->on_pong(echo, now(self));
     pauses.succeeded();
   }
 
-  void take(station_id station, service_offer offer) {
+  void on_offer(station_id station, service_offer offer) {
     const auto clock = life->clock(now(self));
     if (clock && offer.created)
       *offer.created -= clock->ahead;
@@ -311,7 +311,7 @@ struct uplink_state {
     down(station, offer);
   }
 
-  void take(const service_response& response) {
+  void on_response(const service_response& response) {
     const auto vehicle = vehicles.find(response.station);
     if (vehicle == vehicles.end())
       return;
@@ -325,7 +325,7 @@ struct uplink_state {
                std::vector<provider_manager_actor>{});
   }
 
-  void take(const service_result& result) {
+  void on_result(const service_result& result) {
     hand_on(result);
     tell_session(stream_of(result.running, stream_id::what::result));
   }
@@ -347,7 +347,7 @@ struct uplink_state {
     down(here.running.station, here);
   }
 
-  void tell_end(const service_end& e) {
+  void on_provider_end(const service_end& e) {
     forget(e.running);
     down(e.running.station, e);
   }
@@ -355,7 +355,7 @@ struct uplink_state {
   // -- news -----------------------------------------------------------------
 
   void tell(const std::string& news) {
-    if (news == last_news || !allowance.take(now(self)))
+    if (news == last_news || !allowance.try_spend(now(self)))
       return;
     last_news = news;
     setup->on_news(news);
@@ -379,38 +379,40 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
   return {
       [self](station_id station, const service_offer& offer) {
         if (self->state.is_from_connection())
-          self->state.take(station, offer);
+          self->state.on_offer(station, offer);
       },
       [self](const service_response& response) {
         if (self->state.is_from_connection())
-          self->state.take(response);
+          self->state.on_response(response);
       },
       [self](const service_result& result) {
         if (self->state.is_from_connection())
-          self->state.take(result);
+          self->state.on_result(result);
       },
       [self](const service_end& e) {
         if (e.from == side::provider && self->state.is_from_connection())
-          self->state.tell_end(e);
+          self->state.on_provider_end(e);
         else if (e.from == side::requester)
-          self->state.end(e);
+          self->state.on_requester_end(e);
       },
       [self](const ping& sign) {
         if (self->state.is_from_connection())
-          self->state.answer(sign);
+          self->state.on_ping(sign);
       },
       [self](const pong& echo) {
         if (self->state.is_from_connection())
-          self->state.take(echo);
+          self->state.on_pong(echo);
       },
       [self](const stream_id& stream) {
         if (self->state.is_from_connection())
-          self->state.acknowledge(stream);
+          self->state.on_acknowledgement(stream);
       },
       [self](station_id station, const its_pdu& message) {
         self->state.say(station, message);
       },
-      [self](const service_request& request) { self->state.ask(request); },
+      [self](const service_request& request) {
+        self->state.on_request(request);
+      },
       [self](const service_input& input) {
         self->state.say(stream_of(input.running, stream_id::what::input),
                         input);

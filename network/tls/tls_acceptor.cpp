@@ -48,7 +48,7 @@ class tls_acceptor::loop {
 public:
   loop(const credentials& own, acceptor_options options)
       : options_{std::move(options)}, listener_{listen_at(options_.listen)},
-        port_{port_of(listener_)}, seats_{options_.most_connections,
+        port_{port_of(listener_)}, quota_{options_.most_connections,
                                           options_.most_per_peer},
         context_{make_tls_context(provider_only(own))},
         log_{options_.on_refusal}, tunnels_{options_.idle} {
@@ -61,7 +61,7 @@ public:
     wake_.call();
     thread_.join();
     for (const auto& guest : guests_)
-      leave_seat(guest);
+      leave_quota(guest);
   }
 
   void renew(const credentials& own) {
@@ -75,7 +75,7 @@ public:
   }
 
   std::uint16_t port() const { return port_; }
-  door_counts counts() const { return {accepted_, refused_, seats_.taken()}; }
+  door_counts counts() const { return {accepted_, refused_, quota_.open()}; }
 
 private:
   /// A connection that is not carried yet.
@@ -86,7 +86,7 @@ private:
     descriptor outer;
     tls_handshake handshake;
     short waits_for = POLLIN;
-    std::string seat; ///< Its identity, once it has a seat.
+    std::string admitted; ///< Its identity, once the quota has let it in.
     descriptor inner; ///< The connection to the inner port, once it has begun.
     std::uint16_t inner_from = 0; ///< Its own port, if that is registered.
   };
@@ -163,7 +163,7 @@ private:
         return;
       }
       const auto name = print_address(peer);
-      if (seats_.are_all_taken()) {
+      if (quota_.is_full()) {
         tell_refusal(name, fmt::format("all {} connections are taken",
                                        options_.most_connections));
         continue;
@@ -230,11 +230,11 @@ private:
   void let_in(guest_list::iterator at) {
     auto who = describe(at->handshake.who());
     at->name += ", " + who + ",";
-    if (const auto refusal = seats_.take(who); !refusal.empty()) {
+    if (const auto refusal = quota_.admit(who); !refusal.empty()) {
       refuse(at, refusal);
       return;
     }
-    at->seat = std::move(who);
+    at->admitted = std::move(who);
     auto [inner, error] = start_connecting(
         loopback_port(options_.inner_port), [&](std::uint16_t port) {
           at->inner_from = port;
@@ -253,12 +253,12 @@ private:
       return;
     }
     ++accepted_;
-    tunnels_.carry({wire{std::move(at->outer), at->handshake.take()},
+    tunnels_.carry({wire{std::move(at->outer), at->handshake.release()},
                     wire{std::move(at->inner)},
-                    [this, seat = at->seat, name = at->name,
+                    [this, who = at->admitted, name = at->name,
                      port = at->inner_from](const tunnel_end& end) {
                       forget_port(port);
-                      seats_.give_back(seat);
+                      quota_.release(who);
                       if (end.why == tunnel_end::cause::distrusted)
                         leave_message(name
                                       + " was disconnected: " + end.failure);
@@ -289,7 +289,7 @@ private:
 
   void refuse(guest_list::iterator at, const std::string& why) {
     tell_refusal(at->name, why);
-    leave_seat(*at);
+    leave_quota(*at);
     guests_.erase(at);
   }
 
@@ -298,10 +298,10 @@ private:
     log_.add(name + " was refused: " + why, now_);
   }
 
-  void leave_seat(const guest& guest) {
+  void leave_quota(const guest& guest) {
     forget_port(guest.inner_from);
-    if (!guest.seat.empty())
-      seats_.give_back(guest.seat);
+    if (!guest.admitted.empty())
+      quota_.release(guest.admitted);
   }
 
   void forget_port(std::uint16_t port) {
@@ -314,7 +314,7 @@ private:
   const acceptor_options options_;
   const descriptor listener_;
   const std::uint16_t port_;
-  connection_quota seats_;
+  connection_quota quota_;
   std::atomic<std::uint64_t> accepted_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
   std::atomic<bool> stops_ = false;

@@ -290,7 +290,7 @@ private:
         return;
       case step::done:
         if (is_expected(at->handshake->who()))
-          put_through(at, at->handshake->take());
+          put_through(at, at->handshake->release());
         else
           give_up(at, fmt::format("its certificate is for {}, not for provider "
                                   "{}",
