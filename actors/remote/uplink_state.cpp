@@ -1,0 +1,148 @@
+// How vehicles connect to a provider on another host, and do so again when the
+// connection is lost.
+#include "actors/remote/uplink_state.hpp"
+
+#include "actors/runtime/time.hpp"
+#include "base/protocol.hpp"
+
+#include <caf/event_based_actor.hpp>
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+/// A refusal later than this is news.
+constexpr duration beginning = std::chrono::seconds{5};
+
+} // namespace
+
+void uplink_state::start(uplink_setup with) {
+  setup = std::make_shared<const uplink_setup>(std::move(with));
+  attempts.emplace(setup->noise, protocol::introduction_timeout);
+  traffic.emplace(setup->stations);
+  began = now(self);
+  attempts->pause(began);
+  on_tick();
+}
+
+void uplink_state::on_tick() {
+  const auto t = now(self);
+  if (session && life->is_lost(t))
+    disconnect("it has answered nothing for a second");
+  else if (session)
+    send_to_provider(life->beat(t));
+  else if (attempts->is_due(t))
+    attempt();
+  send_after(self, self, protocol::life_sign_period, tick_atom_v);
+}
+
+void uplink_state::attempt() {
+  attempts->begin(now(self));
+  auto helper = [connect = setup->connect, uplink = uplink_impl{self}] {
+    const auto found = connect();
+    if (const auto* gate = std::get_if<gate_actor>(&found))
+      caf::send_as(uplink, uplink, tick_atom_v, *gate);
+    else
+      caf::send_as(uplink, uplink, tick_atom_v, std::get<std::string>(found));
+  };
+  if (setup->aside)
+    setup->aside(std::move(helper));
+  else
+    self->system().spawn<caf::detached>(
+        [helper = std::move(helper)](caf::event_based_actor*) { helper(); });
+}
+
+void uplink_state::on_attempt_failed(const std::string& why) {
+  if (connection)
+    return; // another attempt was faster
+  attempts->end();
+  publish(fmt::format("no connection to provider {} at {}: {}; trying again",
+                      setup->provider, setup->address, why));
+}
+
+void uplink_state::on_gate(const gate_actor& found) {
+  if (!connection) // else another attempt was faster
+    connection = spawn_connection(self->system(), found, setup,
+                                  connection_user{uplink_impl{self}});
+}
+
+// A vehicle goes on driving, even if nobody will ever plan for it; only who has
+// just begun would rather know.
+void uplink_state::on_refusal(const std::string& why, bool for_ever) {
+  connection = nullptr;
+  attempts->end();
+  if (!for_ever) {
+    on_attempt_failed(why);
+    return;
+  }
+  const auto sentence = fmt::format("provider {} at {} refuses: {}",
+                                    setup->provider, setup->address, why);
+  if (was_connected || now(self) - began > beginning)
+    publish(sentence);
+  else
+    setup->on_refusal(sentence);
+}
+
+void uplink_state::on_welcome(const peer_welcome& welcome,
+                              const session_actor& with) {
+  attempts->end();
+  was_connected = true;
+  setup->on_connected();
+  session = with;
+  const auto t = now(self);
+  life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
+                                            - setup->clock.epoch_unix_ms()});
+  self->monitor(session);
+  send_to_provider(life->beat(t));
+  boot = welcome.boot;
+  log_event("provider_connected", setup->address);
+  publish(fmt::format("connected to provider {} at {}", setup->provider,
+                      setup->address));
+}
+
+void uplink_state::disconnect(std::string_view why) {
+  self->demonitor(session);
+  session = nullptr;
+  self->send_exit(connection, caf::exit_reason::user_shutdown);
+  connection = nullptr;
+  life.reset();
+  traffic->close();
+  setup->hang_up();
+  attempts->pause(now(self));
+  for (const auto& x : running)
+    send_to_vehicle(x.station,
+                    service_end{x, end_reason::peer_lost, side::provider});
+  running.clear();
+  log_event("provider_lost", why);
+  publish(fmt::format("lost provider {} at {}: {}; vehicles plan for "
+                      "themselves",
+                      setup->provider, setup->address, why));
+}
+
+void uplink_state::on_down(const caf::actor_addr& who) {
+  if (session && session.address() == who)
+    disconnect("the connection is gone");
+}
+
+bool uplink_state::is_from_connection() {
+  return connection
+         && self->current_sender()
+                == caf::actor_cast<caf::strong_actor_ptr>(connection);
+}
+
+void uplink_state::publish(const std::string& sentence) {
+  if (news.passes(sentence, now(self)))
+    setup->on_news(sentence);
+}
+
+void uplink_state::log_event(std::string what, std::string_view detail) {
+  self->send(
+      setup->recorder,
+      event_record{
+          now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
+}
+
+} // namespace sofof
