@@ -1,5 +1,5 @@
 // One connection to a provider, from its introduction on.
-#include "actors/remote/provider_connection.hpp"
+#include "actors/remote/vehicle_endpoint.hpp"
 
 #include "actors/remote/type_block.hpp"
 #include "base/protocol.hpp"
