@@ -3,7 +3,7 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
 #include "actors/simulation/crash_injector.hpp"

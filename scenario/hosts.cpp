@@ -1,8 +1,8 @@
 // A scenario on several hosts: providers here, vehicles there.
 #include "scenario/hosts.hpp"
 
-#include "actors/remote/gate.hpp"
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/supervisor.hpp"
 #include "base/fingerprint.hpp"
 #include "base/input_error.hpp"
@@ -10,7 +10,7 @@
 #include "network/keys/key_ring.hpp"
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_connector.hpp"
-#include "scenario/front.hpp"
+#include "scenario/secure_listener.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Who has been let in.
 #include "actors/remote/admissions.hpp"
 
-#include "actors/remote/session.hpp"
+#include "actors/remote/provider_endpoint.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "base/text/printable.hpp"

@@ -1,7 +1,7 @@
 // Who has been let in.
 #pragma once
 
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>

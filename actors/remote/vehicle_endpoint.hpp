@@ -1,7 +1,7 @@
 // One connection to a provider, from its introduction on.
 #pragma once
 
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>

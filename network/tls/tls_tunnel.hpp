@@ -2,7 +2,7 @@
 #pragma once
 
 #include "network/keys/revocation_list.hpp"
-#include "network/tls/wire.hpp"
+#include "network/tls/byte_stream.hpp"
 
 #include <array>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "actors/remote/public_messages.hpp"
-#include "tests/actors/session_world.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
+#include "tests/actors/vehicle_connection_world.hpp"
 
 #include <caf/binary_deserializer.hpp>
 #include <caf/binary_serializer.hpp>

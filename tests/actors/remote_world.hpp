@@ -4,9 +4,9 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
-#include "actors/remote/uplink.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

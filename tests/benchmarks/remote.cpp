@@ -1,8 +1,8 @@
 // What a connection between two processes costs: an input there and its result
 // back, beside a bare round trip of the same octets between two CAF systems.
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
-#include "actors/remote/uplink.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "messages/protocol/no_records.hpp"
 #include "scenario/runtime.hpp"

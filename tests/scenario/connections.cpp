@@ -1,6 +1,6 @@
 // Connections of other processes by raw frames: who is heard, and what ends a
 // connection.
-#include "actors/remote/greeting.hpp"
+#include "actors/remote/version_check.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/network/loopback.hpp"
 

@@ -1,7 +1,7 @@
 // What a session does with what its peer says, and with what the provider says.
-#include "actors/remote/session_core.hpp"
+#include "actors/remote/vehicle_connection.hpp"
 
-#include "actors/remote/session_core_state.hpp"
+#include "actors/remote/vehicle_connection_state.hpp"
 
 #include <utility>
 

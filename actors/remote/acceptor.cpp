@@ -1,9 +1,9 @@
 // Where processes of vehicles come in.
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
 
 #include "actors/remote/admissions.hpp"
-#include "actors/remote/entrance.hpp"
-#include "actors/remote/greeting.hpp"
+#include "actors/remote/handshake.hpp"
+#include "actors/remote/version_check.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

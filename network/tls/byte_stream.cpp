@@ -1,5 +1,5 @@
 // Reading and writing without waiting.
-#include "network/tls/wire.hpp"
+#include "network/tls/byte_stream.hpp"
 
 #include "network/tls/tls.hpp"
 

@@ -1,6 +1,6 @@
 // Tests of the session: what a peer may say, and what becomes of it.
 #include "base/protocol.hpp"
-#include "tests/actors/session_world.hpp"
+#include "tests/actors/vehicle_connection_world.hpp"
 
 using namespace sofof;
 using namespace sofof::test;

@@ -1,6 +1,6 @@
 // How vehicles connect to a provider on another host, and do so again when the
 // connection is lost.
-#include "actors/remote/uplink_state.hpp"
+#include "actors/remote/provider_connection_state.hpp"
 
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"

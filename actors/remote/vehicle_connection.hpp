@@ -1,8 +1,8 @@
 // What a session does with what its peer says, and with what the provider says.
 #pragma once
 
+#include "actors/remote/provider_endpoint.hpp"
 #include "actors/remote/requester_proxy.hpp"
-#include "actors/remote/session.hpp"
 
 #include <caf/actor_system.hpp>
 

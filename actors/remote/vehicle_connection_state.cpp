@@ -1,5 +1,5 @@
 // How long a provider is connected to vehicles on another host.
-#include "actors/remote/session_core_state.hpp"
+#include "actors/remote/vehicle_connection_state.hpp"
 
 #include "actors/runtime/time.hpp"
 #include "network/keys/identity.hpp"

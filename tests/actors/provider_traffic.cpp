@@ -1,6 +1,6 @@
 // Tests of the uplink: what vehicles and their provider get of each other.
 #include "base/protocol.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
 
 using namespace sofof;
 using namespace sofof::test;

@@ -1,7 +1,7 @@
 // What crosses a connection between a provider and vehicles on another host.
 #include "actors/remote/clock_translation.hpp"
 #include "actors/remote/requester_proxy.hpp"
-#include "actors/remote/session_core_state.hpp"
+#include "actors/remote/vehicle_connection_state.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <utility>

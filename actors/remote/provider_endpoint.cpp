@@ -1,8 +1,8 @@
 // The end of a connection that the peer can reach: it passes on what the peer
 // says, and nothing else.
-#include "actors/remote/session.hpp"
+#include "actors/remote/provider_endpoint.hpp"
 
-#include "actors/remote/session_core.hpp"
+#include "actors/remote/vehicle_connection.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
 

@@ -2,9 +2,9 @@
 // test plays.
 #pragma once
 
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
 #include "actors/remote/type_block.hpp"
-#include "actors/remote/uplink.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"

@@ -1,7 +1,7 @@
 // One session between a peer that the test plays and a provider that listens.
 #pragma once
 
-#include "actors/remote/session.hpp"
+#include "actors/remote/provider_endpoint.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"

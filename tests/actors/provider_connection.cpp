@@ -1,6 +1,6 @@
 // Tests of the uplink: whom it talks to, and when.
 #include "base/protocol.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
 
 #include <limits>
 #include <map>

@@ -1,5 +1,5 @@
 // Where one peer introduces itself.
-#include "actors/remote/entrance.hpp"
+#include "actors/remote/handshake.hpp"
 
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"

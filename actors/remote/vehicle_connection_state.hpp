@@ -3,7 +3,7 @@
 
 #include "actors/remote/heartbeat.hpp"
 #include "actors/remote/peer_rules.hpp"
-#include "actors/remote/session_core.hpp"
+#include "actors/remote/vehicle_connection.hpp"
 #include "network/flow/conflating_queue.hpp"
 #include "network/flow/sampled_log.hpp"
 

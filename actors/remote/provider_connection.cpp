@@ -1,8 +1,8 @@
 // The vehicles' end of a connection to a provider on another host: whose
 // messages it minds.
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/provider_connection.hpp"
 
-#include "actors/remote/uplink_state.hpp"
+#include "actors/remote/provider_connection_state.hpp"
 
 #include <utility>
 

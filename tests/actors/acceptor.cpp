@@ -1,5 +1,5 @@
 // Tests of the gate and its entrances: who is let in, who is not, and why.
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
 
 #include "actors/remote/type_block.hpp"
 #include "base/protocol.hpp"

@@ -3,7 +3,7 @@
 
 #include "actors/remote/heartbeat.hpp"
 #include "actors/remote/outgoing_traffic.hpp"
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/vehicle_endpoint.hpp"
 #include "network/flow/dial_schedule.hpp"
 #include "network/flow/news_filter.hpp"

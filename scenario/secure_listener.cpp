@@ -1,5 +1,5 @@
 // Where others reach a process, and what it shows them.
-#include "scenario/front.hpp"
+#include "scenario/secure_listener.hpp"
 
 #include "base/fingerprint.hpp"
 #include "base/input_error.hpp"

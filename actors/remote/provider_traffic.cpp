@@ -1,6 +1,6 @@
 // What crosses a connection between vehicles and a provider on another host.
 #include "actors/remote/clock_translation.hpp"
-#include "actors/remote/uplink_state.hpp"
+#include "actors/remote/provider_connection_state.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <algorithm>
