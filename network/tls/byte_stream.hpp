@@ -10,7 +10,7 @@
 
 namespace sofof {
 
-class wire {
+class byte_stream {
 public:
   enum class state {
     moved,
@@ -25,10 +25,10 @@ public:
   };
 
   /// @param tls  After its handshake; none: plain.
-  explicit wire(descriptor socket, ssl_ptr tls = {});
-  wire(wire&&) noexcept = default;
+  explicit byte_stream(descriptor socket, ssl_ptr tls = {});
+  byte_stream(byte_stream&&) noexcept = default;
   /// Tells the peer that this is the end, if it goes at once.
-  ~wire();
+  ~byte_stream();
 
   /// @param to  At least one byte.
   outcome read(std::span<std::byte> to);

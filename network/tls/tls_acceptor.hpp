@@ -1,4 +1,4 @@
-// A provider's front door: lets in who shows a certificate of our CAs, for as
+// A provider's side of TLS: lets in who shows a certificate of our CAs, for as
 // long as it is good, and carries the bytes between them and a port of this
 // machine.
 #pragma once
@@ -35,12 +35,12 @@ struct acceptor_options {
   /// Knows who is behind each connection with `inner_port`; may be null.
   std::shared_ptr<peer_register> peers;
   /// Told who was refused or distrusted later, and why, in a sentence without
-  /// its full stop, at most once a second; on the door's thread; must not block
-  /// or throw.
+  /// its full stop, at most once a second; on the acceptor's thread; must not
+  /// block or throw.
   std::function<void(const std::string&)> on_refusal;
 };
 
-struct door_counts {
+struct acceptor_counts {
   std::uint64_t accepted = 0; ///< Connections carried, since the start.
   std::uint64_t refused = 0;  ///< Connections not carried, since the start.
   std::size_t open = 0;       ///< Connections carried now.
@@ -69,7 +69,7 @@ public:
   std::uint16_t port() const;
 
   /// Any thread may ask.
-  door_counts counts() const;
+  acceptor_counts counts() const;
 
 private:
   class loop;

@@ -1,5 +1,5 @@
 // A vehicle's side: a port of this machine whose connections lead to a
-// provider's door.
+// provider's tls_acceptor.
 #pragma once
 
 #include "network/keys/credentials.hpp"
@@ -53,7 +53,7 @@ public:
 
   /// Goes by other credentials from now on, for connections that are opened
   /// later, and closes those to providers that they have revoked. Not for a
-  /// dialer without TLS. Any thread may call this.
+  /// connector without TLS. Any thread may call this.
   /// @throws network_error when they name no stations, or OpenSSL does not take
   /// them; then all stays as it was.
   void renew(const credentials& own);
