@@ -132,9 +132,10 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 
 // Real delays take the place of modelled ones.
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                const part::remote_provider& to, const uplink_mouth& uplink) {
-  auto far = spawn_far_provider(sys, station, uplink);
-  introduce(uplink, station, far);
+                const part::remote_provider& to,
+                const provider_outbox& outbox) {
+  auto far = spawn_provider_proxy(sys, station, outbox);
+  introduce(outbox, station, far);
   const auto& at = s.providers[to.place];
   return {std::move(far), at.position_m, at.range_m};
 }
@@ -228,9 +229,10 @@ world_actors build(caf::actor_system& sys, const scenario& s,
            with_outage(*s.channel_to(k), {}, *options.returns_at));
   }
   for (const auto& to : here.remotes) {
-    world.uplinks.push_back(to.spawn_uplink(world.recorder));
-    name(watched, world.uplinks.back(),
-         fmt::format("the uplink to provider {}", s.providers[to.place].name));
+    world.connections.push_back(to.spawn_provider_connection(world.recorder));
+    name(watched, world.connections.back(),
+         fmt::format("the connection to provider {}",
+                     s.providers[to.place].name));
   }
   world.road =
       spawn_road(sys, {s.world, ways, car, s.sensors, noise_of(s, "sensors"),
@@ -262,7 +264,7 @@ world_actors build(caf::actor_system& sys, const scenario& s,
       }
       for (std::size_t k = 0; k < here.remotes.size(); ++k) {
         setup.antennas.push_back(
-            connect(sys, s, v.station, here.remotes[k], world.uplinks[k]));
+            connect(sys, s, v.station, here.remotes[k], world.connections[k]));
         watch_link(setup.antennas.back());
       }
     }
@@ -290,7 +292,7 @@ void dismiss(const world_actors& actors, runtime& time) {
   if (actors.has_peers)
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
-  end(actors.uplinks, time);
+  end(actors.connections, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

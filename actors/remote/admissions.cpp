@@ -24,7 +24,7 @@ namespace sofof {
 
 namespace {
 
-constexpr std::size_t most_sessions_of_one = 16;
+constexpr std::size_t most_connections_of_one = 16;
 /// How often a name may come in, and how many of them are remembered.
 constexpr double arrivals_s = 1;
 constexpr double arrivals_at_once = 32;
@@ -38,7 +38,7 @@ constexpr duration refusal_period = std::chrono::seconds{1};
 
 /// A peer that has been let in.
 struct admitted_peer {
-  session_actor session;
+  provider_endpoint_actor endpoint;
   std::string name;
   std::set<station_id> stations;
 };
@@ -54,19 +54,19 @@ sender_id sender_of(const std::string& name) {
 }
 
 using admissions_impl =
-    admissions_actor::extend<reacts_to<tick_atom, entrance_actor>>;
+    admissions_actor::extend<reacts_to<tick_atom, handshake_actor>>;
 
 struct admissions_state {
   static inline const char* name = "admissions";
 
   admissions_impl::stateful_pointer<admissions_state> self;
-  std::shared_ptr<const gate_setup> setup;
+  std::shared_ptr<const acceptor_setup> setup;
   std::vector<admitted_peer> peers;
   std::map<std::string, token_bucket> arrivals; // by name
   token_bucket chatter{news_per_second, news_at_once};
   sampled_log refusals{refusal_period};
 
-  caf::result<peer_welcome, session_actor>
+  caf::result<peer_welcome, provider_endpoint_actor>
   on_admission(const admission& given) {
     const auto* who = given.get();
     if (!who)
@@ -78,19 +78,19 @@ struct admissions_state {
     replace(who->name, stations);
     const auto there =
         std::ranges::count(peers, who->name, &admitted_peer::name);
-    if (static_cast<std::size_t>(there) >= most_sessions_of_one)
+    if (static_cast<std::size_t>(there) >= most_connections_of_one)
       return refuse(
           fmt::format("the certificate of {} has {} connections already, the "
                       "most it may have",
                       who->name, there));
-    const auto session = spawn_session(
+    const auto endpoint = spawn_provider_endpoint(
         self->system(), {setup->provider, who->peer, stations, setup->clock,
                          etsi::its_clock{who->hello.epoch_unix_ms},
                          setup->recorder, sender_of(who->name)});
-    self->monitor(session);
-    peers.push_back({session, who->name, stations});
+    self->monitor(endpoint);
+    peers.push_back({endpoint, who->name, stations});
     publish(stations, true);
-    return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, session};
+    return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, endpoint};
   }
 
   /// Ends what speaks for one of these stations by the same certificate.
@@ -99,7 +99,7 @@ struct admissions_state {
       const auto is_replaced =
           other.name == who && share_one(other.stations, stations);
       if (is_replaced)
-        self->send_exit(other.session, caf::exit_reason::user_shutdown);
+        self->send_exit(other.endpoint, caf::exit_reason::user_shutdown);
       return is_replaced;
     });
   }
@@ -123,7 +123,7 @@ struct admissions_state {
       return;
     }
     std::erase_if(peers, [&](const admitted_peer& x) {
-      const auto is = x.session.address() == who;
+      const auto is = x.endpoint.address() == who;
       if (is)
         publish(x.stations, false);
       return is;
@@ -147,7 +147,7 @@ struct admissions_state {
 
 admissions_impl::behavior_type
 admissions(admissions_impl::stateful_pointer<admissions_state> self,
-           std::shared_ptr<const gate_setup> setup) {
+           std::shared_ptr<const acceptor_setup> setup) {
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->monitor(self->state.setup->provider);
@@ -158,11 +158,11 @@ admissions(admissions_impl::stateful_pointer<admissions_state> self,
         return self->state.on_admission(given);
       },
       [self](const std::string& why) { self->state.on_refusal(why); },
-      [self](const entrance_actor& opened) {
+      [self](const handshake_actor& opened) {
         send_after(self, self, protocol::introduction_timeout, tick_atom_v,
                    opened);
       },
-      [self](tick_atom, const entrance_actor& opened) {
+      [self](tick_atom, const handshake_actor& opened) {
         self->send_exit(opened, caf::exit_reason::user_shutdown);
       },
   };
@@ -171,7 +171,7 @@ admissions(admissions_impl::stateful_pointer<admissions_state> self,
 } // namespace
 
 admissions_actor spawn_admissions(caf::actor_system& sys,
-                                  std::shared_ptr<const gate_setup> setup) {
+                                  std::shared_ptr<const acceptor_setup> setup) {
   return sys.spawn(admissions, std::move(setup));
 }
 

@@ -10,14 +10,14 @@
 
 namespace sofof {
 
-/// Examines one hello, which only the process that asked for this entrance can
-/// bring, and gets its peer a session. Ends afterwards, with the admissions,
+/// Examines one hello, which only the process that asked for this handshake can
+/// bring, and gets its peer an endpoint. Ends afterwards, with the admissions,
 /// and when no hello comes in time.
 /// @param process  Who asked.
 /// @param nonce    What it was given to sign.
-entrance_actor spawn_entrance(caf::actor_system& sys,
-                              const admissions_actor& admissions,
-                              std::shared_ptr<const gate_setup> setup,
-                              caf::node_id process, std::string nonce);
+handshake_actor spawn_handshake(caf::actor_system& sys,
+                                const admissions_actor& admissions,
+                                std::shared_ptr<const acceptor_setup> setup,
+                                caf::node_id process, std::string nonce);
 
 } // namespace sofof

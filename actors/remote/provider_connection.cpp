@@ -1,5 +1,4 @@
-// The vehicles' end of a connection to a provider on another host: whose
-// messages it minds.
+// A connection to a provider on another host: whose messages it minds.
 #include "actors/remote/provider_connection.hpp"
 
 #include "actors/remote/provider_connection_state.hpp"
@@ -10,8 +9,9 @@ namespace sofof {
 
 namespace {
 
-uplink_impl::behavior_type
-uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
+provider_connection_impl::behavior_type provider_connection(
+    provider_connection_impl::stateful_pointer<provider_connection_state> self,
+    provider_connection_setup setup) {
   self->state.self = self;
   self->state.start(std::move(setup));
   self->set_down_handler(
@@ -62,15 +62,17 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
       // Of its own timers, connections and attempts at one:
       [self](tick_atom) { self->state.on_tick(); },
       [self](tick_atom, station_id station) { self->state.on_turn(station); },
-      [self](const peer_welcome& welcome, const session_actor& session) {
+      [self](const peer_welcome& welcome, const provider_endpoint_actor& peer) {
         if (self->state.is_from_connection())
-          self->state.on_welcome(welcome, session);
+          self->state.on_welcome(welcome, peer);
       },
       [self](const std::string& why, bool for_ever) {
         if (self->state.is_from_connection())
           self->state.on_refusal(why, for_ever);
       },
-      [self](tick_atom, const gate_actor& gate) { self->state.on_gate(gate); },
+      [self](tick_atom, const acceptor_actor& acceptor) {
+        self->state.on_acceptor(acceptor);
+      },
       [self](tick_atom, const std::string& why) {
         self->state.on_attempt_failed(why);
       },
@@ -79,13 +81,15 @@ uplink(uplink_impl::stateful_pointer<uplink_state> self, uplink_setup setup) {
 
 } // namespace
 
-uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup) {
-  return sys.spawn(uplink, std::move(setup));
+provider_outbox spawn_provider_connection(caf::actor_system& sys,
+                                          provider_connection_setup setup) {
+  return sys.spawn(provider_connection, std::move(setup));
 }
 
-void introduce(const uplink_mouth& uplink, station_id station,
+void introduce(const provider_outbox& outbox, station_id station,
                const link_actor& provider_proxy) {
-  caf::anon_send(caf::actor_cast<uplink_impl>(uplink), station, provider_proxy);
+  caf::anon_send(caf::actor_cast<provider_connection_impl>(outbox), station,
+                 provider_proxy);
 }
 
 } // namespace sofof

@@ -1,4 +1,4 @@
-// The vehicles' end of a connection to a provider on another host.
+// A connection to a provider on another host, made again whenever it is lost.
 #pragma once
 
 #include "actors/remote/provider_proxy.hpp"
@@ -15,8 +15,8 @@
 
 namespace sofof {
 
-/// What an uplink is made of. Its functions are called from any thread.
-struct uplink_setup {
+/// What a connection is made of. Its functions are called from any thread.
+struct provider_connection_setup {
   std::string provider; ///< The name that it must have.
   std::string address;  ///< For people.
   std::vector<station_id> stations;
@@ -24,10 +24,10 @@ struct uplink_setup {
   etsi::its_clock clock;
   recorder_actor recorder;
   random_stream noise{0, ""}; ///< For the pauses between attempts.
-  duration rest{};            ///< Before the first vehicle speaks.
+  duration rest{};            ///< Before the first vehicle sends anything.
   /// Connects, which may take a while.
-  /// @returns the gate, or why there is none.
-  std::function<std::variant<gate_actor, std::string>()> connect;
+  /// @returns the acceptor, or why there is none.
+  std::function<std::variant<acceptor_actor, std::string>()> connect;
   /// Closes what may be left of a connection that is given up.
   std::function<void()> hang_up = [] {};
   /// Carries an attempt out, which calls `connect`; empty: on a thread of its
@@ -49,15 +49,14 @@ struct uplink_setup {
 /// lost: with pauses that grow to a second from the beginning of one attempt to
 /// that of the next, which waits for the end of the one before, but not for one
 /// that hangs. Meanwhile it loses what it is given, and ends what ran for its
-/// vehicles (peer_lost), so that they plan for themselves at once. A provider
-/// hears of each vehicle's latest CAM as soon as it can, for the next one may
-/// be a second off, but of one after the other: each will ask at once. CAMs,
-/// CPMs and inputs go out one at a time, always the latest. Translates the
-/// provider's times to ours.
-uplink_mouth spawn_uplink(caf::actor_system& sys, uplink_setup setup);
+/// vehicles (peer_lost), so that they plan for themselves at once. What
+/// vehicles send all the time goes out as outgoing_traffic says; what the
+/// provider sends has its times on our clock (clock_translation.hpp).
+provider_outbox spawn_provider_connection(caf::actor_system& sys,
+                                          provider_connection_setup setup);
 
-/// Tells an uplink who speaks and listens for a station.
-void introduce(const uplink_mouth& uplink, station_id station,
+/// Tells a connection which proxy stands for the provider at a station.
+void introduce(const provider_outbox& outbox, station_id station,
                const link_actor& provider_proxy);
 
 } // namespace sofof

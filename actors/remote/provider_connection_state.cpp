@@ -19,8 +19,8 @@ constexpr duration beginning = std::chrono::seconds{5};
 
 } // namespace
 
-void uplink_state::start(uplink_setup with) {
-  setup = std::make_shared<const uplink_setup>(std::move(with));
+void provider_connection_state::start(provider_connection_setup with) {
+  setup = std::make_shared<const provider_connection_setup>(std::move(with));
   attempts.emplace(setup->noise, protocol::introduction_timeout);
   traffic.emplace(setup->stations);
   began = now(self);
@@ -28,25 +28,26 @@ void uplink_state::start(uplink_setup with) {
   on_tick();
 }
 
-void uplink_state::on_tick() {
+void provider_connection_state::on_tick() {
   const auto t = now(self);
-  if (session && life->is_lost(t))
+  if (peer && life->is_lost(t))
     disconnect("it has answered nothing for a second");
-  else if (session)
+  else if (peer)
     send_to_provider(life->beat(t));
   else if (attempts->is_due(t))
     attempt();
   send_after(self, self, protocol::life_sign_period, tick_atom_v);
 }
 
-void uplink_state::attempt() {
+void provider_connection_state::attempt() {
   attempts->begin(now(self));
-  auto helper = [connect = setup->connect, uplink = uplink_impl{self}] {
+  auto helper = [connect = setup->connect,
+                 owner = provider_connection_impl{self}] {
     const auto found = connect();
-    if (const auto* gate = std::get_if<gate_actor>(&found))
-      caf::send_as(uplink, uplink, tick_atom_v, *gate);
+    if (const auto* acceptor = std::get_if<acceptor_actor>(&found))
+      caf::send_as(owner, owner, tick_atom_v, *acceptor);
     else
-      caf::send_as(uplink, uplink, tick_atom_v, std::get<std::string>(found));
+      caf::send_as(owner, owner, tick_atom_v, std::get<std::string>(found));
   };
   if (setup->aside)
     setup->aside(std::move(helper));
@@ -55,24 +56,26 @@ void uplink_state::attempt() {
         [helper = std::move(helper)](caf::event_based_actor*) { helper(); });
 }
 
-void uplink_state::on_attempt_failed(const std::string& why) {
-  if (connection)
+void provider_connection_state::on_attempt_failed(const std::string& why) {
+  if (endpoint)
     return; // another attempt was faster
   attempts->end();
   publish(fmt::format("no connection to provider {} at {}: {}; trying again",
                       setup->provider, setup->address, why));
 }
 
-void uplink_state::on_gate(const gate_actor& found) {
-  if (!connection) // else another attempt was faster
-    connection = spawn_connection(self->system(), found, setup,
-                                  connection_user{uplink_impl{self}});
+void provider_connection_state::on_acceptor(const acceptor_actor& found) {
+  if (!endpoint) // else another attempt was faster
+    endpoint = spawn_vehicle_endpoint(
+        self->system(), found, setup,
+        vehicle_endpoint_owner{provider_connection_impl{self}});
 }
 
 // A vehicle goes on driving, even if nobody will ever plan for it; only who has
 // just begun would rather know.
-void uplink_state::on_refusal(const std::string& why, bool for_ever) {
-  connection = nullptr;
+void provider_connection_state::on_refusal(const std::string& why,
+                                           bool for_ever) {
+  endpoint = nullptr;
   attempts->end();
   if (!for_ever) {
     on_attempt_failed(why);
@@ -86,16 +89,16 @@ void uplink_state::on_refusal(const std::string& why, bool for_ever) {
     setup->on_refusal(sentence);
 }
 
-void uplink_state::on_welcome(const peer_welcome& welcome,
-                              const session_actor& with) {
+void provider_connection_state::on_welcome(
+    const peer_welcome& welcome, const provider_endpoint_actor& with) {
   attempts->end();
   was_connected = true;
   setup->on_connected();
-  session = with;
+  peer = with;
   const auto t = now(self);
   life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
                                             - setup->clock.epoch_unix_ms()});
-  self->monitor(session);
+  self->monitor(peer);
   send_to_provider(life->beat(t));
   boot = welcome.boot;
   log_event("provider_connected", setup->address);
@@ -103,11 +106,11 @@ void uplink_state::on_welcome(const peer_welcome& welcome,
                       setup->address));
 }
 
-void uplink_state::disconnect(std::string_view why) {
-  self->demonitor(session);
-  session = nullptr;
-  self->send_exit(connection, caf::exit_reason::user_shutdown);
-  connection = nullptr;
+void provider_connection_state::disconnect(std::string_view why) {
+  self->demonitor(peer);
+  peer = nullptr;
+  self->send_exit(endpoint, caf::exit_reason::user_shutdown);
+  endpoint = nullptr;
   life.reset();
   traffic->close();
   setup->hang_up();
@@ -122,23 +125,24 @@ void uplink_state::disconnect(std::string_view why) {
                       setup->provider, setup->address, why));
 }
 
-void uplink_state::on_down(const caf::actor_addr& who) {
-  if (session && session.address() == who)
+void provider_connection_state::on_down(const caf::actor_addr& who) {
+  if (peer && peer.address() == who)
     disconnect("the connection is gone");
 }
 
-bool uplink_state::is_from_connection() {
-  return connection
+bool provider_connection_state::is_from_connection() {
+  return endpoint
          && self->current_sender()
-                == caf::actor_cast<caf::strong_actor_ptr>(connection);
+                == caf::actor_cast<caf::strong_actor_ptr>(endpoint);
 }
 
-void uplink_state::publish(const std::string& sentence) {
+void provider_connection_state::publish(const std::string& sentence) {
   if (news.passes(sentence, now(self)))
     setup->on_news(sentence);
 }
 
-void uplink_state::log_event(std::string what, std::string_view detail) {
+void provider_connection_state::log_event(std::string what,
+                                          std::string_view detail) {
   self->send(
       setup->recorder,
       event_record{

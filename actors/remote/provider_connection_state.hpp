@@ -1,4 +1,4 @@
-// What the vehicles' end of a connection remembers, and does at each message.
+// What a connection to a provider remembers, and does at each message.
 #pragma once
 
 #include "actors/remote/heartbeat.hpp"
@@ -21,9 +21,9 @@
 
 namespace sofof {
 
-/// An uplink, as itself sees it; this handle never leaves the process. It is an
-/// uplink_mouth, too.
-using uplink_impl = connection_user::extend<
+/// A connection, as it sees itself; this handle never leaves the process. It is
+/// a provider_outbox, too.
+using provider_connection_impl = vehicle_endpoint_owner::extend<
     reacts_to<station_id, its_pdu>, reacts_to<service_request>,
     reacts_to<service_input>,
     // This station's messages go there.
@@ -33,34 +33,35 @@ using uplink_impl = connection_user::extend<
     // It is this station's turn to begin.
     reacts_to<tick_atom, station_id>,
     // An attempt has got through, or has failed for this reason.
-    reacts_to<tick_atom, gate_actor>, reacts_to<tick_atom, std::string>>;
+    reacts_to<tick_atom, acceptor_actor>, reacts_to<tick_atom, std::string>>;
 
-struct uplink_state {
-  static inline const char* name = "uplink";
+struct provider_connection_state {
+  static inline const char* name = "provider_connection";
 
-  uplink_impl::stateful_pointer<uplink_state> self;
-  std::shared_ptr<const uplink_setup> setup;
+  provider_connection_impl::stateful_pointer<provider_connection_state> self;
+  std::shared_ptr<const provider_connection_setup> setup;
   std::map<station_id, link_actor> vehicles;
   std::optional<dial_schedule> attempts;
   std::optional<outgoing_traffic> traffic;
   news_filter news;
   time_point began;
   bool was_connected = false;
-  provider_id boot = 0;    // of the provider, the last one
-  uplink_actor connection; // while we introduce ourselves, and afterwards
+  provider_id boot = 0;            // of the provider, the last one
+  vehicle_endpoint_actor endpoint; // from our introduction on
   // While connected:
-  session_actor session;
+  provider_endpoint_actor peer;
   std::optional<heartbeat> life;
   std::set<session_id> running;
 
-  void start(uplink_setup with);
+  void start(provider_connection_setup with);
   void on_tick();
 
   // -- connecting -----------------------------------------------------------
 
   void on_attempt_failed(const std::string& why);
-  void on_gate(const gate_actor& found);
-  void on_welcome(const peer_welcome& welcome, const session_actor& with);
+  void on_acceptor(const acceptor_actor& found);
+  void on_welcome(const peer_welcome& welcome,
+                  const provider_endpoint_actor& with);
   void on_refusal(const std::string& why, bool for_ever);
   void on_down(const caf::actor_addr& who);
 
@@ -95,7 +96,7 @@ private:
 
   template <class... Ts>
   void send_to_provider(const Ts&... xs) {
-    caf::send_as(connection, session, xs...);
+    caf::send_as(endpoint, peer, xs...);
   }
   void send_next(const std::optional<outgoing_traffic::message>& next);
 

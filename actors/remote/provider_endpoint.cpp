@@ -1,5 +1,4 @@
-// The end of a connection that the peer can reach: it passes on what the peer
-// says, and nothing else.
+// It passes on what the peer sends, and nothing else.
 #include "actors/remote/provider_endpoint.hpp"
 
 #include "actors/remote/vehicle_connection.hpp"
@@ -10,20 +9,21 @@ namespace sofof {
 
 namespace {
 
-session_actor::behavior_type session(session_actor::pointer self,
-                                     session_setup setup) {
+provider_endpoint_actor::behavior_type
+provider_endpoint(provider_endpoint_actor::pointer self,
+                  vehicle_connection_setup setup) {
   const auto peer = caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
-  const auto core =
-      spawn_session_core(self->system(), std::move(setup), session_actor{self});
-  self->link_to(core); // they end together
-  // Nor does it hear what no interface has.
+  const auto connection = spawn_vehicle_connection(
+      self->system(), std::move(setup), provider_endpoint_actor{self});
+  self->link_to(connection); // they end together
+  // What no interface has is dropped.
   self->set_default_handler(caf::drop);
   self->set_down_handler([](const caf::down_msg&) {});
-  const auto pass_on = [self, peer, core](const auto&... xs) {
+  const auto pass_on = [self, peer, connection](const auto&... xs) {
     if (self->current_sender() == peer)
-      self->send(core, xs...);
+      self->send(connection, xs...);
     else
-      self->send(core, std::string{"a stranger speaks"});
+      self->send(connection, std::string{"a stranger speaks"});
   };
   return {
       [=](station_id station, const its_pdu& message) {
@@ -43,8 +43,10 @@ session_actor::behavior_type session(session_actor::pointer self,
 
 } // namespace
 
-session_actor spawn_session(caf::actor_system& sys, session_setup setup) {
-  return sys.spawn(session, std::move(setup));
+provider_endpoint_actor
+spawn_provider_endpoint(caf::actor_system& sys,
+                        vehicle_connection_setup setup) {
+  return sys.spawn(provider_endpoint, std::move(setup));
 }
 
 } // namespace sofof

@@ -10,7 +10,7 @@ namespace sofof {
 
 // -- what vehicles send -----------------------------------------------------
 
-void uplink_state::send_next(
+void provider_connection_state::send_next(
     const std::optional<outgoing_traffic::message>& next) {
   if (!next)
     return;
@@ -20,30 +20,31 @@ void uplink_state::send_next(
     send_to_provider(std::get<service_input>(*next));
 }
 
-void uplink_state::on_its_message(station_id station, const its_pdu& message) {
+void provider_connection_state::on_its_message(station_id station,
+                                               const its_pdu& message) {
   send_next(traffic->offer(station, message, now(self)));
 }
 
-void uplink_state::on_input(const service_input& input) {
+void provider_connection_state::on_input(const service_input& input) {
   send_next(traffic->offer(input, now(self)));
 }
 
-void uplink_state::on_turn(station_id station) {
+void provider_connection_state::on_turn(station_id station) {
   send_next(traffic->begin(station, now(self)));
 }
 
-void uplink_state::on_request(const service_request& request) {
-  if (session && !traffic->is_waiting(request.station))
+void provider_connection_state::on_request(const service_request& request) {
+  if (peer && !traffic->is_waiting(request.station))
     send_to_provider(request);
 }
 
-void uplink_state::on_requester_end(const service_end& e) {
+void provider_connection_state::on_requester_end(const service_end& e) {
   forget(e.running);
-  if (session)
+  if (peer)
     send_to_provider(e);
 }
 
-void uplink_state::forget(const session_id& ended) {
+void provider_connection_state::forget(const session_id& ended) {
   running.erase(ended);
   traffic->forget(ended);
 }
@@ -51,7 +52,7 @@ void uplink_state::forget(const session_id& ended) {
 // -- what the provider sends ------------------------------------------------
 
 // By the answer the provider knows our clock, and thus how old CAMs are.
-void uplink_state::on_ping(const ping& sign) {
+void provider_connection_state::on_ping(const ping& sign) {
   const auto t = now(self);
   send_to_provider(heartbeat::answer(sign, t));
   if (traffic->is_open())
@@ -60,20 +61,21 @@ void uplink_state::on_ping(const ping& sign) {
     send_at(self, self, turn.at, tick_atom_v, turn.station);
 }
 
-void uplink_state::on_pong(const pong& echo) {
+void provider_connection_state::on_pong(const pong& echo) {
   life->on_pong(echo, now(self));
   attempts->succeeded();
 }
 
-void uplink_state::on_acknowledgement(const stream_id& stream) {
+void provider_connection_state::on_acknowledgement(const stream_id& stream) {
   send_next(traffic->acknowledge(stream, now(self)));
 }
 
-void uplink_state::on_offer(station_id station, const service_offer& offer) {
+void provider_connection_state::on_offer(station_id station,
+                                         const service_offer& offer) {
   send_to_vehicle(station, on_our_clock(offer, *life, now(self)));
 }
 
-void uplink_state::on_response(const service_response& response) {
+void provider_connection_state::on_response(const service_response& response) {
   const auto vehicle = vehicles.find(response.station);
   if (vehicle == vehicles.end())
     return;
@@ -87,13 +89,13 @@ void uplink_state::on_response(const service_response& response) {
   self->send(vehicle->second, response, std::vector<provider_manager_actor>{});
 }
 
-void uplink_state::on_result(const service_result& result) {
+void provider_connection_state::on_result(const service_result& result) {
   if (const auto here = on_our_clock(result, *life, now(self)))
     send_to_vehicle(here->running.station, *here);
   send_to_provider(stream_of(result.running, stream_id::what::result));
 }
 
-void uplink_state::on_provider_end(const service_end& e) {
+void provider_connection_state::on_provider_end(const service_end& e) {
   forget(e.running);
   send_to_vehicle(e.running.station, e);
 }

@@ -1,4 +1,4 @@
-// What a session does with what its peer says, and with what the provider says.
+// A connection to vehicles on another host: whose messages it minds.
 #include "actors/remote/vehicle_connection.hpp"
 
 #include "actors/remote/vehicle_connection_state.hpp"
@@ -9,9 +9,9 @@ namespace sofof {
 
 namespace {
 
-session_impl::behavior_type
-session_core(session_impl::stateful_pointer<session_state> self,
-             session_setup setup, const session_actor& endpoint) {
+vehicle_connection_impl::behavior_type vehicle_connection(
+    vehicle_connection_impl::stateful_pointer<vehicle_connection_state> self,
+    vehicle_connection_setup setup, const provider_endpoint_actor& endpoint) {
   self->state.self = self;
   self->state.start(std::move(setup), endpoint);
   self->set_down_handler(
@@ -55,10 +55,10 @@ session_core(session_impl::stateful_pointer<session_state> self,
 
 } // namespace
 
-session_core_actor spawn_session_core(caf::actor_system& sys,
-                                      session_setup setup,
-                                      const session_actor& endpoint) {
-  return sys.spawn(session_core, std::move(setup), endpoint);
+vehicle_connection_actor
+spawn_vehicle_connection(caf::actor_system& sys, vehicle_connection_setup setup,
+                         const provider_endpoint_actor& endpoint) {
+  return sys.spawn(vehicle_connection, std::move(setup), endpoint);
 }
 
 } // namespace sofof

@@ -1,4 +1,4 @@
-// What a session does with what its peer says, and with what the provider says.
+// A connection to vehicles on another host.
 #pragma once
 
 #include "actors/remote/provider_endpoint.hpp"
@@ -10,18 +10,20 @@
 
 namespace sofof {
 
-/// A session, as the actors of this process see it; its handle never leaves it.
-/// It is a session_mouth, too.
-using session_core_actor = session_actor::extend<
+/// What its endpoint takes from the peer, and what the provider sends: it is a
+/// vehicle_outbox, too. This handle never leaves the process.
+using vehicle_connection_actor = provider_endpoint_actor::extend<
     reacts_to<station_id, service_offer>,
     reacts_to<service_response, std::vector<provider_manager_actor>>,
     reacts_to<service_result>,
     // Something that came by the connection was dropped for this reason.
     reacts_to<std::string>>;
 
-/// @param endpoint  Passes on what the peer says, and is whom the peer hears.
-session_core_actor spawn_session_core(caf::actor_system& sys,
-                                      session_setup setup,
-                                      const session_actor& endpoint);
+/// Stands for all vehicles of one peer, as spawn_provider_endpoint says.
+/// @param endpoint  Passes on what the peer sends; answers are sent in its
+///                  name.
+vehicle_connection_actor
+spawn_vehicle_connection(caf::actor_system& sys, vehicle_connection_setup setup,
+                         const provider_endpoint_actor& endpoint);
 
 } // namespace sofof

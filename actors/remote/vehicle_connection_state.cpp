@@ -14,13 +14,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// So long a session outlives its provider, to hand on what it said last.
+/// So long a connection outlives its provider, to pass on what it sent last.
 constexpr duration last_words = 50ms;
 constexpr std::size_t results_per_station = 8; // under way
 
 } // namespace
 
-void session_state::start(session_setup with, const session_actor& by) {
+void vehicle_connection_state::start(vehicle_connection_setup with,
+                                     const provider_endpoint_actor& by) {
   setup = std::move(with);
   endpoint = by;
   life.emplace(now(self),
@@ -35,7 +36,7 @@ void session_state::start(session_setup with, const session_actor& by) {
   on_tick();
 }
 
-void session_state::on_tick() {
+void vehicle_connection_state::on_tick() {
   const auto t = now(self);
   if (ends_at && t >= *ends_at) {
     leave("the provider has ended");
@@ -49,7 +50,7 @@ void session_state::on_tick() {
   send_after(self, self, protocol::life_sign_period, tick_atom_v);
 }
 
-void session_state::on_down(const caf::down_msg& down) {
+void vehicle_connection_state::on_down(const caf::down_msg& down) {
   const auto provider = down.source == setup.provider.address();
   if (provider && down.reason == caf::exit_reason::user_shutdown)
     ends_at = now(self) + last_words; // they are still to be passed on
@@ -57,18 +58,18 @@ void session_state::on_down(const caf::down_msg& down) {
     leave("gone");
 }
 
-void session_state::leave(std::string_view why) {
+void vehicle_connection_state::leave(std::string_view why) {
   log_event("peer_lost", 0, fmt::format("{}: {}", stations(), why));
   self->quit(caf::exit_reason::remote_link_unreachable);
 }
 
 /// @returns e.g. "stations 101-106".
-std::string session_state::stations() const {
+std::string vehicle_connection_state::stations() const {
   return describe({{setup.stations.begin(), setup.stations.end()}, {}});
 }
 
-void session_state::log_event(std::string what, station_id station,
-                              std::string_view detail) {
+void vehicle_connection_state::log_event(std::string what, station_id station,
+                                         std::string_view detail) {
   self->send(
       setup.recorder,
       event_record{

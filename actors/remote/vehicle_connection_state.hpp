@@ -1,4 +1,4 @@
-// What the provider's end of a connection remembers, and does at each message.
+// What a connection to vehicles remembers, and does at each message.
 #pragma once
 
 #include "actors/remote/heartbeat.hpp"
@@ -19,15 +19,16 @@
 
 namespace sofof {
 
-/// A session, as itself sees it.
-using session_impl = session_core_actor::extend<reacts_to<tick_atom>>;
+/// A connection, as it sees itself.
+using vehicle_connection_impl =
+    vehicle_connection_actor::extend<reacts_to<tick_atom>>;
 
-struct session_state {
-  static inline const char* name = "session";
+struct vehicle_connection_state {
+  static inline const char* name = "vehicle_connection";
 
-  session_impl::stateful_pointer<session_state> self;
-  session_setup setup;
-  session_actor endpoint; // what the peer sends to, and hears
+  vehicle_connection_impl::stateful_pointer<vehicle_connection_state> self;
+  vehicle_connection_setup setup;
+  provider_endpoint_actor endpoint; // what the peer knows of us
   std::optional<peer_rules> rules;
   std::optional<heartbeat> life;
   std::map<station_id, requester_actor> requesters;
@@ -36,7 +37,7 @@ struct session_state {
   std::optional<time_point> ends_at; // once the provider has
   sampled_log dropped{std::chrono::seconds{1}};
 
-  void start(session_setup with, const session_actor& by);
+  void start(vehicle_connection_setup with, const provider_endpoint_actor& by);
   void on_tick();
   void on_down(const caf::down_msg& down);
   /// Its endpoint has ended: the stations were let in anew.

@@ -1,4 +1,5 @@
-// One connection to a provider, from its introduction on.
+// How a process of vehicles introduces itself to a provider, and what that
+// sends afterwards.
 #include "actors/remote/vehicle_endpoint.hpp"
 
 #include "actors/remote/type_block.hpp"
@@ -15,47 +16,55 @@ namespace sofof {
 
 namespace {
 
-struct connection_state {
-  static inline const char* name = "provider_connection";
+struct vehicle_endpoint_state {
+  static inline const char* name = "vehicle_endpoint";
   static constexpr auto closed = "it has closed the connection meanwhile";
 
-  uplink_actor::stateful_pointer<connection_state> self = nullptr;
-  gate_actor gate;
-  std::shared_ptr<const uplink_setup> setup;
-  connection_user user;
+  vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state> self =
+      nullptr;
+  acceptor_actor acceptor;
+  std::shared_ptr<const provider_connection_setup> setup;
+  vehicle_endpoint_owner owner;
   std::uint64_t types = fingerprint_of_types();
-  session_actor session; // once we are let in
+  provider_endpoint_actor peer; // once we are let in
 
-  // The user lives long, and does not forget by itself who watched it.
-  ~connection_state() {
+  // The owner lives long, and does not forget by itself who watched it.
+  ~vehicle_endpoint_state() {
     if (self)
-      self->demonitor(user);
+      self->demonitor(owner);
   }
 
   // -- introduction ---------------------------------------------------------
 
   void begin() {
-    self->monitor(user);
+    self->monitor(owner);
     // A question that was forwarded gets no answer when the connection is gone.
-    self->monitor(gate);
-    self->request(gate, protocol::introduction_timeout, setup->protocol, types)
+    self->monitor(acceptor);
+    self->request(acceptor, protocol::introduction_timeout, setup->protocol,
+                  types)
         .then(
             [this](std::uint32_t protocol, std::uint64_t theirs,
                    const std::string& nonce, const caf::strong_actor_ptr& in) {
-              if (protocol != setup->protocol || theirs != types)
-                refused(fmt::format("it speaks {}, this program {}; install "
-                                    "the same version on both sides",
-                                    spoken(protocol, theirs),
-                                    spoken(setup->protocol, types)));
-              else if (!in)
-                not_now("it lets nobody in now");
-              else
-                introduce_at(caf::actor_cast<entrance_actor>(in), nonce);
+              on_version(protocol, theirs, nonce, in);
             },
             [this](const caf::error& error) { not_now(sentence(error)); });
   }
 
-  void introduce_at(const entrance_actor& entrance, const std::string& nonce) {
+  void on_version(std::uint32_t protocol, std::uint64_t theirs,
+                  const std::string& nonce, const caf::strong_actor_ptr& in) {
+    if (protocol != setup->protocol || theirs != types)
+      refused(fmt::format("it speaks {}, this program {}; install the same "
+                          "version on both sides",
+                          spoken(protocol, theirs),
+                          spoken(setup->protocol, types)));
+    else if (!in)
+      not_now("it lets nobody in now");
+    else
+      introduce_at(caf::actor_cast<handshake_actor>(in), nonce);
+  }
+
+  void introduce_at(const handshake_actor& handshake,
+                    const std::string& nonce) {
     peer_hello hello{setup->provider,
                      setup->stations,
                      setup->world,
@@ -63,17 +72,12 @@ struct connection_state {
                      {},
                      {}};
     setup->prove(hello, nonce);
-    self->request(entrance, protocol::introduction_timeout, std::move(hello),
-                  uplink_actor{self})
+    self->request(handshake, protocol::introduction_timeout, std::move(hello),
+                  vehicle_endpoint_actor{self})
         .then(
-            [this, at = entrance.node()](const peer_welcome& welcome,
-                                         const session_actor& with) {
-              if (!with || with.node() != at)
-                not_now("it has no end of its own");
-              else if (!is_time_of_day(welcome.epoch_unix_ms))
-                refused("its clock shows no time of day");
-              else
-                let_in(welcome, with);
+            [this, at = handshake.node()](const peer_welcome& welcome,
+                                          const provider_endpoint_actor& with) {
+              on_welcome(welcome, with, at);
             },
             [this](const caf::error& error) {
               if (error == caf::sec::invalid_argument)
@@ -83,16 +87,27 @@ struct connection_state {
             });
   }
 
-  void let_in(const peer_welcome& welcome, const session_actor& with) {
-    self->demonitor(gate);
-    session = with;
-    self->send(user, welcome, with);
+  /// @param process  That of the handshake.
+  void on_welcome(const peer_welcome& welcome,
+                  const provider_endpoint_actor& with,
+                  const caf::node_id& process) {
+    if (!with || with.node() != process) {
+      not_now("it has no end of its own");
+      return;
+    }
+    if (!is_time_of_day(welcome.epoch_unix_ms)) {
+      refused("its clock shows no time of day");
+      return;
+    }
+    self->demonitor(acceptor);
+    peer = with;
+    self->send(owner, welcome, with);
   }
 
   void refused(const std::string& why) { give_up(why, true); }
   void not_now(const std::string& why) { give_up(why, false); }
   void give_up(const std::string& why, bool for_ever) {
-    self->send(user, why, for_ever);
+    self->send(owner, why, for_ever);
     self->quit();
   }
 
@@ -104,35 +119,36 @@ struct connection_state {
     return closed;
   }
 
-  void lost(const caf::actor_addr& who) {
-    if (who == user.address())
+  void on_down(const caf::actor_addr& who) {
+    if (who == owner.address())
       self->quit();
-    else if (!session && who == gate.address())
+    else if (!peer && who == acceptor.address())
       not_now(closed);
   }
 
-  // -- what the provider says -----------------------------------------------
+  // -- what the provider sends ----------------------------------------------
 
   template <class... Ts>
   void pass_on(const Ts&... xs) {
-    if (session
+    if (peer
         && self->current_sender()
-               == caf::actor_cast<caf::strong_actor_ptr>(session))
-      self->send(user, xs...);
+               == caf::actor_cast<caf::strong_actor_ptr>(peer))
+      self->send(owner, xs...);
   }
 };
 
-uplink_actor::behavior_type
-connection(uplink_actor::stateful_pointer<connection_state> self,
-           const gate_actor& gate, std::shared_ptr<const uplink_setup> setup,
-           const connection_user& user) {
+vehicle_endpoint_actor::behavior_type vehicle_endpoint(
+    vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state> self,
+    const acceptor_actor& acceptor,
+    std::shared_ptr<const provider_connection_setup> setup,
+    const vehicle_endpoint_owner& owner) {
   auto& s = self->state;
   s.self = self;
-  s.gate = gate;
+  s.acceptor = acceptor;
   s.setup = std::move(setup);
-  s.user = user;
+  s.owner = owner;
   self->set_down_handler(
-      [self](const caf::down_msg& down) { self->state.lost(down.source); });
+      [self](const caf::down_msg& down) { self->state.on_down(down.source); });
   self->set_default_handler(caf::drop); // what no interface has
   s.begin();
   return {
@@ -155,10 +171,11 @@ connection(uplink_actor::stateful_pointer<connection_state> self,
 
 } // namespace
 
-uplink_actor spawn_connection(caf::actor_system& sys, const gate_actor& gate,
-                              std::shared_ptr<const uplink_setup> setup,
-                              const connection_user& user) {
-  return sys.spawn(connection, gate, std::move(setup), user);
+vehicle_endpoint_actor
+spawn_vehicle_endpoint(caf::actor_system& sys, const acceptor_actor& acceptor,
+                       std::shared_ptr<const provider_connection_setup> setup,
+                       const vehicle_endpoint_owner& owner) {
+  return sys.spawn(vehicle_endpoint, acceptor, std::move(setup), owner);
 }
 
 } // namespace sofof

@@ -1,4 +1,5 @@
-// The first words of a connection: whether both sides speak the same language.
+// The first question between two processes: whether they speak the same
+// version of the protocol.
 #pragma once
 
 #include "actors/remote/type_block.hpp"
@@ -13,19 +14,21 @@
 
 namespace sofof {
 
-/// What a gate answers: which language it speaks, a number to sign and where
-/// to do so; without these two when it speaks another one or is full.
-using greeting = caf::result<std::uint32_t, std::uint64_t, std::string,
-                             caf::strong_actor_ptr>;
+/// What an acceptor answers: version and types of its own, a number to sign and
+/// the handshake; without these two when the peer's are others, or nobody is
+/// let in now.
+using version_answer = caf::result<std::uint32_t, std::uint64_t, std::string,
+                                   caf::strong_actor_ptr>;
 
-/// @param protocol, types  What the other side speaks.
-/// @param let_in           Called if we speak that too: number and place.
-template <class LetIn>
-greeting greet(std::uint32_t protocol, std::uint64_t types, LetIn let_in) {
+/// @param protocol, types  The peer's.
+/// @param begin_handshake  Called if ours are the same: number and handshake.
+template <class Begin>
+version_answer check_version(std::uint32_t protocol, std::uint64_t types,
+                             Begin begin_handshake) {
   static const auto own_types = fingerprint_of_types();
   std::pair<std::string, caf::strong_actor_ptr> in;
   if (protocol == remote_protocol && types == own_types)
-    in = let_in();
+    in = begin_handshake();
   return {remote_protocol, own_types, std::move(in.first),
           std::move(in.second)};
 }

@@ -142,7 +142,8 @@ TEST_CASE("what a provider says to vehicles is admitted") {
                             std::string{"n"}, caf::strong_actor_ptr{}),
                  answered)
         == "");
-  CHECK(at.judge(direct, message_of(peer_welcome{}, session_actor{}), answered)
+  CHECK(at.judge(direct, message_of(peer_welcome{}, provider_endpoint_actor{}),
+                 answered)
         == "");
   CHECK(at.judge(direct,
                  message_of(caf::make_error(caf::sec::invalid_argument,
@@ -160,7 +161,8 @@ TEST_CASE("the largest hello that is possible is admitted") {
   at_provider at;
   peer_hello hello{"mec", std::vector<station_id>(10'000), 1,
                    2,     std::string(64 * 1024, 'c'),     octets(1024)};
-  CHECK(at.judge(direct, message_of(hello, uplink_actor{}), asked) == "");
+  CHECK(at.judge(direct, message_of(hello, vehicle_endpoint_actor{}), asked)
+        == "");
 }
 
 TEST_CASE("each message goes its own way alone") {
@@ -168,18 +170,18 @@ TEST_CASE("each message goes its own way alone") {
   at_vehicles vehicles;
   const auto sign = message_of(ping{});
   const auto result = message_of(service_result{running, 1, {}, {}});
-  const auto greeting = message_of(std::uint32_t{6}, std::uint64_t{1});
-  const auto welcome = message_of(peer_welcome{}, session_actor{});
+  const auto question = message_of(std::uint32_t{6}, std::uint64_t{1});
+  const auto welcome = message_of(peer_welcome{}, provider_endpoint_actor{});
   for (const auto id : {asked, answered, std::uint64_t{0}, 3 * told, 2 * told,
                         told | std::uint64_t{1} << 63}) {
     CAPTURE(id);
     CHECK(provider.judge(direct, sign, id) == unknown);
   }
   CHECK(provider.judge(direct, result, told) == unknown);
-  CHECK(provider.judge(direct, greeting, told) == unknown);
+  CHECK(provider.judge(direct, question, told) == unknown);
   CHECK(provider.judge(direct, welcome, answered) == unknown);
   CHECK(provider.judge(direct, message_of(caf::error{}), answered) == unknown);
-  CHECK(vehicles.judge(direct, greeting, asked) == unknown);
+  CHECK(vehicles.judge(direct, question, asked) == unknown);
   CHECK(vehicles.judge(direct, welcome, told) == unknown);
   CHECK(vehicles.judge(direct, message_of(caf::error{}), told) == unknown);
 }
@@ -195,7 +197,8 @@ TEST_CASE("words of the process itself are none of a peer's") {
   };
   refused(message_of(tick_atom_v));
   refused(message_of(std::string{"a line for the journal"}));
-  refused(message_of(peer_hello{}, uplink_actor{}, std::string{"name"}));
+  refused(
+      message_of(peer_hello{}, vehicle_endpoint_actor{}, std::string{"name"}));
   refused(message_of(event_record{}));
   refused(message_of(caf::make_message(caf::make_message())));
   refused(message_of(caf::exit_msg{{}, caf::exit_reason::kill}));
@@ -295,7 +298,7 @@ TEST_CASE("whatever part of a frame comes, nothing past its end is read") {
   for (const auto& whole :
        {message_of(
             caf::make_error(caf::sec::runtime_error, std::string{"sentence"})),
-        message_of(peer_welcome{}, session_actor{})})
+        message_of(peer_welcome{}, provider_endpoint_actor{})})
     for (std::size_t n = 1; n < whole.size(); ++n) {
       at_vehicles at;
       const octets part{whole.begin(),

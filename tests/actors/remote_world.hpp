@@ -45,8 +45,9 @@ struct remote_world : virtual_world {
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
   provider_id boot = first_boot - 1;
   roadside_provider_actor provider;
-  gate_actor inner_gate, gate; ///< Empty while the provider's host is down.
-  uplink_mouth uplink;
+  acceptor_actor inner_acceptor,
+      acceptor; ///< Empty while the provider's host is down.
+  provider_outbox outbox;
   std::vector<time_point> attempts;
   std::vector<std::string> news, refusals;
   std::vector<car> cars;
@@ -56,7 +57,7 @@ struct remote_world : virtual_world {
   explicit remote_world(std::size_t count = 1) {
     run_for(10s); // the clock's zero is no special time
     boot_up();
-    uplink = own(spawn_uplink(system(), make_uplink(count)));
+    outbox = own(spawn_provider_connection(system(), make_connection(count)));
     for (std::size_t k = 0; k < count; ++k)
       add_car(static_cast<station_id>(101 + k));
     settle();
@@ -75,18 +76,18 @@ struct remote_world : virtual_world {
             std::make_shared<echo_service>("two")};
   }
 
-  uplink_setup make_uplink(std::size_t count) {
-    uplink_setup s;
+  provider_connection_setup make_connection(std::size_t count) {
+    provider_connection_setup s;
     s.provider = "server";
     s.address = "10.0.0.5:4711";
     for (std::size_t k = 0; k < count; ++k)
       s.stations.push_back(static_cast<station_id>(101 + k));
     s.recorder = here.handle;
-    s.noise = random_stream{1, "uplink"};
-    s.connect = [this]() -> std::variant<gate_actor, std::string> {
+    s.noise = random_stream{1, "connection"};
+    s.connect = [this]() -> std::variant<acceptor_actor, std::string> {
       attempts.push_back(now());
-      if (gate && !line->cut)
-        return gate;
+      if (acceptor && !line->cut)
+        return acceptor;
       return "nobody is there";
     };
     s.aside = [](const std::function<void()>& attempt) { attempt(); };
@@ -101,10 +102,10 @@ struct remote_world : virtual_world {
   void add_car(station_id station) {
     car c{station,
           listen<vehicle_actor>(),
-          own(spawn_far_provider(system(), station, uplink)),
+          own(spawn_provider_proxy(system(), station, outbox)),
           {},
           {}};
-    introduce(uplink, station, c.far);
+    introduce(outbox, station, c.far);
     requester_setup setup;
     setup.station = station;
     setup.way = world->routes.front();
@@ -138,7 +139,7 @@ struct remote_world : virtual_world {
         std::make_shared<channel_profile>(*find_channel_profile("ideal"));
     s.seed = random_stream{1, "network"};
     provider = own(spawn_service_provider(system(), std::move(s)));
-    gate_setup g;
+    acceptor_setup g;
     g.provider = provider;
     g.boot = boot;
     g.name = "server";
@@ -150,14 +151,14 @@ struct remote_world : virtual_world {
         return {"honest", {}};
       return {{}, "nobody knows it"};
     };
-    inner_gate = own(spawn_gate(system(), std::move(g)));
-    gate = own(system().spawn(wired_gate, inner_gate, line));
+    inner_acceptor = own(spawn_acceptor(system(), std::move(g)));
+    acceptor = own(system().spawn(wired_acceptor, inner_acceptor, line));
   }
   /// It dies, and all its actors with it.
   void crash() {
-    const auto dying = std::exchange(gate, nullptr);
+    const auto dying = std::exchange(acceptor, nullptr);
     kill(dying);
-    kill(inner_gate);
+    kill(inner_acceptor);
     kill(provider);
   }
 
