@@ -8,7 +8,8 @@
 
 namespace sofof {
 
-/// Any thread may call these.
+/// Counts open connections, and says whether there may be one more. Any thread
+/// may call these.
 class connection_quota {
 public:
   connection_quota(std::size_t most, std::size_t most_per_peer)

@@ -10,6 +10,8 @@
 
 namespace sofof {
 
+/// A crowd that is refused fills no journal: the first sentence is published at
+/// once, the last of each second with how many were left out.
 class refusal_log {
 public:
   using publisher = std::function<void(const std::string&)>;

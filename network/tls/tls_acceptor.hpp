@@ -17,6 +17,7 @@
 
 namespace sofof {
 
+/// Where to listen, and for how much of what.
 struct acceptor_options {
   network_address listen;       ///< Port 0: any that is free.
   std::uint16_t inner_port = 0; ///< On 127.0.0.1, where the bytes go.
@@ -40,12 +41,15 @@ struct acceptor_options {
   std::function<void(const std::string&)> on_refusal;
 };
 
+/// What has become of connections.
 struct acceptor_counts {
   std::uint64_t accepted = 0; ///< Connections carried, since the start.
   std::uint64_t refused = 0;  ///< Connections not carried, since the start.
   std::size_t open = 0;       ///< Connections carried now.
 };
 
+/// Where vehicles of other hosts connect to a provider. A connection that has
+/// been let in is a tunnel to `inner_port`, whose octets are not looked at.
 class tls_acceptor {
 public:
   /// Listens, on two threads of its own: handshakes on one, connections on the

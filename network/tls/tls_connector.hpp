@@ -14,6 +14,7 @@
 
 namespace sofof {
 
+/// Whom to connect to, and how long to try.
 struct connector_options {
   network_address remote;
   std::string provider; ///< Whom its certificate must name; empty: anybody.
@@ -32,6 +33,8 @@ struct connector_options {
   std::size_t most_connections = 16; ///< More are closed at once.
 };
 
+/// How vehicles connect to a provider of another host: what connects to `port`
+/// is a tunnel to it, whose octets are not looked at.
 class tls_connector {
 public:
   /// Listens on 127.0.0.1 and carries each connection on to the remote host,

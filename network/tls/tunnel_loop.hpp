@@ -19,6 +19,8 @@
 
 namespace sofof {
 
+/// Serves its tunnels in turns, on one thread for all of them; ends each when a
+/// side closes, nothing crosses, or the certificate is good no more.
 class tunnel_loop {
 public:
   /// @param idle  A tunnel through which nothing at all crosses for so long is
@@ -42,6 +44,7 @@ public:
   void revoke(revocation_list revoked);
 
 private:
+  /// A tunnel, and what is known of it.
   struct entry {
     tls_tunnel tunnel;
     deadline last_moved;
