@@ -1,4 +1,4 @@
-// Tests of the connection: whom it talks to, and when.
+// Tests of the connection to a provider: when it is made, and with whom.
 #include "base/protocol.hpp"
 #include "tests/actors/provider_connection_world.hpp"
 
@@ -12,8 +12,8 @@ using namespace sofof::test;
 // -- introductions -----------------------------------------------------------
 
 TEST_CASE_FIXTURE(provider_connection_world,
-                  "a connection says whom it speaks to and for, on which "
-                  "map, and proves it") {
+                  "vehicles say which provider they mean, who they are and "
+                  "on which map, and prove it") {
   start();
   REQUIRE(host->hellos.size() == 1);
   CHECK(host->hellos[0].provider == "server");
@@ -206,8 +206,8 @@ TEST_CASE_FIXTURE(provider_connection_world,
 }
 
 TEST_CASE_FIXTURE(provider_connection_world,
-                  "when the connection is lost while a connection "
-                  "introduces itself, it begins anew at once") {
+                  "when the connection is lost during the "
+                  "introduction, that begins anew at once") {
   host->answers = false;
   start();
   REQUIRE(host->knocks == 1);
@@ -341,7 +341,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
             caf::down_msg{recorder.handle.address(), caf::exit_reason::kill});
     CHECK(notes("provider_lost") == 0);
   }
-  SUBCASE("of the provider before") {
+  SUBCASE("of the endpoint before") {
     provider = listen<provider_endpoint_actor>();
     host->endpoint = provider.handle;
     run_for(1100ms); // silent; then connected again
@@ -351,7 +351,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
             caf::down_msg{before.handle.address(), caf::exit_reason::kill});
     CHECK(notes("provider_lost") == 0);
   }
-  SUBCASE("of the provider, while there is none") {
+  SUBCASE("of the endpoint, while there is none") {
     reachable = false;
     run_for(1100ms);
     REQUIRE(notes("provider_lost") == 1);
@@ -507,8 +507,8 @@ TEST_CASE_FIXTURE(provider_connection_world,
 }
 
 TEST_CASE_FIXTURE(provider_connection_world,
-                  "while a connection rests it connects, and no "
-                  "vehicle speaks") {
+                  "before the first vehicle may send there is a "
+                  "connection, and nothing is sent") {
   auto later = setup();
   later.rest = 1s;
   start(later);

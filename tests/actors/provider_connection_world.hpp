@@ -169,7 +169,7 @@ struct provider_connection_world : virtual_world {
       attempt();
     settle();
   }
-  /// The connection ends; the next one leads to another provider.
+  /// The connection ends; the next one leads to another endpoint.
   void lose() {
     kill(provider.handle);
     provider = listen<provider_endpoint_actor>();

@@ -1,4 +1,4 @@
-// Tests of the connection: what vehicles and their provider get of each other.
+// Tests of the connection to a provider: what crosses it.
 #include "base/protocol.hpp"
 #include "tests/actors/provider_connection_world.hpp"
 

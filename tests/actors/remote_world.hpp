@@ -45,8 +45,8 @@ struct remote_world : virtual_world {
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
   provider_id boot = first_boot - 1;
   roadside_provider_actor provider;
-  acceptor_actor inner_acceptor,
-      acceptor; ///< Empty while the provider's host is down.
+  acceptor_actor inner_acceptor; ///< Of the provider.
+  acceptor_actor acceptor; ///< With the wire; none while its host is down.
   provider_outbox outbox;
   std::vector<time_point> attempts;
   std::vector<std::string> news, refusals;

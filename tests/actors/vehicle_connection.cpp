@@ -1,4 +1,5 @@
-// Tests of the connection: what a peer may say, and what becomes of it.
+// Tests of the connection to vehicles: what a peer may send, and what of it is
+// passed on.
 #include "base/protocol.hpp"
 #include "tests/actors/vehicle_connection_world.hpp"
 
@@ -242,7 +243,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
 }
 
 TEST_CASE_FIXTURE(vehicle_connection_world,
-                  "who speaks to a connection of others gets nowhere") {
+                  "who sends to an endpoint of others gets nowhere") {
   const auto other_peer = listen<vehicle_endpoint_actor>();
   const auto other = join(other_peer, {201});
   live(1s);
