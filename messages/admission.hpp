@@ -1,4 +1,4 @@
-// A peer that may get a session.
+// A peer that may get an endpoint.
 #pragma once
 
 #include "messages/interfaces.hpp"
@@ -11,23 +11,23 @@
 
 namespace sofof {
 
-/// A hello that an entrance of this process has examined. Nothing else makes
+/// A hello that a handshake of this process has examined. Nothing else makes
 /// one that holds anything, and none crosses between processes.
 class admission {
 public:
   struct content {
     peer_hello hello;
-    uplink_actor peer;
+    vehicle_endpoint_actor peer;
     std::string name; ///< Of the holder of its certificate.
   };
 
   admission() = default; ///< Holds nothing; CAF wants it.
 
-  /// @returns who may get a session; null for nobody.
+  /// @returns who may get an endpoint; null for nobody.
   const content* get() const { return content_.get(); }
 
 private:
-  friend struct entrance_state;
+  friend struct handshake_state;
   explicit admission(content what)
       : content_{std::make_shared<const content>(std::move(what))} {}
 

@@ -117,9 +117,9 @@ using link_actor = requester_actor::extend<
     reacts_to<its_pdu, requester_actor>,
     reacts_to<service_request, requester_actor>, reacts_to<service_input>>;
 
-/// The far end of a connection to a provider on another host: what it says to
-/// the vehicles of this process.
-using uplink_actor = caf::typed_actor<
+/// The vehicles' end of a connection with a provider on another host: what that
+/// sends to the vehicles of this process.
+using vehicle_endpoint_actor = caf::typed_actor<
     // As requester_actor takes them; offers, with the station they are for.
     reacts_to<station_id, service_offer>, reacts_to<service_response>,
     reacts_to<service_result>, reacts_to<service_end>,
@@ -128,11 +128,11 @@ using uplink_actor = caf::typed_actor<
     // The latest message of this stream has come: the next one may follow.
     reacts_to<stream_id>>;
 
-/// The far end of a connection to vehicles on another host: what they say to
-/// the provider of this process.
-using session_actor = caf::typed_actor<
-    // As provider_actor and provider_manager_actor take them; what a station
-    // tells everybody, with the station.
+/// The provider's end of a connection with vehicles on another host: what they
+/// send to the provider of this process.
+using provider_endpoint_actor = caf::typed_actor<
+    // As provider_actor and provider_manager_actor take them; a CAM or a CPM,
+    // with the station that sends it.
     reacts_to<station_id, its_pdu>, reacts_to<service_request>,
     reacts_to<service_input>, reacts_to<service_end>,
     // The connection lives; whose clock says what.
@@ -141,16 +141,18 @@ using session_actor = caf::typed_actor<
     reacts_to<stream_id>>;
 
 /// Where one process of vehicles introduces itself, once.
-using entrance_actor = caf::typed_actor<
-    // It is welcome, or refused by an error that says why.
-    caf::result<peer_welcome, session_actor>(peer_hello, uplink_actor)>;
+using handshake_actor = caf::typed_actor<
+    // It is welcome, and speaks to this endpoint from now on; or it is refused
+    // by an error that says why.
+    caf::result<peer_welcome, provider_endpoint_actor>(peer_hello,
+                                                       vehicle_endpoint_actor)>;
 
 /// All that a provider's process makes public. It never changes, so that
 /// programs of different age can tell each other that they are.
-using gate_actor = caf::typed_actor<
-    // Protocol version and fingerprint of the types of who asks. Answered by
+using acceptor_actor = caf::typed_actor<
+    // The peer's protocol version and the fingerprint of its types. Answered by
     // the own ones, and, if they are the same, a number to sign and the
-    // entrance.
+    // handshake.
     caf::result<std::uint32_t, std::uint64_t, std::string,
                 caf::strong_actor_ptr>(std::uint32_t, std::uint64_t)>;
 

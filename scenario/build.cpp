@@ -3,7 +3,7 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
 #include "actors/simulation/crash_injector.hpp"
@@ -100,9 +100,9 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 // Real delays take the place of modelled ones.
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
                 const process_share::remote_provider& to,
-                const uplink_mouth& uplink) {
-  auto far = spawn_far_provider(sys, station, uplink);
-  introduce(uplink, station, far);
+                const provider_outbox& outbox) {
+  auto far = spawn_provider_proxy(sys, station, outbox);
+  introduce(outbox, station, far);
   const auto& at = s.providers[to.place];
   return {std::move(far), at.position_m, at.range_m};
 }
@@ -155,7 +155,7 @@ public:
       if (here_.provides(k))
         add_provider(k);
     for (const auto& to : here_.remotes)
-      add_uplink(to);
+      add_connection(to);
     auto placed = place_vehicles(s_);
     std::erase_if(placed,
                   [&](const auto& v) { return !here_.drives(v.station); });
@@ -215,10 +215,11 @@ private:
     return spawn_service_provider(sys_, std::move(setup));
   }
 
-  void add_uplink(const process_share::remote_provider& to) {
-    world_.uplinks.push_back(to.spawn_uplink(world_.recorder));
-    name(watched_, world_.uplinks.back(),
-         fmt::format("the uplink to provider {}", s_.providers[to.place].name));
+  void add_connection(const process_share::remote_provider& to) {
+    world_.connections.push_back(to.spawn_provider_connection(world_.recorder));
+    name(watched_, world_.connections.back(),
+         fmt::format("the connection to provider {}",
+                     s_.providers[to.place].name));
   }
 
   // -- vehicles -------------------------------------------------------------
@@ -276,7 +277,7 @@ private:
     }
     for (std::size_t k = 0; k < here_.remotes.size(); ++k) {
       all.push_back(
-          connect(sys_, s_, station, here_.remotes[k], world_.uplinks[k]));
+          connect(sys_, s_, station, here_.remotes[k], world_.connections[k]));
       watch(all.back());
     }
     return all;
@@ -352,7 +353,7 @@ void dismiss(const world_actors& actors, runtime& time) {
   if (actors.has_peers)
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
-  end(actors.uplinks, time);
+  end(actors.connections, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

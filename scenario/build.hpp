@@ -28,7 +28,8 @@ struct process_share {
   /// A provider that another process runs.
   struct remote_provider {
     std::size_t place; ///< In the file, counting from 0.
-    std::function<uplink_mouth(const recorder_actor&)> spawn_uplink;
+    std::function<provider_outbox(const recorder_actor&)>
+        spawn_provider_connection;
   };
   std::vector<remote_provider> remotes;
   /// Whether vehicles of other processes come to its providers.
@@ -41,7 +42,7 @@ struct world_actors {
   road_actor road;
   std::vector<provider_actor> providers;
   std::vector<link_actor> links;
-  std::vector<uplink_mouth> uplinks;
+  std::vector<provider_outbox> connections;
   std::vector<vehicle_actor> vehicles;
   std::vector<caf::actor> power_cuts;
   caf::actor supervisor;

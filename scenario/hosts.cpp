@@ -1,8 +1,8 @@
 // A scenario on several hosts: providers here, vehicles there.
 #include "scenario/hosts.hpp"
 
-#include "actors/remote/gate.hpp"
-#include "actors/remote/uplink.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/supervisor.hpp"
 #include "base/fingerprint.hpp"
 #include "base/input_error.hpp"
@@ -10,7 +10,7 @@
 #include "network/keys/key_ring.hpp"
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_connector.hpp"
-#include "scenario/front.hpp"
+#include "scenario/secure_listener.hpp"
 
 #include <fmt/format.h>
 
@@ -207,7 +207,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   const auto keys = load_keys(
       what.listen, what.keys, "--listen",
       [&](const credentials& own) { check_identity(own, what.keys, name); });
-  front door{keys, what.listen};
+  secure_listener listener{keys, what.listen};
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
@@ -224,7 +224,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
                                      time->clock().unix_time(time->now()))
                                      .count());
   const auto open = [&](const world_actors& actors) {
-    gate_setup setup;
+    acceptor_setup setup;
     setup.provider = actors.providers.front();
     setup.boot = boot_of(static_cast<std::uint32_t>(place + 1), here.start);
     setup.name = name;
@@ -245,19 +245,20 @@ run_outcome provide(const scenario& s, const provide_options& what,
     };
     filter_setup filter;
     if (keys)
-      filter.identify = [&door](std::uint16_t port) {
-        return door.peers().find(port);
+      filter.identify = [&listener](std::uint16_t port) {
+        return listener.peers().find(port);
       };
     filter.stations = most_unknown_stations;
     filter.recorder = setup.recorder;
     filter.on_refusal = [board](const std::string& why) { board->tell(why); };
     time->filter(std::move(filter));
-    const auto gate = spawn_gate(time->system(), std::move(setup));
-    watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(gate),
-                  "the gate");
-    const auto at = door.open(*time, gate, [board](const std::string& why) {
-      board->tell("refused: " + why);
-    });
+    const auto acceptor = spawn_acceptor(time->system(), std::move(setup));
+    watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
+                  "the acceptor");
+    const auto at =
+        listener.open(*time, acceptor, [board](const std::string& why) {
+          board->tell("refused: " + why);
+        });
     console << fmt::format("provider {} listens on {}{}", name,
                            print_address(at),
                            keys ? "" : ", for this machine alone")
@@ -277,7 +278,8 @@ run_outcome drive(const scenario& s, const drive_options& what,
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
   std::shared_ptr<key_ring> keys;
-  std::vector<std::unique_ptr<tls_connector>> dialers; // outlive what uses them
+  std::vector<std::unique_ptr<tls_connector>>
+      connectors; // outlive what uses them
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
@@ -301,7 +303,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
                        [&](const credentials& own) {
                          check_identity(own, what.keys, stations);
                        });
-    uplink_setup setup;
+    provider_connection_setup setup;
     setup.provider = s.providers[place].name;
     setup.address = print_address(to.at);
     setup.stations = stations;
@@ -314,21 +316,22 @@ run_outcome drive(const scenario& s, const drive_options& what,
                       .part(stations.empty() ? 0 : stations.front());
     if (keys) {
       const auto own = keys->now();
-      dialers.push_back(std::make_unique<tls_connector>(
+      connectors.push_back(std::make_unique<tls_connector>(
           &own,
           connector_options{.remote = to.at, .provider = setup.provider}));
-      keys->add_user([&dialer = *dialers.back()](const credentials& fresh) {
-        dialer.renew(fresh);
-      });
-      setup.connect = [&time = *time, &dialer = *dialers.back()]()
-          -> std::variant<gate_actor, std::string> {
-        auto gate = time.connect(dialer.port());
-        const auto why = dialer.last_error();
-        if (std::holds_alternative<std::string>(gate) && !why.empty())
+      keys->add_user([&connector = *connectors.back()](
+                         const credentials& fresh) { connector.renew(fresh); });
+      setup.connect = [&time = *time, &connector = *connectors.back()]()
+          -> std::variant<acceptor_actor, std::string> {
+        auto acceptor = time.connect(connector.port());
+        const auto why = connector.last_error();
+        if (std::holds_alternative<std::string>(acceptor) && !why.empty())
           return why;
-        return gate;
+        return acceptor;
       };
-      setup.hang_up = [&dialer = *dialers.back()] { dialer.hang_up(); };
+      setup.hang_up = [&connector = *connectors.back()] {
+        connector.hang_up();
+      };
       setup.prove = [keys, provider = setup.provider](
                         peer_hello& hello, const std::string& nonce) {
         const auto own = keys->now();
@@ -348,13 +351,13 @@ run_outcome drive(const scenario& s, const drive_options& what,
         {place, [&time = *time, setup](const recorder_actor& recorder) {
            auto with = setup;
            with.recorder = recorder;
-           return spawn_uplink(time.system(), std::move(with));
+           return spawn_provider_connection(time.system(), std::move(with));
          }});
   }
   options.news = news_of(board, what, keys);
   const auto outcome = run_part(s, options, here, *time, interrupted, console);
-  for (const auto& dialer : dialers)
-    dialer->hang_up(); // attempts end now
+  for (const auto& connector : connectors)
+    connector->hang_up(); // attempts end now
   return outcome;
 }
 

@@ -105,9 +105,9 @@ struct network_config : wall_clock_config {
 class connected_runtime final : public on_the_wall<network_runtime> {
 public:
   ~connected_runtime() override {
-    for (const auto& gate : gates_)
-      caf::anon_send_exit(gate, caf::exit_reason::user_shutdown);
-    await_end(gates_);
+    for (const auto& acceptor : acceptors_)
+      caf::anon_send_exit(acceptor, caf::exit_reason::user_shutdown);
+    await_end(acceptors_);
   }
 
   caf::actor_system& system() override { return system_; }
@@ -121,10 +121,11 @@ public:
     return peers_->find(process);
   }
 
-  std::uint16_t publish(const gate_actor& gate, std::uint16_t port) override {
+  std::uint16_t publish(const acceptor_actor& acceptor,
+                        std::uint16_t port) override {
     constexpr auto reuse = true; // soon after another one, which was killed
     const auto open =
-        system_.middleman().publish(gate, port, this_machine, reuse);
+        system_.middleman().publish(acceptor, port, this_machine, reuse);
     if (!open)
       throw input_error(fmt::format(
           "cannot listen on port {}: {}; choose another one with --listen",
@@ -132,16 +133,17 @@ public:
           open.error() == caf::sec::cannot_open_port
               ? "it is taken, or needs more rights"
               : caf::to_string(open.error())));
-    gates_.push_back(caf::actor_cast<caf::actor>(gate));
+    acceptors_.push_back(caf::actor_cast<caf::actor>(acceptor));
     return *open;
   }
 
-  std::variant<gate_actor, std::string> connect(std::uint16_t port) override {
-    auto gate =
-        system_.middleman().remote_actor<gate_actor>(this_machine, port);
-    if (!gate)
-      return explain(gate.error());
-    return std::move(*gate);
+  std::variant<acceptor_actor, std::string>
+  connect(std::uint16_t port) override {
+    auto acceptor =
+        system_.middleman().remote_actor<acceptor_actor>(this_machine, port);
+    if (!acceptor)
+      return explain(acceptor.error());
+    return std::move(*acceptor);
   }
 
 private:
@@ -165,7 +167,7 @@ private:
   const std::shared_ptr<peer_nodes> peers_ = std::make_shared<peer_nodes>();
   network_config config_;
   caf::actor_system system_{config_};
-  std::vector<caf::actor> gates_;
+  std::vector<caf::actor> acceptors_;
 };
 
 } // namespace

@@ -52,16 +52,18 @@ public:
   virtual std::optional<peer_identity>
   identity_of(const caf::node_id& process) const = 0;
 
-  /// Makes a gate public on this machine alone.
+  /// Makes an acceptor public on this machine alone.
   /// @param port  0: any.
   /// @returns the port.
   /// @throws input_error when that is not possible.
-  virtual std::uint16_t publish(const gate_actor& gate, std::uint16_t port) = 0;
+  virtual std::uint16_t publish(const acceptor_actor& acceptor,
+                                std::uint16_t port) = 0;
 
   /// May take a while; for several threads.
   /// @param port  On this machine.
-  /// @returns the gate, or why there is none.
-  virtual std::variant<gate_actor, std::string> connect(std::uint16_t port) = 0;
+  /// @returns the acceptor, or why there is none.
+  virtual std::variant<acceptor_actor, std::string>
+  connect(std::uint16_t port) = 0;
 };
 
 /// A discrete-event world; begins at time zero, deterministic.

@@ -38,7 +38,7 @@ public:
       if (auto* listener = service.here->listener()) {
         tell(*listener);
         for (const auto& doubt : listener->take_doubts())
-          if (doubts_.take(clock_()))
+          if (doubts_.try_spend(clock_()))
             records.push_back(record_of(doubt));
       }
     return records;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/offloading/service_instance.hpp"
+#include "actors/offloading/service_type.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/service.hpp"
 

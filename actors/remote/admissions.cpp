@@ -1,10 +1,11 @@
 // Who has been let in.
 #include "actors/remote/admissions.hpp"
 
-#include "actors/remote/session.hpp"
+#include "actors/remote/provider_endpoint.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "base/text/printable.hpp"
+#include "network/flow/sampled_log.hpp"
 #include "network/flow/token_bucket.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -16,13 +17,14 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof {
 
 namespace {
 
-constexpr std::size_t most_sessions_of_one = 16;
+constexpr std::size_t most_connections_of_one = 16;
 /// How often a name may come in, and how many of them are remembered.
 constexpr double arrivals_s = 1;
 constexpr double arrivals_at_once = 32;
@@ -31,12 +33,12 @@ constexpr std::size_t most_names = 1000;
 /// A peer that comes and goes all the time fills no journal.
 constexpr double news_per_second = 0.1;
 constexpr double news_at_once = 40;
-/// Between two notes of who was refused.
-constexpr duration refusal_note_period = std::chrono::seconds{1};
+/// Between two lines of the log about who was refused.
+constexpr duration refusal_period = std::chrono::seconds{1};
 
 /// A peer that has been let in.
 struct admitted_peer {
-  session_actor session;
+  provider_endpoint_actor endpoint;
   std::string name;
   std::set<station_id> stations;
 };
@@ -52,117 +54,115 @@ sender_id sender_of(const std::string& name) {
 }
 
 using admissions_impl =
-    admissions_actor::extend<reacts_to<tick_atom, entrance_actor>>;
+    admissions_actor::extend<reacts_to<tick_atom, handshake_actor>>;
 
 struct admissions_state {
   static inline const char* name = "admissions";
 
   admissions_impl::stateful_pointer<admissions_state> self;
-  std::shared_ptr<const gate_setup> setup;
+  std::shared_ptr<const acceptor_setup> setup;
   std::vector<admitted_peer> peers;
   std::map<std::string, token_bucket> arrivals; // by name
   token_bucket chatter{news_per_second, news_at_once};
-  std::uint64_t refused = 0;
-  time_point next_note;
+  sampled_log refusals{refusal_period};
 
-  caf::result<peer_welcome, session_actor> admit(const admission& given) {
+  caf::result<peer_welcome, provider_endpoint_actor>
+  on_admission(const admission& given) {
     const auto* who = given.get();
     if (!who)
       return caf::make_error(caf::sec::invalid_argument);
-    if (!may_come(who->name)) {
-      const auto why = fmt::format("{} comes in too often", who->name);
-      note_refusal(why);
-      return caf::make_error(caf::sec::runtime_error, why);
-    }
+    if (!may_come(who->name))
+      return refuse(fmt::format("{} comes in too often", who->name));
     const std::set<station_id> stations{who->hello.stations.begin(),
                                         who->hello.stations.end()};
-    std::erase_if(peers, [&](const admitted_peer& other) {
-      const auto is_replaced =
-          other.name == who->name && share_one(other.stations, stations);
-      if (is_replaced)
-        self->send_exit(other.session, caf::exit_reason::user_shutdown);
-      return is_replaced;
-    });
+    replace(who->name, stations);
     const auto there =
         std::ranges::count(peers, who->name, &admitted_peer::name);
-    if (static_cast<std::size_t>(there) >= most_sessions_of_one) {
-      const auto why =
+    if (static_cast<std::size_t>(there) >= most_connections_of_one)
+      return refuse(
           fmt::format("the certificate of {} has {} connections already, the "
                       "most it may have",
-                      who->name, there);
-      note_refusal(why);
-      return caf::make_error(caf::sec::runtime_error, why);
-    }
-    const auto session = spawn_session(
+                      who->name, there));
+    const auto endpoint = spawn_provider_endpoint(
         self->system(), {setup->provider, who->peer, stations, setup->clock,
                          etsi::its_clock{who->hello.epoch_unix_ms},
                          setup->recorder, sender_of(who->name)});
-    self->monitor(session);
-    peers.push_back({session, who->name, stations});
-    tell(stations, true);
-    return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, session};
+    self->monitor(endpoint);
+    peers.push_back({endpoint, who->name, stations});
+    publish(stations, true);
+    return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, endpoint};
+  }
+
+  /// Ends what speaks for one of these stations by the same certificate.
+  void replace(const std::string& who, const std::set<station_id>& stations) {
+    std::erase_if(peers, [&](const admitted_peer& other) {
+      const auto is_replaced =
+          other.name == who && share_one(other.stations, stations);
+      if (is_replaced)
+        self->send_exit(other.endpoint, caf::exit_reason::user_shutdown);
+      return is_replaced;
+    });
+  }
+
+  caf::error refuse(const std::string& why) {
+    on_refusal(why);
+    return caf::make_error(caf::sec::runtime_error, why);
   }
 
   bool may_come(const std::string& who) {
     if (arrivals.size() >= most_names)
       arrivals.clear();
     return arrivals.try_emplace(who, arrivals_s, arrivals_at_once)
-        .first->second.take(now(self));
+        .first->second.try_spend(now(self));
   }
 
-  void gone(const caf::actor_addr& who) {
+  void on_down(const caf::actor_addr& who) {
     if (who == setup->provider.address()) {
       // There is nothing left to be let in to.
       self->quit(caf::exit_reason::user_shutdown);
       return;
     }
     std::erase_if(peers, [&](const admitted_peer& x) {
-      const auto is = x.session.address() == who;
+      const auto is = x.endpoint.address() == who;
       if (is)
-        tell(x.stations, false);
+        publish(x.stations, false);
       return is;
     });
   }
 
-  void tell(const std::set<station_id>& stations, bool is_here) {
-    if (chatter.take(now(self)))
+  void publish(const std::set<station_id>& stations, bool is_here) {
+    if (chatter.try_spend(now(self)))
       setup->on_peer(stations, is_here);
   }
 
-  void note_refusal(const std::string& why) {
-    ++refused;
+  void on_refusal(const std::string& why) {
     const auto t = now(self);
-    if (t < next_note)
-      return;
-    next_note = t + refusal_note_period;
-    self->send(
-        setup->recorder,
-        event_record{t,
-                     "peer_refused",
-                     0,
-                     setup->boot,
-                     {},
-                     0,
-                     fmt::format("{}; {} so far", printable(why), refused)});
+    if (auto line = refusals.add(printable(why), t))
+      self->send(
+          setup->recorder,
+          event_record{
+              t, "peer_refused", 0, setup->boot, {}, 0, std::move(*line)});
   }
 };
 
 admissions_impl::behavior_type
 admissions(admissions_impl::stateful_pointer<admissions_state> self,
-           std::shared_ptr<const gate_setup> setup) {
+           std::shared_ptr<const acceptor_setup> setup) {
   self->state.self = self;
   self->state.setup = std::move(setup);
   self->monitor(self->state.setup->provider);
   self->set_down_handler(
-      [self](const caf::down_msg& down) { self->state.gone(down.source); });
+      [self](const caf::down_msg& down) { self->state.on_down(down.source); });
   return {
-      [self](const admission& given) { return self->state.admit(given); },
-      [self](const std::string& why) { self->state.note_refusal(why); },
-      [self](const entrance_actor& opened) {
+      [self](const admission& given) {
+        return self->state.on_admission(given);
+      },
+      [self](const std::string& why) { self->state.on_refusal(why); },
+      [self](const handshake_actor& opened) {
         send_after(self, self, protocol::introduction_timeout, tick_atom_v,
                    opened);
       },
-      [self](tick_atom, const entrance_actor& opened) {
+      [self](tick_atom, const handshake_actor& opened) {
         self->send_exit(opened, caf::exit_reason::user_shutdown);
       },
   };
@@ -171,7 +171,7 @@ admissions(admissions_impl::stateful_pointer<admissions_state> self,
 } // namespace
 
 admissions_actor spawn_admissions(caf::actor_system& sys,
-                                  std::shared_ptr<const gate_setup> setup) {
+                                  std::shared_ptr<const acceptor_setup> setup) {
   return sys.spawn(admissions, std::move(setup));
 }
 

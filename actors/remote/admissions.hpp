@@ -1,7 +1,7 @@
 // Who has been let in.
 #pragma once
 
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
@@ -10,22 +10,22 @@
 
 namespace sofof {
 
-/// Knows all sessions. Its handle never leaves the process.
+/// Knows all connections. Its handle never leaves the process.
 using admissions_actor = caf::typed_actor<
-    // A peer has proved who it is: it gets a session, or an error that says
+    // A peer has proved who it is: it gets an endpoint, or an error that says
     // why not.
-    caf::result<peer_welcome, session_actor>(admission),
+    caf::result<peer_welcome, provider_endpoint_actor>(admission),
     // A peer was refused for this reason.
     reacts_to<std::string>,
-    // This entrance has opened; it is closed protocol::introduction_timeout
+    // This handshake has opened; it is closed protocol::introduction_timeout
     // later.
-    reacts_to<entrance_actor>>;
+    reacts_to<handshake_actor>>;
 
-/// Gives each peer a session of its own. One that comes in again with a station
-/// takes the place of the session of its name that spoke for it; a name has a
-/// limit of sessions, so that it does not keep others out. Ends with the
+/// Gives each peer an endpoint of its own. One that comes in again with a
+/// station takes the place of the endpoint of its name that spoke for it; a
+/// name has a limit of them, so that it does not keep others out. Ends with the
 /// provider.
 admissions_actor spawn_admissions(caf::actor_system& sys,
-                                  std::shared_ptr<const gate_setup> setup);
+                                  std::shared_ptr<const acceptor_setup> setup);
 
 } // namespace sofof

@@ -31,7 +31,7 @@ struct shared_setup {
   std::uint64_t left_out = 0;
 
   void report(std::string why, time_point at) {
-    if (!reports.take(at)) {
+    if (!reports.try_spend(at)) {
       ++left_out;
       return;
     }

@@ -29,9 +29,9 @@ frame_allowance::frame_allowance(frame_bounds bounds)
 std::string_view frame_allowance::objection(std::size_t octets,
                                             time_point now) {
   last_ = std::max(last_, now);
-  if (!frames_.take(now))
+  if (!frames_.try_spend(now))
     return "it sends too many messages";
-  if (!octets_.take(now, static_cast<double>(octets)))
+  if (!octets_.try_spend(now, static_cast<double>(octets)))
     return "it sends too many octets";
   return {};
 }

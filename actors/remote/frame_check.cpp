@@ -1,9 +1,9 @@
 // Frames of BASP 0.18.7, read as far as they have to be judged.
 #include "actors/remote/frame_check.hpp"
 
+#include "actors/remote/frame_reader.hpp"
+
 #include <algorithm>
-#include <array>
-#include <optional>
 
 namespace sofof {
 
@@ -33,73 +33,9 @@ constexpr std::byte hashed_node{1};
 constexpr std::size_t longest_server_handshake = 4096;
 constexpr std::size_t longest_error = 4096;
 
-/// Reads numbers as CAF's binary serializer writes them; nothing past the end.
-class frame_reader {
-public:
-  explicit frame_reader(std::span<const std::byte> octets) : left_{octets} {}
-
-  std::optional<std::uint16_t> number(std::size_t octets) {
-    if (left_.size() < octets)
-      return std::nullopt;
-    std::uint16_t value = 0;
-    for (const auto octet : left_.first(octets))
-      value = static_cast<std::uint16_t>(value << 8
-                                         | std::to_integer<unsigned>(octet));
-    left_ = left_.subspan(octets);
-    return value;
-  }
-
-  /// @returns a size below 2^14: of one octet or two, and of no more than it
-  /// needs.
-  std::optional<std::size_t> short_size() {
-    const auto low = number(1);
-    if (!low || *low < 0x80)
-      return low;
-    const auto high = number(1);
-    if (!high || *high == 0 || *high >= 0x80)
-      return std::nullopt;
-    return static_cast<std::size_t>(*high) << 7 | (*low & 0x7f);
-  }
-
-  std::size_t left() const { return left_.size(); }
-
-private:
-  std::span<const std::byte> left_;
-};
-
 bool is_node(std::span<const std::byte> octets) {
   return octets.size() >= node_size && octets.front() == hashed_node;
 }
-
-/// The types of a message.
-class type_list {
-public:
-  /// Reads them after the stages, of which there must be none.
-  /// @returns nothing if there are some, or more types than in any form.
-  static std::optional<type_list> read(frame_reader& in) {
-    type_list types;
-    const auto stages = in.short_size();
-    const auto count = in.short_size();
-    if (stages != 0 || !count || *count > types.types_.size())
-      return std::nullopt;
-    types.count_ = *count;
-    for (std::size_t i = 0; i < *count; ++i) {
-      const auto type = in.number(2);
-      if (!type)
-        return std::nullopt;
-      types.types_[i] = *type;
-    }
-    return types;
-  }
-
-  bool are(std::span<const std::uint16_t> others) const {
-    return std::ranges::equal(std::span{types_}.first(count_), others);
-  }
-
-private:
-  std::array<std::uint16_t, 8> types_{};
-  std::size_t count_ = 0;
-};
 
 /// Whether what is left is an error that names its cause in a sentence at most.
 bool is_plain_error(frame_reader& in, const message_forms& forms) {
@@ -196,7 +132,7 @@ frame_check::objection_to_message(const frame_header& header,
   if (!is_answer && id != told_id && (id & number_bits) == 0)
     return unknown;
   frame_reader in{payload};
-  const auto types = type_list::read(in);
+  const auto types = element_types::read(in);
   if (!types)
     return unknown;
   const auto& forms = is_answer       ? forms_.answered

@@ -24,15 +24,15 @@ public:
     return {sign, now, now};
   }
 
-  void take(const pong& echo, time_point now) {
-    // It lived when it heard the sign, and nobody answers before he is asked.
+  void on_pong(const pong& echo, time_point now) {
+    // It lived when the ping came, and no pong is older than its ping.
     alive_ = std::max(alive_, std::min(echo.of.sent, now));
     clocks_.add({echo.of.sent, echo.received, echo.answered, now});
   }
 
   /// Whether it has left unanswered, or answered too late, what was sent since
-  /// protocol::silence_limit: what else comes from it may be as old, or made
-  /// by what still works of it.
+  /// protocol::silence_limit: what else comes from it may be as old, or come
+  /// from what still works of it.
   bool is_lost(time_point now) const {
     return now - alive_ > protocol::silence_limit;
   }

@@ -11,13 +11,13 @@ namespace sofof {
 
 namespace {
 
-struct far_provider_state {
-  static inline const char* name = "far_provider";
+struct provider_proxy_state {
+  static inline const char* name = "provider_proxy";
 
   link_actor::pointer self = nullptr;
   station_id station = 0;
-  uplink_mouth uplink;
-  requester_actor near; // once it has said something
+  provider_outbox outbox;
+  requester_actor near; // once it has sent something
 
   template <class Message>
   void down(const Message& message) {
@@ -26,7 +26,7 @@ struct far_provider_state {
   }
 
   // Inputs for its managers come here: there are as many of it.
-  void take(const service_response& response) {
+  void on_response(const service_response& response) {
     if (!near)
       return;
     const auto accepted =
@@ -37,47 +37,47 @@ struct far_provider_state {
                    provider_manager_actor{link_actor{self}}));
   }
 
-  void take(const service_end& end) {
+  void on_end(const service_end& end) {
     if (end.from == side::provider)
       down(end);
     else
-      self->send(uplink, end);
+      self->send(outbox, end);
   }
 };
 
 link_actor::behavior_type
-provider_proxy(link_actor::stateful_pointer<far_provider_state> self,
-               station_id station, uplink_mouth uplink) {
+provider_proxy(link_actor::stateful_pointer<provider_proxy_state> self,
+               station_id station, provider_outbox outbox) {
   self->state.self = self;
   self->state.station = station;
-  self->state.uplink = std::move(uplink);
+  self->state.outbox = std::move(outbox);
   return {
       [self](const its_pdu& message, const requester_actor& requester) {
         self->state.near = requester;
-        self->send(self->state.uplink, self->state.station, message);
+        self->send(self->state.outbox, self->state.station, message);
       },
       [self](const service_request& request, const requester_actor& requester) {
         self->state.near = requester;
-        self->send(self->state.uplink, request);
+        self->send(self->state.outbox, request);
       },
-      [self](const service_end& end) { self->state.take(end); },
+      [self](const service_end& end) { self->state.on_end(end); },
       [self](const service_result& result) { self->state.down(result); },
       [self](const service_offer& offer) { self->state.down(offer); },
       [self](const service_response& response,
              const std::vector<provider_manager_actor>&) {
-        self->state.take(response);
+        self->state.on_response(response);
       },
       [self](const service_input& input) {
-        self->send(self->state.uplink, input);
+        self->send(self->state.outbox, input);
       },
   };
 }
 
 } // namespace
 
-link_actor spawn_far_provider(caf::actor_system& sys, station_id station,
-                              const uplink_mouth& uplink) {
-  return sys.spawn(provider_proxy, station, uplink);
+link_actor spawn_provider_proxy(caf::actor_system& sys, station_id station,
+                                const provider_outbox& outbox) {
+  return sys.spawn(provider_proxy, station, outbox);
 }
 
 } // namespace sofof

@@ -7,16 +7,17 @@
 
 namespace sofof {
 
-/// What an uplink takes from the vehicles of its process, besides what comes
-/// from the far end. Who ends a service is told by the message itself.
-using uplink_mouth =
+/// What a connection to a provider takes from the vehicles of its process,
+/// besides what comes from the far end. Who ends a service is told by the
+/// message itself.
+using provider_outbox =
     caf::typed_actor<reacts_to<station_id, its_pdu>, reacts_to<service_request>,
                      reacts_to<service_input>, reacts_to<service_end>>;
 
 /// Stands where a link to a provider of the same process would. Hands what the
-/// vehicle says to the uplink, and what comes from there to the vehicle.
+/// vehicle sends to the connection, and what comes from there to the vehicle.
 /// Outlives connections.
-link_actor spawn_far_provider(caf::actor_system& sys, station_id station,
-                              const uplink_mouth& uplink);
+link_actor spawn_provider_proxy(caf::actor_system& sys, station_id station,
+                                const provider_outbox& outbox);
 
 } // namespace sofof

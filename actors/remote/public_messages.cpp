@@ -73,9 +73,9 @@ void add_answers(message_forms& to, caf::detail::type_list<Signatures...>) {
 const message_forms& messages_to_provider() {
   static const auto forms = [] {
     message_forms all;
-    add_messages(all, gate_actor::signatures{});
-    add_messages(all, entrance_actor::signatures{});
-    add_messages(all, session_actor::signatures{});
+    add_messages(all, acceptor_actor::signatures{});
+    add_messages(all, handshake_actor::signatures{});
+    add_messages(all, provider_endpoint_actor::signatures{});
     return all;
   }();
   return forms;
@@ -84,9 +84,9 @@ const message_forms& messages_to_provider() {
 const message_forms& messages_to_vehicles() {
   static const auto forms = [] {
     message_forms all;
-    add_answers(all, gate_actor::signatures{});
-    add_answers(all, entrance_actor::signatures{});
-    add_messages(all, uplink_actor::signatures{});
+    add_answers(all, acceptor_actor::signatures{});
+    add_answers(all, handshake_actor::signatures{});
+    add_messages(all, vehicle_endpoint_actor::signatures{});
     all.error_type = caf::type_id_v<caf::error>;
     all.string_type = caf::type_id_v<std::string>;
     all.error_categories = {caf::type_id_v<caf::sec>,

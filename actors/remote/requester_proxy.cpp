@@ -9,24 +9,25 @@ namespace {
 
 requester_actor::behavior_type requester_proxy(requester_actor::pointer self,
                                                station_id station,
-                                               const session_mouth& session) {
-  self->link_to(session);
+                                               const vehicle_outbox& outbox) {
+  self->link_to(outbox);
   return {
-      [=](const service_result& result) { self->send(session, result); },
-      [=](const service_offer& offer) { self->send(session, station, offer); },
+      [=](const service_result& result) { self->send(outbox, result); },
+      [=](const service_offer& offer) { self->send(outbox, station, offer); },
       [=](const service_response& response,
           const std::vector<provider_manager_actor>& managers) {
-        self->send(session, response, managers);
+        self->send(outbox, response, managers);
       },
-      [=](const service_end& end) { self->send(session, end); },
+      [=](const service_end& end) { self->send(outbox, end); },
   };
 }
 
 } // namespace
 
-requester_actor spawn_far_requester(caf::actor_system& sys, station_id station,
-                                    const session_mouth& session) {
-  return sys.spawn(requester_proxy, station, session);
+requester_actor spawn_requester_proxy(caf::actor_system& sys,
+                                      station_id station,
+                                      const vehicle_outbox& outbox) {
+  return sys.spawn(requester_proxy, station, outbox);
 }
 
 } // namespace sofof

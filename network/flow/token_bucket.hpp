@@ -8,7 +8,7 @@
 namespace sofof {
 
 /// A bucket of tokens that fills at a steady rate; whoever wants something
-/// takes tokens for it. Full at first.
+/// spends tokens on it. Full at first.
 class token_bucket {
 public:
   /// @param per_second  Tokens that come each second, ≥ 0.
@@ -16,10 +16,10 @@ public:
   token_bucket(double per_second, double burst)
       : per_second_{per_second}, burst_{burst}, tokens_{burst} {}
 
-  /// Takes `n` ≥ 0 tokens if there are as many, else none. While time is
+  /// Spends `n` ≥ 0 tokens if there are as many, else none. While time is
   /// behind the latest that was seen, no tokens come.
-  /// @returns whether they were taken.
-  bool take(time_point now, double n = 1) {
+  /// @returns whether they were spent.
+  bool try_spend(time_point now, double n = 1) {
     fill(now);
     if (!(n >= 0 && n <= tokens_)) // nor what is no number
       return false;

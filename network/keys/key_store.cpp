@@ -208,8 +208,8 @@ std::string issued_line(const X509& certificate, const peer_identity& who) {
                      describe(who), end_of(certificate));
 }
 
-void note_issued(const authority& ca, const X509& certificate,
-                 const peer_identity& who) {
+void log_issued(const authority& ca, const X509& certificate,
+                const peer_identity& who) {
   append_to_file(ca.issued_file(), issued_line(certificate, who), for_all);
 }
 
@@ -292,7 +292,7 @@ fs::path issue_keys(const fs::path& folder, const peer_identity& who,
     make_folder(target.parent_path());
   const unfinished_folder out{target};
   const auto certificate = fill(out, ca, who, options.days);
-  note_issued(ca, *certificate, who);
+  log_issued(ca, *certificate, who);
   out.finish();
   return target;
 }
@@ -328,7 +328,7 @@ peer_identity renew_keys(const fs::path& folder, const fs::path& of, int days) {
                       entry.path().string())};
   const unfinished_folder out{target};
   const auto certificate = fill(out, ca, *verdict.who, days);
-  note_issued(ca, *certificate, *verdict.who);
+  log_issued(ca, *certificate, *verdict.who);
   out.replace();
   return *verdict.who;
 }

@@ -8,46 +8,47 @@
 
 namespace sofof {
 
-/// Any thread may call these.
+/// Counts open connections, and says whether there may be one more. Any thread
+/// may call these.
 class connection_quota {
 public:
   connection_quota(std::size_t most, std::size_t most_per_peer)
       : most_{most}, most_per_peer_{most_per_peer} {}
 
-  /// Takes a seat.
-  /// @returns why there is none, as words about the peer, "it"; empty: taken.
-  std::string take(const std::string& peer) {
+  /// Lets a connection of this peer in, unless the quota is full.
+  /// @returns why it is, as words about the peer, "it"; empty: it is let in.
+  std::string admit(const std::string& peer) {
     const std::lock_guard lock{mutex_};
-    if (taken_ >= most_)
+    if (open_ >= most_)
       return "all " + std::to_string(most_) + " connections are taken";
     const auto at = by_peer_.find(peer);
     if (at != by_peer_.end() && at->second >= most_per_peer_)
       return "it has " + std::to_string(most_per_peer_)
              + " connections already, the most a peer may have";
     ++by_peer_[peer];
-    ++taken_;
+    ++open_;
     return {};
   }
 
-  /// Gives a seat back.
-  void give_back(const std::string& peer) {
+  /// One of this peer's connections has ended.
+  void release(const std::string& peer) {
     const std::lock_guard lock{mutex_};
-    --taken_;
+    --open_;
     if (const auto at = by_peer_.find(peer); --at->second == 0)
       by_peer_.erase(at);
   }
 
-  std::size_t taken() const {
+  std::size_t open() const {
     const std::lock_guard lock{mutex_};
-    return taken_;
+    return open_;
   }
-  bool are_all_taken() const { return taken() >= most_; }
+  bool is_full() const { return open() >= most_; }
 
 private:
   const std::size_t most_;
   const std::size_t most_per_peer_;
   mutable std::mutex mutex_;
-  std::size_t taken_ = 0;
+  std::size_t open_ = 0;
   std::map<std::string, std::size_t> by_peer_; // none with 0
 };
 

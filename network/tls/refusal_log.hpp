@@ -1,4 +1,4 @@
-// Tells of refusals, but not of each: one sentence a second at most.
+// Publishes refusals, but not each: one sentence a second at most.
 #pragma once
 
 #include "network/deadline.hpp"
@@ -10,26 +10,28 @@
 
 namespace sofof {
 
+/// A crowd that is refused fills no journal: the first sentence is published at
+/// once, the last of each second with how many were left out.
 class refusal_log {
 public:
-  using teller = std::function<void(const std::string&)>;
+  using publisher = std::function<void(const std::string&)>;
 
-  /// @param tell  Gets the sentences; may be empty.
-  explicit refusal_log(teller tell) : tell_{std::move(tell)} {}
+  /// @param publish  Gets the sentences; may be empty.
+  explicit refusal_log(publisher publish) : publish_{std::move(publish)} {}
 
-  /// Somebody was refused.
+  /// A peer was refused.
   /// @param sentence  Who and why.
   void add(const std::string& sentence, deadline now);
 
-  /// Tells of those that were left out, once a second is over.
-  void look_at(deadline now);
+  /// Publishes those that were left out, once a second is over.
+  void publish_rest(deadline now);
 
-  /// @returns when `look_at` has something to tell; nullopt: never.
+  /// @returns when `publish_rest` has something to do; nullopt: never.
   std::optional<deadline> next() const;
 
 private:
-  teller tell_;
-  std::optional<deadline> last_told_;
+  publisher publish_;
+  std::optional<deadline> last_published_;
   std::string last_;
   std::uint64_t left_out_ = 0;
 };

@@ -30,7 +30,7 @@ class tls_handshake {
 public:
   enum class step { waits_to_read, waits_to_write, done, failed };
 
-  /// @param socket  Connected; outlives this and what `take` returns.
+  /// @param socket  Connected; outlives this and what `release` returns.
   tls_handshake(const tls_context& context, int socket, tls_side side);
 
   /// Goes on as far as it can now.
@@ -43,7 +43,7 @@ public:
   const std::string& failure() const { return failure_; }
 
   /// @returns the connection, once it is done.
-  ssl_ptr take() { return std::move(tls_); }
+  ssl_ptr release() { return std::move(tls_); }
 
 private:
   struct notes {

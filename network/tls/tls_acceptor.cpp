@@ -1,4 +1,4 @@
-// Handshakes at the door, one step at a time; then the carrier takes over.
+// Handshakes, one step at a time; then a tunnel_loop takes over.
 #include "network/tls/tls_acceptor.hpp"
 
 #include "network/block_signals.hpp"
@@ -48,7 +48,7 @@ class tls_acceptor::loop {
 public:
   loop(const credentials& own, acceptor_options options)
       : options_{std::move(options)}, listener_{listen_at(options_.listen)},
-        port_{port_of(listener_)}, seats_{options_.most_connections,
+        port_{port_of(listener_)}, quota_{options_.most_connections,
                                           options_.most_per_peer},
         context_{make_tls_context(provider_only(own))},
         log_{options_.on_refusal}, tunnels_{options_.idle} {
@@ -60,8 +60,8 @@ public:
     stops_ = true;
     wake_.call();
     thread_.join();
-    for (const auto& guest : guests_)
-      leave_seat(guest);
+    for (const auto& peer : pending_)
+      leave_quota(peer);
   }
 
   void renew(const credentials& own) {
@@ -75,22 +75,24 @@ public:
   }
 
   std::uint16_t port() const { return port_; }
-  door_counts counts() const { return {accepted_, refused_, seats_.taken()}; }
+  acceptor_counts counts() const {
+    return {accepted_, refused_, quota_.open()};
+  }
 
 private:
   /// A connection that is not carried yet.
-  struct guest {
+  struct pending_peer {
     std::string name; ///< Its address, later its identity, too.
     network_prefix network;
     deadline until;
     descriptor outer;
     tls_handshake handshake;
     short waits_for = POLLIN;
-    std::string seat; ///< Its identity, once it has a seat.
+    std::string admitted; ///< Its identity, once the quota has let it in.
     descriptor inner; ///< The connection to the inner port, once it has begun.
     std::uint16_t inner_from = 0; ///< Its own port, if that is registered.
   };
-  using guest_list = std::list<guest>;
+  using peer_list = std::list<pending_peer>;
 
   void run() {
     leave_signals_to_others();
@@ -100,8 +102,8 @@ private:
       wake_.answer();
       take_messages();
       // In the same order as they were waited for.
-      auto at = guests_.begin();
-      for (std::size_t i = first_guest; i < events.size(); ++i) {
+      auto at = pending_.begin();
+      for (std::size_t i = first_peer; i < events.size(); ++i) {
         const auto current = at++;
         if (events[i].revents != 0)
           advance(current);
@@ -110,11 +112,11 @@ private:
       }
       if (events[1].revents != 0)
         accept_new_ones();
-      log_.look_at(now_);
+      log_.publish_rest(now_);
     }
   }
 
-  /// @returns what happened: to `wake_`, the listener, and the guests.
+  /// @returns what happened: to `wake_`, the listener, and the pending peers.
   std::vector<pollfd> wait() {
     auto next = deadline::max();
     if (const auto told = log_.next())
@@ -125,10 +127,10 @@ private:
     std::vector<pollfd> events{
         {wake_.fd(), POLLIN, 0},
         {listener_.get(), static_cast<short>(pauses ? 0 : POLLIN), 0}};
-    for (const auto& guest : guests_) {
-      const auto& socket = guest.inner ? guest.inner : guest.outer;
-      events.push_back({socket.get(), guest.waits_for, 0});
-      next = std::min(next, guest.until);
+    for (const auto& peer : pending_) {
+      const auto& socket = peer.inner ? peer.inner : peer.outer;
+      events.push_back({socket.get(), peer.waits_for, 0});
+      next = std::min(next, peer.until);
     }
     const auto timeout = next == deadline::max()
                              ? -1
@@ -163,36 +165,36 @@ private:
         return;
       }
       const auto name = print_address(peer);
-      if (seats_.are_all_taken()) {
-        tell_refusal(name, fmt::format("all {} connections are taken",
-                                       options_.most_connections));
+      if (quota_.is_full()) {
+        log_refusal(name, fmt::format("all {} connections are taken",
+                                      options_.most_connections));
         continue;
       }
-      if (guests_.size() >= options_.most_handshakes)
+      if (pending_.size() >= options_.most_handshakes)
         make_room();
       give_up_after(socket, options_.idle);
       const auto fd = socket.get();
       try {
-        guests_.push_back({name,
-                           prefix_of(peer),
-                           now_ + options_.handshake_timeout,
-                           std::move(socket),
-                           {context_, fd, tls_side::answerer},
-                           POLLIN,
-                           {},
-                           {},
-                           {}});
+        pending_.push_back({name,
+                            prefix_of(peer),
+                            now_ + options_.handshake_timeout,
+                            std::move(socket),
+                            {context_, fd, tls_side::answerer},
+                            POLLIN,
+                            {},
+                            {},
+                            {}});
       } catch (const network_error& e) {
-        tell_refusal(name, e.what());
+        log_refusal(name, e.what());
       }
     }
   }
 
   /// Refuses a handshake of a network that has the most of them.
   void make_room() {
-    std::vector<guest_list::iterator> unfinished;
+    std::vector<peer_list::iterator> unfinished;
     std::vector<network_prefix> networks;
-    for (auto at = guests_.begin(); at != guests_.end(); ++at)
+    for (auto at = pending_.begin(); at != pending_.end(); ++at)
       if (!at->inner) {
         unfinished.push_back(at);
         networks.push_back(at->network);
@@ -205,7 +207,7 @@ private:
                                std::ranges::count(networks, victim->network)));
   }
 
-  void advance(guest_list::iterator at) {
+  void advance(peer_list::iterator at) {
     if (at->inner) {
       finish(at);
       return;
@@ -227,14 +229,14 @@ private:
   }
 
   /// Who it is is known: now to the inner port.
-  void let_in(guest_list::iterator at) {
+  void let_in(peer_list::iterator at) {
     auto who = describe(at->handshake.who());
     at->name += ", " + who + ",";
-    if (const auto refusal = seats_.take(who); !refusal.empty()) {
+    if (const auto refusal = quota_.admit(who); !refusal.empty()) {
       refuse(at, refusal);
       return;
     }
-    at->seat = std::move(who);
+    at->admitted = std::move(who);
     auto [inner, error] = start_connecting(
         loopback_port(options_.inner_port), [&](std::uint16_t port) {
           at->inner_from = port;
@@ -247,23 +249,23 @@ private:
       refuse_for_inner(at, error);
   }
 
-  void finish(guest_list::iterator at) {
+  void finish(peer_list::iterator at) {
     if (const auto error = connection_error(at->inner); error != 0) {
       refuse_for_inner(at, error);
       return;
     }
     ++accepted_;
-    tunnels_.carry({wire{std::move(at->outer), at->handshake.take()},
-                    wire{std::move(at->inner)},
-                    [this, seat = at->seat, name = at->name,
+    tunnels_.carry({byte_stream{std::move(at->outer), at->handshake.release()},
+                    byte_stream{std::move(at->inner)},
+                    [this, who = at->admitted, name = at->name,
                      port = at->inner_from](const tunnel_end& end) {
                       forget_port(port);
-                      seats_.give_back(seat);
+                      quota_.release(who);
                       if (end.why == tunnel_end::cause::distrusted)
                         leave_message(name
                                       + " was disconnected: " + end.failure);
                     }});
-    guests_.erase(at);
+    pending_.erase(at);
   }
 
   /// For the thread, by others.
@@ -275,33 +277,33 @@ private:
     wake_.call();
   }
 
-  void time_out(guest_list::iterator at) {
+  void time_out(peer_list::iterator at) {
     if (at->inner)
       refuse_for_inner(at, ETIMEDOUT);
     else
       refuse(at, "it did not finish the TLS handshake in time");
   }
 
-  void refuse_for_inner(guest_list::iterator at, int error) {
+  void refuse_for_inner(peer_list::iterator at, int error) {
     refuse(at, "the provider itself cannot be reached: "
                    + std::generic_category().message(error));
   }
 
-  void refuse(guest_list::iterator at, const std::string& why) {
-    tell_refusal(at->name, why);
-    leave_seat(*at);
-    guests_.erase(at);
+  void refuse(peer_list::iterator at, const std::string& why) {
+    log_refusal(at->name, why);
+    leave_quota(*at);
+    pending_.erase(at);
   }
 
-  void tell_refusal(const std::string& name, const std::string& why) {
+  void log_refusal(const std::string& name, const std::string& why) {
     ++refused_;
     log_.add(name + " was refused: " + why, now_);
   }
 
-  void leave_seat(const guest& guest) {
-    forget_port(guest.inner_from);
-    if (!guest.seat.empty())
-      seats_.give_back(guest.seat);
+  void leave_quota(const pending_peer& peer) {
+    forget_port(peer.inner_from);
+    if (!peer.admitted.empty())
+      quota_.release(peer.admitted);
   }
 
   void forget_port(std::uint16_t port) {
@@ -309,12 +311,12 @@ private:
       options_.peers->remove(port);
   }
 
-  static constexpr std::size_t first_guest = 2;
+  static constexpr std::size_t first_peer = 2;
 
   const acceptor_options options_;
   const descriptor listener_;
   const std::uint16_t port_;
-  connection_quota seats_;
+  connection_quota quota_;
   std::atomic<std::uint64_t> accepted_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
   std::atomic<bool> stops_ = false;
@@ -326,7 +328,7 @@ private:
   // Of the thread:
   tls_context context_;
   refusal_log log_;
-  guest_list guests_;
+  peer_list pending_;
   std::uint64_t drawn_ = 0; // of the victims
   deadline now_ = deadline_clock::now();
   deadline accepts_again_ = now_;
@@ -348,7 +350,7 @@ std::uint16_t tls_acceptor::port() const {
   return loop_->port();
 }
 
-door_counts tls_acceptor::counts() const {
+acceptor_counts tls_acceptor::counts() const {
   return loop_->counts();
 }
 

@@ -1,4 +1,4 @@
-// A provider's front door: lets in who shows a certificate of our CAs, for as
+// A provider's side of TLS: lets in who shows a certificate of our CAs, for as
 // long as it is good, and carries the bytes between them and a port of this
 // machine.
 #pragma once
@@ -17,6 +17,7 @@
 
 namespace sofof {
 
+/// Where to listen, and for how much of what.
 struct acceptor_options {
   network_address listen;       ///< Port 0: any that is free.
   std::uint16_t inner_port = 0; ///< On 127.0.0.1, where the bytes go.
@@ -35,17 +36,20 @@ struct acceptor_options {
   /// Knows who is behind each connection with `inner_port`; may be null.
   std::shared_ptr<peer_register> peers;
   /// Told who was refused or distrusted later, and why, in a sentence without
-  /// its full stop, at most once a second; on the door's thread; must not block
-  /// or throw.
+  /// its full stop, at most once a second; on the acceptor's thread; must not
+  /// block or throw.
   std::function<void(const std::string&)> on_refusal;
 };
 
-struct door_counts {
+/// What has become of connections.
+struct acceptor_counts {
   std::uint64_t accepted = 0; ///< Connections carried, since the start.
   std::uint64_t refused = 0;  ///< Connections not carried, since the start.
   std::size_t open = 0;       ///< Connections carried now.
 };
 
+/// Where vehicles of other hosts connect to a provider. A connection that has
+/// been let in is a tunnel to `inner_port`, whose octets are not looked at.
 class tls_acceptor {
 public:
   /// Listens, on two threads of its own: handshakes on one, connections on the
@@ -69,7 +73,7 @@ public:
   std::uint16_t port() const;
 
   /// Any thread may ask.
-  door_counts counts() const;
+  acceptor_counts counts() const;
 
 private:
   class loop;

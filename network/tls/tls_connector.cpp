@@ -1,4 +1,4 @@
-// Connecting and shaking hands, one step at a time; then the carrier takes
+// Connecting and shaking hands, one step at a time; then a tunnel_loop takes
 // over.
 #include "network/tls/tls_connector.hpp"
 
@@ -290,7 +290,7 @@ private:
         return;
       case step::done:
         if (is_expected(at->handshake->who()))
-          put_through(at, at->handshake->take());
+          put_through(at, at->handshake->release());
         else
           give_up(at, fmt::format("its certificate is for {}, not for provider "
                                   "{}",
@@ -306,8 +306,9 @@ private:
   void put_through(call_list::iterator at, ssl_ptr tls) {
     set_last_error({});
     ++carried_;
-    tunnels_.carry({wire{std::move(at->far), std::move(tls)},
-                    wire{std::move(at->near)}, [this](const tunnel_end& end) {
+    tunnels_.carry({byte_stream{std::move(at->far), std::move(tls)},
+                    byte_stream{std::move(at->near)},
+                    [this](const tunnel_end& end) {
                       explain(end);
                       --carried_;
                     }});

@@ -1,5 +1,5 @@
 // A vehicle's side: a port of this machine whose connections lead to a
-// provider's door.
+// provider's tls_acceptor.
 #pragma once
 
 #include "network/keys/credentials.hpp"
@@ -14,6 +14,7 @@
 
 namespace sofof {
 
+/// Whom to connect to, and how long to try.
 struct connector_options {
   network_address remote;
   std::string provider; ///< Whom its certificate must name; empty: anybody.
@@ -32,6 +33,8 @@ struct connector_options {
   std::size_t most_connections = 16; ///< More are closed at once.
 };
 
+/// How vehicles connect to a provider of another host: what connects to `port`
+/// is a tunnel to it, whose octets are not looked at.
 class tls_connector {
 public:
   /// Listens on 127.0.0.1 and carries each connection on to the remote host,
@@ -53,7 +56,7 @@ public:
 
   /// Goes by other credentials from now on, for connections that are opened
   /// later, and closes those to providers that they have revoked. Not for a
-  /// dialer without TLS. Any thread may call this.
+  /// connector without TLS. Any thread may call this.
   /// @throws network_error when they name no stations, or OpenSSL does not take
   /// them; then all stays as it was.
   void renew(const credentials& own);

@@ -11,24 +11,25 @@ namespace sofof {
 
 namespace {
 
-std::uint32_t events_of(wire::state waits) {
+std::uint32_t events_of(byte_stream::state waits) {
   switch (waits) {
-    case wire::state::waits_to_read:
+    case byte_stream::state::waits_to_read:
       return EPOLLIN;
-    case wire::state::waits_to_write:
+    case byte_stream::state::waits_to_write:
       return EPOLLOUT;
     default:
       return 0;
   }
 }
 
-bool is_over(wire::state what) {
-  return what == wire::state::closed || what == wire::state::failed;
+bool is_over(byte_stream::state what) {
+  return what == byte_stream::state::closed
+         || what == byte_stream::state::failed;
 }
 
 } // namespace
 
-tls_tunnel::tls_tunnel(wire far, wire near, end_handler on_end)
+tls_tunnel::tls_tunnel(byte_stream far, byte_stream near, end_handler on_end)
     : far_{std::move(far)}, near_{std::move(near)}, on_end_{std::move(on_end)} {
 }
 
@@ -50,7 +51,7 @@ tls_tunnel::turn tls_tunnel::move() {
   return t;
 }
 
-bool tls_tunnel::shift(wire& from, wire& to, flow& f) {
+bool tls_tunnel::shift(byte_stream& from, byte_stream& to, flow& f) {
   bool moved = false;
   if (f.is_empty() && !f.source_closed) {
     const auto [what, size] = from.read(*f.bytes);

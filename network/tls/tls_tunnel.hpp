@@ -2,7 +2,7 @@
 #pragma once
 
 #include "network/keys/revocation_list.hpp"
-#include "network/tls/wire.hpp"
+#include "network/tls/byte_stream.hpp"
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct tunnel_end {
     far_closed,  ///< The other host did, or the connection to it broke.
     idle,        ///< Nothing crossed for too long.
     distrusted,  ///< The other host's certificate is good no more.
-    stopped,     ///< By the end of its carrier.
+    stopped,     ///< By the end of its loop.
   };
   cause why = cause::stopped;
   /// Why the connection broke, or what is wrong with the certificate; empty for
@@ -37,7 +37,7 @@ public:
   using end_handler = std::function<void(const tunnel_end&)>;
 
   /// @param on_end  Called once, before the connections close; must not throw.
-  tls_tunnel(wire far, wire near, end_handler on_end);
+  tls_tunnel(byte_stream far, byte_stream near, end_handler on_end);
   tls_tunnel(tls_tunnel&&) noexcept = default;
 
   struct turn {
@@ -77,20 +77,20 @@ private:
     std::size_t end = 0;
     std::uint64_t moved = 0;
     bool source_closed = false;
-    wire::state read_waits = wire::state::moved;
-    wire::state write_waits = wire::state::moved;
+    byte_stream::state read_waits = byte_stream::state::moved;
+    byte_stream::state write_waits = byte_stream::state::moved;
 
     bool is_empty() const { return begin == end; }
   };
 
   /// @returns whether it moved anything.
-  bool shift(wire& from, wire& to, flow& f);
+  bool shift(byte_stream& from, byte_stream& to, flow& f);
   bool has_ended(const flow& f, tunnel_end::cause source,
                  tunnel_end::cause sink);
   void update_events();
 
-  wire far_;
-  wire near_;
+  byte_stream far_;
+  byte_stream near_;
   flow inward_;
   flow outward_;
   end_handler on_end_;

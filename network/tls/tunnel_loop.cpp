@@ -106,14 +106,14 @@ void tunnel_loop::take_new_ones(deadline now) {
       continue;
     }
     ready_.push_back(++last_number_);
-    loads_.emplace(last_number_, load{std::move(tunnel), now});
+    entries_.emplace(last_number_, entry{std::move(tunnel), now});
   }
 }
 
 void tunnel_loop::drop_all() {
-  for (auto& [number, load] : loads_)
-    load.tunnel.end(tunnel_end::cause::stopped);
-  loads_.clear();
+  for (auto& [number, entry] : entries_)
+    entry.tunnel.end(tunnel_end::cause::stopped);
+  entries_.clear();
   ready_.clear();
 }
 
@@ -130,40 +130,40 @@ void tunnel_loop::wait_for_events(int timeout_ms) {
   }
 }
 
-void tunnel_loop::make_ready(load_number number) {
+void tunnel_loop::make_ready(entry_number number) {
   // A child that was just forked may still hold the sockets of one that ended.
-  const auto found = loads_.find(number);
-  if (found == loads_.end() || std::exchange(found->second.is_ready, true))
+  const auto found = entries_.find(number);
+  if (found == entries_.end() || std::exchange(found->second.is_ready, true))
     return;
   ready_.push_back(number);
 }
 
 void tunnel_loop::serve_ready_ones(deadline now) {
   for (const auto number : std::exchange(ready_, {})) {
-    const auto found = loads_.find(number);
-    if (found == loads_.end())
+    const auto found = entries_.find(number);
+    if (found == entries_.end())
       continue; // it was distrusted meanwhile
-    auto& load = found->second;
-    auto& tunnel = load.tunnel;
+    auto& entry = found->second;
+    auto& tunnel = entry.tunnel;
     const auto turn = tunnel.move();
     if (turn.ended) {
       tunnel.end(tunnel.who_closed());
-      loads_.erase(found);
+      entries_.erase(found);
       continue;
     }
-    load.is_ready = turn.more;
+    entry.is_ready = turn.more;
     if (turn.moved)
-      load.last_moved = now;
+      entry.last_moved = now;
     if (turn.more) {
       ready_.push_back(number);
     } else {
-      watch(tunnel.far_fd(), number, load.far_events, tunnel.far_events());
-      watch(tunnel.near_fd(), number, load.near_events, tunnel.near_events());
+      watch(tunnel.far_fd(), number, entry.far_events, tunnel.far_events());
+      watch(tunnel.near_fd(), number, entry.near_events, tunnel.near_events());
     }
   }
 }
 
-void tunnel_loop::watch(int fd, load_number number, std::uint32_t& watched,
+void tunnel_loop::watch(int fd, entry_number number, std::uint32_t& watched,
                         std::uint32_t wanted) {
   if (watched == wanted)
     return;
@@ -177,7 +177,7 @@ void tunnel_loop::watch(int fd, load_number number, std::uint32_t& watched,
 }
 
 void tunnel_loop::close_distrusted_ones() {
-  for (auto at = loads_.begin(); at != loads_.end();) {
+  for (auto at = entries_.begin(); at != entries_.end();) {
     auto& tunnel = at->second.tunnel;
     auto why = tunnel.distrust(revoked_);
     if (why.empty()) {
@@ -185,19 +185,19 @@ void tunnel_loop::close_distrusted_ones() {
       continue;
     }
     tunnel.end_distrusted(std::move(why));
-    at = loads_.erase(at);
+    at = entries_.erase(at);
   }
 }
 
 void tunnel_loop::close_idle_ones(deadline now) {
-  for (auto at = loads_.begin(); at != loads_.end();) {
-    auto& load = at->second;
-    if (load.is_ready || now - load.last_moved < idle_) {
+  for (auto at = entries_.begin(); at != entries_.end();) {
+    auto& entry = at->second;
+    if (entry.is_ready || now - entry.last_moved < idle_) {
       ++at;
       continue;
     }
-    load.tunnel.end(tunnel_end::cause::idle);
-    at = loads_.erase(at);
+    entry.tunnel.end(tunnel_end::cause::idle);
+    at = entries_.erase(at);
   }
 }
 

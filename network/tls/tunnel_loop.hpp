@@ -19,6 +19,8 @@
 
 namespace sofof {
 
+/// Serves its tunnels in turns, on one thread for all of them; ends each when a
+/// side closes, nothing crosses, or the certificate is good no more.
 class tunnel_loop {
 public:
   /// @param idle  A tunnel through which nothing at all crosses for so long is
@@ -42,22 +44,23 @@ public:
   void revoke(revocation_list revoked);
 
 private:
-  struct load {
+  /// A tunnel, and what is known of it.
+  struct entry {
     tls_tunnel tunnel;
     deadline last_moved;
     std::uint32_t far_events = 0;
     std::uint32_t near_events = 0;
     bool is_ready = true;
   };
-  using load_number = std::uint64_t;
+  using entry_number = std::uint64_t;
 
   void run();
   void take_new_ones(deadline now);
   void drop_all();
   void wait_for_events(int timeout_ms);
-  void make_ready(load_number number);
+  void make_ready(entry_number number);
   void serve_ready_ones(deadline now);
-  void watch(int fd, load_number number, std::uint32_t& watched,
+  void watch(int fd, entry_number number, std::uint32_t& watched,
              std::uint32_t wanted);
   void close_idle_ones(deadline now);
   void close_distrusted_ones();
@@ -73,9 +76,9 @@ private:
 
   // Of the thread:
   revocation_list revoked_;
-  std::unordered_map<load_number, load> loads_;
-  load_number last_number_ = 0;
-  std::vector<load_number> ready_;
+  std::unordered_map<entry_number, entry> entries_;
+  entry_number last_number_ = 0;
+  std::vector<entry_number> ready_;
 
   std::thread thread_; // last, as it needs all of the above
 };

@@ -57,7 +57,7 @@ std::size_t send_changed(End& end) {
     if (!end.hear(change(honest[change.draw(honest.size() - 1)])))
       continue;
     ++read;
-    if (n % 16 == 0) // below what a session hears
+    if (n % 16 == 0) // below what a provider hears
       end.live(50ms);
     if (n % 1024 == 0) {
       REQUIRE(end.is_unharmed());
@@ -71,14 +71,15 @@ std::size_t send_changed(End& end) {
 
 } // namespace
 
-TEST_CASE_FIXTURE(hearing_session, "whatever admitted messages hold, a session "
-                                   "lives on, and speaks for its stations "
-                                   "alone") {
+TEST_CASE_FIXTURE(hearing_provider,
+                  "whatever admitted messages hold, a provider "
+                  "lives on, and speaks for its stations "
+                  "alone") {
   CHECK(send_changed(*this) > wanted / 10);
 }
 
-TEST_CASE_FIXTURE(hearing_uplink, "whatever admitted messages hold, vehicles "
-                                  "keep their uplink") {
+TEST_CASE_FIXTURE(hearing_vehicles, "whatever admitted messages hold, vehicles "
+                                    "keep their connection") {
   CHECK(send_changed(*this) > wanted / 10);
 }
 

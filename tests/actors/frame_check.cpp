@@ -70,8 +70,8 @@ struct connection {
   connection(bool is_accepted, const message_forms& forms)
       : check{is_accepted, forms} {}
 
-  std::string take(std::uint8_t operation, const octets& payload,
-                   std::uint64_t data = 0, std::uint8_t flags = 0) {
+  std::string judge(std::uint8_t operation, const octets& payload,
+                    std::uint64_t data = 0, std::uint8_t flags = 0) {
     const frame_header header{
         operation,
         flags,
@@ -87,14 +87,14 @@ struct connection {
 /// What a provider hears of a peer that has introduced its node.
 struct at_provider : connection {
   at_provider() : connection{true, messages_to_provider()} {
-    REQUIRE(take(client_hello, node()).empty());
+    REQUIRE(judge(client_hello, node()).empty());
   }
 };
 
 /// What vehicles hear of a provider that they have called.
 struct at_vehicles : connection {
   at_vehicles() : connection{false, messages_to_vehicles()} {
-    REQUIRE(take(server_hello, node() + octets(100)).empty());
+    REQUIRE(judge(server_hello, node() + octets(100)).empty());
   }
 };
 
@@ -105,61 +105,64 @@ const session_id running{11, 101, "trajectory_planning", 3};
 
 TEST_CASE("what vehicles say to a provider is admitted") {
   at_provider at;
-  CHECK(at.take(heartbeat, {}) == "");
-  CHECK(at.take(monitor, node() + node(9)) == "");
-  CHECK(at.take(down, node() + node(9) + octets(6)) == "");
-  CHECK(at.take(direct, message_of(std::uint32_t{6}, std::uint64_t{1}), asked)
+  CHECK(at.judge(heartbeat, {}) == "");
+  CHECK(at.judge(monitor, node() + node(9)) == "");
+  CHECK(at.judge(down, node() + node(9) + octets(6)) == "");
+  CHECK(at.judge(direct, message_of(std::uint32_t{6}, std::uint64_t{1}), asked)
         == "");
-  CHECK(at.take(direct, message_of(station_id{101}, its_pdu{octets(300), {}}),
-                told)
+  CHECK(at.judge(direct, message_of(station_id{101}, its_pdu{octets(300), {}}),
+                 told)
         == "");
   service_request request{11, 101, 1, {"a", "b"}, {}, 5};
   request.route.resize(1000);
   request.candidates.resize(64);
   request.kinds.resize(64, service_name{"a_name_that_is_rather_long"});
-  CHECK(at.take(direct, message_of(request), told) == "");
-  CHECK(at.take(direct, message_of(service_input{running, {}, {}}), told)
+  CHECK(at.judge(direct, message_of(request), told) == "");
+  CHECK(at.judge(direct, message_of(service_input{running, {}, {}}), told)
         == "");
-  CHECK(at.take(direct, message_of(service_end{running}), told) == "");
-  CHECK(at.take(direct, message_of(ping{}), told) == "");
-  CHECK(at.take(direct, message_of(pong{}), told) == "");
-  CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
+  CHECK(at.judge(direct, message_of(service_end{running}), told) == "");
+  CHECK(at.judge(direct, message_of(ping{}), told) == "");
+  CHECK(at.judge(direct, message_of(pong{}), told) == "");
+  CHECK(at.judge(direct, message_of(stream_id{101}), told) == "");
 }
 
 TEST_CASE("what a provider says to vehicles is admitted") {
   at_vehicles at;
-  CHECK(at.take(direct, message_of(station_id{101}, service_offer{}), told)
+  CHECK(at.judge(direct, message_of(station_id{101}, service_offer{}), told)
         == "");
-  CHECK(at.take(direct, message_of(service_response{}), told) == "");
-  CHECK(at.take(direct, message_of(service_result{running, 1, {}, {}}), told)
+  CHECK(at.judge(direct, message_of(service_response{}), told) == "");
+  CHECK(at.judge(direct, message_of(service_result{running, 1, {}, {}}), told)
         == "");
-  CHECK(at.take(direct, message_of(service_end{running}), told) == "");
-  CHECK(at.take(direct, message_of(ping{}), told) == "");
-  CHECK(at.take(direct, message_of(pong{}), told) == "");
-  CHECK(at.take(direct, message_of(stream_id{101}), told) == "");
-  CHECK(at.take(direct,
-                message_of(std::uint32_t{6}, std::uint64_t{1}, std::string{"n"},
-                           caf::strong_actor_ptr{}),
-                answered)
+  CHECK(at.judge(direct, message_of(service_end{running}), told) == "");
+  CHECK(at.judge(direct, message_of(ping{}), told) == "");
+  CHECK(at.judge(direct, message_of(pong{}), told) == "");
+  CHECK(at.judge(direct, message_of(stream_id{101}), told) == "");
+  CHECK(at.judge(direct,
+                 message_of(std::uint32_t{6}, std::uint64_t{1},
+                            std::string{"n"}, caf::strong_actor_ptr{}),
+                 answered)
         == "");
-  CHECK(at.take(direct, message_of(peer_welcome{}, session_actor{}), answered)
+  CHECK(at.judge(direct, message_of(peer_welcome{}, provider_endpoint_actor{}),
+                 answered)
         == "");
-  CHECK(at.take(direct,
-                message_of(caf::make_error(caf::sec::invalid_argument,
-                                           std::string(300, 'x'))),
-                answered)
+  CHECK(at.judge(direct,
+                 message_of(caf::make_error(caf::sec::invalid_argument,
+                                            std::string(300, 'x'))),
+                 answered)
         == "");
-  CHECK(at.take(direct, message_of(caf::error{caf::sec::request_receiver_down}),
-                answered)
+  CHECK(at.judge(direct,
+                 message_of(caf::error{caf::sec::request_receiver_down}),
+                 answered)
         == "");
-  CHECK(at.take(direct, message_of(caf::error{}), answered) == "");
+  CHECK(at.judge(direct, message_of(caf::error{}), answered) == "");
 }
 
 TEST_CASE("the largest hello that is possible is admitted") {
   at_provider at;
   peer_hello hello{"mec", std::vector<station_id>(10'000), 1,
                    2,     std::string(64 * 1024, 'c'),     octets(1024)};
-  CHECK(at.take(direct, message_of(hello, uplink_actor{}), asked) == "");
+  CHECK(at.judge(direct, message_of(hello, vehicle_endpoint_actor{}), asked)
+        == "");
 }
 
 TEST_CASE("each message goes its own way alone") {
@@ -167,20 +170,20 @@ TEST_CASE("each message goes its own way alone") {
   at_vehicles vehicles;
   const auto sign = message_of(ping{});
   const auto result = message_of(service_result{running, 1, {}, {}});
-  const auto greeting = message_of(std::uint32_t{6}, std::uint64_t{1});
-  const auto welcome = message_of(peer_welcome{}, session_actor{});
+  const auto question = message_of(std::uint32_t{6}, std::uint64_t{1});
+  const auto welcome = message_of(peer_welcome{}, provider_endpoint_actor{});
   for (const auto id : {asked, answered, std::uint64_t{0}, 3 * told, 2 * told,
                         told | std::uint64_t{1} << 63}) {
     CAPTURE(id);
-    CHECK(provider.take(direct, sign, id) == unknown);
+    CHECK(provider.judge(direct, sign, id) == unknown);
   }
-  CHECK(provider.take(direct, result, told) == unknown);
-  CHECK(provider.take(direct, greeting, told) == unknown);
-  CHECK(provider.take(direct, welcome, answered) == unknown);
-  CHECK(provider.take(direct, message_of(caf::error{}), answered) == unknown);
-  CHECK(vehicles.take(direct, greeting, asked) == unknown);
-  CHECK(vehicles.take(direct, welcome, told) == unknown);
-  CHECK(vehicles.take(direct, message_of(caf::error{}), told) == unknown);
+  CHECK(provider.judge(direct, result, told) == unknown);
+  CHECK(provider.judge(direct, question, told) == unknown);
+  CHECK(provider.judge(direct, welcome, answered) == unknown);
+  CHECK(provider.judge(direct, message_of(caf::error{}), answered) == unknown);
+  CHECK(vehicles.judge(direct, question, asked) == unknown);
+  CHECK(vehicles.judge(direct, welcome, told) == unknown);
+  CHECK(vehicles.judge(direct, message_of(caf::error{}), told) == unknown);
 }
 
 TEST_CASE("words of the process itself are none of a peer's") {
@@ -188,13 +191,14 @@ TEST_CASE("words of the process itself are none of a peer's") {
   at_vehicles vehicles;
   const auto refused = [&](const octets& message) {
     for (const auto id : {told, asked, answered}) {
-      CHECK(provider.take(direct, message, id) == unknown);
-      CHECK(vehicles.take(direct, message, id) == unknown);
+      CHECK(provider.judge(direct, message, id) == unknown);
+      CHECK(vehicles.judge(direct, message, id) == unknown);
     }
   };
   refused(message_of(tick_atom_v));
   refused(message_of(std::string{"a line for the journal"}));
-  refused(message_of(peer_hello{}, uplink_actor{}, std::string{"name"}));
+  refused(
+      message_of(peer_hello{}, vehicle_endpoint_actor{}, std::string{"name"}));
   refused(message_of(event_record{}));
   refused(message_of(caf::make_message(caf::make_message())));
   refused(message_of(caf::exit_msg{{}, caf::exit_reason::kill}));
@@ -204,42 +208,42 @@ TEST_CASE("words of the process itself are none of a peer's") {
 
 TEST_CASE("an error is a code of a known kind and a sentence at most") {
   at_vehicles at;
-  const auto take = [&](const caf::error& error) {
-    return at.take(direct, message_of(error), answered);
+  const auto judge = [&](const caf::error& error) {
+    return at.judge(direct, message_of(error), answered);
   };
-  CHECK(take(caf::make_error(caf::sec::runtime_error, std::string{"a"},
-                             std::string{"b"}))
+  CHECK(judge(caf::make_error(caf::sec::runtime_error, std::string{"a"},
+                              std::string{"b"}))
         == unknown);
-  CHECK(take(caf::make_error(caf::sec::runtime_error,
-                             caf::make_message(std::string{"a"})))
+  CHECK(judge(caf::make_error(caf::sec::runtime_error,
+                              caf::make_message(std::string{"a"})))
         == unknown);
-  CHECK(take(caf::make_error(caf::sec::runtime_error, 7)) == unknown);
-  CHECK(take(caf::make_error(caf::pec::trailing_character)) == unknown);
+  CHECK(judge(caf::make_error(caf::sec::runtime_error, 7)) == unknown);
+  CHECK(judge(caf::make_error(caf::pec::trailing_character)) == unknown);
   // Shorter or longer than it says.
   auto error = message_of(
       caf::make_error(caf::sec::runtime_error, std::string{"sentence"}));
-  CHECK(at.take(direct, error, answered) == "");
+  CHECK(at.judge(direct, error, answered) == "");
   error.push_back(std::byte{0});
-  CHECK(at.take(direct, error, answered) == unknown);
+  CHECK(at.judge(direct, error, answered) == unknown);
   error.resize(error.size() - 2);
-  CHECK(at.take(direct, error, answered) == unknown);
+  CHECK(at.judge(direct, error, answered) == unknown);
 }
 
 TEST_CASE("a message has no actor to be forwarded to") {
   at_provider at;
   auto message = message_of(ping{});
   message.front() = std::byte{1};
-  CHECK(at.take(direct, message, told) == unknown);
+  CHECK(at.judge(direct, message, told) == unknown);
 }
 
 TEST_CASE("a message of more octets than its kind needs is refused") {
   at_provider at;
   service_request request{11, 101, 1, {"a"}, {}, 5};
   request.candidates.resize(2000);
-  CHECK(at.take(direct, message_of(request), told)
+  CHECK(at.judge(direct, message_of(request), told)
         == "its message is too long");
   const auto big = octets(1024 * 1024);
-  CHECK(at.take(direct, big, told) == "its frame is none that it may send");
+  CHECK(at.judge(direct, big, told) == "its frame is none that it may send");
 }
 
 TEST_CASE("the first frame is the handshake, and there is no second one") {
@@ -247,59 +251,59 @@ TEST_CASE("the first frame is the handshake, and there is no second one") {
   const auto twice = "it introduces its node twice";
   const auto sign = message_of(ping{});
   connection accepted{true, messages_to_provider()};
-  CHECK(accepted.take(direct, sign, told) == first);
-  CHECK(accepted.take(heartbeat, {}) == first);
-  CHECK(accepted.take(server_hello, node() + octets(9)) == first);
-  CHECK(accepted.take(client_hello, node()) == "");
-  CHECK(accepted.take(client_hello, node()) == twice);
-  CHECK(accepted.take(server_hello, node())
+  CHECK(accepted.judge(direct, sign, told) == first);
+  CHECK(accepted.judge(heartbeat, {}) == first);
+  CHECK(accepted.judge(server_hello, node() + octets(9)) == first);
+  CHECK(accepted.judge(client_hello, node()) == "");
+  CHECK(accepted.judge(client_hello, node()) == twice);
+  CHECK(accepted.judge(server_hello, node())
         == "its frame is none that it may send");
   connection opened{false, messages_to_vehicles()};
-  CHECK(opened.take(client_hello, node()) == first);
-  CHECK(opened.take(server_hello, node()) == "");
-  CHECK(opened.take(server_hello, node()) == twice);
+  CHECK(opened.judge(client_hello, node()) == first);
+  CHECK(opened.judge(server_hello, node()) == "");
+  CHECK(opened.judge(server_hello, node()) == twice);
 }
 
 TEST_CASE("a peer has a node id of its own kind") {
   connection none{true, messages_to_provider()};
-  CHECK(none.take(client_hello, {std::byte{0xff}})
+  CHECK(none.judge(client_hello, {std::byte{0xff}})
         == "its frame is none that it may send");
   auto by_name = node();
   by_name.front() = std::byte{0};
-  CHECK(none.take(client_hello, by_name) == "it has no node id");
+  CHECK(none.judge(client_hello, by_name) == "it has no node id");
   CHECK(none.check.node().empty());
   at_provider at;
   CHECK(at.check.node().size() == 25);
-  CHECK(at.take(monitor, node() + by_name) == "it speaks for no node");
-  CHECK(at.take(down, by_name + node()) == "it speaks for no node");
+  CHECK(at.judge(monitor, node() + by_name) == "it speaks for no node");
+  CHECK(at.judge(down, by_name + node()) == "it speaks for no node");
 }
 
 TEST_CASE("frames of no known operation, with flags or of odd sizes are "
           "refused") {
   const auto none = "its frame is none that it may send";
   at_provider at;
-  CHECK(at.take(routed, octets(60)) == none);
-  CHECK(at.take(7, {}) == none);
-  CHECK(at.take(255, {}) == none);
-  CHECK(at.take(heartbeat, octets(1)) == none);
-  CHECK(at.take(monitor, octets(49)) == none);
-  CHECK(at.take(monitor, octets(51)) == none);
-  CHECK(at.take(down, octets(49)) == none);
-  CHECK(at.take(down, octets(9000)) == none);
-  CHECK(at.take(direct, {}, told) == none);
-  CHECK(at.take(direct, message_of(ping{}), told, 1) == none);
+  CHECK(at.judge(routed, octets(60)) == none);
+  CHECK(at.judge(7, {}) == none);
+  CHECK(at.judge(255, {}) == none);
+  CHECK(at.judge(heartbeat, octets(1)) == none);
+  CHECK(at.judge(monitor, octets(49)) == none);
+  CHECK(at.judge(monitor, octets(51)) == none);
+  CHECK(at.judge(down, octets(49)) == none);
+  CHECK(at.judge(down, octets(9000)) == none);
+  CHECK(at.judge(direct, {}, told) == none);
+  CHECK(at.judge(direct, message_of(ping{}), told, 1) == none);
 }
 
 TEST_CASE("whatever part of a frame comes, nothing past its end is read") {
   for (const auto& whole :
        {message_of(
             caf::make_error(caf::sec::runtime_error, std::string{"sentence"})),
-        message_of(peer_welcome{}, session_actor{})})
+        message_of(peer_welcome{}, provider_endpoint_actor{})})
     for (std::size_t n = 1; n < whole.size(); ++n) {
       at_vehicles at;
       const octets part{whole.begin(),
                         whole.begin() + static_cast<std::ptrdiff_t>(n)};
-      at.take(direct, part, answered); // under the address sanitizer
+      at.judge(direct, part, answered); // under the address sanitizer
     }
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "actors/remote/public_messages.hpp"
-#include "tests/actors/session_world.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
+#include "tests/actors/vehicle_connection_world.hpp"
 
 #include <caf/binary_deserializer.hpp>
 #include <caf/binary_serializer.hpp>
@@ -86,11 +86,11 @@ private:
   frame_check check_;
 };
 
-/// A provider's session, in which one service runs.
-struct hearing_session : session_world {
+/// A provider's endpoint, by which one service runs.
+struct hearing_provider : vehicle_connection_world {
   opened_connection connection{true, messages_to_provider()};
 
-  hearing_session() { accept(one); }
+  hearing_provider() { accept(one); }
 
   std::vector<octets> honest() {
     auto request = request_of(station, 20);
@@ -106,7 +106,7 @@ struct hearing_session : session_world {
 
   /// @returns whether it was admitted and could be read.
   bool hear(std::span<const std::byte> payload) {
-    return connection.deliver(system(), payload, peer.handle, session);
+    return connection.deliver(system(), payload, peer.handle, endpoint);
   }
 
   /// @returns whether it lives, and has spoken for its stations alone since
@@ -117,7 +117,7 @@ struct hearing_session : session_world {
     };
     const auto asked = provider->all<service_request>();
     const auto ended = provider->all<service_end>();
-    return !is_gone(session)
+    return !is_gone(endpoint)
            && std::ranges::all_of(asked, is_own, &service_request::station)
            && std::ranges::all_of(ended, is_own, [](const service_end& end) {
                 return end.running.station;
@@ -125,11 +125,11 @@ struct hearing_session : session_world {
   }
 };
 
-/// A vehicle process's uplink, by which one service runs.
-struct hearing_uplink : uplink_world {
+/// The endpoint of a process of vehicles, by which one service runs.
+struct hearing_vehicles : provider_connection_world {
   opened_connection connection{false, messages_to_vehicles()};
 
-  hearing_uplink() {
+  hearing_vehicles() {
     connect();
     accept(one);
   }
@@ -146,13 +146,13 @@ struct hearing_uplink : uplink_world {
 
   /// @returns whether it was admitted and could be read.
   bool hear(std::span<const std::byte> payload) {
-    return connection.deliver(system(), payload, session.handle, host->peer);
+    return connection.deliver(system(), payload, provider.handle, host->peer);
   }
 
   /// @returns whether it lives, and has kept its provider since the last
   /// `forget`.
   bool is_unharmed() const {
-    return notes("provider_lost") == 0 && !is_gone(uplink) && !is_gone(far);
+    return notes("provider_lost") == 0 && !is_gone(outbox) && !is_gone(far);
   }
 };
 

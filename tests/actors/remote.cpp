@@ -161,7 +161,7 @@ TEST_CASE("however long a wire is cut, and whenever, vehicles are planned for "
 TEST_CASE_FIXTURE(fleet_world, "vehicles whose host dies are forgotten by the "
                                "provider at once") {
   drive(2s);
-  kill(uplink);
+  kill(outbox);
   CHECK(notes(there, "peer_lost").size() == 1);
   CHECK(episodes(there).size() == 6);
 }

@@ -15,8 +15,10 @@ namespace {
 /// Three vehicles among all sorts of trouble.
 struct troubled_world : remote_world {
   filler random;
-  probe<uplink_actor> false_uplink = listen<uplink_actor>();
-  probe<session_actor> false_session = listen<session_actor>();
+  probe<vehicle_endpoint_actor> false_vehicles =
+      listen<vehicle_endpoint_actor>();
+  probe<provider_endpoint_actor> false_provider =
+      listen<provider_endpoint_actor>();
 
   explicit troubled_world(std::uint64_t seed) : remote_world{3}, random{seed} {}
 
@@ -73,9 +75,10 @@ struct troubled_world : remote_world {
   }
 
   /// As a peer that has lost its mind, or as a stranger.
-  void babble_to_session(const caf::actor& from) {
-    const auto session = caf::actor_cast<session_actor>(line->latest.session);
-    if (!session || !from)
+  void babble_to_provider(const caf::actor& from) {
+    const auto endpoint =
+        caf::actor_cast<provider_endpoint_actor>(line->latest.provider);
+    if (!endpoint || !from)
       return;
     auto request = nonsense<service_request>();
     request.station = some_station();
@@ -83,7 +86,7 @@ struct troubled_world : remote_world {
     input.running = some_service();
     if (once_in(2))
       input.what = payload::of(some_pdu());
-    const auto say = [&](const auto&... xs) { tell_as(from, session, xs...); };
+    const auto say = [&](const auto&... xs) { tell_as(from, endpoint, xs...); };
     switch (random.below(7)) {
       case 0:
         return say(some_station(), some_pdu());
@@ -101,7 +104,7 @@ struct troubled_world : remote_world {
         return say(some_stream());
     }
   }
-  void babble_to_uplink(const caf::actor& from) {
+  void babble_to_vehicles(const caf::actor& from) {
     if (!from)
       return;
     auto offer = nonsense<service_offer>();
@@ -109,7 +112,7 @@ struct troubled_world : remote_world {
       offer.kinds = {one, two};
     auto result = nonsense<service_result>();
     result.running = some_service();
-    const auto say = [&](const auto&... xs) { tell_as(from, uplink, xs...); };
+    const auto say = [&](const auto&... xs) { tell_as(from, outbox, xs...); };
     switch (random.below(7)) {
       case 0:
         return say(some_station(), offer);
@@ -129,22 +132,23 @@ struct troubled_world : remote_world {
   }
   /// Somebody introduces himself who is not known.
   void knock() {
-    if (!gate)
+    if (!acceptor)
       return;
     const auto hello = nonsense<peer_hello>();
     const auto protocol =
         once_in(2) ? remote_protocol : nonsense<std::uint32_t>();
-    system().spawn([=, gate = inner_gate,
-                    as = false_uplink.handle](caf::event_based_actor* self) {
+    system().spawn([=, acceptor = inner_acceptor,
+                    as = false_vehicles.handle](caf::event_based_actor* self) {
       const auto ignore = [](const caf::error&) {};
-      self->request(gate, caf::infinite, protocol, fingerprint_of_types())
+      self->request(acceptor, caf::infinite, protocol, fingerprint_of_types())
           .then(
               [=](std::uint32_t, std::uint64_t, const std::string&,
                   const caf::strong_actor_ptr& in) {
                 if (in)
-                  self->request(caf::actor_cast<entrance_actor>(in),
+                  self->request(caf::actor_cast<handshake_actor>(in),
                                 caf::infinite, hello, as)
-                      .then([](const peer_welcome&, const session_actor&) {},
+                      .then([](const peer_welcome&,
+                               const provider_endpoint_actor&) {},
                             ignore);
               },
               ignore);
@@ -157,8 +161,8 @@ struct troubled_world : remote_world {
   void cause_trouble(bool with_lies) {
     if (once_in(line->cut ? 20 : 100))
       line->cut = !line->cut;
-    if (once_in(gate ? 150 : 30))
-      gate ? crash() : boot_up();
+    if (once_in(acceptor ? 150 : 30))
+      acceptor ? crash() : boot_up();
     if (once_in(40))
       line->copies = [this, share = 1 + random.below(20)](const auto&) {
         return once_in(share) ? 2 : 1;
@@ -169,21 +173,21 @@ struct troubled_world : remote_world {
       };
     const auto& who = line->latest;
     if (once_in(3))
-      babble_to_session(caf::actor_cast<caf::actor>(false_uplink.handle));
+      babble_to_provider(caf::actor_cast<caf::actor>(false_vehicles.handle));
     if (once_in(3))
-      babble_to_uplink(caf::actor_cast<caf::actor>(false_session.handle));
+      babble_to_vehicles(caf::actor_cast<caf::actor>(false_provider.handle));
     if (once_in(20))
       knock();
     if (with_lies && once_in(3))
-      babble_to_session(who.its_uplink);
+      babble_to_provider(who.its_peer);
     if (with_lies && once_in(3))
-      babble_to_uplink(who.its_peer);
+      babble_to_vehicles(who.their_peer);
   }
   void calm_down() {
     line->cut = false;
     line->copies = nullptr;
     line->delay = nullptr;
-    if (!gate)
+    if (!acceptor)
       boot_up();
   }
 
@@ -219,8 +223,8 @@ struct troubled_world : remote_world {
     CHECK(overlaps == 0);
   }
   void check_alive() const {
-    CHECK(!is_gone(uplink));
-    CHECK(!is_gone(gate));
+    CHECK(!is_gone(outbox));
+    CHECK(!is_gone(acceptor));
     CHECK(!is_gone(provider));
     for (const auto& c : cars) {
       CHECK(!is_gone(c.far));

@@ -4,9 +4,9 @@
 
 #include "actors/offloading/service_provider.hpp"
 #include "actors/offloading/service_requester.hpp"
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
-#include "actors/remote/uplink.hpp"
 #include "tests/actors/spy_policies.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
@@ -46,8 +46,9 @@ struct remote_world : virtual_world {
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
   provider_id boot = first_boot - 1;
   roadside_provider_actor provider;
-  gate_actor inner_gate, gate; ///< Empty while the provider's host is down.
-  uplink_mouth uplink;
+  acceptor_actor inner_acceptor; ///< Of the provider.
+  acceptor_actor acceptor; ///< With the wire; none while its host is down.
+  provider_outbox outbox;
   std::vector<time_point> attempts;
   std::vector<std::string> news, refusals;
   std::vector<car> cars;
@@ -57,7 +58,7 @@ struct remote_world : virtual_world {
   explicit remote_world(std::size_t count = 1) {
     run_for(10s); // the clock's zero is no special time
     boot_up();
-    uplink = own(spawn_uplink(system(), make_uplink(count)));
+    outbox = own(spawn_provider_connection(system(), make_connection(count)));
     for (std::size_t k = 0; k < count; ++k)
       add_car(static_cast<station_id>(101 + k));
     settle();
@@ -75,18 +76,18 @@ struct remote_world : virtual_world {
     return {echo_service("one"), echo_service("two")};
   }
 
-  uplink_setup make_uplink(std::size_t count) {
-    uplink_setup s;
+  provider_connection_setup make_connection(std::size_t count) {
+    provider_connection_setup s;
     s.provider = "server";
     s.address = "10.0.0.5:4711";
     for (std::size_t k = 0; k < count; ++k)
       s.stations.push_back(static_cast<station_id>(101 + k));
     s.recorder = here.handle;
-    s.noise = random_stream{1, "uplink"};
-    s.connect = [this]() -> std::variant<gate_actor, std::string> {
+    s.noise = random_stream{1, "connection"};
+    s.connect = [this]() -> std::variant<acceptor_actor, std::string> {
       attempts.push_back(now());
-      if (gate && !line->cut)
-        return gate;
+      if (acceptor && !line->cut)
+        return acceptor;
       return "nobody is there";
     };
     s.aside = [](const std::function<void()>& attempt) { attempt(); };
@@ -101,10 +102,10 @@ struct remote_world : virtual_world {
   void add_car(station_id station) {
     car c{station,
           listen<vehicle_actor>(),
-          own(spawn_far_provider(system(), station, uplink)),
+          own(spawn_provider_proxy(system(), station, outbox)),
           {},
           {}};
-    introduce(uplink, station, c.far);
+    introduce(outbox, station, c.far);
     requester_setup setup;
     setup.station = station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
@@ -137,7 +138,7 @@ struct remote_world : virtual_world {
         std::make_shared<channel_profile>(*find_channel_profile("ideal"));
     s.seed = random_stream{1, "network"};
     provider = own(spawn_service_provider(system(), std::move(s)));
-    gate_setup g;
+    acceptor_setup g;
     g.provider = provider;
     g.boot = boot;
     g.name = "server";
@@ -149,14 +150,14 @@ struct remote_world : virtual_world {
         return {"honest", {}};
       return {{}, "nobody knows it"};
     };
-    inner_gate = own(spawn_gate(system(), std::move(g)));
-    gate = own(system().spawn(wired_gate, inner_gate, line));
+    inner_acceptor = own(spawn_acceptor(system(), std::move(g)));
+    acceptor = own(system().spawn(wired_acceptor, inner_acceptor, line));
   }
   /// It dies, and all its actors with it.
   void crash() {
-    const auto dying = std::exchange(gate, nullptr);
+    const auto dying = std::exchange(acceptor, nullptr);
     kill(dying);
-    kill(inner_gate);
+    kill(inner_acceptor);
     kill(provider);
   }
 

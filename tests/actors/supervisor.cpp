@@ -42,13 +42,13 @@ TEST_CASE_FIXTURE(supervised_world, "actors that are dismissed have not died") {
 
 TEST_CASE_FIXTURE(supervised_world,
                   "the supervisor also watches who comes later") {
-  const auto late = listen<uplink_actor>();
+  const auto late = listen<vehicle_endpoint_actor>();
   watch_as_well(supervisor, caf::actor_cast<caf::actor>(late.handle),
-                "the uplink");
+                "the connection");
   settle();
   kill(late.handle);
   REQUIRE(lost.size() == 1);
-  CHECK(lost.front().find("the uplink has died") == 0);
+  CHECK(lost.front().find("the connection has died") == 0);
   kill(road.handle);
   CHECK(lost.size() == 2);
 }

@@ -1,8 +1,8 @@
 // What a connection between two processes costs: an input there and its result
 // back, beside a bare round trip of the same octets between two CAF systems.
-#include "actors/remote/gate.hpp"
+#include "actors/remote/acceptor.hpp"
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
-#include "actors/remote/uplink.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "messages/protocol/no_records.hpp"
 #include "scenario/runtime.hpp"
@@ -119,7 +119,7 @@ void forwarded_round_trip(benchmark::State& state) {
   const auto there = make_network_runtime(), here = make_network_runtime();
   const auto sink = std::make_shared<no_records>();
   const auto serving = there->system().spawn(provider);
-  gate_setup in;
+  acceptor_setup in;
   in.provider = serving;
   in.boot = boot;
   in.name = "mec";
@@ -129,9 +129,9 @@ void forwarded_round_trip(benchmark::State& state) {
   in.examine = [](const auto&...) { return peer_finding{}; };
   const auto recorder = in.recorder;
   const auto port =
-      there->publish(spawn_gate(there->system(), std::move(in)), 0);
+      there->publish(spawn_acceptor(there->system(), std::move(in)), 0);
 
-  uplink_setup out;
+  provider_connection_setup out;
   out.provider = "mec";
   out.stations.resize(stations);
   std::iota(out.stations.begin(), out.stations.end(), first_station);
@@ -144,11 +144,11 @@ void forwarded_round_trip(benchmark::State& state) {
   out.on_refusal = [](const std::string&) {};
   out.on_news = [&connected](const std::string&) { connected.release(); };
   const auto here_recorder = out.recorder;
-  const auto uplink = spawn_uplink(here->system(), std::move(out));
+  const auto outbox = spawn_provider_connection(here->system(), std::move(out));
   std::vector<link_actor> far;
   for (const auto station : speakers) {
-    far.push_back(spawn_far_provider(here->system(), station, uplink));
-    introduce(uplink, station, far.back());
+    far.push_back(spawn_provider_proxy(here->system(), station, outbox));
+    introduce(outbox, station, far.back());
   }
   const auto near = here->system().spawn(requester, &come);
   connected.acquire();
@@ -173,7 +173,7 @@ void forwarded_round_trip(benchmark::State& state) {
   };
   for (const auto& one : far)
     leave(one);
-  leave(uplink), leave(near), leave(here_recorder);
+  leave(outbox), leave(near), leave(here_recorder);
   leave(serving), leave(recorder);
 }
 BENCHMARK(forwarded_round_trip)->UseRealTime()->Unit(benchmark::kMicrosecond);

@@ -96,6 +96,6 @@ TEST_CASE("numbers of some types, written out") {
   CHECK(caf::type_id_v<roadside_detections> == 244);
   CHECK(caf::type_id_v<its_pdu> == 245);
   CHECK(caf::type_id_v<peer_hello> == 247);
-  CHECK(caf::type_id_v<gate_actor> == 255);
+  CHECK(caf::type_id_v<acceptor_actor> == 255);
   CHECK(caf::type_id_v<begin_atom> == 256);
 }

@@ -22,20 +22,20 @@ using namespace std::chrono_literals;
 
 using streams = conflating_queue<std::string, int>;
 
-constexpr duration patience = 1s;
+constexpr duration longest_wait = 1s;
 constexpr time_point t{10s};
 
 } // namespace
 
 TEST_CASE("a value of a stream with credit is sent at once") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   CHECK(s.offer("cam", 1, t) == 1);
   CHECK(s.offer("cpm", 2, t) == 2);
   CHECK(s.size() == 2);
 }
 
 TEST_CASE("a value waits for the credit and then takes it") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
   CHECK(!s.offer("cam", 2, t));
   CHECK(s.acknowledge("cam", t) == 2);
@@ -46,7 +46,7 @@ TEST_CASE("a value waits for the credit and then takes it") {
 }
 
 TEST_CASE("of the values that wait the latest wins") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
   for (int k = 2; k <= 5; ++k)
     CHECK(!s.offer("cam", k, t));
@@ -55,7 +55,7 @@ TEST_CASE("of the values that wait the latest wins") {
 }
 
 TEST_CASE("a stream that stalls does not hold up another") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
   s.offer("cam", 2, t);
   CHECK(s.offer("cpm", 3, t) == 3);
@@ -64,7 +64,7 @@ TEST_CASE("a stream that stalls does not hold up another") {
 }
 
 TEST_CASE("an acknowledgement of nothing makes no second credit") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   CHECK(!s.acknowledge("cam", t));
   CHECK(s.offer("cam", 1, t) == 1);
   CHECK(!s.acknowledge("cam", t));
@@ -74,19 +74,19 @@ TEST_CASE("an acknowledgement of nothing makes no second credit") {
 }
 
 TEST_CASE("a stream whose acknowledgement got lost goes on after a while") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
-  CHECK(!s.offer("cam", 2, t + patience - 1ns));
-  CHECK(s.offer("cam", 3, t + patience) == 3);
-  CHECK(!s.offer("cam", 4, t + 2 * patience - 1ns));
-  CHECK(s.acknowledge("cam", t + 2 * patience) == 4);
-  CHECK(!s.offer("cam", 5, t + 3 * patience - 1ns));
-  CHECK(s.offer("cam", 6, t + 3 * patience) == 6);
+  CHECK(!s.offer("cam", 2, t + longest_wait - 1ns));
+  CHECK(s.offer("cam", 3, t + longest_wait) == 3);
+  CHECK(!s.offer("cam", 4, t + 2 * longest_wait - 1ns));
+  CHECK(s.acknowledge("cam", t + 2 * longest_wait) == 4);
+  CHECK(!s.offer("cam", 5, t + 3 * longest_wait - 1ns));
+  CHECK(s.offer("cam", 6, t + 3 * longest_wait) == 6);
   CHECK(s.size() == 1);
 }
 
 TEST_CASE("what waits in a forgotten stream is not sent") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
   s.offer("cam", 2, t);
   s.forget("cam");
@@ -97,7 +97,7 @@ TEST_CASE("what waits in a forgotten stream is not sent") {
 }
 
 TEST_CASE("after the loss of the connection all streams have credit") {
-  streams s{10, patience};
+  streams s{10, longest_wait};
   s.offer("cam", 1, t);
   s.offer("cpm", 2, t);
   s.offer("cpm", 3, t);
@@ -108,7 +108,7 @@ TEST_CASE("after the loss of the connection all streams have credit") {
 }
 
 TEST_CASE("a stream beyond the most loses its values until there is room") {
-  streams s{2, patience};
+  streams s{2, longest_wait};
   s.offer("a", 1, t);
   s.offer("b", 2, t);
   CHECK(!s.offer("c", 3, t));
@@ -121,7 +121,7 @@ TEST_CASE("a stream beyond the most loses its values until there is room") {
 }
 
 TEST_CASE("values need not be copied") {
-  conflating_queue<int, std::unique_ptr<int>> s{1, patience};
+  conflating_queue<int, std::unique_ptr<int>> s{1, longest_wait};
   CHECK(**s.offer(1, std::make_unique<int>(7), t) == 7);
   CHECK(!s.offer(1, std::make_unique<int>(8), t));
   CHECK(**s.acknowledge(1, t) == 8);
@@ -132,7 +132,7 @@ TEST_CASE("whatever happens, at most one value of a stream is on its way, none "
   constexpr std::size_t number = 5;
   dice random{9};
   for (int series = 0; series < 300; ++series) {
-    conflating_queue<std::size_t, int> s{number, patience};
+    conflating_queue<std::size_t, int> s{number, longest_wait};
     std::array<std::vector<int>, number> offered;
     std::array<std::vector<int>, number> sent;
     std::array<int, number> on_the_way{};

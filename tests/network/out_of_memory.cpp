@@ -1,4 +1,4 @@
-// A door and a dialer when OpenSSL gets no memory.
+// An acceptor and a connector when OpenSSL gets no memory.
 #include "tests/network/two_hosts.hpp"
 
 #include <doctest/doctest.h>
@@ -36,24 +36,24 @@ TEST_CASE("who comes while there is no memory for TLS is refused, and not who "
   const key_folder keys;
   server inner{echo};
   sentences heard;
-  const tls_acceptor door{keys.credentials_for(mec),
-                          door_to(inner.port(), &heard)};
+  const tls_acceptor acceptor{keys.credentials_for(mec),
+                              acceptor_to(inner.port(), &heard)};
   const auto own = keys.credentials_for(car);
-  const tls_connector dialer{&own, dialer_to(door.port())};
+  const tls_connector connector{&own, connector_to(acceptor.port())};
   std::uint16_t port = 0;
-  SUBCASE("by the door") {
-    port = door.port();
+  SUBCASE("by the acceptor") {
+    port = acceptor.port();
   }
-  SUBCASE("by the dialer") {
-    port = dialer.port();
+  SUBCASE("by the connector") {
+    port = connector.port();
   }
   is_short = true;
   const auto late = plug_into(port);
   CHECK(late.is_closed());
   is_short = false;
-  if (port == door.port())
+  if (port == acceptor.port())
     CHECK(heard.heard("was refused: beginning TLS failed in OpenSSL"));
   else
-    CHECK(contains(dialer.last_error(), "beginning TLS failed in OpenSSL"));
-  CHECK(echoes(plug_into(dialer.port()), "after"));
+    CHECK(contains(connector.last_error(), "beginning TLS failed in OpenSSL"));
+  CHECK(echoes(plug_into(connector.port()), "after"));
 }

@@ -1,4 +1,4 @@
-// Who is behind the connections that a door makes within its machine.
+// Who is behind the connections that an acceptor makes within its machine.
 #include "network/tls/peer_register.hpp"
 
 #include "tests/network/two_hosts.hpp"
@@ -37,19 +37,19 @@ TEST_CASE("a carried connection is known by its port before it says anything, "
     port = from;
     echo(line);
   }};
-  auto options = door_to(inner.port());
+  auto options = acceptor_to(inner.port());
   options.peers = peers;
-  const tls_acceptor door{keys.credentials_for(mec), options};
+  const tls_acceptor acceptor{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
-  const tls_connector dialer{&own, dialer_to(door.port())};
+  const tls_connector connector{&own, connector_to(acceptor.port())};
   {
-    const auto line = plug_into(dialer.port());
+    const auto line = plug_into(connector.port());
     CHECK(echoes(line, "a"));
     CHECK(was_known);
     CHECK(peers->find(port) == car);
   }
   CHECK(wait_until([&] { return !peers->find(port); }));
-  CHECK(wait_until([&] { return door.counts().open == 0; }));
+  CHECK(wait_until([&] { return acceptor.counts().open == 0; }));
 }
 
 TEST_CASE("a connection of another process of the machine is nobody's") {
@@ -72,12 +72,12 @@ TEST_CASE("a peer whose provider cannot be reached leaves nothing behind") {
     server gone{echo};
     closed = gone.port();
   }
-  auto options = door_to(closed);
+  auto options = acceptor_to(closed);
   options.peers = peers;
-  const tls_acceptor door{keys.credentials_for(mec), options};
+  const tls_acceptor acceptor{keys.credentials_for(mec), options};
   const auto own = keys.credentials_for(car);
-  const tls_connector dialer{&own, dialer_to(door.port())};
-  const auto line = plug_into(dialer.port());
+  const tls_connector connector{&own, connector_to(acceptor.port())};
+  const auto line = plug_into(connector.port());
   CHECK(line.is_closed());
   int known = 0;
   for (int port = 1; port < 65'536; ++port)

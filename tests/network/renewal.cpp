@@ -27,21 +27,21 @@ void add_authorities(const fs::path& folder, const key_folder& other) {
 /// A vehicle's host with a line to a port.
 struct car_host {
   car_host(const fs::path& folder, std::uint16_t port)
-      : own{folder}, dialer{&own, dialer_to(port)}, line{plug_into(
-                                                        dialer.port())} {}
+      : own{folder}, connector{&own, connector_to(port)},
+        line{plug_into(connector.port())} {}
 
   credentials own;
-  tls_connector dialer;
+  tls_connector connector;
   plug line;
 };
 
-/// A provider's door with a thief inside, whose certificate it revokes.
+/// A provider's acceptor with a thief inside, whose certificate it revokes.
 struct door_with_thief {
   door_with_thief() { REQUIRE(echoes(thief.line, "thief")); }
 
   void revoke() {
     write_text(provider / "revoked", "# lost\n" + serial_in(stolen) + "\n");
-    door.renew(credentials{provider});
+    acceptor.renew(credentials{provider});
   }
 
   key_folder keys;
@@ -49,15 +49,16 @@ struct door_with_thief {
   sentences heard;
   fs::path provider = keys.issue(mec);
   fs::path stolen = keys.issue(car);
-  tls_acceptor door{credentials{provider}, door_to(inner.port(), &heard)};
-  car_host thief{stolen, door.port()};
+  tls_acceptor acceptor{credentials{provider},
+                        acceptor_to(inner.port(), &heard)};
+  car_host thief{stolen, acceptor.port()};
 };
 
 } // namespace
 
 TEST_CASE_FIXTURE(door_with_thief,
                   "a revoked peer's line is closed at once, and no other") {
-  const car_host honest{keys.issue(car), door.port()};
+  const car_host honest{keys.issue(car), acceptor.port()};
   REQUIRE(echoes(honest.line, "honest"));
 
   const auto begun = std::chrono::steady_clock::now();
@@ -68,19 +69,19 @@ TEST_CASE_FIXTURE(door_with_thief,
                     "been revoked"));
   CHECK(echoes(honest.line, "still here"));
 
-  CHECK(plug_into(thief.dialer.port()).is_closed());
+  CHECK(plug_into(thief.connector.port()).is_closed());
   CHECK(heard.heard("was refused: its certificate has been revoked"));
   CHECK(wait_until([&] {
-    return contains(thief.dialer.last_error(),
+    return contains(thief.connector.last_error(),
                     "our certificate has been revoked");
   }));
-  CHECK(echoes(plug_into(honest.dialer.port()), "and again"));
+  CHECK(echoes(plug_into(honest.connector.port()), "and again"));
 }
 
 TEST_CASE_FIXTURE(door_with_thief,
                   "strangers that are refused do not hide who was revoked") {
   const auto knock = [this] {
-    auto stranger = plug_into(door.port());
+    auto stranger = plug_into(acceptor.port());
     stranger.send("no TLS");
     CHECK(stranger.is_closed());
   };
@@ -98,15 +99,15 @@ TEST_CASE("vehicles leave a provider that is revoked") {
   server inner{echo};
   const auto provider = keys.issue(mec);
   const auto folder = keys.issue(car);
-  const tls_acceptor door{credentials{provider}, door_to(inner.port())};
-  car_host vehicle{folder, door.port()};
+  const tls_acceptor acceptor{credentials{provider}, acceptor_to(inner.port())};
+  car_host vehicle{folder, acceptor.port()};
   REQUIRE(echoes(vehicle.line, "here"));
   write_text(folder / "revoked", serial_in(provider));
-  vehicle.dialer.renew(credentials{folder});
+  vehicle.connector.renew(credentials{folder});
   CHECK(vehicle.line.is_closed());
-  CHECK(contains(vehicle.dialer.last_error(),
+  CHECK(contains(vehicle.connector.last_error(),
                  "its certificate has been revoked"));
-  CHECK(plug_into(vehicle.dialer.port()).is_closed());
+  CHECK(plug_into(vehicle.connector.port()).is_closed());
 }
 
 TEST_CASE("a line does not outlive the certificate of either side") {
@@ -121,9 +122,9 @@ TEST_CASE("a line does not outlive the certificate of either side") {
     return folder;
   };
   const tls_acceptor lasting{keys.credentials_for(mec),
-                             door_to(inner.port(), &heard)};
+                             acceptor_to(inner.port(), &heard)};
   const tls_acceptor ending{credentials{shorten(keys.issue(mec))},
-                            door_to(inner.port())};
+                            acceptor_to(inner.port())};
   const car_host old_car{shorten(keys.issue(car)), lasting.port()};
   const car_host new_car{keys.issue(car), lasting.port()};
   const car_host car_at_old{keys.issue(car), ending.port()};
@@ -132,8 +133,8 @@ TEST_CASE("a line does not outlive the certificate of either side") {
   CHECK(old_car.line.is_closed());
   CHECK(heard.heard("was disconnected: its certificate has expired"));
   CHECK(car_at_old.line.is_closed());
-  CHECK(
-      contains(car_at_old.dialer.last_error(), "its certificate has expired"));
+  CHECK(contains(car_at_old.connector.last_error(),
+                 "its certificate has expired"));
   CHECK(echoes(new_car.line, "longer"));
 }
 
@@ -141,19 +142,20 @@ TEST_CASE("twenty renewals end no line") {
   const key_folder keys;
   server inner{echo};
   const auto provider = keys.issue(mec);
-  tls_acceptor door{credentials{provider}, door_to(inner.port())};
+  tls_acceptor acceptor{credentials{provider}, acceptor_to(inner.port())};
   std::list<car_host> cars;
   for (int k = 0; k < 8; ++k)
-    REQUIRE(echoes(cars.emplace_back(keys.issue(car), door.port()).line, "in"));
+    REQUIRE(
+        echoes(cars.emplace_back(keys.issue(car), acceptor.port()).line, "in"));
   for (int k = 0; k < 20; ++k) {
     write_text(provider / "revoked", serial_in(keys.issue(car)));
-    door.renew(credentials{provider});
+    acceptor.renew(credentials{provider});
     for (auto& one : cars) {
-      one.dialer.renew(one.own);
+      one.connector.renew(one.own);
       CHECK(echoes(one.line, "still here"));
     }
   }
-  CHECK(door.counts().open == cars.size());
+  CHECK(acceptor.counts().open == cars.size());
 }
 
 TEST_CASE("a CA is rolled over while lines are open") {
@@ -162,38 +164,38 @@ TEST_CASE("a CA is rolled over while lines are open") {
   server inner{echo};
   const auto provider = old_keys.issue(mec);
   const auto folder = old_keys.issue(car);
-  tls_acceptor door{credentials{provider}, door_to(inner.port())};
-  car_host vehicle{folder, door.port()};
+  tls_acceptor acceptor{credentials{provider}, acceptor_to(inner.port())};
+  car_host vehicle{folder, acceptor.port()};
   const auto check = [&] {
     CHECK(echoes(vehicle.line, "the same line"));
-    CHECK(echoes(plug_into(vehicle.dialer.port()), "a new one"));
+    CHECK(echoes(plug_into(vehicle.connector.port()), "a new one"));
   };
   check();
   // Both trust both CAs.
   add_authorities(provider, new_keys);
-  door.renew(credentials{provider});
+  acceptor.renew(credentials{provider});
   check();
   add_authorities(folder, new_keys);
-  vehicle.dialer.renew(credentials{folder});
+  vehicle.connector.renew(credentials{folder});
   check();
   // One after the other shows a certificate of the new one.
   const auto next = new_keys.issue(mec);
   add_authorities(next, old_keys);
-  door.renew(credentials{next});
+  acceptor.renew(credentials{next});
   check();
   const auto next_car = new_keys.issue(car);
   add_authorities(next_car, old_keys);
-  vehicle.dialer.renew(credentials{next_car});
+  vehicle.connector.renew(credentials{next_car});
   check();
   // Both trust the new one only.
   write_text(next / "ca.pem", read_file(new_keys.path() / "ca.pem"));
-  door.renew(credentials{next});
+  acceptor.renew(credentials{next});
   check();
   write_text(next_car / "ca.pem", read_file(new_keys.path() / "ca.pem"));
-  vehicle.dialer.renew(credentials{next_car});
+  vehicle.connector.renew(credentials{next_car});
   check();
   // The old one counts no more.
-  const car_host late{old_keys.issue(car), door.port()};
+  const car_host late{old_keys.issue(car), acceptor.port()};
   CHECK(late.line.is_closed());
 }
 
@@ -205,15 +207,15 @@ TEST_CASE("a renewal that cannot be leaves all as it was") {
                   if (own.identity() != mec)
                     throw network_error{"that is another one"};
                 }};
-  tls_acceptor door{ring.now(), door_to(inner.port())};
-  ring.add_user([&door](const credentials& own) { door.renew(own); });
-  const car_host vehicle{keys.issue(car), door.port()};
+  tls_acceptor acceptor{ring.now(), acceptor_to(inner.port())};
+  ring.add_user([&acceptor](const credentials& own) { acceptor.renew(own); });
+  const car_host vehicle{keys.issue(car), acceptor.port()};
   const auto check = [&](std::string_view said) {
     CAPTURE(said);
     CHECK(contains(ring.read_again(), said));
     CHECK(ring.now().identity() == mec);
     CHECK(echoes(vehicle.line, "the same line"));
-    CHECK(echoes(plug_into(vehicle.dialer.port()), "a new one"));
+    CHECK(echoes(plug_into(vehicle.connector.port()), "a new one"));
   };
   check("keys were read again: provider mec until 20");
   const auto certificate = read_file(folder / "cert.pem");

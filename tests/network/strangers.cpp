@@ -66,73 +66,73 @@ std::size_t open_files() {
 
 } // namespace
 
-TEST_CASE("a door refuses whom it does not know, and says why") {
+TEST_CASE("an acceptor refuses whom it does not know, and says why") {
   const key_folder keys;
   const key_folder others;
   server inner{echo};
   sentences heard;
-  const tls_acceptor door{keys.credentials_for(mec),
-                          door_to(inner.port(), &heard)};
+  const tls_acceptor acceptor{keys.credentials_for(mec),
+                              acceptor_to(inner.port(), &heard)};
   SUBCASE("a certificate of another CA") {
-    knock(door.port(), *stranger(others.issue(car)));
+    knock(acceptor.port(), *stranger(others.issue(car)));
     CHECK(heard.heard("was refused: its certificate is not signed by this CA"));
   }
   SUBCASE("an expired certificate") {
     const auto folder = keys.issue(car);
     keys.alter(folder, expire);
-    knock(door.port(), *stranger(folder));
+    knock(acceptor.port(), *stranger(folder));
     CHECK(heard.heard("was refused: its certificate has expired on 20"));
   }
   SUBCASE("a certificate of days to come") {
     const auto folder = keys.issue(car);
     keys.alter(folder, postpone);
-    knock(door.port(), *stranger(folder));
+    knock(acceptor.port(), *stranger(folder));
     CHECK(heard.heard("was refused: its certificate is not valid before 20"));
   }
   SUBCASE("a provider") {
-    knock(door.port(), *stranger(keys.issue({{}, "other"})));
+    knock(acceptor.port(), *stranger(keys.issue({{}, "other"})));
     CHECK(heard.heard(
         "was refused: its certificate names provider other, no station"));
   }
   SUBCASE("no certificate") {
-    knock(door.port(), *stranger({}));
+    knock(acceptor.port(), *stranger({}));
     CHECK(heard.heard("was refused: it shows no certificate"));
   }
   SUBCASE("TLS 1.2") {
     const auto context = stranger(keys.issue(car));
     SSL_CTX_set_max_proto_version(context.get(), TLS1_2_VERSION);
-    knock(door.port(), *context);
+    knock(acceptor.port(), *context);
     CHECK(heard.heard("was refused: it does not speak TLS 1.3"));
   }
   SUBCASE("plain text") {
-    const auto line = plug_into(door.port());
+    const auto line = plug_into(acceptor.port());
     line.send("hello, is anybody there?");
     CHECK(line.is_closed());
     CHECK(heard.heard("was refused: it does not speak TLS"));
   }
   SUBCASE("HTTP") {
-    const auto line = plug_into(door.port());
+    const auto line = plug_into(acceptor.port());
     line.send("GET / HTTP/1.1\r\n\r\n");
     CHECK(line.is_closed());
     CHECK(heard.heard("was refused: it does not speak TLS"));
   }
   SUBCASE("somebody who hangs up") {
-    (void)plug_into(door.port());
+    (void)plug_into(acceptor.port());
     CHECK(heard.heard("was refused: it hung up"));
   }
-  CHECK(door.counts().accepted == 0);
-  CHECK(door.counts().refused == 1);
+  CHECK(acceptor.counts().accepted == 0);
+  CHECK(acceptor.counts().refused == 1);
 }
 
-TEST_CASE("a dialer refuses who is no provider of its CA, and says why") {
+TEST_CASE("a connector refuses who is no provider of its CA, and says why") {
   const key_folder keys;
   const auto own = keys.credentials_for(car);
   const auto error_with = [&](const std::filesystem::path& folder) {
     const auto context = stranger(folder);
     server false_door{[&](const plug& line) { answer(line, *context); }};
-    const tls_connector dialer{&own, dialer_to(false_door.port())};
-    CHECK(plug_into(dialer.port()).is_closed());
-    return dialer.last_error();
+    const tls_connector connector{&own, connector_to(false_door.port())};
+    CHECK(plug_into(connector.port()).is_closed());
+    return connector.last_error();
   };
   SUBCASE("a station that poses as a provider") {
     CHECK(contains(error_with(keys.issue({{7}, {}})),
@@ -148,7 +148,7 @@ TEST_CASE("a dialer refuses who is no provider of its CA, and says why") {
   }
 }
 
-TEST_CASE("a dialer hears that it is not accepted itself") {
+TEST_CASE("a connector hears that it is not accepted itself") {
   const key_folder keys;
   const key_folder others;
   const auto own = keys.credentials_for(car);
@@ -158,10 +158,10 @@ TEST_CASE("a dialer hears that it is not accepted itself") {
   SSL_CTX_set_verify(context.get(),
                      SSL_VERIFY_PEER | SSL_VERIFY_FAIL_IF_NO_PEER_CERT,
                      nullptr);
-  server door{[&](const plug& line) { answer(line, *context); }};
-  const tls_connector dialer{&own, dialer_to(door.port())};
-  CHECK(plug_into(dialer.port()).is_closed());
-  CHECK(contains(dialer.last_error(),
+  server acceptor{[&](const plug& line) { answer(line, *context); }};
+  const tls_connector connector{&own, connector_to(acceptor.port())};
+  CHECK(plug_into(connector.port()).is_closed());
+  CHECK(contains(connector.last_error(),
                  "it does not trust the CA of our certificate"));
 }
 
@@ -169,35 +169,35 @@ TEST_CASE("who does not finish the handshake in time is shown out") {
   const key_folder keys;
   server inner{echo};
   sentences heard;
-  auto options = door_to(inner.port(), &heard);
+  auto options = acceptor_to(inner.port(), &heard);
   options.handshake_timeout = 50ms;
-  const tls_acceptor door{keys.credentials_for(mec), options};
+  const tls_acceptor acceptor{keys.credentials_for(mec), options};
   std::vector<plug> idle;
   for (int k = 0; k < 50; ++k)
-    idle.push_back(plug_into(door.port()));
+    idle.push_back(plug_into(acceptor.port()));
   for (const auto& line : idle)
     CHECK(line.is_closed());
-  CHECK(door.counts().refused == 50);
+  CHECK(acceptor.counts().refused == 50);
   CHECK(heard.heard("was refused: it did not finish the TLS handshake in "
                     "time"));
   CHECK(heard.all().size() <= 2);
 }
 
-TEST_CASE("a crowd at the door does not keep an honest vehicle out") {
+TEST_CASE("a crowd at the acceptor does not keep an honest vehicle out") {
   const key_folder keys;
   server inner{echo};
   sentences heard;
-  auto options = door_to(inner.port(), &heard);
+  auto options = acceptor_to(inner.port(), &heard);
   options.most_handshakes = 8;
-  const tls_acceptor door{keys.credentials_for(mec), options};
+  const tls_acceptor acceptor{keys.credentials_for(mec), options};
   std::vector<plug> idle;
   for (int k = 0; k < 20; ++k)
-    idle.push_back(plug_into(door.port()));
-  CHECK(wait_until([&] { return door.counts().refused == 12; }));
+    idle.push_back(plug_into(acceptor.port()));
+  CHECK(wait_until([&] { return acceptor.counts().refused == 12; }));
   const auto own = keys.credentials_for(car);
-  const tls_connector dialer{&own, dialer_to(door.port())};
-  CHECK(echoes(plug_into(dialer.port()), "honest"));
-  CHECK(door.counts().refused == 13);
+  const tls_connector connector{&own, connector_to(acceptor.port())};
+  CHECK(echoes(plug_into(connector.port()), "honest"));
+  CHECK(acceptor.counts().refused == 13);
   CHECK(heard.heard("8 handshakes of its network are unfinished"));
   CHECK(wait_until([&] {
     return std::ranges::count_if(
@@ -210,7 +210,7 @@ TEST_CASE("a crowd at the door does not keep an honest vehicle out") {
   }));
 }
 
-TEST_CASE("two thousand damaged handshakes leave the door serving") {
+TEST_CASE("two thousand damaged handshakes leave the acceptor serving") {
   const key_folder keys;
   server inner{echo};
   const auto own = keys.credentials_for(car);
@@ -218,9 +218,10 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
   REQUIRE(hello.size() > 100);
   const auto files_before = open_files();
   {
-    const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
-    const tls_connector dialer{&own, dialer_to(door.port())};
-    const auto line = plug_into(dialer.port());
+    const tls_acceptor acceptor{keys.credentials_for(mec),
+                                acceptor_to(inner.port())};
+    const tls_connector connector{&own, connector_to(acceptor.port())};
+    const auto line = plug_into(connector.port());
     CHECK(echoes(line, "before"));
     test::dice dice{2025};
     const auto below = [&](std::size_t limit) {
@@ -234,12 +235,12 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
             static_cast<std::byte>(1 + below(255));
       if (below(4) == 0)
         damaged.resize(below(damaged.size()));
-      plug_into(door.port()).send(damaged);
+      plug_into(acceptor.port()).send(damaged);
     }
     CHECK(echoes(line, "after"));
-    CHECK(echoes(plug_into(dialer.port()), "new"));
-    CHECK(wait_until([&] { return door.counts().refused == 2000; }));
-    CHECK(door.counts().accepted == 2);
+    CHECK(echoes(plug_into(connector.port()), "new"));
+    CHECK(wait_until([&] { return acceptor.counts().refused == 2000; }));
+    CHECK(acceptor.counts().accepted == 2);
   }
   // The inner server keeps the two that it got.
   CHECK(open_files() == files_before + 2);
@@ -248,10 +249,11 @@ TEST_CASE("two thousand damaged handshakes leave the door serving") {
 TEST_CASE("idle strangers and a flood of garbage do not slow a line down") {
   const key_folder keys;
   server inner{echo};
-  const tls_acceptor door{keys.credentials_for(mec), door_to(inner.port())};
+  const tls_acceptor acceptor{keys.credentials_for(mec),
+                              acceptor_to(inner.port())};
   const auto own = keys.credentials_for(car);
-  const tls_connector dialer{&own, dialer_to(door.port())};
-  const auto line = plug_into(dialer.port());
+  const tls_connector connector{&own, connector_to(acceptor.port())};
+  const auto line = plug_into(connector.port());
   const auto p99_us = [&] {
     std::vector<double> times_us;
     for (int k = 0; k < 1000; ++k) {
@@ -268,23 +270,23 @@ TEST_CASE("idle strangers and a flood of garbage do not slow a line down") {
   const auto quiet_us = p99_us();
   std::vector<plug> idle;
   for (int k = 0; k < 500; ++k)
-    idle.push_back(plug_into(door.port()));
+    idle.push_back(plug_into(acceptor.port()));
   std::atomic<bool> over = false;
   std::thread flood{[&] {
     const bytes garbage(512, std::byte{0x16});
     while (!over) {
-      const auto refused = door.counts().refused;
+      const auto refused = acceptor.counts().refused;
       for (int k = 0; k < 10; ++k)
-        plug_into(door.port()).send(garbage);
-      wait_until([&] { return door.counts().refused >= refused + 10; });
+        plug_into(acceptor.port()).send(garbage);
+      wait_until([&] { return acceptor.counts().refused >= refused + 10; });
     }
   }};
   const auto flooded_us = p99_us();
   over = true;
   flood.join();
   MESSAGE("p99 of a round trip, us: quiet ", quiet_us, ", in the flood ",
-          flooded_us, "; refused ", door.counts().refused);
-  // A broken door takes seconds; the machine's other work takes some.
+          flooded_us, "; refused ", acceptor.counts().refused);
+  // A broken acceptor takes seconds; the machine's other work takes some.
   CHECK(flooded_us < 50'000);
 }
 
@@ -298,9 +300,9 @@ TEST_CASE("of many refusals a second, one is told, and how many there were") {
   log.add("three", start + 2ms);
   CHECK(told == std::vector<std::string>{"one"});
   CHECK(log.next() == start + 1s);
-  log.look_at(start + 999ms);
+  log.publish_rest(start + 999ms);
   CHECK(told.size() == 1);
-  log.look_at(start + 1s);
+  log.publish_rest(start + 1s);
   CHECK(told.back() == "three (and 1 more before it)");
   CHECK_FALSE(log.next());
   log.add("four", start + 1500ms);
@@ -308,6 +310,6 @@ TEST_CASE("of many refusals a second, one is told, and how many there were") {
   log.add("five", start + 2s);
   CHECK(told.size() == 3);
   CHECK(told.back() == "four");
-  log.look_at(start + 3s);
+  log.publish_rest(start + 3s);
   CHECK(told.back() == "five");
 }

@@ -14,8 +14,8 @@
 namespace sofof::test {
 
 /// Timeouts that nobody meets who does not hang.
-inline acceptor_options door_to(std::uint16_t inner_port,
-                                sentences* heard = nullptr) {
+inline acceptor_options acceptor_to(std::uint16_t inner_port,
+                                    sentences* heard = nullptr) {
   acceptor_options options;
   options.listen = {"127.0.0.1", 0};
   options.inner_port = inner_port;
@@ -26,7 +26,7 @@ inline acceptor_options door_to(std::uint16_t inner_port,
   return options;
 }
 
-inline connector_options dialer_to(std::uint16_t port) {
+inline connector_options connector_to(std::uint16_t port) {
   connector_options options;
   options.remote = {"127.0.0.1", port};
   options.connect_timeout = patience;

@@ -1,6 +1,6 @@
 // Connections of other processes by raw frames: who is heard, and what ends a
 // connection.
-#include "actors/remote/greeting.hpp"
+#include "actors/remote/version_check.hpp"
 #include "scenario/runtime.hpp"
 #include "tests/network/loopback.hpp"
 
@@ -50,8 +50,8 @@ bytes a_node(int filled_with = 7) {
   return node;
 }
 
-gate_actor::behavior_type played_gate() {
-  return {[](std::uint32_t, std::uint64_t) -> greeting {
+acceptor_actor::behavior_type played_acceptor() {
+  return {[](std::uint32_t, std::uint64_t) -> version_answer {
     return {std::uint32_t{1}, std::uint64_t{2}, std::string{"nonce"},
             caf::strong_actor_ptr{}};
   }};
@@ -62,7 +62,7 @@ std::unique_ptr<network_runtime> make_runtime() {
   return make_network_runtime();
 }
 
-/// A process with a gate, and what it has said of those it disconnected.
+/// A process with an acceptor, and what it has said of those it disconnected.
 struct listening_process {
   std::unique_ptr<network_runtime> time = make_runtime();
   std::mutex mutex;
@@ -80,7 +80,7 @@ struct listening_process {
       refusals.push_back(why);
     };
     time->filter(std::move(setup));
-    port = time->publish(time->system().spawn(played_gate), 0);
+    port = time->publish(time->system().spawn(played_acceptor), 0);
   }
 
   bool has_said(std::string_view what) {
@@ -97,7 +97,7 @@ struct listening_process {
 struct raw_peer {
   plug line;
   bytes its_node;
-  std::uint64_t gate = 0;
+  std::uint64_t acceptor = 0;
 
   explicit raw_peer(const listening_process& to) : line{plug_into(to.port)} {
     const auto header = line.receive(header_size);
@@ -107,20 +107,20 @@ struct raw_peer {
       size = size << 8 | std::to_integer<std::size_t>(header[i]);
     const auto payload = line.receive(size);
     its_node.assign(payload.begin(), payload.begin() + node_size);
-    // The application id, a list of one text; then the gate.
+    // The application id, a list of one text; then the acceptor.
     const auto at = node_size + 2 + std::to_integer<std::size_t>(payload[26]);
     for (std::size_t i = at; i < at + 8; ++i)
-      gate = gate << 8 | std::to_integer<std::uint64_t>(payload[i]);
+      acceptor = acceptor << 8 | std::to_integer<std::uint64_t>(payload[i]);
   }
 
   void introduce(const bytes& node) const {
     line.send(frame(client_handshake, node));
   }
-  /// @returns whether the gate answers it.
+  /// @returns whether the acceptor answers it.
   bool is_heard() const {
     const auto question = number(0, 1) + number(2, 1) + number(9, 2)
                           + number(10, 2) + number(6, 4) + number(1, 8);
-    line.send(frame(direct_message, question, told | 1, 5, gate));
+    line.send(frame(direct_message, question, told | 1, 5, acceptor));
     for (;;) {
       const auto header = line.receive(header_size);
       if (header.size() < header_size)
@@ -179,8 +179,8 @@ TEST_CASE("a peer speaks for itself alone, and to this process alone") {
   REQUIRE(honest.is_heard());
   other.introduce(a_node(8));
   SUBCASE("for another") {
-    other.line.send(
-        frame(monitor_message, a_node() + other.its_node, 0, 0, other.gate));
+    other.line.send(frame(monitor_message, a_node() + other.its_node, 0, 0,
+                          other.acceptor));
   }
   SUBCASE("to another") {
     other.line.send(frame(monitor_message, a_node(8) + a_node(), 0, 0, 1));
@@ -197,7 +197,7 @@ TEST_CASE("a message in a message ends the connection, and nothing else") {
   bytes nested = number(0, 1);
   for (int depth = 0; depth < 10'000; ++depth)
     nested = std::move(nested) + number(1, 1) + number(39, 2);
-  other.line.send(frame(direct_message, nested, told, 5, other.gate));
+  other.line.send(frame(direct_message, nested, told, 5, other.acceptor));
   CHECK(other.line.is_closed());
   CHECK(process.has_said("its message is none that it may send"));
   CHECK(honest.is_heard());

@@ -1,4 +1,4 @@
-// The wire between an uplink and a session, for tests that cut it.
+// The wire between vehicles and a provider, for tests that cut it.
 #pragma once
 
 #include "actors/runtime/time.hpp"
@@ -21,7 +21,7 @@ namespace sofof::test {
 
 /// Who speaks over a wire, and which of its ends each takes for the other.
 struct connection {
-  caf::actor uplink, its_peer, session, its_uplink;
+  caf::actor vehicles, their_peer, provider, its_peer;
 };
 
 /// What a wire does to messages, which all its connections look at. As in
@@ -97,28 +97,31 @@ inline caf::behavior make_wire_end(caf::stateful_actor<wire_end>* self,
   };
 }
 
-/// An entrance that puts a wire between those who meet there.
-inline entrance_actor::behavior_type
-wired_entrance(entrance_actor::pointer self, entrance_actor in, wire_ptr on) {
-  return {[=](const peer_hello& hello, const uplink_actor& uplink)
-              -> caf::result<peer_welcome, session_actor> {
-    auto promise = self->make_response_promise<peer_welcome, session_actor>();
+/// A handshake that puts a wire between those who meet there.
+inline handshake_actor::behavior_type
+wired_handshake(handshake_actor::pointer self, handshake_actor in,
+                wire_ptr on) {
+  return {[=](const peer_hello& hello, const vehicle_endpoint_actor& vehicles)
+              -> caf::result<peer_welcome, provider_endpoint_actor> {
+    auto promise =
+        self->make_response_promise<peer_welcome, provider_endpoint_actor>();
     const auto there = self->system().spawn(make_wire_end, on);
     const auto here = self->system().spawn(make_wire_end, on);
     self->request(in, caf::infinite, hello,
-                  caf::actor_cast<uplink_actor>(there))
+                  caf::actor_cast<vehicle_endpoint_actor>(there))
         .then(
             [=](const peer_welcome& welcome,
-                const session_actor& session) mutable {
+                const provider_endpoint_actor& provider) mutable {
               caf::anon_send(here, tick_atom_v,
-                             caf::actor_cast<caf::strong_actor_ptr>(uplink),
+                             caf::actor_cast<caf::strong_actor_ptr>(vehicles),
                              there);
               caf::anon_send(there, tick_atom_v,
-                             caf::actor_cast<caf::strong_actor_ptr>(session),
+                             caf::actor_cast<caf::strong_actor_ptr>(provider),
                              here);
-              on->latest = {caf::actor_cast<caf::actor>(uplink), here,
-                            caf::actor_cast<caf::actor>(session), there};
-              promise.deliver(welcome, caf::actor_cast<session_actor>(here));
+              on->latest = {caf::actor_cast<caf::actor>(vehicles), here,
+                            caf::actor_cast<caf::actor>(provider), there};
+              promise.deliver(welcome,
+                              caf::actor_cast<provider_endpoint_actor>(here));
               self->quit();
             },
             [=](caf::error& error) mutable {
@@ -131,23 +134,24 @@ wired_entrance(entrance_actor::pointer self, entrance_actor in, wire_ptr on) {
   }};
 }
 
-/// A gate whose entrances do so.
-inline gate_actor::behavior_type wired_gate(gate_actor::pointer self,
-                                            gate_actor gate, wire_ptr on) {
+/// An acceptor whose handshakes do so.
+inline acceptor_actor::behavior_type
+wired_acceptor(acceptor_actor::pointer self, acceptor_actor acceptor,
+               wire_ptr on) {
   return {[=](std::uint32_t protocol, std::uint64_t types)
               -> caf::result<std::uint32_t, std::uint64_t, std::string,
                              caf::strong_actor_ptr> {
     auto promise =
         self->make_response_promise<std::uint32_t, std::uint64_t, std::string,
                                     caf::strong_actor_ptr>();
-    self->request(gate, caf::infinite, protocol, types)
+    self->request(acceptor, caf::infinite, protocol, types)
         .then(
             [=](std::uint32_t p, std::uint64_t t, const std::string& nonce,
                 const caf::strong_actor_ptr& in) mutable {
               caf::strong_actor_ptr wired;
               if (in)
                 wired = caf::actor_cast<caf::strong_actor_ptr>(self->spawn(
-                    wired_entrance, caf::actor_cast<entrance_actor>(in), on));
+                    wired_handshake, caf::actor_cast<handshake_actor>(in), on));
               promise.deliver(p, t, nonce, wired);
             },
             [=](caf::error& error) mutable {

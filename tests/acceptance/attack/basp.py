@@ -220,8 +220,8 @@ class Peer(Line):
         self.provider = read.node()
         for _ in range(read.size()):
             read.text()
-        self.gate = read.number(8)
-        self.greeting = payload
+        self.acceptor = read.number(8)
+        self.server_hello = payload
         self.node = node(self) if node else new_node()
         if self.node:
             self.introduce_node()
@@ -248,25 +248,25 @@ class Peer(Line):
             if found == [TYPE["error"]]:
                 raise PermissionError(payload)
 
-    def greet(self, protocol):
-        """Sets types, nonce and entrance."""
+    def check_version(self, protocol):
+        """Sets types, nonce and handshake."""
         for types in (0, None):
-            self.tell(self.gate, ["u32", "u64"],
+            self.tell(self.acceptor, ["u32", "u64"],
                       u32(protocol) + u64(0 if types == 0 else self.types),
                       data=TOLD | 1)
             read = self.answer_of("u32", "u64", "string", "actor")
             read.number(4)
             self.types = read.number(8)
-        self.nonce, self.entrance = read.text(), read.handle()[0]
+        self.nonce, self.handshake = read.text(), read.handle()[0]
 
     def enter(self, stations, world, keys=None, provider="mec"):
-        """Sets boot and session."""
-        self.greet(PROTOCOL)
-        self.tell(self.entrance, ["peer_hello", "uplink_actor"],
+        """Sets boot and endpoint."""
+        self.check_version(PROTOCOL)
+        self.tell(self.handshake, ["peer_hello", "vehicle_endpoint_actor"],
                   hello(provider, stations, world, self.nonce, keys)
                   + handle(OUR_ACTOR, self.node), data=TOLD | 2)
-        read = self.answer_of("peer_welcome", "session_actor")
-        self.boot, _, self.session = read.number(8), read.number(8), \
+        read = self.answer_of("peer_welcome", "provider_endpoint_actor")
+        self.boot, _, self.endpoint = read.number(8), read.number(8), \
             read.handle()[0]
 
     def live(self):
@@ -280,7 +280,7 @@ class Peer(Line):
                     read = Reader(payload)
                     if read.types() == [TYPE["ping"]]:
                         now = i64(time.monotonic_ns())
-                        self.tell(self.session, ["pong"],
+                        self.tell(self.endpoint, ["pong"],
                                   read.take(16) + now + now)
             except TimeoutError:
                 self.lives = False

@@ -39,7 +39,7 @@ public:
     using namespace std::chrono_literals;
     end_.hear(payload);
     ++heard_;
-    if (heard_ % 16 == 0) // below what a session hears
+    if (heard_ % 16 == 0) // below what a provider hears
       end_.live(50ms);
     if (heard_ % 256 == 0) {
       fuzz::require(end_.is_unharmed());
@@ -56,10 +56,10 @@ private:
 
 struct both_ends {
   doctest_setup setup;
-  end_of_connection<test::hearing_session> session;
-  end_of_connection<test::hearing_uplink> uplink;
-  std::array<std::vector<test::octets>, 2> honest{session.honest(),
-                                                  uplink.honest()};
+  end_of_connection<test::hearing_provider> provider;
+  end_of_connection<test::hearing_vehicles> vehicles;
+  std::array<std::vector<test::octets>, 2> honest{provider.honest(),
+                                                  vehicles.honest()};
 };
 
 both_ends& ends() {
@@ -96,8 +96,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     return 0;
   const auto payload = fuzz::octets_of(data, size).subspan(1);
   if (data[0] % 2 == 0)
-    ends().session.hear(payload);
+    ends().provider.hear(payload);
   else
-    ends().uplink.hear(payload);
+    ends().vehicles.hear(payload);
   return 0;
 }

@@ -1,5 +1,5 @@
 // Where others reach a process, and what it shows them.
-#include "scenario/front.hpp"
+#include "scenario/secure_listener.hpp"
 
 #include "base/fingerprint.hpp"
 #include "base/input_error.hpp"
@@ -26,24 +26,25 @@ std::shared_ptr<key_ring> load_keys(const network_address& at,
   return nullptr;
 }
 
-front::front(std::shared_ptr<key_ring> keys, network_address listen)
+secure_listener::secure_listener(std::shared_ptr<key_ring> keys,
+                                 network_address listen)
     : keys_{std::move(keys)}, listen_{std::move(listen)} {}
 
 network_address
-front::open(network_runtime& time, const gate_actor& gate,
-            std::function<void(const std::string&)> on_refusal) {
-  const auto port = time.publish(gate, keys_ ? 0 : listen_.port);
+secure_listener::open(network_runtime& time, const acceptor_actor& acceptor,
+                      std::function<void(const std::string&)> on_refusal) {
+  const auto port = time.publish(acceptor, keys_ ? 0 : listen_.port);
   if (!keys_)
     return {listen_.host, port};
-  door_.emplace(
+  tls_.emplace(
       keys_->now(),
       acceptor_options{.listen = listen_,
                        .inner_port = port,
                        .draws = {fingerprint(draw_nonce()), "handshakes"},
                        .peers = peers_,
                        .on_refusal = std::move(on_refusal)});
-  keys_->add_user([this](const credentials& own) { door_->renew(own); });
-  return {listen_.host, door_->port()};
+  keys_->add_user([this](const credentials& own) { tls_->renew(own); });
+  return {listen_.host, tls_->port()};
 }
 
 } // namespace sofof

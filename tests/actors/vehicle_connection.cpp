@@ -1,13 +1,14 @@
-// Tests of the session: what a peer may say, and what becomes of it.
+// Tests of the connection to vehicles: what a peer may send, and what of it is
+// passed on.
 #include "base/protocol.hpp"
-#include "tests/actors/session_world.hpp"
+#include "tests/actors/vehicle_connection_world.hpp"
 
 using namespace sofof;
 using namespace sofof::test;
 
 // -- whose voice -------------------------------------------------------------
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "to the provider each station of a peer is one requester") {
   live(1s);
   say_cam(station);
@@ -21,15 +22,16 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(voices[3] == voices[1]);
 }
 
-TEST_CASE_FIXTURE(session_world, "what the provider tells a requester reaches "
-                                 "the peer, with the station it is for") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "what the provider tells a requester reaches "
+                  "the peer, with the station it is for") {
   live(1s);
   say_cam(neighbour);
   tell_as(provider.handle, voice(), service_offer{boot, {1, 2}, {"one"}});
   REQUIRE(peer->seconds<service_offer>().size() == 1);
   CHECK(peer->all<station_id>() == std::vector{neighbour});
   CHECK(peer->entries().back().from
-        == caf::actor_cast<caf::strong_actor_ptr>(session));
+        == caf::actor_cast<caf::strong_actor_ptr>(endpoint));
   accept(one);
   REQUIRE(peer->count<service_response>() == 1);
   CHECK(peer->all<service_response>().front().verdicts.front().running == one);
@@ -39,8 +41,9 @@ TEST_CASE_FIXTURE(session_world, "what the provider tells a requester reaches "
   CHECK(peer->all<service_end>().front().running == one);
 }
 
-TEST_CASE_FIXTURE(session_world, "an input finds the manager of its running "
-                                 "service, until that ends") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "an input finds the manager of its running "
+                  "service, until that ends") {
   live(1s);
   accept(one);
   say(service_input{one, now(), payload::of(echo{3})});
@@ -59,7 +62,8 @@ TEST_CASE_FIXTURE(session_world, "an input finds the manager of its running "
   CHECK(manager->count<service_input>() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world, "an input for what nobody runs is dropped") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "an input for what nobody runs is dropped") {
   live(1s);
   accept(one);
   say(service_input{two, now(), payload::of(echo{3})});
@@ -67,12 +71,12 @@ TEST_CASE_FIXTURE(session_world, "an input for what nobody runs is dropped") {
   other.counter = 9;
   say(service_input{other, now(), payload::of(echo{3})});
   CHECK(manager->count<service_input>() == 0);
-  CHECK(!is_gone(session));
+  CHECK(!is_gone(endpoint));
 }
 
 // -- who may say what --------------------------------------------------------
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "who speaks for another station is not heard, and noted") {
   live(1s);
   SUBCASE("by a CAM") {
@@ -93,7 +97,7 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(notes("peer_ignored").front().station == foreign);
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "who carries another station's message is not heard") {
   live(1s);
   say(station, cam_of(neighbour));
@@ -103,7 +107,8 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(was_ignored("carries another station's message"));
 }
 
-TEST_CASE_FIXTURE(session_world, "a stranger is not heard, and noted") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "a stranger is not heard, and noted") {
   live(1s);
   accept(one);
   forget();
@@ -129,7 +134,7 @@ TEST_CASE_FIXTURE(session_world, "a stranger is not heard, and noted") {
     say_strangely(stream_of(one, stream_id::what::result));
   }
   SUBCASE("without a name") {
-    tell(session, station, cam_of(station));
+    tell(endpoint, station, cam_of(station));
   }
   CHECK(provider->entries().empty());
   CHECK(manager->entries().empty());
@@ -137,17 +142,19 @@ TEST_CASE_FIXTURE(session_world, "a stranger is not heard, and noted") {
   CHECK(was_ignored("a stranger speaks"));
 }
 
-TEST_CASE_FIXTURE(session_world, "strangers do not keep a connection alive") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "strangers do not keep a connection alive") {
   live(1s);
   for (int k = 0; k < 30; ++k) {
     run_for(50ms);
     say_strangely(ping{1, now()});
     say_strangely(station, cam_of(station));
   }
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
 }
 
-TEST_CASE_FIXTURE(session_world, "the peer cannot speak for the provider") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "the peer cannot speak for the provider") {
   live(1s);
   accept(one);
   forget();
@@ -156,7 +163,7 @@ TEST_CASE_FIXTURE(session_world, "the peer cannot speak for the provider") {
   CHECK(provider->count<service_end>() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "a route without end is not handed on; the longest is") {
   say(request_of(station, 1000));
   CHECK(provider->count<service_request>() == 1);
@@ -169,7 +176,7 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(provider->count<service_request>() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "who says too much is heard at its rate, and noted") {
   live(1s);
   forget();
@@ -185,7 +192,7 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(provider->count<its_pdu>() == 50);
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "other stations of a peer do not notice a loud one") {
   live(1s);
   for (int k = 0; k < 1000; ++k)
@@ -197,8 +204,9 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(provider->count<service_request>() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world, "who does it again and again is noted once a "
-                                 "second, with how often") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "who does it again and again is noted once a "
+                  "second, with how often") {
   live(1s);
   forget();
   for (int k = 0; k < 100; ++k) {
@@ -213,9 +221,9 @@ TEST_CASE_FIXTURE(session_world, "who does it again and again is noted once a "
     CHECK(all[k].at - all[k - 1].at >= 1s);
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "stations of other peers do not notice a loud one") {
-  const auto polite = listen<uplink_actor>();
+  const auto polite = listen<vehicle_endpoint_actor>();
   const auto other = join(polite, {201});
   live(500ms);
   for (const auto& sign : polite->all<ping>())
@@ -234,9 +242,9 @@ TEST_CASE_FIXTURE(session_world,
   CHECK(polite->all<stream_id>().size() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world,
-                  "who speaks to a session of others gets nowhere") {
-  const auto other_peer = listen<uplink_actor>();
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "who sends to an endpoint of others gets nowhere") {
+  const auto other_peer = listen<vehicle_endpoint_actor>();
   const auto other = join(other_peer, {201});
   live(1s);
   forget();
@@ -248,8 +256,9 @@ TEST_CASE_FIXTURE(session_world,
 
 // -- the connection ----------------------------------------------------------
 
-TEST_CASE_FIXTURE(session_world, "life signs go out at 20 Hz, and are answered "
-                                 "at once") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "life signs go out at 20 Hz, and are answered "
+                  "at once") {
   live(1s);
   CHECK(peer->count<ping>() == 20);
   CHECK(peer->count<pong>() == 20);
@@ -257,25 +266,27 @@ TEST_CASE_FIXTURE(session_world, "life signs go out at 20 Hz, and are answered "
   CHECK(peer->all<pong>().back().received == now());
 }
 
-TEST_CASE_FIXTURE(session_world, "a peer that is silent for a second is lost, "
-                                 "and all its stations with it") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "a peer that is silent for a second is lost, "
+                  "and all its stations with it") {
   live(1s);
   say_cam(station);
   const auto first = voice();
   say_cam(neighbour);
   const auto second = voice();
   run_for(1s);
-  CHECK(!is_gone(session));
+  CHECK(!is_gone(endpoint));
   run_for(protocol::life_sign_period);
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
   CHECK(is_gone(first));
   CHECK(is_gone(second));
   REQUIRE(notes("peer_lost").size() == 1);
   CHECK(notes("peer_lost").front().detail == "stations 101-102: silent");
 }
 
-TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
-                                 "was asked within a second, is lost") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "a peer that speaks, but does not answer what "
+                  "was asked within a second, is lost") {
   live(1s);
   const auto last = peer->all<ping>().back();
   const auto speak = [&](duration d, const auto& answer) {
@@ -288,38 +299,40 @@ TEST_CASE_FIXTURE(session_world, "a peer that speaks, but does not answer what "
   };
   SUBCASE("it answers nothing") {
     speak(1s, [] {});
-    CHECK(!is_gone(session));
+    CHECK(!is_gone(endpoint));
     speak(100ms, [] {});
   }
   SUBCASE("it answers the same again and again") {
     const auto answer = [&] { say(pong{last, now(), now()}); };
     speak(1s, answer);
-    CHECK(!is_gone(session));
+    CHECK(!is_gone(endpoint));
     speak(100ms, answer);
   }
   SUBCASE("it has answered what was not asked yet") {
     say(pong{{9, now() + 1h}, now(), now()});
     speak(1s, [] {});
-    CHECK(!is_gone(session));
+    CHECK(!is_gone(endpoint));
     speak(100ms, [] {});
   }
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
 }
 
-TEST_CASE_FIXTURE(session_world, "a session that is replaced says so, and all "
-                                 "its stations are lost") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "a connection that is replaced says so, and all "
+                  "its stations are lost") {
   live(1s);
   say_cam();
   const auto lost = voice();
-  caf::anon_send_exit(session, caf::exit_reason::user_shutdown);
+  caf::anon_send_exit(endpoint, caf::exit_reason::user_shutdown);
   settle();
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
   CHECK(is_gone(lost));
   CHECK(notes("peer_lost").front().detail == "stations 101-102: replaced");
 }
 
-TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
-                                 "provider") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "a connection does not outlive its peer, nor the "
+                  "provider") {
   live(1s);
   say_cam();
   SUBCASE("the peer dies") {
@@ -328,37 +341,39 @@ TEST_CASE_FIXTURE(session_world, "a session does not outlive its peer, nor the "
   SUBCASE("the provider dies") {
     kill(provider.handle);
   }
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
   CHECK(notes("peer_lost").front().detail == "stations 101-102: gone");
 }
 
-TEST_CASE_FIXTURE(session_world, "what a provider says last in good order is "
-                                 "handed on") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "what a provider says last in good order is "
+                  "handed on") {
   live(1s);
   say_cam();
   caf::anon_send_exit(provider.handle, caf::exit_reason::user_shutdown);
   settle();
-  CHECK(!is_gone(session));
+  CHECK(!is_gone(endpoint));
   run_for(2 * protocol::life_sign_period);
-  CHECK(is_gone(session));
+  CHECK(is_gone(endpoint));
   CHECK(notes("peer_lost").front().detail
         == "stations 101-102: the provider has ended");
 }
 
-TEST_CASE_FIXTURE(session_world,
-                  "the death of somebody else does not concern a session") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "the death of somebody else does not concern a connection") {
   live(1s);
-  const auto other = listen<uplink_actor>();
+  const auto other = listen<vehicle_endpoint_actor>();
   kill(other.handle);
-  tell_as(stranger.handle, session,
+  tell_as(stranger.handle, endpoint,
           caf::down_msg{other.handle.address(), caf::exit_reason::kill});
-  CHECK(!is_gone(session));
+  CHECK(!is_gone(endpoint));
 }
 
 // -- back-pressure -----------------------------------------------------------
 
-TEST_CASE_FIXTURE(session_world, "while the peer acknowledges nothing, one "
-                                 "result of a stream is under way, one waits") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "while the peer acknowledges nothing, one "
+                  "result of a stream is under way, one waits") {
   live(1s);
   accept(one);
   const auto first = voice();
@@ -387,8 +402,9 @@ TEST_CASE_FIXTURE(session_world, "while the peer acknowledges nothing, one "
   CHECK(peer->count<service_result>() == 4);
 }
 
-TEST_CASE_FIXTURE(session_world, "results whose acknowledgement got lost go on "
-                                 "after a second") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "results whose acknowledgement got lost go on "
+                  "after a second") {
   live(1s);
   accept(one);
   const auto to = voice();
@@ -403,7 +419,7 @@ TEST_CASE_FIXTURE(session_world, "results whose acknowledgement got lost go on "
   CHECK(cycles == std::vector<std::uint64_t>{1, 21, 41});
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "protocol messages do not wait for a peer that stalls") {
   live(1s);
   accept(one);
@@ -428,7 +444,7 @@ TEST_CASE_FIXTURE(session_world,
   }
 }
 
-TEST_CASE_FIXTURE(session_world,
+TEST_CASE_FIXTURE(vehicle_connection_world,
                   "what a peer says is acknowledged, stream by stream") {
   live(1s);
   accept(one);
@@ -442,8 +458,9 @@ TEST_CASE_FIXTURE(session_world,
                                   {station, stream_id::what::input, 7}});
 }
 
-TEST_CASE_FIXTURE(session_world, "what has ended without its credit does not "
-                                 "hold up what runs next") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "what has ended without its credit does not "
+                  "hold up what runs next") {
   for (std::uint32_t k = 1; k <= 100; ++k) {
     live(50ms);
     const session_id next{boot, station, "one", k};
@@ -458,8 +475,9 @@ TEST_CASE_FIXTURE(session_world, "what has ended without its credit does not "
 
 // -- clocks ------------------------------------------------------------------
 
-TEST_CASE_FIXTURE(session_world, "before the peer's clock is known nothing "
-                                 "with a time is handed on") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "before the peer's clock is known nothing "
+                  "with a time is handed on") {
   accept(one);
   say_cam();
   say(service_input{one, now(), payload::of(echo{1})});
@@ -475,13 +493,14 @@ TEST_CASE_FIXTURE(session_world, "before the peer's clock is known nothing "
   CHECK(manager->count<service_input>() == 1);
 }
 
-TEST_CASE_FIXTURE(session_world, "times of a peer whose clock is off are "
-                                 "translated within the doubt") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "times of a peer whose clock is off are "
+                  "translated within the doubt") {
   for (const auto off :
        std::vector<duration>{-3001ms, -500ms, 0ms, 700ms, 1h}) {
     CAPTURE(off.count());
     ahead = off;
-    session = join(peer, {station, neighbour});
+    endpoint = join(peer, {station, neighbour});
     settle();
     answer(4ms, 2ms);
     accept(one);
@@ -491,20 +510,22 @@ TEST_CASE_FIXTURE(session_world, "times of a peer whose clock is off are "
     REQUIRE(manager->count<service_input>() == 1);
     const auto error = manager->all<service_input>().front().at - said;
     CHECK(std::chrono::abs(error) <= 3ms + 10us);
-    kill(session);
+    kill(endpoint);
   }
 }
 
-TEST_CASE_FIXTURE(session_world, "with CAMs and CPMs goes whose certificate "
-                                 "they came by") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "with CAMs and CPMs goes whose certificate "
+                  "they came by") {
   live(1s);
   say_cam();
   REQUIRE(provider->count<its_pdu>() == 1);
   CHECK(provider->all<its_pdu>().front().sender == certificate);
 }
 
-TEST_CASE_FIXTURE(session_world, "with ITS messages goes how far their "
-                                 "sender's time of day is ahead") {
+TEST_CASE_FIXTURE(vehicle_connection_world,
+                  "with ITS messages goes how far their "
+                  "sender's time of day is ahead") {
   ahead = 300ms; // its clock, which began 200 ms later
   live(1s);
   accept(one);

@@ -1,7 +1,8 @@
-// One session between a peer that the test plays and a provider that listens.
+// One connection between a peer that the test plays and a provider that
+// listens.
 #pragma once
 
-#include "actors/remote/session.hpp"
+#include "actors/remote/provider_endpoint.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -14,7 +15,7 @@
 
 namespace sofof::test {
 
-struct session_world : virtual_world {
+struct vehicle_connection_world : virtual_world {
   static constexpr sender_id certificate = 77;
   static constexpr provider_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102, foreign = 999;
@@ -26,27 +27,27 @@ struct session_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<provider_actor> provider = listen<provider_actor>();
   probe<provider_manager_actor> manager = listen<provider_manager_actor>();
-  probe<uplink_actor> peer = listen<uplink_actor>();
-  probe<uplink_actor> stranger = listen<uplink_actor>();
+  probe<vehicle_endpoint_actor> peer = listen<vehicle_endpoint_actor>();
+  probe<vehicle_endpoint_actor> stranger = listen<vehicle_endpoint_actor>();
   duration ahead{}; ///< What the peer's clock shows more than ours.
-  session_actor session;
+  provider_endpoint_actor endpoint;
 
-  session_world() {
+  vehicle_connection_world() {
     run_for(10s); // the clock's zero is no special time
-    session = join(peer, {station, neighbour});
+    endpoint = join(peer, {station, neighbour});
     settle();
     forget();
   }
 
-  session_actor join(const probe<uplink_actor>& with,
-                     std::set<station_id> stations) {
+  provider_endpoint_actor join(const probe<vehicle_endpoint_actor>& with,
+                               std::set<station_id> stations) {
     const etsi::its_clock ours;
     const etsi::its_clock theirs{
         ours.epoch_unix_ms()
         + std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()};
-    return own(spawn_session(system(),
-                             {provider.handle, with.handle, std::move(stations),
-                              ours, theirs, recorder.handle, certificate}));
+    return own(spawn_provider_endpoint(
+        system(), {provider.handle, with.handle, std::move(stations), ours,
+                   theirs, recorder.handle, certificate}));
   }
 
   void forget() {
@@ -61,11 +62,11 @@ struct session_world : virtual_world {
 
   template <class... Ts>
   void say(const Ts&... xs) {
-    tell_as(peer.handle, session, xs...);
+    tell_as(peer.handle, endpoint, xs...);
   }
   template <class... Ts>
   void say_strangely(const Ts&... xs) {
-    tell_as(stranger.handle, session, xs...);
+    tell_as(stranger.handle, endpoint, xs...);
   }
   void say_cam(station_id of = station) { say(of, cam_of(of)); }
   its_pdu cam_of(station_id of) {

@@ -1,17 +1,18 @@
-// Tests of the uplink: what vehicles and their provider get of each other.
+// Tests of the connection to a provider: what crosses it.
 #include "base/protocol.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
 
 using namespace sofof;
 using namespace sofof::test;
 
 // -- what the provider may say -----------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "only its session speaks for the provider") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "only its provider speaks for the provider") {
   connect();
   accept(one);
   forget();
-  const auto stranger = listen<session_actor>();
+  const auto stranger = listen<provider_endpoint_actor>();
   const auto who = caf::actor_cast<caf::actor>(stranger.handle);
   answer_as(who, station, service_offer{boot, {}, {"one"}});
   answer_as(who, service_response{boot, station, 1, {{one, true, ""}}});
@@ -28,21 +29,23 @@ TEST_CASE_FIXTURE(uplink_world, "only its session speaks for the provider") {
   CHECK(notes("provider_lost") == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "nobody without a name speaks for a vehicle") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "nobody without a name speaks for a vehicle") {
   connect();
   accept(one);
   forget();
-  const auto within_reach = caf::actor_cast<uplink_mouth>(host->peer);
+  const auto within_reach = caf::actor_cast<provider_outbox>(host->peer);
   tell(within_reach, station, cam_of(station));
   tell(within_reach, service_request{boot, station, 1, {"one"}, {}, 5});
   tell(within_reach, service_input{one, now(), payload::of(echo{1})});
   tell(within_reach, service_end{one});
-  CHECK(session->entries().empty());
+  CHECK(provider->entries().empty());
   CHECK(!is_gone(within_reach));
 }
 
-TEST_CASE_FIXTURE(uplink_world, "each vehicle gets what is meant for it, as if "
-                                "from a provider nearby") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "each vehicle gets what is meant for it, as if "
+                  "from a provider nearby") {
   connect();
   say(neighbour, service_offer{boot, {1, 2}, {"one"}});
   accept(one);
@@ -58,31 +61,33 @@ TEST_CASE_FIXTURE(uplink_world, "each vehicle gets what is meant for it, as if "
         == std::vector<provider_manager_actor>{provider_manager_actor{far}});
   CHECK(other->count<service_response>() == 0);
   say(station_id{999}, service_offer{boot, {}, {"one"}}); // for nobody
-  CHECK(!is_gone(uplink));
+  CHECK(!is_gone(outbox));
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a provider that accepts without end is not "
-                                "remembered without end") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a provider that accepts without end is not "
+                  "remembered without end") {
   connect();
   for (std::uint32_t k = 1; k <= 1000; ++k) {
     accept({boot, station, "one", k});
     accept({boot, 999, "one", k}); // for nobody
   }
   CHECK(requester->count<service_response>() == 1000);
-  kill(session.handle);
+  kill(provider.handle);
   CHECK(requester->count<service_end>() == 16); // 8 a station
 }
 
 // -- back-pressure -----------------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "while the provider acknowledges nothing, one "
-                                "CAM of a station is under way, one waits") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "while the provider acknowledges nothing, one "
+                  "CAM of a station is under way, one waits") {
   connect();
   for (int k = 1; k <= 50; ++k)
     say_cam(k);
   const auto speeds = [&] {
     std::vector<double> all;
-    for (const auto& pdu : session->seconds<its_pdu>())
+    for (const auto& pdu : provider->seconds<its_pdu>())
       all.push_back(motion_in(pdu, now()).speed_mps);
     return all;
   };
@@ -97,31 +102,34 @@ TEST_CASE_FIXTURE(uplink_world, "while the provider acknowledges nothing, one "
   CHECK(speeds() == std::vector<double>{1, 7, 50, 12});
 }
 
-TEST_CASE_FIXTURE(uplink_world, "CAMs whose acknowledgement got lost go on "
-                                "after a second") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "CAMs whose acknowledgement got lost go on "
+                  "after a second") {
   connect();
   for (int k = 1; k <= 21; ++k) {
     say_cam(k);
     live(100ms);
   }
   std::vector<double> speeds;
-  for (const auto& pdu : session->seconds<its_pdu>())
+  for (const auto& pdu : provider->seconds<its_pdu>())
     speeds.push_back(motion_in(pdu, now()).speed_mps);
   CHECK(speeds == std::vector<double>{1, 11, 21});
 }
 
-TEST_CASE_FIXTURE(uplink_world, "CAMs, CPMs and inputs do not wait for one "
-                                "another") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "CAMs, CPMs and inputs do not wait for one "
+                  "another") {
   connect();
   say_cam();
   tell(far, pdu_of(cam{station, now(), {}, 0, 5, 0}, {}), requester.handle);
   tell(far, service_input{one, now(), payload::of(echo{1})});
-  CHECK(session->seconds<its_pdu>().size() == 2);
-  CHECK(session->count<service_input>() == 1);
+  CHECK(provider->seconds<its_pdu>().size() == 2);
+  CHECK(provider->count<service_input>() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "protocol messages do not wait for a provider "
-                                "that stalls") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "protocol messages do not wait for a provider "
+                  "that stalls") {
   connect();
   for (std::uint32_t k = 1; k <= 100; ++k) {
     say_cam();
@@ -129,9 +137,9 @@ TEST_CASE_FIXTURE(uplink_world, "protocol messages do not wait for a provider "
          requester.handle);
     tell(far, service_end{{boot, station, "one", k}});
   }
-  CHECK(session->seconds<its_pdu>().size() == 1);
-  const auto requests = session->all<service_request>();
-  const auto ends = session->all<service_end>();
+  CHECK(provider->seconds<its_pdu>().size() == 1);
+  const auto requests = provider->all<service_request>();
+  const auto ends = provider->all<service_end>();
   REQUIRE(requests.size() == 100);
   REQUIRE(ends.size() == 100);
   for (std::uint32_t k = 0; k < 100; ++k) {
@@ -140,22 +148,24 @@ TEST_CASE_FIXTURE(uplink_world, "protocol messages do not wait for a provider "
   }
 }
 
-TEST_CASE_FIXTURE(uplink_world, "results are acknowledged as they come") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "results are acknowledged as they come") {
   connect();
   result(one, 1, now());
   result(two, 1, now());
-  CHECK(session->all<stream_id>()
+  CHECK(provider->all<stream_id>()
         == std::vector<stream_id>{{station, stream_id::what::result, 7},
                                   {neighbour, stream_id::what::result, 8}});
 }
 
-TEST_CASE_FIXTURE(uplink_world, "what has ended without its credit does not "
-                                "hold up what runs next") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "what has ended without its credit does not "
+                  "hold up what runs next") {
   connect();
   for (std::uint32_t k = 1; k <= 100; ++k) {
     const session_id next{boot, station, "one", k};
     tell(far, service_input{next, now(), payload::of(echo{1})});
-    CHECK(session->count<service_input>() == k);
+    CHECK(provider->count<service_input>() == k);
     if (k % 2 == 0)
       tell(far, service_end{next});
     else
@@ -165,26 +175,28 @@ TEST_CASE_FIXTURE(uplink_world, "what has ended without its credit does not "
 
 // -- clocks ------------------------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "before the provider's clock is known its "
-                                "results are not handed on") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "before the provider's clock is known its "
+                  "results are not handed on") {
   start();
   say_cam();
   result(one, 1, now());
   CHECK(requester->count<service_result>() == 0);
-  CHECK(session->count<stream_id>() == 1); // the next may come
+  CHECK(provider->count<stream_id>() == 1); // the next may come
   answer();
   result(one, 2, now());
   CHECK(requester->count<service_result>() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "results of a provider whose clock is off are "
-                                "translated within the doubt that they say") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "results of a provider whose clock is off are "
+                  "translated within the doubt that they say") {
   for (const duration shift :
        std::vector<duration>{-3001ms, -500ms, 0ms, 700ms, 1h}) {
     CAPTURE(shift.count());
     ahead = shift;
-    session = listen<session_actor>();
-    host->session = session.handle;
+    provider = listen<provider_endpoint_actor>();
+    host->endpoint = provider.handle;
     start();
     say_cam();
     answer(4ms, 2ms);
@@ -199,8 +211,9 @@ TEST_CASE_FIXTURE(uplink_world, "results of a provider whose clock is off are "
   }
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a result that comes from the future by less "
-                                "than the doubt counts as created now") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a result that comes from the future by less "
+                  "than the doubt counts as created now") {
   start();
   say_cam();
   answer(3ms, 3ms);
@@ -214,8 +227,9 @@ TEST_CASE_FIXTURE(uplink_world, "a result that comes from the future by less "
   CHECK(results[2].created < now());
 }
 
-TEST_CASE_FIXTURE(uplink_world, "with a result's ITS message goes how far the "
-                                "provider's time of day is ahead") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "with a result's ITS message goes how far the "
+                  "provider's time of day is ahead") {
   ahead = -300ms;
   host->welcome.epoch_unix_ms += 1000;
   connect();

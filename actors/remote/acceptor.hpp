@@ -20,8 +20,8 @@ struct peer_finding {
   std::optional<std::string> refusal;
 };
 
-/// What a gate is made of. The functions are called from its threads.
-struct gate_setup {
+/// What an acceptor is made of. The functions are called from its threads.
+struct acceptor_setup {
   provider_actor provider;
   provider_id boot = 0;
   std::string name;        ///< Of the provider.
@@ -40,9 +40,10 @@ struct gate_setup {
       [](const auto&, bool) {};
 };
 
-/// Gives each process that speaks the same language a number to sign and an
-/// entrance to introduce itself at. A process has a limit of entrances, so that
-/// it does not keep others out. All that a process publishes.
-gate_actor spawn_gate(caf::actor_system& sys, gate_setup setup);
+/// Gives each process that speaks the same version a number to sign and a
+/// handshake, at which it introduces itself. A process has a limit of
+/// handshakes, so that it does not keep others out. All that a process
+/// publishes.
+acceptor_actor spawn_acceptor(caf::actor_system& sys, acceptor_setup setup);
 
 } // namespace sofof

@@ -1,6 +1,6 @@
-// Tests of the uplink: whom it talks to, and when.
+// Tests of the connection to a provider: when it is made, and with whom.
 #include "base/protocol.hpp"
-#include "tests/actors/uplink_world.hpp"
+#include "tests/actors/provider_connection_world.hpp"
 
 #include <limits>
 #include <map>
@@ -11,9 +11,9 @@ using namespace sofof::test;
 
 // -- introductions -----------------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world,
-                  "an uplink says whom it speaks to and for, on which "
-                  "map, and proves it") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "vehicles say which provider they mean, who they are and "
+                  "on which map, and prove it") {
   start();
   REQUIRE(host->hellos.size() == 1);
   CHECK(host->hellos[0].provider == "server");
@@ -25,11 +25,12 @@ TEST_CASE_FIXTURE(uplink_world,
             "connected to provider server at 10.0.0.5:4711"});
   CHECK(notes("provider_connected") == 1);
   CHECK(refusals.empty());
-  CHECK(session->count<ping>() == 1);
+  CHECK(provider->count<ping>() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
-                                "is told why") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "who is refused before the first connection "
+                  "is told why") {
   const std::string begin = "provider server at 10.0.0.5:4711 refuses: ";
   std::string why;
   SUBCASE("for its version") {
@@ -44,7 +45,7 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
           + ", this program " + spoken(remote_protocol, ours)
           + "; install the same version on both sides";
   }
-  SUBCASE("for what the entrance says") {
+  SUBCASE("for what the handshake says") {
     host->refusal = "101 is another's station";
     why = *host->refusal;
   }
@@ -58,11 +59,12 @@ TEST_CASE_FIXTURE(uplink_world, "who is refused before the first connection "
   CHECK(news.empty());
   say_cam();
   run_for(100ms);
-  CHECK(session->entries().empty());
+  CHECK(provider->entries().empty());
 }
 
-TEST_CASE_FIXTURE(uplink_world, "who has driven for a while takes a refusal as "
-                                "news") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "who has driven for a while takes a refusal as "
+                  "news") {
   reachable = false;
   start();
   run_for(10s);
@@ -76,11 +78,12 @@ TEST_CASE_FIXTURE(uplink_world, "who has driven for a while takes a refusal as "
         == "provider server at 10.0.0.5:4711 refuses: you are too many");
 }
 
-TEST_CASE_FIXTURE(uplink_world, "who was connected once takes a refusal as "
-                                "news, once") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "who was connected once takes a refusal as "
+                  "news, once") {
   connect();
   news.clear();
-  kill(session.handle);
+  kill(provider.handle);
   host->refusal = "you are too many";
   run_for(10s);
   CHECK(refusals.empty());
@@ -92,8 +95,9 @@ TEST_CASE_FIXTURE(uplink_world, "who was connected once takes a refusal as "
         == "provider server at 10.0.0.5:4711 refuses: you are too many");
 }
 
-TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
-                                "talk to, tries again") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "who finds nobody, or no room, or no end to "
+                  "talk to, tries again") {
   std::string why;
   SUBCASE("nobody") {
     reachable = false;
@@ -104,7 +108,7 @@ TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
     why = "it lets nobody in now";
   }
   SUBCASE("no end") {
-    host->session = nullptr;
+    host->endpoint = nullptr;
     why = "it has no end of its own";
   }
   start();
@@ -116,14 +120,15 @@ TEST_CASE_FIXTURE(uplink_world, "who finds nobody, or no room, or no end to "
             + "; trying again"});
   reachable = true;
   host->full = false;
-  host->session = session.handle;
+  host->endpoint = provider.handle;
   run_for(1050ms);
   CHECK(notes("provider_connected") == 1);
   CHECK(news.back() == "connected to provider server at 10.0.0.5:4711");
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
-                                "thing at a time, for two seconds") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "an acceptor that does not answer is asked one "
+                  "thing at a time, for two seconds") {
   host->answers = false;
   start();
   run_for(1950ms);
@@ -143,7 +148,7 @@ TEST_CASE_FIXTURE(uplink_world, "a gate that does not answer is asked one "
   CHECK(notes("provider_connected") == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world,
+TEST_CASE_FIXTURE(provider_connection_world,
                   "pauses between attempts grow to a second at most") {
   reachable = false;
   start();
@@ -156,20 +161,22 @@ TEST_CASE_FIXTURE(uplink_world,
   CHECK(attempts.back() - attempts[attempts.size() - 2] >= 500ms);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a provider that takes everybody in and hangs "
-                                "up is not asked without end") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a provider that takes everybody in and hangs "
+                  "up is not asked without end") {
   start();
   for (int k = 0; k < 200; ++k) { // 10 s
-    kill(session.handle);
-    session = listen<session_actor>();
-    host->session = session.handle;
+    kill(provider.handle);
+    provider = listen<provider_endpoint_actor>();
+    host->endpoint = provider.handle;
     run_for(50ms);
   }
   CHECK(attempts.size() < 25);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "while an attempt takes its time there is no "
-                                "other, and the next begins when it fails") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "while an attempt takes its time there is no "
+                  "other, and the next begins when it fails") {
   takes_time = true;
   reachable = false;
   start();
@@ -186,8 +193,9 @@ TEST_CASE_FIXTURE(uplink_world, "while an attempt takes its time there is no "
   CHECK(notes("provider_connected") == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "an attempt that hangs is not waited for "
-                                "without end, and counts if it gets through") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "an attempt that hangs is not waited for "
+                  "without end, and counts if it gets through") {
   takes_time = true;
   start();
   run_for(10s);
@@ -197,12 +205,13 @@ TEST_CASE_FIXTURE(uplink_world, "an attempt that hangs is not waited for "
   CHECK(host->hellos.size() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "when the connection is lost while an uplink "
-                                "introduces itself, it begins anew at once") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "when the connection is lost during the "
+                  "introduction, that begins anew at once") {
   host->answers = false;
   start();
   REQUIRE(host->knocks == 1);
-  kill(std::exchange(gate, own(system().spawn(played_gate, host))));
+  kill(std::exchange(acceptor, own(system().spawn(played_acceptor, host))));
   host->answers = true;
   run_for(150ms); // the second pause, and until it is noticed
   CHECK(notes("provider_connected") == 1);
@@ -220,8 +229,9 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost while an uplink "
   CHECK(news.size() == 2);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "of several attempts the first that gets "
-                                "through counts") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "of several attempts the first that gets "
+                  "through counts") {
   start();
   REQUIRE(host->hellos.size() == 1);
   live(3s);
@@ -231,8 +241,9 @@ TEST_CASE_FIXTURE(uplink_world, "of several attempts the first that gets "
 
 // -- losing the connection ---------------------------------------------------
 
-TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
-                                "once, each for its vehicle") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "when the connection is lost, what ran ends at "
+                  "once, each for its vehicle") {
   connect();
   accept(one);
   accept(two);
@@ -243,7 +254,7 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   forget();
   const auto before = now();
   SUBCASE("it breaks") {
-    kill(session.handle);
+    kill(provider.handle);
     CHECK(now() == before);
   }
   SUBCASE("it is silent for a second") {
@@ -262,8 +273,9 @@ TEST_CASE_FIXTURE(uplink_world, "when the connection is lost, what ran ends at "
   CHECK(recorder->all<event_record>().back().provider == boot);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
-                                "what was asked within a second, is lost") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a provider that speaks, but does not answer "
+                  "what was asked within a second, is lost") {
   connect();
   const auto speak = [&](duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
@@ -281,33 +293,36 @@ TEST_CASE_FIXTURE(uplink_world, "a provider that speaks, but does not answer "
            "a second; vehicles plan for themselves");
 }
 
-TEST_CASE_FIXTURE(uplink_world, "what has ended with one connection does not "
-                                "end again with the next") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "what has ended with one connection does not "
+                  "end again with the next") {
   connect();
   accept(one);
-  kill(session.handle);
-  session = listen<session_actor>();
-  host->session = session.handle;
+  kill(provider.handle);
+  provider = listen<provider_endpoint_actor>();
+  host->endpoint = provider.handle;
   live(1050ms);
   REQUIRE(notes("provider_connected") == 1);
-  kill(session.handle);
+  kill(provider.handle);
   CHECK(notes("provider_lost") == 2);
   CHECK(requester->count<service_end>() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "after the connection is lost the next attempt "
-                                "is made at once") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "after the connection is lost the next attempt "
+                  "is made at once") {
   connect();
   attempts.clear();
   const auto lost = now();
-  kill(session.handle);
+  kill(provider.handle);
   run_for(50ms);
   REQUIRE(!attempts.empty());
   CHECK(attempts.front() - lost <= 50ms);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
-                                "before the next attempt") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "what is left of a lost connection is closed "
+                  "before the next attempt") {
   connect();
   attempts.clear();
   CHECK(hung_up.empty());
@@ -317,18 +332,18 @@ TEST_CASE_FIXTURE(uplink_world, "what is left of a lost connection is closed "
   CHECK(attempts.front() - hung_up.front() == protocol::life_sign_period);
 }
 
-TEST_CASE_FIXTURE(uplink_world,
+TEST_CASE_FIXTURE(provider_connection_world,
                   "the death of somebody else does not end a connection") {
   connect();
-  const auto before = session;
+  const auto before = provider;
   SUBCASE("of anybody") {
     tell_as(requester.handle, host->peer,
             caf::down_msg{recorder.handle.address(), caf::exit_reason::kill});
     CHECK(notes("provider_lost") == 0);
   }
-  SUBCASE("of the session before") {
-    session = listen<session_actor>();
-    host->session = session.handle;
+  SUBCASE("of the endpoint before") {
+    provider = listen<provider_endpoint_actor>();
+    host->endpoint = provider.handle;
     run_for(1100ms); // silent; then connected again
     REQUIRE(notes("provider_connected") == 1);
     forget();
@@ -336,7 +351,7 @@ TEST_CASE_FIXTURE(uplink_world,
             caf::down_msg{before.handle.address(), caf::exit_reason::kill});
     CHECK(notes("provider_lost") == 0);
   }
-  SUBCASE("of the session, while there is none") {
+  SUBCASE("of the endpoint, while there is none") {
     reachable = false;
     run_for(1100ms);
     REQUIRE(notes("provider_lost") == 1);
@@ -344,28 +359,30 @@ TEST_CASE_FIXTURE(uplink_world,
             caf::down_msg{before.handle.address(), caf::exit_reason::kill});
     CHECK(notes("provider_lost") == 1);
   }
-  CHECK(!is_gone(uplink));
+  CHECK(!is_gone(outbox));
 }
 
-TEST_CASE_FIXTURE(uplink_world, "what vehicles say while there is no "
-                                "connection is lost") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "what vehicles say while there is no "
+                  "connection is lost") {
   connect();
   reachable = false;
-  kill(session.handle);
+  kill(provider.handle);
   forget();
   tell(far, service_request{boot, station, 1, {"one"}, {}, 5},
        requester.handle);
   tell(far, service_end{one});
-  session = listen<session_actor>();
-  host->session = session.handle;
+  provider = listen<provider_endpoint_actor>();
+  host->endpoint = provider.handle;
   reachable = true;
   run_for(1050ms);
-  CHECK(session->count<ping>() > 0);
-  CHECK(session->entries().size() == session->count<ping>());
+  CHECK(provider->count<ping>() > 0);
+  CHECK(provider->entries().size() == provider->count<ping>());
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
-                                "once it has asked for our clock") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a provider hears of each vehicle's latest CAM "
+                  "once it has asked for our clock") {
   connect();
   say_cam(1); // its credit goes with the connection
   lose();
@@ -374,28 +391,29 @@ TEST_CASE_FIXTURE(uplink_world, "a provider hears of each vehicle's latest CAM "
   tell(other_far, cam_of(neighbour, 7), other.handle);
   run_for(150ms);
   REQUIRE(notes("provider_connected") == 1);
-  CHECK(session->seconds<its_pdu>().empty());
+  CHECK(provider->seconds<its_pdu>().empty());
   say_cam(4); // would be lost, too: nobody knows how old it is
-  CHECK(session->seconds<its_pdu>().empty());
-  session->clear();
+  CHECK(provider->seconds<its_pdu>().empty());
+  provider->clear();
   say(ping{1, now()});
   run_for(turns);
-  REQUIRE(session->entries().size() == 3);
-  CHECK(session->count<pong>() == 1);
-  CHECK(session->entries().front().what.match_elements<pong>());
+  REQUIRE(provider->entries().size() == 3);
+  CHECK(provider->count<pong>() == 1);
+  CHECK(provider->entries().front().what.match_elements<pong>());
   std::map<station_id, double> speeds;
-  for (const auto& pdu : session->seconds<its_pdu>())
+  for (const auto& pdu : provider->seconds<its_pdu>())
     speeds[pdu.station().value()] = motion_in(pdu, now()).speed_mps;
   CHECK(speeds == std::map<station_id, double>{{station, 4}, {neighbour, 7}});
   say(ping{2, now()});
-  CHECK(session->seconds<its_pdu>().size() == 2); // once
+  CHECK(provider->seconds<its_pdu>().size() == 2); // once
   acknowledge({station, stream_id::what::cam, 0});
   say_cam(5);
-  CHECK(session->seconds<its_pdu>().size() == 3);
+  CHECK(provider->seconds<its_pdu>().size() == 3);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "of a vehicle whose CAM is older than two "
-                                "seconds a new connection hears nothing") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "of a vehicle whose CAM is older than two "
+                  "seconds a new connection hears nothing") {
   connect();
   reachable = false;
   lose();
@@ -409,14 +427,14 @@ TEST_CASE_FIXTURE(uplink_world, "of a vehicle whose CAM is older than two "
   forget();
   say(ping{1, now()});
   run_for(turns);
-  const auto told = session->seconds<its_pdu>();
+  const auto told = provider->seconds<its_pdu>();
   REQUIRE(told.size() == 1);
   CHECK(told.front().station() == neighbour);
 }
 
 TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
           "half a second at most") {
-  uplink_world world;
+  provider_connection_world world;
   auto setup = world.setup();
   std::vector<link_actor> far;
   for (station_id k = 200; k < 300; ++k)
@@ -424,13 +442,13 @@ TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
   world.start(setup);
   for (station_id k = 200; k < 300; ++k)
     far.push_back(
-        world.own(spawn_far_provider(world.system(), k, world.uplink)));
+        world.own(spawn_provider_proxy(world.system(), k, world.outbox)));
   const auto all_speak = [&] {
     for (std::size_t k = 0; k < far.size(); ++k)
       world.tell(far[k], world.cam_of(static_cast<station_id>(200 + k)),
                  world.requester.handle);
   };
-  const auto heard = [&] { return world.session->seconds<its_pdu>().size(); };
+  const auto heard = [&] { return world.provider->seconds<its_pdu>().size(); };
   world.say(ping{1, world.now()});
   std::size_t before = 0;
   for (int k = 0; k < 10; ++k) {
@@ -443,7 +461,8 @@ TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
   CHECK(heard() == 100);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "whose turn has not come asks nobody") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "whose turn has not come asks nobody") {
   auto later = setup();
   later.rest = 1s;
   start(later);
@@ -451,15 +470,16 @@ TEST_CASE_FIXTURE(uplink_world, "whose turn has not come asks nobody") {
   const auto ask = [&] {
     tell(far, service_request{boot, station, 1, {"one"}, {}, 5},
          requester.handle);
-    return session->count<service_request>();
+    return provider->count<service_request>();
   };
   CHECK(ask() == 0);
   live(1050ms);
   CHECK(ask() == 1);
 }
 
-TEST_CASE_FIXTURE(uplink_world, "a turn that a lost connection left is none in "
-                                "the next one") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "a turn that a lost connection left is none in "
+                  "the next one") {
   auto many = setup();
   for (station_id k = 200; k < 400; ++k)
     many.stations.push_back(k);
@@ -469,7 +489,7 @@ TEST_CASE_FIXTURE(uplink_world, "a turn that a lost connection left is none in "
   start(many);
   const auto neighbour_speaks = [&] {
     tell(other_far, cam_of(neighbour), other.handle);
-    return !session->seconds<its_pdu>().empty();
+    return !provider->seconds<its_pdu>().empty();
   };
   say(ping{1, now()});
   live(700ms);
@@ -486,8 +506,9 @@ TEST_CASE_FIXTURE(uplink_world, "a turn that a lost connection left is none in "
   CHECK(neighbour_speaks());
 }
 
-TEST_CASE_FIXTURE(uplink_world, "while an uplink rests it connects, and no "
-                                "vehicle speaks") {
+TEST_CASE_FIXTURE(provider_connection_world,
+                  "before the first vehicle may send there is a "
+                  "connection, and nothing is sent") {
   auto later = setup();
   later.rest = 1s;
   start(later);
@@ -495,7 +516,7 @@ TEST_CASE_FIXTURE(uplink_world, "while an uplink rests it connects, and no "
   say(ping{1, now()});
   say_cam();
   run_for(990ms);
-  CHECK(session->seconds<its_pdu>().empty());
+  CHECK(provider->seconds<its_pdu>().empty());
   run_for(60ms);
-  CHECK(session->seconds<its_pdu>().size() == 1);
+  CHECK(provider->seconds<its_pdu>().size() == 1);
 }

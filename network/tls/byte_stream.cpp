@@ -1,5 +1,5 @@
 // Reading and writing without waiting.
-#include "network/tls/wire.hpp"
+#include "network/tls/byte_stream.hpp"
 
 #include "network/tls/tls.hpp"
 
@@ -10,17 +10,17 @@
 
 namespace sofof {
 
-wire::wire(descriptor socket, ssl_ptr tls)
+byte_stream::byte_stream(descriptor socket, ssl_ptr tls)
     : socket_{std::move(socket)}, tls_{std::move(tls)} {}
 
-wire::~wire() {
+byte_stream::~byte_stream() {
   if (!tls_ || is_broken_)
     return;
   SSL_shutdown(tls_.get());
   forget_openssl_errors();
 }
 
-wire::outcome wire::read(std::span<std::byte> to) {
+byte_stream::outcome byte_stream::read(std::span<std::byte> to) {
   if (!tls_)
     return plain_outcome(recv(fd(), to.data(), to.size(), MSG_DONTWAIT));
   std::size_t moved = 0;
@@ -29,7 +29,7 @@ wire::outcome wire::read(std::span<std::byte> to) {
   return tls_outcome(result, moved);
 }
 
-wire::outcome wire::write(std::span<const std::byte> from) {
+byte_stream::outcome byte_stream::write(std::span<const std::byte> from) {
   if (!tls_) {
     const auto moved =
         send(fd(), from.data(), from.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -44,11 +44,11 @@ wire::outcome wire::write(std::span<const std::byte> from) {
   return tls_outcome(result, moved);
 }
 
-const X509* wire::certificate() const {
+const X509* byte_stream::certificate() const {
   return tls_ ? SSL_get0_peer_certificate(tls_.get()) : nullptr;
 }
 
-wire::outcome wire::plain_outcome(long moved) {
+byte_stream::outcome byte_stream::plain_outcome(long moved) {
   if (moved > 0)
     return {state::moved, static_cast<std::size_t>(moved)};
   if (moved == 0)
@@ -58,7 +58,7 @@ wire::outcome wire::plain_outcome(long moved) {
   return broken(errno);
 }
 
-wire::outcome wire::tls_outcome(int result, std::size_t moved) {
+byte_stream::outcome byte_stream::tls_outcome(int result, std::size_t moved) {
   if (result == 1)
     return {state::moved, moved};
   const auto error = errno;
@@ -78,7 +78,7 @@ wire::outcome wire::tls_outcome(int result, std::size_t moved) {
   }
 }
 
-wire::outcome wire::broken(int error) {
+byte_stream::outcome byte_stream::broken(int error) {
   is_broken_ = true;
   // Whoever closes while something is on its way to him resets.
   if (error == ECONNRESET || error == EPIPE)

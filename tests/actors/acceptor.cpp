@@ -1,5 +1,5 @@
-// Tests of the gate and its entrances: who is let in, who is not, and why.
-#include "actors/remote/gate.hpp"
+// Tests of the acceptor and its handshakes: who is let in, who is not, and why.
+#include "actors/remote/acceptor.hpp"
 
 #include "actors/remote/type_block.hpp"
 #include "base/protocol.hpp"
@@ -23,17 +23,17 @@ using namespace sofof::test;
 
 namespace {
 
-struct greeting {
+struct version_answer {
   std::uint32_t protocol = 0;
   std::uint64_t types = 0;
   std::string nonce;
   caf::strong_actor_ptr in;
 };
 
-/// An actor of another process, and what the gate has answered to it.
+/// An actor of another process, and what the acceptor has answered to it.
 class far_actor : public caf::actor_proxy {
 public:
-  far_actor(caf::actor_config& config, std::shared_ptr<greeting> heard)
+  far_actor(caf::actor_config& config, std::shared_ptr<version_answer> heard)
       : actor_proxy{config}, heard_{std::move(heard)} {}
 
   bool enqueue(caf::mailbox_element_ptr what, caf::execution_unit*) override {
@@ -47,19 +47,19 @@ public:
   void kill_proxy(caf::execution_unit*, caf::error) override {}
 
 private:
-  std::shared_ptr<greeting> heard_;
+  std::shared_ptr<version_answer> heard_;
 };
 
-struct gate_world : virtual_world {
+struct acceptor_world : virtual_world {
   struct answer {
     std::optional<peer_welcome> welcome;
-    session_actor session;
+    provider_endpoint_actor endpoint;
     std::string error;
   };
 
   probe<provider_actor> provider = listen<provider_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<uplink_actor> peer = listen<uplink_actor>();
+  probe<vehicle_endpoint_actor> peer = listen<vehicle_endpoint_actor>();
   int nonces = 0;
   bool draws = true;
   std::vector<std::string> proofs; ///< That were looked at.
@@ -68,10 +68,10 @@ struct gate_world : virtual_world {
   const std::uint64_t types = fingerprint_of_types();
   const peer_hello hello{"server", {101, 102}, 5, etsi::virtual_epoch_unix_ms,
                          {},       {}};
-  gate_actor gate = own(spawn_gate(system(), setup()));
+  acceptor_actor acceptor = own(spawn_acceptor(system(), setup()));
 
-  gate_setup setup() {
-    gate_setup s;
+  acceptor_setup setup() {
+    acceptor_setup s;
     s.provider = provider.handle;
     s.boot = 11;
     s.name = "server";
@@ -93,10 +93,10 @@ struct gate_world : virtual_world {
     return s;
   }
 
-  greeting knock(std::uint32_t protocol, std::uint64_t their_types) {
-    auto found = std::make_shared<greeting>();
+  version_answer knock(std::uint32_t protocol, std::uint64_t their_types) {
+    auto found = std::make_shared<version_answer>();
     system().spawn([=, this](caf::event_based_actor* self) {
-      self->request(gate, caf::infinite, protocol, their_types)
+      self->request(acceptor, caf::infinite, protocol, their_types)
           .then([found](std::uint32_t p, std::uint64_t t,
                         const std::string& nonce,
                         const caf::strong_actor_ptr& in) {
@@ -106,32 +106,32 @@ struct gate_world : virtual_world {
     settle();
     return *found;
   }
-  greeting knock() { return knock(remote_protocol, types); }
+  version_answer knock() { return knock(remote_protocol, types); }
   caf::actor somebody_in(std::uint32_t process,
-                         const std::shared_ptr<greeting>& heard) {
+                         const std::shared_ptr<version_answer>& heard) {
     caf::actor_config config;
     caf::node_id::default_data::host_id_type host{1};
     return caf::make_actor<far_actor, caf::actor>(
         1, caf::make_node_id(process, host), &system(), config, heard);
   }
   /// Somebody from another process knocks.
-  greeting knock_from(std::uint32_t process) {
-    const auto heard = std::make_shared<greeting>();
+  version_answer knock_from(std::uint32_t process) {
+    const auto heard = std::make_shared<version_answer>();
     const auto stranger = somebody_in(process, heard);
-    tell_as(stranger, gate, remote_protocol, types);
+    tell_as(stranger, acceptor, remote_protocol, types);
     return *heard;
   }
 
-  answer enter(const greeting& at, const peer_hello& with,
-               const uplink_actor& as) {
+  answer enter(const version_answer& at, const peer_hello& with,
+               const vehicle_endpoint_actor& as) {
     auto found = std::make_shared<answer>();
     system().spawn([=](caf::event_based_actor* self) {
-      self->request(caf::actor_cast<entrance_actor>(at.in), caf::infinite, with,
-                    as)
+      self->request(caf::actor_cast<handshake_actor>(at.in), caf::infinite,
+                    with, as)
           .then(
               [found](const peer_welcome& welcome,
-                      const session_actor& session) {
-                *found = {welcome, session, {}};
+                      const provider_endpoint_actor& endpoint) {
+                *found = {welcome, endpoint, {}};
               },
               [found](const caf::error& error) {
                 found->error = error.context().match_elements<std::string>()
@@ -150,7 +150,7 @@ struct gate_world : virtual_world {
     with.stations = stations;
     return enter(knock(), with);
   }
-  answer enter(const greeting& at, const peer_hello& with) {
+  answer enter(const version_answer& at, const peer_hello& with) {
     return enter(at, with, peer.handle);
   }
 
@@ -165,8 +165,9 @@ struct gate_world : virtual_world {
 
 } // namespace
 
-TEST_CASE_FIXTURE(gate_world, "who speaks the same gets a number of its own to "
-                              "sign, and an entrance") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who speaks the same gets a number of its own to "
+                  "sign, and a handshake") {
   const auto one = knock();
   const auto two = knock();
   CHECK(one.protocol == remote_protocol);
@@ -178,8 +179,9 @@ TEST_CASE_FIXTURE(gate_world, "who speaks the same gets a number of its own to "
   CHECK(two.nonce == "nonce 2");
 }
 
-TEST_CASE_FIXTURE(gate_world, "who speaks another version is told ours, and "
-                              "gets no further") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who speaks another version is told ours, and "
+                  "gets no further") {
   for (const auto& there : {knock(remote_protocol + 1, types),
                             knock(remote_protocol, types + 1), knock(0, 0)}) {
     CHECK(there.protocol == remote_protocol);
@@ -190,20 +192,22 @@ TEST_CASE_FIXTURE(gate_world, "who speaks another version is told ours, and "
   CHECK(nonces == 0);
 }
 
-TEST_CASE_FIXTURE(gate_world, "who is welcome gets a session and is told which "
-                              "provider this is") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who is welcome gets an endpoint and is told which "
+                  "provider this is") {
   const auto in = enter(knock(), hello);
   REQUIRE(in.welcome);
   CHECK(in.welcome->boot == 11);
   CHECK(in.welcome->epoch_unix_ms == etsi::virtual_epoch_unix_ms);
-  CHECK(in.session);
+  CHECK(in.endpoint);
   CHECK(peer->count<ping>() == 1);
   CHECK(proofs == std::vector<std::string>{"nonce 1"});
   CHECK(refusals().empty());
 }
 
-TEST_CASE_FIXTURE(gate_world, "who is refused is told why, and never gets a "
-                              "session") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who is refused is told why, and never gets a "
+                  "endpoint") {
   auto bad = hello;
   auto as = peer.handle;
   std::string why;
@@ -243,15 +247,16 @@ TEST_CASE_FIXTURE(gate_world, "who is refused is told why, and never gets a "
   }
   const auto in = enter(knock(), bad, as);
   CHECK(!in.welcome);
-  CHECK(!in.session);
+  CHECK(!in.endpoint);
   CHECK(in.error == why);
   CHECK(peer->entries().empty());
   REQUIRE(refusals().size() == 1);
   CHECK(refusals().front().detail == why + "; 1 so far");
 }
 
-TEST_CASE_FIXTURE(gate_world, "those who are refused again and again are noted "
-                              "once a second") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "those who are refused again and again are noted "
+                  "once a second") {
   doubt = "no";
   for (int k = 0; k < 100; ++k) {
     enter(knock(), hello);
@@ -262,7 +267,7 @@ TEST_CASE_FIXTURE(gate_world, "those who are refused again and again are noted "
   CHECK(all.back().detail == "no; 81 so far");
 }
 
-TEST_CASE_FIXTURE(gate_world, "an entrance is used once, whoever fails") {
+TEST_CASE_FIXTURE(acceptor_world, "a handshake is used once, whoever fails") {
   const auto at = knock();
   doubt = "no";
   CHECK(enter(at, hello).error == "no");
@@ -272,8 +277,9 @@ TEST_CASE_FIXTURE(gate_world, "an entrance is used once, whoever fails") {
   CHECK(enter(knock(), hello).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "who does not introduce himself in time finds "
-                              "the entrance closed") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who does not introduce himself in time finds "
+                  "the handshake closed") {
   const auto at = knock();
   run_for(protocol::introduction_timeout - 1ns);
   CHECK(!is_gone(at.in));
@@ -281,10 +287,10 @@ TEST_CASE_FIXTURE(gate_world, "who does not introduce himself in time finds "
   CHECK(is_gone(at.in));
 }
 
-TEST_CASE_FIXTURE(gate_world, "a process that knocks without end has two "
-                              "entrances, the latest") {
+TEST_CASE_FIXTURE(acceptor_world, "a process that knocks without end has two "
+                                  "handshakes, the latest") {
   const auto other = knock_from(7);
-  std::vector<greeting> all;
+  std::vector<version_answer> all;
   for (int k = 0; k < 1000; ++k)
     all.push_back(knock());
   for (std::size_t k = 0; k < 998; ++k)
@@ -294,10 +300,11 @@ TEST_CASE_FIXTURE(gate_world, "a process that knocks without end has two "
   CHECK(enter(all[999], hello).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "when too many introduce themselves, the oldest "
-                              "has to begin anew") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "when too many introduce themselves, the oldest "
+                  "has to begin anew") {
   const auto honest = knock();
-  std::vector<greeting> all;
+  std::vector<version_answer> all;
   for (std::uint32_t k = 0; k < 256; ++k)
     all.push_back(knock_from(1 + k));
   CHECK(is_gone(honest.in));
@@ -307,23 +314,25 @@ TEST_CASE_FIXTURE(gate_world, "when too many introduce themselves, the oldest "
   CHECK(!is_gone(all.back().in));
 }
 
-TEST_CASE_FIXTURE(gate_world, "who comes in again takes the place of the one "
-                              "who spoke for its stations") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who comes in again takes the place of the one "
+                  "who spoke for its stations") {
   const auto first = enter_as("car", {101, 102});
   const auto other = enter_as("other car", {101, 103});
   const auto trailer = enter_as("car", {104});
   const auto second = enter_as("car", {102});
   CHECK(second.welcome);
-  CHECK(is_gone(first.session));
-  CHECK(!is_gone(second.session));
-  CHECK(!is_gone(other.session));
-  CHECK(!is_gone(trailer.session));
+  CHECK(is_gone(first.endpoint));
+  CHECK(!is_gone(second.endpoint));
+  CHECK(!is_gone(other.endpoint));
+  CHECK(!is_gone(trailer.endpoint));
 }
 
-TEST_CASE_FIXTURE(gate_world, "nobody has more than 16 sessions at a time") {
-  std::vector<session_actor> all;
+TEST_CASE_FIXTURE(acceptor_world,
+                  "nobody has more than 16 connections at a time") {
+  std::vector<provider_endpoint_actor> all;
   for (station_id k = 1; k <= 16; ++k)
-    all.push_back(enter_as("car", {k}).session);
+    all.push_back(enter_as("car", {k}).endpoint);
   const auto more = enter_as("car", {17});
   CHECK(!more.welcome);
   CHECK(more.error
@@ -337,19 +346,21 @@ TEST_CASE_FIXTURE(gate_world, "nobody has more than 16 sessions at a time") {
   CHECK(enter_as("car", {17}).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "an entrance is for the process that asked for "
-                              "it, and no other one uses it up") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "a handshake is for the process that asked for "
+                  "it, and no other one uses it up") {
   const auto at = knock();
-  tell_as(somebody_in(7, std::make_shared<greeting>()),
-          caf::actor_cast<entrance_actor>(at.in), hello, peer.handle);
+  tell_as(somebody_in(7, std::make_shared<version_answer>()),
+          caf::actor_cast<handshake_actor>(at.in), hello, peer.handle);
   CHECK(proofs.empty());
   CHECK(enter(at, hello).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "a name that comes in again and again is let in "
-                              "once a second, and others are not kept out") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "a name that comes in again and again is let in "
+                  "once a second, and others are not kept out") {
   for (int k = 0; k < 32; ++k)
-    kill(enter_as("one", {103}).session);
+    kill(enter_as("one", {103}).endpoint);
   CHECK(enter_as("one", {103}).error == "one comes in too often");
   CHECK(enter_as("other", {104}).welcome);
   run_for(1s);
@@ -357,14 +368,15 @@ TEST_CASE_FIXTURE(gate_world, "a name that comes in again and again is let in "
   CHECK(!enter_as("one", {103}).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "peers do not let one another in") {
-  const auto far = somebody_in(7, std::make_shared<greeting>());
-  tell_as(far, gate, hello, peer.handle, std::string{"car"});
+TEST_CASE_FIXTURE(acceptor_world, "peers do not let one another in") {
+  const auto far = somebody_in(7, std::make_shared<version_answer>());
+  tell_as(far, acceptor, hello, peer.handle, std::string{"car"});
   CHECK(peer->entries().empty());
 }
 
-TEST_CASE_FIXTURE(gate_world, "a gate without numbers to sign lets nobody in, "
-                              "and lives") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "an acceptor without numbers to sign lets nobody in, "
+                  "and lives") {
   draws = false;
   CHECK(!knock().in);
   REQUIRE(refusals().size() == 1);
@@ -374,29 +386,31 @@ TEST_CASE_FIXTURE(gate_world, "a gate without numbers to sign lets nobody in, "
 }
 
 TEST_CASE_FIXTURE(
-    gate_world, "an entrance that fails takes neither gate nor others along") {
+    acceptor_world,
+    "a handshake that fails takes neither acceptor nor others along") {
   const auto other = knock();
   kill(knock().in);
-  CHECK(!is_gone(gate));
+  CHECK(!is_gone(acceptor));
   CHECK(enter(other, hello).welcome);
   CHECK(enter(knock(), hello).welcome);
 }
 
-TEST_CASE_FIXTURE(gate_world, "an entrance does not outlive the gate") {
+TEST_CASE_FIXTURE(acceptor_world, "a handshake does not outlive the acceptor") {
   const auto at = knock();
-  kill(gate);
+  kill(acceptor);
   CHECK(is_gone(at.in));
 }
 
-TEST_CASE_FIXTURE(gate_world, "who comes and goes is told, in this order, and "
-                              "one who does so all the time not each time") {
+TEST_CASE_FIXTURE(acceptor_world,
+                  "who comes and goes is told, in this order, and "
+                  "one who does so all the time not each time") {
   using coming = std::pair<std::set<station_id>, bool>;
   const auto first = enter_as("one", {101, 102});
   const auto second = enter_as("one", {102}); // takes its place
   CHECK(comings == std::vector<coming>{{{101, 102}, true}, {{102}, true}});
-  kill(second.session);
+  kill(second.endpoint);
   CHECK(comings.back() == coming{{102}, false});
   for (int k = 0; k < 200; ++k)
-    kill(enter_as("car " + std::to_string(k), {103}).session);
+    kill(enter_as("car " + std::to_string(k), {103}).endpoint);
   CHECK(comings.size() < 110);
 }

@@ -1,4 +1,5 @@
-// The provider's end of a connection to vehicles on another host.
+// The end of a connection to vehicles that they can reach, in the process of
+// their provider.
 #pragma once
 
 #include "messages/etsi/its_time.hpp"
@@ -11,10 +12,10 @@
 
 namespace sofof {
 
-/// What a session is made of.
-struct session_setup {
+/// What a connection is made of.
+struct vehicle_connection_setup {
   provider_actor provider;
-  uplink_actor peer;
+  vehicle_endpoint_actor peer;
   std::set<station_id> stations; ///< For which the peer may speak.
   etsi::its_clock clock;         ///< Ours.
   etsi::its_clock peer_clock;    ///< As the peer has told it.
@@ -23,12 +24,13 @@ struct session_setup {
 };
 
 /// Stands for all vehicles of one peer: gives each a requester of its own that
-/// the provider can talk to, translates the peer's times to ours, and hands
-/// results over one at a time, always the latest. Whatever does not come from
-/// the peer, or speaks for somebody else, or too often, is dropped and noted.
+/// the provider can send to, translates the peer's times to ours, and sends
+/// results one at a time, always the latest. What another peer sends, and what
+/// peer_rules object to, is dropped and logged.
 /// Ends when the peer does, when it is sent an exit, or when the peer has
-/// answered no life sign for protocol::silence_limit; the provider then sees
+/// answered no ping for protocol::silence_limit; the provider then sees
 /// all its stations lost.
-session_actor spawn_session(caf::actor_system& sys, session_setup setup);
+provider_endpoint_actor spawn_provider_endpoint(caf::actor_system& sys,
+                                                vehicle_connection_setup setup);
 
 } // namespace sofof

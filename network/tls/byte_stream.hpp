@@ -10,14 +10,16 @@
 
 namespace sofof {
 
-class wire {
+/// Reads and writes what goes at once, and says what to wait for otherwise. Of
+/// one thread at a time.
+class byte_stream {
 public:
   enum class state {
-    moved,
+    moved,          ///< Some bytes have been read or written.
     waits_to_read,  ///< For the socket to become readable.
     waits_to_write, ///< For the socket to become writable.
     closed,         ///< By the peer.
-    failed,
+    failed,         ///< It broke: `failure` says why.
   };
   struct outcome {
     state what = state::moved;
@@ -25,13 +27,15 @@ public:
   };
 
   /// @param tls  After its handshake; none: plain.
-  explicit wire(descriptor socket, ssl_ptr tls = {});
-  wire(wire&&) noexcept = default;
+  explicit byte_stream(descriptor socket, ssl_ptr tls = {});
+  byte_stream(byte_stream&&) noexcept = default;
   /// Tells the peer that this is the end, if it goes at once.
-  ~wire();
+  ~byte_stream();
 
+  /// Takes bytes that have come.
   /// @param to  At least one byte.
   outcome read(std::span<std::byte> to);
+  /// Sends bytes.
   /// @param from  At least one byte; the same ones again after a wait.
   outcome write(std::span<const std::byte> from);
 

@@ -1,10 +1,10 @@
-// One uplink between a vehicle that listens and a provider's host that the
+// One connection between a vehicle that listens and a provider's host that the
 // test plays.
 #pragma once
 
+#include "actors/remote/provider_connection.hpp"
 #include "actors/remote/provider_proxy.hpp"
 #include "actors/remote/type_block.hpp"
-#include "actors/remote/uplink.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -21,7 +21,7 @@
 
 namespace sofof::test {
 
-using gate_promise =
+using acceptor_promise =
     caf::typed_response_promise<std::uint32_t, std::uint64_t, std::string,
                                 caf::strong_actor_ptr>;
 
@@ -34,48 +34,50 @@ struct host_script {
   std::optional<std::string> refusal;
   bool full = false;
   bool answers = true;
-  session_actor session; ///< Given to those who are welcome.
+  provider_endpoint_actor endpoint; ///< Given to those who are welcome.
 
   std::size_t knocks = 0;
-  std::vector<gate_promise> unanswered;
+  std::vector<acceptor_promise> unanswered;
   std::vector<peer_hello> hellos;
-  uplink_actor peer; ///< The last one who came in.
+  vehicle_endpoint_actor peer; ///< The last one who came in.
 };
 
-inline entrance_actor::behavior_type
-played_entrance(entrance_actor::pointer self,
-                std::shared_ptr<host_script> script) {
-  return {[self, script](const peer_hello& hello, const uplink_actor& peer)
-              -> caf::result<peer_welcome, session_actor> {
+inline handshake_actor::behavior_type
+played_handshake(handshake_actor::pointer self,
+                 std::shared_ptr<host_script> script) {
+  return {[self, script](const peer_hello& hello,
+                         const vehicle_endpoint_actor& peer)
+              -> caf::result<peer_welcome, provider_endpoint_actor> {
     script->hellos.push_back(hello);
     script->peer = peer;
     self->quit();
     if (script->refusal)
       return caf::make_error(caf::sec::invalid_argument, *script->refusal);
-    return {script->welcome, script->session};
+    return {script->welcome, script->endpoint};
   }};
 }
 
-inline gate_actor::behavior_type
-played_gate(gate_actor::pointer self, std::shared_ptr<host_script> script) {
+inline acceptor_actor::behavior_type
+played_acceptor(acceptor_actor::pointer self,
+                std::shared_ptr<host_script> script) {
   return {[self, script](std::uint32_t, std::uint64_t)
               -> caf::result<std::uint32_t, std::uint64_t, std::string,
                              caf::strong_actor_ptr> {
     ++script->knocks;
     if (!script->answers) {
-      auto promise = self->make_response_promise<gate_promise>();
+      auto promise = self->make_response_promise<acceptor_promise>();
       script->unanswered.push_back(promise);
       return promise;
     }
     caf::strong_actor_ptr in;
     if (!script->full)
       in = caf::actor_cast<caf::strong_actor_ptr>(
-          self->spawn(played_entrance, script));
+          self->spawn(played_handshake, script));
     return {script->protocol, script->types, script->nonce, in};
   }};
 }
 
-struct uplink_world : virtual_world {
+struct provider_connection_world : virtual_world {
   static constexpr provider_id boot = 11;
   static constexpr station_id station = 101, neighbour = 102;
   /// By then each of them may speak.
@@ -84,36 +86,36 @@ struct uplink_world : virtual_world {
   const session_id two{boot, neighbour, "one", 8};
 
   probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<session_actor> session = listen<session_actor>();
+  probe<provider_endpoint_actor> provider = listen<provider_endpoint_actor>();
   probe<requester_actor> requester = listen<requester_actor>();
   probe<requester_actor> other = listen<requester_actor>();
   std::shared_ptr<host_script> host = std::make_shared<host_script>();
-  gate_actor gate = own(system().spawn(played_gate, host));
+  acceptor_actor acceptor = own(system().spawn(played_acceptor, host));
   bool reachable = true;
   bool takes_time = false; ///< Attempts end when the test says so.
   std::vector<std::function<void()>> unfinished;
   std::vector<time_point> attempts, hung_up;
   std::vector<std::string> refusals, news;
   duration ahead{}; ///< What the provider's clock shows more than ours.
-  uplink_mouth uplink;
+  provider_outbox outbox;
   link_actor far, other_far;
 
-  uplink_world() {
+  provider_connection_world() {
     run_for(10s); // the clock's zero is no special time
-    host->session = session.handle;
+    host->endpoint = provider.handle;
   }
 
-  uplink_setup setup() {
-    uplink_setup s;
+  provider_connection_setup setup() {
+    provider_connection_setup s;
     s.provider = "server";
     s.address = "10.0.0.5:4711";
     s.stations = {station, neighbour};
     s.world = 5;
     s.recorder = recorder.handle;
-    s.noise = random_stream{1, "uplink"};
-    s.connect = [this]() -> std::variant<gate_actor, std::string> {
+    s.noise = random_stream{1, "connection"};
+    s.connect = [this]() -> std::variant<acceptor_actor, std::string> {
       if (reachable)
-        return gate;
+        return acceptor;
       return "nobody is there";
     };
     s.aside = [this](std::function<void()> attempt) {
@@ -133,12 +135,12 @@ struct uplink_world : virtual_world {
   }
 
   void start() { start(setup()); }
-  void start(uplink_setup s) {
-    uplink = own(spawn_uplink(system(), std::move(s)));
-    far = own(spawn_far_provider(system(), station, uplink));
-    other_far = own(spawn_far_provider(system(), neighbour, uplink));
-    introduce(uplink, station, far);
-    introduce(uplink, neighbour, other_far);
+  void start(provider_connection_setup s) {
+    outbox = own(spawn_provider_connection(system(), std::move(s)));
+    far = own(spawn_provider_proxy(system(), station, outbox));
+    other_far = own(spawn_provider_proxy(system(), neighbour, outbox));
+    introduce(outbox, station, far);
+    introduce(outbox, neighbour, other_far);
     settle();
   }
   /// The same, up to when vehicles have spoken and the clocks are known.
@@ -156,7 +158,7 @@ struct uplink_world : virtual_world {
   }
   void forget() {
     recorder->clear();
-    session->clear();
+    provider->clear();
     requester->clear();
     other->clear();
   }
@@ -167,11 +169,11 @@ struct uplink_world : virtual_world {
       attempt();
     settle();
   }
-  /// The connection ends; the next one leads to another session.
+  /// The connection ends; the next one leads to another endpoint.
   void lose() {
-    kill(session.handle);
-    session = listen<session_actor>();
-    host->session = session.handle;
+    kill(provider.handle);
+    provider = listen<provider_endpoint_actor>();
+    host->endpoint = provider.handle;
   }
 
   // -- what vehicles and the provider do --------------------------------------
@@ -188,7 +190,7 @@ struct uplink_world : virtual_world {
   }
   template <class... Ts>
   void say(const Ts&... xs) {
-    tell_as(session.handle, host->peer, xs...);
+    tell_as(provider.handle, host->peer, xs...);
   }
   void acknowledge(const stream_id& stream) { say(stream); }
   void result(const session_id& r, std::uint64_t cycle, time_point created) {
@@ -199,7 +201,7 @@ struct uplink_world : virtual_world {
   }
   /// The provider answers the latest life sign, which took these ways.
   void answer(duration up = {}, duration down = {}) {
-    const auto signs = session->all<ping>();
+    const auto signs = provider->all<ping>();
     REQUIRE(!signs.empty());
     const auto there = signs.back().sent + up + ahead;
     run_for(up + down);

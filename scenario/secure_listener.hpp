@@ -14,7 +14,7 @@
 
 namespace sofof {
 
-/// Nobody outside may hear or say anything in plain words.
+/// Reads the keys without which nothing may cross to another host.
 /// @param option  Of the command line, that gave the address.
 /// @param check   Of credentials that are read, now or later.
 /// @returns what to show to others; null on this machine alone, unless it is
@@ -25,26 +25,27 @@ std::shared_ptr<key_ring> load_keys(const network_address& at,
                                     std::string_view option,
                                     key_ring::user check);
 
-/// Where the bytes of a gate come in: it listens in plain words on this
-/// machine, and in front of it, if it is secured, a door.
-class front {
+/// Where the octets of an acceptor come in. It listens without TLS, on this
+/// machine alone; before it, if it is secured, is a tls_acceptor.
+class secure_listener {
 public:
-  /// @param keys  Null: none. What is read again, the door goes by.
-  front(std::shared_ptr<key_ring> keys, network_address listen);
+  /// @param keys  Null: it is not secured. Keys that are read again hold for
+  ///              handshakes that begin later.
+  secure_listener(std::shared_ptr<key_ring> keys, network_address listen);
 
-  /// @returns who is behind the connections that its door carries.
+  /// @returns who is behind the connections that come by TLS.
   const peer_register& peers() const { return *peers_; }
 
-  /// @returns the address that others reach the gate at.
+  /// @returns the address that others reach the acceptor at.
   /// @throws input_error, network_error.
-  network_address open(network_runtime& time, const gate_actor& gate,
+  network_address open(network_runtime& time, const acceptor_actor& acceptor,
                        std::function<void(const std::string&)> on_refusal);
 
 private:
   std::shared_ptr<key_ring> keys_;
   network_address listen_;
   std::shared_ptr<peer_register> peers_ = std::make_shared<peer_register>();
-  std::optional<tls_acceptor> door_;
+  std::optional<tls_acceptor> tls_;
 };
 
 } // namespace sofof

@@ -1,5 +1,5 @@
 // Where one peer introduces itself.
-#include "actors/remote/entrance.hpp"
+#include "actors/remote/handshake.hpp"
 
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
@@ -16,24 +16,24 @@ namespace sofof {
 /// For how many stations a peer can speak.
 constexpr std::size_t most_claims = 10'000;
 
-struct entrance_state {
-  static inline const char* name = "entrance";
+struct handshake_state {
+  static inline const char* name = "handshake";
 
-  entrance_actor::stateful_pointer<entrance_state> self = nullptr;
+  handshake_actor::stateful_pointer<handshake_state> self = nullptr;
   admissions_actor admissions;
-  std::shared_ptr<const gate_setup> setup;
+  std::shared_ptr<const acceptor_setup> setup;
   caf::node_id process;
   std::string nonce;
   bool is_used = false;
 
   // The admissions live long, and do not forget by themselves who watched them.
-  ~entrance_state() {
+  ~handshake_state() {
     if (self)
       self->demonitor(admissions);
   }
 
-  caf::result<peer_welcome, session_actor> take(const peer_hello& hello,
-                                                const uplink_actor& peer) {
+  caf::result<peer_welcome, provider_endpoint_actor>
+  on_hello(const peer_hello& hello, const vehicle_endpoint_actor& peer) {
     // Actor ids can be guessed: another process must not use it up.
     const auto& sender = self->current_sender();
     if (!sender || sender->node() != process)
@@ -46,13 +46,14 @@ struct entrance_state {
       return caf::make_error(caf::sec::invalid_argument, *found.refusal);
     }
     is_used = true;
-    auto promise = self->make_response_promise<peer_welcome, session_actor>();
+    auto promise =
+        self->make_response_promise<peer_welcome, provider_endpoint_actor>();
     self->request(admissions, caf::infinite,
                   admission{{hello, peer, found.name}})
         .then(
             [this, promise](const peer_welcome& welcome,
-                            const session_actor& session) mutable {
-              promise.deliver(welcome, session);
+                            const provider_endpoint_actor& endpoint) mutable {
+              promise.deliver(welcome, endpoint);
               self->quit();
             },
             [this, promise](caf::error& error) mutable {
@@ -63,17 +64,17 @@ struct entrance_state {
   }
 
   peer_finding look_at(const peer_hello& hello,
-                       const uplink_actor& peer) const {
+                       const vehicle_endpoint_actor& peer) const {
     if (const auto why = objection(hello, peer))
       return {{}, why};
     return setup->examine(hello, nonce, process);
   }
 
-  std::optional<std::string> objection(const peer_hello& hello,
-                                       const uplink_actor& peer) const {
+  std::optional<std::string>
+  objection(const peer_hello& hello, const vehicle_endpoint_actor& peer) const {
     if (is_used)
       return "introduces itself twice";
-    // It must not let a session of ours speak to our own actors.
+    // It must not let an endpoint of ours speak to our own actors.
     if (!peer || peer.node() != process)
       return "it has no end of its own";
     if (hello.provider != setup->name)
@@ -93,11 +94,11 @@ struct entrance_state {
 
 namespace {
 
-entrance_actor::behavior_type
-entrance(entrance_actor::stateful_pointer<entrance_state> self,
-         const admissions_actor& admissions,
-         std::shared_ptr<const gate_setup> setup, caf::node_id process,
-         std::string nonce) {
+handshake_actor::behavior_type
+handshake(handshake_actor::stateful_pointer<handshake_state> self,
+          const admissions_actor& admissions,
+          std::shared_ptr<const acceptor_setup> setup, caf::node_id process,
+          std::string nonce) {
   auto& s = self->state;
   s.self = self;
   s.admissions = admissions;
@@ -109,19 +110,19 @@ entrance(entrance_actor::stateful_pointer<entrance_state> self,
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   self->set_default_handler(caf::drop); // what no interface has
   return {
-      [self](const peer_hello& hello, const uplink_actor& peer) {
-        return self->state.take(hello, peer);
+      [self](const peer_hello& hello, const vehicle_endpoint_actor& peer) {
+        return self->state.on_hello(hello, peer);
       },
   };
 }
 
 } // namespace
 
-entrance_actor spawn_entrance(caf::actor_system& sys,
-                              const admissions_actor& admissions,
-                              std::shared_ptr<const gate_setup> setup,
-                              caf::node_id process, std::string nonce) {
-  return sys.spawn(entrance, admissions, std::move(setup), std::move(process),
+handshake_actor spawn_handshake(caf::actor_system& sys,
+                                const admissions_actor& admissions,
+                                std::shared_ptr<const acceptor_setup> setup,
+                                caf::node_id process, std::string nonce) {
+  return sys.spawn(handshake, admissions, std::move(setup), std::move(process),
                    std::move(nonce));
 }
 

@@ -1,0 +1,61 @@
+// Messages of another host, with their times on our clock.
+#include "actors/remote/clock_translation.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+namespace {
+
+/// @param what  Of an input or a result: an ITS message or anything else.
+payload on_our_clock(payload what, const heartbeat& peer,
+                     const clock_offset& clock) {
+  if (const auto message = what.as<its_pdu>())
+    return payload::of(its_pdu{message->octets, peer.time_of_day(clock)});
+  return what;
+}
+
+} // namespace
+
+service_offer on_our_clock(service_offer offer, const heartbeat& peer,
+                           time_point now) {
+  const auto clock = peer.clock(now);
+  if (clock && offer.created)
+    *offer.created -= clock->ahead;
+  else
+    offer.created.reset();
+  return offer;
+}
+
+std::optional<its_pdu> on_our_clock(const its_pdu& message,
+                                    const heartbeat& peer, time_point now) {
+  const auto clock = peer.clock(now);
+  if (!clock)
+    return std::nullopt;
+  return its_pdu{message.octets, peer.time_of_day(*clock)};
+}
+
+std::optional<service_input>
+on_our_clock(service_input input, const heartbeat& peer, time_point now) {
+  const auto clock = peer.clock(now);
+  if (!clock)
+    return std::nullopt;
+  input.at -= clock->ahead;
+  input.what = on_our_clock(std::move(input.what), peer, *clock);
+  return input;
+}
+
+std::optional<service_result>
+on_our_clock(service_result result, const heartbeat& peer, time_point now) {
+  const auto clock = peer.clock(now);
+  if (!clock)
+    return std::nullopt;
+  result.doubt = clock->doubt;
+  result.created -= clock->ahead;
+  if (result.created > now && result.created - now <= clock->doubt)
+    result.created = now;
+  result.what = on_our_clock(std::move(result.what), peer, *clock);
+  return result;
+}
+
+} // namespace sofof

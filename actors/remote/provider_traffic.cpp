@@ -1,0 +1,103 @@
+// What crosses a connection between vehicles and a provider on another host.
+#include "actors/remote/clock_translation.hpp"
+#include "actors/remote/provider_connection_state.hpp"
+#include "actors/runtime/time.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace sofof {
+
+// -- what vehicles send -----------------------------------------------------
+
+void provider_connection_state::send_next(
+    const std::optional<outgoing_traffic::message>& next) {
+  if (!next)
+    return;
+  if (const auto* x = std::get_if<outgoing_traffic::its_message>(&*next))
+    send_to_provider(x->station, x->content);
+  else
+    send_to_provider(std::get<service_input>(*next));
+}
+
+void provider_connection_state::on_its_message(station_id station,
+                                               const its_pdu& message) {
+  send_next(traffic->offer(station, message, now(self)));
+}
+
+void provider_connection_state::on_input(const service_input& input) {
+  send_next(traffic->offer(input, now(self)));
+}
+
+void provider_connection_state::on_turn(station_id station) {
+  send_next(traffic->begin(station, now(self)));
+}
+
+void provider_connection_state::on_request(const service_request& request) {
+  if (peer && !traffic->is_waiting(request.station))
+    send_to_provider(request);
+}
+
+void provider_connection_state::on_requester_end(const service_end& e) {
+  forget(e.running);
+  if (peer)
+    send_to_provider(e);
+}
+
+void provider_connection_state::forget(const session_id& ended) {
+  running.erase(ended);
+  traffic->forget(ended);
+}
+
+// -- what the provider sends ------------------------------------------------
+
+// By the answer the provider knows our clock, and thus how old CAMs are.
+void provider_connection_state::on_ping(const ping& sign) {
+  const auto t = now(self);
+  send_to_provider(heartbeat::answer(sign, t));
+  if (traffic->is_open())
+    return;
+  for (const auto& turn : traffic->open(std::max(t, began + setup->rest)))
+    send_at(self, self, turn.at, tick_atom_v, turn.station);
+}
+
+void provider_connection_state::on_pong(const pong& echo) {
+  life->on_pong(echo, now(self));
+  attempts->succeeded();
+}
+
+void provider_connection_state::on_acknowledgement(const stream_id& stream) {
+  send_next(traffic->acknowledge(stream, now(self)));
+}
+
+void provider_connection_state::on_offer(station_id station,
+                                         const service_offer& offer) {
+  send_to_vehicle(station, on_our_clock(offer, *life, now(self)));
+}
+
+void provider_connection_state::on_response(const service_response& response) {
+  const auto vehicle = vehicles.find(response.station);
+  if (vehicle == vehicles.end())
+    return;
+  const auto most =
+      outgoing_traffic::streams_per_station * setup->stations.size();
+  for (const auto& v : response.verdicts)
+    if (v.accepted && v.running.station == response.station
+        && running.size() < most)
+      running.insert(v.running);
+  // Of the link type: how many managers there are is told by the verdicts.
+  self->send(vehicle->second, response, std::vector<provider_manager_actor>{});
+}
+
+void provider_connection_state::on_result(const service_result& result) {
+  if (const auto here = on_our_clock(result, *life, now(self)))
+    send_to_vehicle(here->running.station, *here);
+  send_to_provider(stream_of(result.running, stream_id::what::result));
+}
+
+void provider_connection_state::on_provider_end(const service_end& e) {
+  forget(e.running);
+  send_to_vehicle(e.running.station, e);
+}
+
+} // namespace sofof
