@@ -165,7 +165,7 @@ private:
     });
   }
 
-  void record(const episode_record& x) override { port_.record(x); }
+  void record(sofof::record x) override { port_.record(std::move(x)); }
 
   void wake_at(time_point t, std::uint64_t number) override {
     wake(part_, t,

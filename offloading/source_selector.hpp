@@ -67,8 +67,7 @@ public:
                              const std::string& why) = 0;
   virtual void watch_end(const service_end& end) = 0;
 
-  virtual void record(cycle_record x) = 0;
-  virtual void record(event_record x) = 0;
+  virtual void record(sofof::record x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;

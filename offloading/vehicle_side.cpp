@@ -210,8 +210,7 @@ private:
       report(std::move(violation));
     }
 
-    void record(cycle_record x) override { all.port_.record(std::move(x)); }
-    void record(event_record x) override { all.port_.record(std::move(x)); }
+    void record(sofof::record x) override { all.port_.record(std::move(x)); }
 
     void wake_at(time_point t, std::uint64_t number) override {
       all.wake(selects, t, [this, number](time_point now) {
@@ -287,9 +286,7 @@ private:
         });
   }
   void on_placement(bool) override {}
-  void record(event_record x) override { port_.record(std::move(x)); }
-  void record(const decision_record& x) override { port_.record(x); }
-  void record(const episode_record& x) override { port_.record(x); }
+  void record(sofof::record x) override { port_.record(std::move(x)); }
   void wake_at(time_point t, std::uint64_t number) override {
     wake(part_, t,
          [this, number](time_point now) { requester_->on_timer(number, now); });

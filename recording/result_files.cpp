@@ -74,6 +74,10 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
   write_file(folder_ / "config.toml", run.config_toml);
 }
 
+void result_files::on_record(const record& x) {
+  std::visit([this](const auto& which) { write(which); }, x);
+}
+
 void result_files::write(const event_record& x) {
   auto& out = events_.text();
   {

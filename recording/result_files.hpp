@@ -35,11 +35,7 @@ public:
   /// @param folder  Exists.
   result_files(std::filesystem::path folder, const run_info& run);
 
-  void write(const event_record& x);
-  void write(const cycle_record& x);
-  void write(const episode_record& x);
-  void write(const track_record& x);
-  void write(const air_record& x);
+  void on_record(const record& x);
 
   /// Brings all files up to date.
   void flush();
@@ -50,6 +46,14 @@ public:
 
 private:
   using timing = figures_of_clock::timing;
+
+  void write(const event_record& x);
+  void write(const cycle_record& x);
+  void write(const episode_record& x);
+  void write(const track_record& x);
+  void write(const air_record& x);
+  template <class Other>
+  void write(const Other&) {}
 
   std::string_view name_of(provider_id provider) const;
   void write_vehicles(const metrics& all) const;

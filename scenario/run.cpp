@@ -283,10 +283,10 @@ run_outcome run_part(const scenario& s, const run_options& options,
   dismiss(actors, time);
   const auto last = keeper->with([&](results& r) {
     if (computed)
-      r.take(*computed);
+      r.add_cpu(*computed);
     if (deciding)
       for (const auto& [name, value] : deciding->figures())
-        r.take_timing(name, value);
+        r.add_timing(name, value);
     return r.finish(ended, watch.elapsed_s(), !options.endless && ended < end);
   });
   losses.look_at(*keeper, shown, console);

@@ -2,6 +2,7 @@
 #include "actors/offloading/service_provider.hpp"
 
 #include "actors/offloading/provider_links.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "messages/v2x/decode_broadcast.hpp"
 
@@ -66,7 +67,7 @@ struct provider_state {
   template <class Function>
   void tell_contexts(Function tell) {
     for (auto& news : services->tell_contexts(tell))
-      self->send(recorder, std::move(news));
+      send_record(self, recorder, std::move(news));
   }
 };
 

@@ -2,6 +2,7 @@
 #include "actors/remote/admissions.hpp"
 
 #include "actors/remote/session.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "base/text/printable.hpp"
@@ -135,8 +136,8 @@ struct admissions_state {
     if (t < next_note)
       return;
     next_note = t + refusal_note_period;
-    self->send(
-        setup->recorder,
+    send_record(
+        self, setup->recorder,
         event_record{t,
                      "peer_refused",
                      0,

@@ -3,6 +3,7 @@
 
 #include "actors/remote/heartbeat.hpp"
 #include "actors/remote/requester_proxy.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "network/flow/conflating_queue.hpp"
 #include "network/flow/token_bucket.hpp"
@@ -255,13 +256,14 @@ struct session_state {
   }
 
   void note(std::string what, station_id station, std::string_view detail) {
-    self->send(setup.recorder, event_record{now(self),
-                                            std::move(what),
-                                            station,
-                                            0,
-                                            {},
-                                            0,
-                                            std::string{detail}});
+    send_record(self, setup.recorder,
+                event_record{now(self),
+                             std::move(what),
+                             station,
+                             0,
+                             {},
+                             0,
+                             std::string{detail}});
   }
 };
 

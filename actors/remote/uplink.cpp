@@ -3,6 +3,7 @@
 
 #include "actors/remote/heartbeat.hpp"
 #include "actors/remote/provider_connection.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "network/flow/conflating_queue.hpp"
 #include "network/flow/exponential_backoff.hpp"
@@ -362,8 +363,8 @@ struct uplink_state {
   }
 
   void note(std::string what, std::string_view detail) {
-    self->send(
-        setup->recorder,
+    send_record(
+        self, setup->recorder,
         event_record{
             now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
   }

@@ -2,6 +2,7 @@
 #include "actors/simulation/vehicle.hpp"
 
 #include "actors/runtime/on_air.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/simulation/drive_figures.hpp"
@@ -130,8 +131,8 @@ struct vehicle_actor_state {
   }
 
   void note(std::string what) {
-    self->send(
-        setup.recorder,
+    send_record(
+        self, setup.recorder,
         event_record{now(self), std::move(what), setup.station, 0, {}, 0, {}});
   }
 
@@ -182,8 +183,9 @@ struct vehicle_actor_state {
     if (ends(protocol::ego_period, steps))
       tell();
     if (is_tracked(steps))
-      self->send(setup.recorder, track_record{car_at, ego(), place.d_m,
-                                              car_at - plan_created, remote});
+      send_record(self, setup.recorder,
+                  track_record{car_at, ego(), place.d_m, car_at - plan_created,
+                               remote});
     if (ends(figures_period, steps))
       flush_figures();
   }
@@ -289,7 +291,7 @@ struct vehicle_actor_state {
       return; // of another time
     if (const auto other = figures->take(
             *plan, *next, about ? *about : plan_report{}, result.running, t))
-      self->send(setup.recorder, *other);
+      send_record(self, setup.recorder, *other);
     plan = next;
     plan_created = result.created;
   }
@@ -337,8 +339,8 @@ struct vehicle_actor_state {
   }
 
   void flush_figures() {
-    self->send(setup.recorder, safety);
-    self->send(setup.recorder, figures->flush());
+    send_record(self, setup.recorder, safety);
+    send_record(self, setup.recorder, figures->flush());
     safety = {};
     safety.station = setup.station;
   }
