@@ -192,7 +192,8 @@ private:
   void log_verdict(const service_state& service, provider_id provider,
                    std::uint32_t counter, std::string_view why, bool accepted,
                    time_point now);
-  void log(std::string what, const session_id& session, std::string_view detail,
+  void log_switch(const session_id& session, bool remote, time_point now);
+  void log(event_type what, const session_id& session, std::string_view detail,
            time_point now);
 
   requester_setup setup_;

@@ -139,10 +139,10 @@ bool source_selector::can_judge(source& x, const service_result& result,
   const auto can = result.doubt <= service_.limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
-    port_.record(event_record{now, can ? "clock_known" : "clock_in_doubt",
-                              service_.station, result.running.provider,
-                              service_.name, result.running.counter,
-                              in_ms(result.doubt)});
+    port_.record(event_record{
+        now, can ? event_type::clock_known : event_type::clock_in_doubt,
+        service_.station, result.running.provider, service_.name,
+        result.running.counter, in_ms(result.doubt)});
   }
   return can;
 }
@@ -151,7 +151,8 @@ bool source_selector::can_judge(source& x, const service_result& result,
 void source_selector::refuse(const session_id& session, const objection& why,
                              time_point now) {
   on_end({session, end_reason::implausible, side::requester}, now);
-  port_.report({session, qos_breach::implausible, now, true, in_words(why)});
+  port_.report({session, qos_breach::implausible, now, true, in_words(why),
+                std::string{why.check}});
 }
 
 void source_selector::leave_out(source& x, const objection& why,

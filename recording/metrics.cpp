@@ -69,22 +69,29 @@ void metrics::on_record(const record& x) {
 }
 
 void metrics::add(const event_record& x) {
-  if (x.what == "offer") {
-    ++offers_;
-  } else if (x.what == "near_miss") {
-    ++together_.safety.near_misses;
-  } else if (x.what == "implausible") {
-    const auto check = x.detail.substr(0, x.detail.find(' '));
-    ++of(x.kind).implausible[std::string{name_of(x.provider, names_)}][check];
-  } else if (x.what == "switch") {
-    source_changed(x);
+  switch (x.what) {
+    case event_type::offer:
+      ++offers_;
+      break;
+    case event_type::near_miss:
+      ++together_.safety.near_misses;
+      break;
+    case event_type::implausible:
+      ++of(x.kind)
+            .implausible[std::string{name_of(x.provider, names_)}][x.check];
+      break;
+    case event_type::switched:
+      source_changed(x);
+      break;
+    default: // scored by other records, or not at all
+      break;
   }
 }
 
 void metrics::source_changed(const event_record& x) {
   const user who{x.kind, x.station};
   const auto open = open_.find(who);
-  if (x.detail != "remote") {
+  if (!x.remote) {
     left_[who] = {x.provider, x.at};
     if (open != open_.end())
       open_.erase(open);

@@ -18,8 +18,8 @@ std::optional<event_record> event_of(const Record&) {
 }
 
 std::optional<event_record> event_of(const collision_record& x) {
-  return event_record{
-      x.at, "collision", x.first, 0, "", 0, fmt::format("with {}", x.second)};
+  return event_record{x.at, event_type::collision,           x.first, 0, "",
+                      0,    fmt::format("with {}", x.second)};
 }
 
 std::optional<event_record> event_of(const plan_switch_record& x) {
@@ -33,8 +33,9 @@ std::optional<event_record> event_of(const plan_switch_record& x) {
   figure(" kappa_1pm=", x.jump.curvature_1pm);
   figure(" v_mps=", x.jump.speed_mps);
   figure(" a_mps2=", x.jump.accel_mps2);
-  return event_record{x.at,    "plan_switch", id.station,       id.provider,
-                      id.kind, id.counter,    std::move(detail)};
+  return event_record{
+      x.at,       event_type::plan_switch, id.station, id.provider, id.kind,
+      id.counter, std::move(detail)};
 }
 
 } // namespace

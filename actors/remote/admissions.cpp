@@ -139,7 +139,7 @@ struct admissions_state {
     send_record(
         self, setup->recorder,
         event_record{t,
-                     "peer_refused",
+                     event_type::peer_refused,
                      0,
                      setup->boot,
                      {},

@@ -75,7 +75,7 @@ struct session_state {
                     protocol::silence_limit);
     self->monitor(setup.peer);
     self->monitor(setup.provider);
-    note("peer_connected", 0, stations());
+    note(event_type::peer_connected, 0, stations());
     tick();
   }
 
@@ -115,7 +115,8 @@ struct session_state {
     if (t < next_complaint)
       return;
     next_complaint = t + complaint_period;
-    note("peer_ignored", station, fmt::format("{}; {} so far", why, dropped));
+    note(event_type::peer_ignored, station,
+         fmt::format("{}; {} so far", why, dropped));
   }
 
   const requester_actor& voice_of(station_id station) {
@@ -246,7 +247,7 @@ struct session_state {
   }
 
   void leave(std::string_view why) {
-    note("peer_lost", 0, fmt::format("{}: {}", stations(), why));
+    note(event_type::peer_lost, 0, fmt::format("{}: {}", stations(), why));
     self->quit(caf::exit_reason::remote_link_unreachable);
   }
 
@@ -255,15 +256,10 @@ struct session_state {
     return describe({{setup.stations.begin(), setup.stations.end()}, {}});
   }
 
-  void note(std::string what, station_id station, std::string_view detail) {
-    send_record(self, setup.recorder,
-                event_record{now(self),
-                             std::move(what),
-                             station,
-                             0,
-                             {},
-                             0,
-                             std::string{detail}});
+  void note(event_type what, station_id station, std::string_view detail) {
+    send_record(
+        self, setup.recorder,
+        event_record{now(self), what, station, 0, {}, 0, std::string{detail}});
   }
 };
 

@@ -177,7 +177,7 @@ struct uplink_state {
     self->monitor(session);
     tell_session(life->beat(t));
     boot = welcome.boot;
-    note("provider_connected", setup->address);
+    note(event_type::provider_connected, setup->address);
     tell(fmt::format("connected to provider {} at {}", setup->provider,
                      setup->address));
   }
@@ -196,7 +196,7 @@ struct uplink_state {
     for (const auto& x : running)
       down(x.station, service_end{x, end_reason::peer_lost, side::provider});
     running.clear();
-    note("provider_lost", why);
+    note(event_type::provider_lost, why);
     tell(fmt::format("lost provider {} at {}: {}; vehicles plan for themselves",
                      setup->provider, setup->address, why));
   }
@@ -362,11 +362,10 @@ struct uplink_state {
     setup->on_news(news);
   }
 
-  void note(std::string what, std::string_view detail) {
+  void note(event_type what, std::string_view detail) {
     send_record(
         self, setup->recorder,
-        event_record{
-            now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
+        event_record{now(self), what, 0, boot, {}, 0, std::string{detail}});
   }
 };
 

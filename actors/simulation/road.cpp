@@ -129,7 +129,7 @@ struct road_state {
          conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
       send_record(self, setup.recorder,
                   event_record{t,
-                               "near_miss",
+                               event_type::near_miss,
                                x.first,
                                0,
                                {},

@@ -86,7 +86,7 @@ struct vehicle_actor_state {
 
   void appear() {
     if (setup.appears_after > 0ms)
-      note("appeared");
+      note(event_type::appeared);
     car_at = now(self);
     figures.emplace(setup.station, setup.car, car.speed_mps);
     plan = std::make_shared<const trajectory>(
@@ -123,17 +123,16 @@ struct vehicle_actor_state {
 
   void arrive() {
     has_arrived = true;
-    note("arrived");
+    note(event_type::arrived);
     flush_figures();
     self->send(setup.road, setup.station);
     if (requester)
       self->send_exit(requester, caf::exit_reason::user_shutdown);
   }
 
-  void note(std::string what) {
-    send_record(
-        self, setup.recorder,
-        event_record{now(self), std::move(what), setup.station, 0, {}, 0, {}});
+  void note(event_type what) {
+    send_record(self, setup.recorder,
+                event_record{now(self), what, setup.station, 0, {}, 0, {}});
   }
 
   void requester_gone() {
@@ -141,7 +140,7 @@ struct vehicle_actor_state {
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
-      note("requester_lost");
+      note(event_type::requester_lost);
   }
 
   // -- moving -------------------------------------------------------------

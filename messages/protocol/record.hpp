@@ -1,6 +1,7 @@
 // What happened, for the results folder.
 #pragma once
 
+#include "messages/protocol/event_type.hpp"
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
@@ -17,12 +18,14 @@ namespace sofof {
 /// Something worth a line in events.jsonl.
 struct event_record {
   time_point at;
-  std::string what; ///< offer, request, switch, …: docs/results.md.
+  event_type what{};
   station_id station = 0;
   provider_id provider = 0;
   service_name kind; ///< Empty when it concerns no single service.
   std::uint32_t counter = 0;
-  std::string detail; ///< Why, or how.
+  std::string detail;  ///< Why, or how, for people.
+  bool remote = false; ///< Of a switch: to a provider.
+  std::string check{}; ///< Of an implausible result: the one that it failed.
 };
 
 /// One requested service has been answered, or has not been in time.

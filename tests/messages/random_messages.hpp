@@ -46,7 +46,7 @@ inline constexpr std::size_t arity<qos_limits> = 2;
 template <>
 inline constexpr std::size_t arity<arrival> = 3;
 template <>
-inline constexpr std::size_t arity<qos_violation> = 5;
+inline constexpr std::size_t arity<qos_violation> = 6;
 template <>
 inline constexpr std::size_t arity<vehicle_state> = 5;
 template <>

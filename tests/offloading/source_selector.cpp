@@ -87,7 +87,7 @@ struct diary final : offloading::selector_port {
   void watch_end(const service_end&) override { write("watch nothing"); }
   void record(sofof::record x) override {
     if (const auto* event = std::get_if<event_record>(&x))
-      write(event->what);
+      write(std::string{name_of(event->what)});
   }
   void wake_at(time_point t, std::uint64_t number) override {
     wakes.emplace_back(t, number);

@@ -54,13 +54,14 @@ TEST_CASE("a run is counted as the protocol says") {
 TEST_CASE("implausible results are counted by the provider's name and the "
           "check") {
   metrics m{run()};
-  const auto refuse = [&m](std::string detail) {
-    m.on_record(event_record{at(1s), "implausible", 101, provider, planning, 1,
-                             std::move(detail)});
+  const auto refuse = [&m](std::string check) {
+    m.on_record(event_record{at(1s), event_type::implausible, 101, provider,
+                             planning, 1, "with words", false,
+                             std::move(check)});
   };
-  refuse("road value=0.312 limit=0.250");
-  refuse("road value=0.400 limit=0.250");
-  refuse("others value=1.200 limit=2.500");
+  refuse("road");
+  refuse("road");
+  refuse("others");
   const auto& counts = m.headline().implausible;
   REQUIRE(counts.size() == 1);
   CHECK(counts.at("mec").at("road") == 2);
@@ -301,7 +302,8 @@ TEST_CASE("a touch counts once for the run and once for either vehicle") {
 
 TEST_CASE("a near miss counts for the run") {
   metrics m{run()};
-  m.on_record(event_record{at(3s), "near_miss", 101, 0, {}, 0, "with 102"});
+  m.on_record(
+      event_record{at(3s), event_type::near_miss, 101, 0, {}, 0, "with 102"});
   CHECK(m.safety().near_misses == 1);
   CHECK(m.safety().ok());
 }

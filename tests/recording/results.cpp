@@ -310,8 +310,8 @@ TEST_CASE("every event is a JSON object, whatever its text") {
   const scratch dir;
   results r{dir.path(), run()};
   const std::string odd = "say \"no\"\\\n\tt_off \x01 \xff ü";
-  r.on_record(
-      event_record{at(1s), "response", 101, provider, planning, 4, odd});
+  r.on_record(event_record{at(1s), event_type::stay_local, 101, provider,
+                           planning, 4, odd});
   r.on_record(collision_record{at(2s), 101, 102});
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "events.jsonl");

@@ -41,13 +41,9 @@ inline session_id running(station_id station = 101, std::uint32_t counter = 1,
 }
 
 inline event_record switched(const session_id& id, bool remote, duration when) {
-  return {at(when),
-          "switch",
-          id.station,
-          id.provider,
-          id.kind,
-          id.counter,
-          remote ? "remote" : "local"};
+  return {
+      at(when),   event_type::switched,        id.station, id.provider, id.kind,
+      id.counter, remote ? "remote" : "local", remote};
 }
 
 inline decision_record decision(bool accepted, service_name kind = planning) {
@@ -84,8 +80,10 @@ inline episode_record without_data(const session_id& id, duration from) {
 /// on its own and brakes hard twice.
 template <class Sink>
 void play(Sink& to) {
-  to.on_record(event_record{at(9s), "offer", 101, provider, "", 0, ""});
-  to.on_record(event_record{at(19s), "offer", 102, provider, "", 0, ""});
+  to.on_record(
+      event_record{at(9s), event_type::offer, 101, provider, "", 0, ""});
+  to.on_record(
+      event_record{at(19s), event_type::offer, 102, provider, "", 0, ""});
   for (const bool accepted : {true, false, true, true, true})
     to.on_record(decision(accepted));
   to.on_record(decision(true, "environment"));
