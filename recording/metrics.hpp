@@ -4,6 +4,7 @@
 #include "base/statistics.hpp"
 #include "messages/protocol/record.hpp"
 #include "recording/run_info.hpp"
+#include "recording/safety_line.hpp"
 
 #include <array>
 #include <chrono>
@@ -87,8 +88,9 @@ struct safety_metrics {
 
   /// @returns whether the safety line held all the time.
   bool ok() const {
-    return without_fresh_plan == duration::zero()
-           && off_road == duration::zero() && collisions == 0;
+    return safety_line{to_seconds(without_fresh_plan), to_seconds(off_road),
+                       static_cast<double>(collisions)}
+        .holds();
   }
 };
 
