@@ -4,11 +4,15 @@
 #include "base/files/output_file.hpp"
 #include "base/time.hpp"
 
-#include <concepts>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 namespace sofof {
 
@@ -40,20 +44,40 @@ void append(std::string& out, std::uint64_t x);
 /// Appends a text, in quotes where it needs them (RFC 4180).
 void append(std::string& out, std::string_view x);
 
-/// A CSV file, row by row.
+/// What may stand in a field; a bool is 1 or 0.
+using csv_field = std::variant<decimal, std::string_view, std::uint64_t>;
+
+/// One column of a table: its name, and what of a row stands in it.
+template <class Row>
+struct csv_column {
+  std::string_view name;
+  csv_field (*field)(const Row&);
+
+  /// @param of  Without captures: gives what makes a `csv_field` of a row,
+  ///            which keeps texts alive.
+  template <class Of>
+  constexpr csv_column(std::string_view name, Of)
+      : name{name}, field{[](const Row& row) -> csv_field {
+          return std::invoke(Of{}, row);
+        }} {}
+};
+
+/// A CSV file, row by row, as its columns say.
+template <class Row>
 class csv_file {
 public:
-  /// @param header  Names of the columns, separated by commas.
-  csv_file(std::filesystem::path path, std::string_view header);
+  using columns = std::span<const csv_column<Row>>;
 
-  /// Writes a row; the fields are decimals, texts, or unsigned integers
-  /// (a bool is 1 or 0).
-  template <class First, class... Rest>
-  void row(const First& first, const Rest&... rest) {
-    auto& out = file_.text();
-    put(out, first);
-    ((out += ',', put(out, rest)), ...);
-    out += '\n';
+  /// @param of  Outlives it.
+  csv_file(std::filesystem::path path, columns of)
+      : columns_{of}, file_{std::move(path)} {
+    line([](std::string& out, const auto& column) { out += column.name; });
+  }
+
+  void write(const Row& row) {
+    line([&row](std::string& out, const auto& column) {
+      std::visit([&out](const auto& x) { append(out, x); }, column.field(row));
+    });
     file_.end_line();
   }
 
@@ -61,14 +85,17 @@ public:
   void close() { file_.close(); }
 
 private:
-  template <class T>
-  static void put(std::string& out, const T& x) {
-    if constexpr (std::unsigned_integral<T>)
-      append(out, std::uint64_t{x});
-    else
-      append(out, x);
+  template <class Put>
+  void line(Put put) {
+    auto& out = file_.text();
+    for (const auto& column : columns_) {
+      put(out, column);
+      out += ',';
+    }
+    out.back() = '\n';
   }
 
+  columns columns_;
   output_file file_;
 };
 
