@@ -4,6 +4,7 @@
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/etsi/uper.hpp"
+#include "recording/safety_line.hpp"
 
 #include <algorithm>
 
@@ -55,6 +56,11 @@ void safety_metrics::add(const safety_record& x) {
   without_fresh_plan += x.without_fresh_plan;
   off_road += x.off_road;
   max_plan_age = std::max(max_plan_age, x.max_plan_age);
+}
+
+bool safety_metrics::ok() const {
+  return std::ranges::all_of(
+      safety_line, [this](const auto& x) { return x.of(*this) == 0; });
 }
 
 metrics::metrics(const run_info& run)

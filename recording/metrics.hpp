@@ -4,7 +4,6 @@
 #include "base/statistics.hpp"
 #include "messages/protocol/record.hpp"
 #include "recording/run_info.hpp"
-#include "recording/safety_line.hpp"
 
 #include <array>
 #include <chrono>
@@ -87,11 +86,7 @@ struct safety_metrics {
   void add(const safety_record& x);
 
   /// @returns whether the safety line held all the time.
-  bool ok() const {
-    return safety_line{to_seconds(without_fresh_plan), to_seconds(off_road),
-                       static_cast<double>(collisions)}
-        .holds();
-  }
+  bool ok() const;
 };
 
 /// Cycles of the headline service, and what they took out of the batteries of

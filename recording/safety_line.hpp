@@ -1,25 +1,38 @@
-// When a run was safe: the one definition, for runs, sweeps and the bench.
+// When a run was safe: the one definition, for runs, the console, sweeps and
+// the bench.
 #pragma once
+
+#include "recording/metrics.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
 
 namespace sofof {
 
-/// What a safe run has nothing of.
-struct safety_line {
-  double without_fresh_plan_s = 0;
-  double off_road_s = 0;
-  double collisions = 0;
+/// A figure that is 0 in a safe run.
+struct safety_criterion {
+  std::string_view name; ///< In the summary.
+  double (*of)(const safety_metrics& x);
+};
 
-  bool holds() const {
-    return without_fresh_plan_s == 0 && off_road_s == 0 && collisions == 0;
-  }
+inline constexpr safety_criterion safety_line[]{
+    {"safety.without_fresh_plan_s",
+     [](const safety_metrics& x) { return to_seconds(x.without_fresh_plan); }},
+    {"safety.off_road_s",
+     [](const safety_metrics& x) { return to_seconds(x.off_road); }},
+    {"safety.collisions",
+     [](const safety_metrics& x) { return static_cast<double>(x.collisions); }},
 };
 
 /// @param figure  Gives a number of summary.json by its dotted name; it throws
 ///                where there is none.
+/// @returns whether the run that the summary is of was safe.
 template <class Figure>
-safety_line safety_line_of(Figure figure) {
-  return {figure("safety.without_fresh_plan_s"), figure("safety.off_road_s"),
-          figure("safety.collisions")};
+bool is_safe(Figure figure) {
+  return std::ranges::all_of(safety_line, [&figure](const auto& x) {
+    return figure(std::string{x.name}) == 0;
+  });
 }
 
 } // namespace sofof

@@ -287,9 +287,8 @@ judged_run judge(const study::measured_run& measured, const baseline& by) {
   for (const auto& one : criteria())
     if (const auto value = one.of ? one.of(run, by) : std::nullopt)
       judged.values.emplace(one.name, *value);
-  judged.safe = safety_line_of([&run](const std::string& name) {
-                  return run.must(name);
-                }).holds();
+  judged.safe =
+      is_safe([&run](const std::string& name) { return run.must(name); });
   return judged;
 }
 

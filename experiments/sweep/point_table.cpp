@@ -74,12 +74,11 @@ void append_cell(std::string& line, std::string_view text) {
 
 bool point_result::safe() const {
   const auto summary = ordered_json::parse(this->summary);
-  return safety_line_of([&summary](const std::string& name) {
-           auto path = '/' + name;
-           std::ranges::replace(path, '.', '/');
-           return summary.at(ordered_json::json_pointer{path}).get<double>();
-         })
-      .holds();
+  return is_safe([&summary](const std::string& name) {
+    auto path = '/' + name;
+    std::ranges::replace(path, '.', '/');
+    return summary.at(ordered_json::json_pointer{path}).get<double>();
+  });
 }
 
 void run_counts::add(const point_result& result) {
