@@ -107,7 +107,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
       can_judge(*x, result, now)
       && in_time(result.created, now, service_.limits.max_latency);
   if (!in_limits) {
-    take(*x, result, now, false, {});
+    on_result_of(*x, result, now, false, {});
     return;
   }
   auto judged = x->judge->judge(
@@ -126,10 +126,10 @@ void source_selector::on_result(const service_result& result, time_point now) {
   else if (judged.useless)
     leave_out(*x, *judged.useless, now);
   else if (!judged.what.type().empty())
-    take(*x,
-         {result.running, result.cycle, result.created, std::move(judged.what),
-          result.about, result.doubt},
-         now, true, judged.margins);
+    on_result_of(*x,
+                 {result.running, result.cycle, result.created,
+                  std::move(judged.what), result.about, result.doubt},
+                 now, true, judged.margins);
 }
 
 /// A latency is not judged by a clock that is not known well enough: results
@@ -163,9 +163,9 @@ void source_selector::leave_out(source& x, const objection& why,
 }
 
 /// @param in_limits  It came in time.
-void source_selector::take(source& x, const service_result& result,
-                           time_point now, bool in_limits,
-                           std::span<const margin> margins) {
+void source_selector::on_result_of(source& x, const service_result& result,
+                                   time_point now, bool in_limits,
+                                   std::span<const margin> margins) {
   if (in_limits && !is_standby(x) && result.created > began_)
     await_cycle_after(result.created);
   const auto alone = !is_remote() || (x.in_use && in_use() == 1);

@@ -145,8 +145,8 @@ private:
   bool can_judge(source& x, const service_result& result, time_point now);
   void refuse(const session_id& session, const objection& why, time_point now);
   void leave_out(source& x, const objection& why, time_point now);
-  void take(source& x, const service_result& result, time_point now,
-            bool in_limits, std::span<const margin> margins);
+  void on_result_of(source& x, const service_result& result, time_point now,
+                    bool in_limits, std::span<const margin> margins);
   void record_cycle(const source& x, const service_result& result,
                     time_point now, bool used, std::span<const margin> margins);
   bool may_follow(const service_result& result, time_point now) const;

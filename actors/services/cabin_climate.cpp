@@ -136,7 +136,7 @@ struct cabin_actor_state {
                                    options.set_point_c})});
   }
 
-  void take(const service_result& result) {
+  void on_result(const service_result& result) {
     if (const auto answer = result.what.as<climate_power>())
       power_w = answer->power_w;
   }
@@ -152,7 +152,7 @@ cabin(cabin_impl::stateful_pointer<cabin_actor_state> self,
   state.air = {options.outside_c, options.outside_c};
   self->send(self, tick_atom_v);
   return {
-      [self](const service_result& result) { self->state.take(result); },
+      [self](const service_result& result) { self->state.on_result(result); },
       [](const source_change&) {},
       [self](const requester_manager_actor& manager) {
         self->state.manager = manager;

@@ -13,11 +13,10 @@ bool is_remote(const session_id& x) {
 
 } // namespace
 
-std::optional<plan_switch_record> drive_figures::take(const trajectory& in_use,
-                                                      const trajectory& next,
-                                                      const plan_report& report,
-                                                      const session_id& running,
-                                                      time_point now) {
+std::optional<plan_switch_record>
+drive_figures::on_plan(const trajectory& in_use, const trajectory& next,
+                       const plan_report& report, const session_id& running,
+                       time_point now) {
   stops_ = false;
   emergency_ = report.emergency;
   ++plans_.count;

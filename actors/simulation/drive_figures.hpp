@@ -26,15 +26,15 @@ public:
   /// @param running  Who made `next`; counter 0 is the vehicle itself.
   /// @returns the jump, if `in_use` is from another source.
   std::optional<plan_switch_record>
-  take(const trajectory& in_use, const trajectory& next,
-       const plan_report& report, const session_id& running, time_point now);
+  on_plan(const trajectory& in_use, const trajectory& next,
+          const plan_report& report, const session_id& running, time_point now);
 
   /// A plan of the vehicle's own to stop takes over. It is a safe stop unless
   /// the vehicle stops already, or has not set off.
   void stop_safely();
 
   /// @param x  The car after a step of protocol::control_period.
-  void take(const vehicle_state& x) { ride_.take(x, emergency_); }
+  void on_step(const vehicle_state& x) { ride_.on_step(x, emergency_); }
 
   /// @returns the figures since the last call.
   drive_record flush();

@@ -101,8 +101,8 @@ struct link_state {
     self->monitor(near);
   }
 
-  void take(const service_response& response,
-            const std::vector<provider_manager_actor>& given) {
+  void on_response(const service_response& response,
+                   const std::vector<provider_manager_actor>& given) {
     auto manager = given.begin();
     for (const auto& v : response.verdicts)
       if (v.accepted && manager != given.end())
@@ -112,19 +112,19 @@ struct link_state {
     down(response, me);
   }
 
-  void take(const service_input& input) {
+  void on_input(const service_input& input) {
     auto i = std::ranges::find(managers, input.running,
                                &decltype(managers)::value_type::first);
     if (i != managers.end())
       up(i->second, input);
   }
 
-  void take(const service_result& result) {
+  void on_result(const service_result& result) {
     if (near)
       carry(setup->down, message_class::result, result.cycle, near, result);
   }
 
-  void take(const service_end& end) {
+  void on_end(const service_end& end) {
     std::erase_if(managers,
                   [&](const auto& m) { return m.first == end.running; });
     if (end.from == side::provider)
@@ -157,14 +157,14 @@ link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
         self->state.up(self->state.far, request,
                        requester_actor{link_actor{self}});
       },
-      [self](const service_end& end) { self->state.take(end); },
-      [self](const service_result& result) { self->state.take(result); },
+      [self](const service_end& end) { self->state.on_end(end); },
+      [self](const service_result& result) { self->state.on_result(result); },
       [self](const service_offer& offer) { self->state.down(offer); },
       [self](const service_response& response,
              const std::vector<provider_manager_actor>& managers) {
-        self->state.take(response, managers);
+        self->state.on_response(response, managers);
       },
-      [self](const service_input& input) { self->state.take(input); },
+      [self](const service_input& input) { self->state.on_input(input); },
   };
 }
 

@@ -42,7 +42,7 @@ struct road_state {
   std::vector<std::pair<station_id, station_id>> touching;
   near_miss_watch conflict_sides;
 
-  void take(const motion_report& report, const vehicle_actor& vehicle) {
+  void on_report(const motion_report& report, const vehicle_actor& vehicle) {
     const auto way = setup.ways.find(report.station);
     if (way == setup.ways.end())
       return;
@@ -77,7 +77,7 @@ struct road_state {
       if (!is_free(place, speed_mps, present))
         return false;
       present.push_back({report.station, place, speed_mps, 0});
-      take(report, vehicle);
+      on_report(report, vehicle);
       self->send(vehicle, begin_atom_v);
       return true;
     });
@@ -150,7 +150,7 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
   self->send(self, tick_atom_v);
   return {
       [self](const motion_report& report, const vehicle_actor& vehicle) {
-        self->state.take(report, vehicle);
+        self->state.on_report(report, vehicle);
       },
       [self](begin_atom, const motion_report& report,
              const vehicle_actor& vehicle) {

@@ -176,7 +176,7 @@ struct vehicle_actor_state {
     s_m = place.s_m;
     ++steps;
     keep_safety();
-    figures->take(car);
+    figures->on_step(car);
     if (ends(protocol::sensor_period, steps))
       sense(place.d_m);
     if (ends(protocol::ego_period, steps))
@@ -237,7 +237,7 @@ struct vehicle_actor_state {
       safety.off_road += protocol::sensor_period;
   }
 
-  void take(perception& others) {
+  void on_perception(perception& others) {
     newest = std::move(others); // a report of this moment tells of it
     catch_up();
     if (!planning || has_arrived)
@@ -276,7 +276,7 @@ struct vehicle_actor_state {
 
   // -- plans --------------------------------------------------------------
 
-  void take(const service_result& result) {
+  void on_result(const service_result& result) {
     catch_up();
     if (result.created < plan_created)
       return;
@@ -288,14 +288,14 @@ struct vehicle_actor_state {
     if (result.created > t || next->start > t + air_time_step
         || next->end() < t)
       return; // of another time
-    if (const auto other = figures->take(
+    if (const auto other = figures->on_plan(
             *plan, *next, about ? *about : plan_report{}, result.running, t))
       send_record(self, setup.recorder, *other);
     plan = next;
     plan_created = result.created;
   }
 
-  void take(const source_change& change) {
+  void on_source(const source_change& change) {
     catch_up();
     remote = change.remote;
   }
@@ -356,12 +356,12 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
   self->set_exit_handler(
       [self](const caf::exit_msg& exit) { self->state.leave(exit.reason); });
   return {
-      [self](const service_result& result) { self->state.take(result); },
-      [self](const source_change& change) { self->state.take(change); },
+      [self](const service_result& result) { self->state.on_result(result); },
+      [self](const source_change& change) { self->state.on_source(change); },
       [self](const requester_manager_actor& manager) {
         self->state.planning = manager;
       },
-      [self](perception& others) { self->state.take(others); },
+      [self](perception& others) { self->state.on_perception(others); },
       [self](begin_atom) { self->state.appear(); },
       [self](tick_atom) { self->state.act(); },
   };

@@ -97,23 +97,23 @@ struct unpacker {
   template <class T>
   constexpr void operator()(std::string_view, T& x) {
     if constexpr (is_integer<T>) {
-      const auto offset = take(T::width);
+      const auto offset = next_bits(T::width);
       fits = fits && offset <= T::span;
       x.value = static_cast<typename T::number>(
           static_cast<std::int64_t>(offset) + T::low);
     } else if constexpr (std::is_enum_v<T>) {
-      const auto index = take(fixed_width<T>());
+      const auto index = next_bits(fixed_width<T>());
       fits = fits && index < names_of<T>.count;
       x = static_cast<T>(index);
     } else if constexpr (is_bit_string<T>) {
-      x.bits = static_cast<std::uint32_t>(take(T::width));
+      x.bits = static_cast<std::uint32_t>(next_bits(T::width));
     } else if constexpr (std::is_same_v<T, bool>) {
-      x = take(1) == 1;
+      x = next_bits(1) == 1;
     } else {
       T::fields(x, *this);
     }
   }
-  constexpr std::uint64_t take(unsigned width) {
+  constexpr std::uint64_t next_bits(unsigned width) {
     left -= width;
     return bits >> left & ((std::uint64_t{1} << width) - 1);
   }

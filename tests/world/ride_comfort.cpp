@@ -26,7 +26,7 @@ struct ride {
     car.accel_mps2 = accel_mps2;
     for (auto left = std::lround(t_s / step_s); left > 0; --left) {
       car.speed_mps += accel_mps2 * step_s;
-      meter.take(car, emergency);
+      meter.on_step(car, emergency);
     }
   }
   /// At constant jerk, to this acceleration.

@@ -25,8 +25,8 @@ struct lane_order::gaze {
     });
   }
 
-  void take(const occupant& o, double axle_m, unrolled_route::leg own,
-            double at_least_m = -1e300) {
+  void consider(const occupant& o, double axle_m, unrolled_route::leg own,
+                double at_least_m = -1e300) {
     const auto rear_m = std::max(axle_m - o.rear_m, at_least_m);
     const auto is_own_tail = o.station == self.known.station; // a lap ahead
     if (!is_own_tail && (!nearest || rear_m < nearest->rear_m))
@@ -93,7 +93,7 @@ void lane_order::look_along(gaze& from, unrolled_route::leg i) const {
   const auto& lane = lanes_[from.self.way->lane(i)];
   const auto o = from.first_ahead(lane, start_m);
   if (o != lane.end())
-    from.take(*o, start_m + o->s_m, i);
+    from.consider(*o, start_m + o->s_m, i);
 }
 
 void lane_order::look_at_forking(gaze& from, unrolled_route::leg i,
@@ -106,7 +106,7 @@ void lane_order::look_at_forking(gaze& from, unrolled_route::leg i,
   while (o != lane.end() && o->s_m < 0)
     ++o; // still where all come from, not on the other lane
   if (o != lane.end() && o->s_m - o->rear_m < e.other_to_m)
-    from.take(*o, start_m + o->s_m, i);
+    from.consider(*o, start_m + o->s_m, i);
 }
 
 void lane_order::look_at_joining(gaze& from, unrolled_route::leg i,
@@ -123,8 +123,8 @@ void lane_order::look_at_joining(gaze& from, unrolled_route::leg i,
       continue;
     // Who waits for the zone has all of it ahead, not a part of a body.
     const auto zone_m = way.start_m(i) + e.from_m;
-    from.take(o, end_m - o.to_end_m, i,
-              from.self.front_m() < zone_m ? zone_m : -1e300);
+    from.consider(o, end_m - o.to_end_m, i,
+                  from.self.front_m() < zone_m ? zone_m : -1e300);
   }
 }
 

@@ -20,7 +20,7 @@ void ride_figures::add(const ride_figures& x) {
   comfort_cost_m2ps3 += x.comfort_cost_m2ps3;
 }
 
-void ride_comfort::take(const vehicle_state& x, bool emergency) {
+void ride_comfort::on_step(const vehicle_state& x, bool emergency) {
   const auto before =
       std::exchange(window_[next_], {x.speed_mps, x.accel_mps2});
   next_ = (next_ + 1) % window_steps;

@@ -40,7 +40,7 @@ public:
 
   /// @param x          After a step of protocol::control_period.
   /// @param emergency  Whether it follows an emergency plan or a safe stop.
-  void take(const vehicle_state& x, bool emergency);
+  void on_step(const vehicle_state& x, bool emergency);
 
   /// @returns the figures since the last call.
   ride_figures flush();

@@ -158,7 +158,7 @@ void search::visit(int depth, double reached) {
       continue;
     rooms_[depth + 1] = before;
     if (o.taken)
-      rooms_[depth + 1].take(d.vehicle, *o.taken);
+      rooms_[depth + 1].reserve(d.vehicle, *o.taken);
     choices_[d.vehicle] = o.taken;
     visit(depth + 1, reached + o.advantage);
   }

@@ -103,13 +103,13 @@ void attempt::serve_by(const pair_table& desire) {
 
 void attempt::leave(int vehicle) {
   if (const auto c = choices_[vehicle])
-    room_.give_back(vehicle, *c);
+    room_.release(vehicle, *c);
   choices_[vehicle] = local;
 }
 
 void attempt::enter(int vehicle, choice c) {
   if (c)
-    room_.take(vehicle, *c);
+    room_.reserve(vehicle, *c);
   choices_[vehicle] = c;
 }
 

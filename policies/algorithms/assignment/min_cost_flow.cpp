@@ -26,7 +26,7 @@ std::optional<int> seats_at(const reduced_problem& s, int provider) {
         return std::nullopt;
     if (!left.fits(v, provider))
       continue;
-    left.take(v, provider);
+    left.reserve(v, provider);
     ++seats;
   }
   return seats;

@@ -105,7 +105,7 @@ bool feasible(const problem& p, const std::vector<choice>& choices) {
       continue;
     if (!p.eligible(v, *c) || !left.fits(v, *c))
       return false;
-    left.take(v, *c);
+    left.reserve(v, *c);
   }
   return true;
 }

@@ -46,12 +46,12 @@ bool room::fits(int vehicle, int provider) const {
   return true;
 }
 
-void room::take(int vehicle, int provider) {
+void room::reserve(int vehicle, int provider) {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     free_(provider, static_cast<int>(k)) -= (*shares_)[k](vehicle, provider);
 }
 
-void room::give_back(int vehicle, int provider) {
+void room::release(int vehicle, int provider) {
   for (std::size_t k = 0; k < shares_->size(); ++k)
     free_(provider, static_cast<int>(k)) += (*shares_)[k](vehicle, provider);
 }

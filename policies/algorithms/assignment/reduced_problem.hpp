@@ -20,8 +20,8 @@ public:
   room(const std::vector<pair_table>& shares, int providers);
 
   bool fits(int vehicle, int provider) const;
-  void take(int vehicle, int provider);
-  void give_back(int vehicle, int provider);
+  void reserve(int vehicle, int provider);
+  void release(int vehicle, int provider);
 
   /// Providers × resources; of an empty provider a little above 1, as sums of
   /// decimals are not exact.

@@ -36,7 +36,7 @@ solution sampled(const problem& p, const cross_entropy_options& options,
         c = local;
       }
       if (c)
-        left.take(v, *c);
+        left.reserve(v, *c);
       reached += s.advantage_of(v, c);
     }
     return reached;
