@@ -62,22 +62,44 @@ struct csv_column {
         }} {}
 };
 
+/// The columns of a table, in their order; outlived by their array.
+template <class Row>
+using csv_columns = std::span<const csv_column<Row>>;
+
+/// Appends their names, separated by commas.
+template <class Row>
+void append_names(std::string& out, csv_columns<Row> columns) {
+  for (const auto& column : columns) {
+    if (&column != &columns.front())
+      out += ',';
+    out += column.name;
+  }
+}
+
+/// Appends what stands in them, separated by commas.
+template <class Row>
+void append_fields(std::string& out, csv_columns<Row> columns, const Row& row) {
+  for (const auto& column : columns) {
+    if (&column != &columns.front())
+      out += ',';
+    std::visit([&out](const auto& x) { append(out, x); }, column.field(row));
+  }
+}
+
 /// A CSV file, row by row, as its columns say.
 template <class Row>
 class csv_file {
 public:
-  using columns = std::span<const csv_column<Row>>;
-
-  /// @param of  Outlives it.
-  csv_file(std::filesystem::path path, columns of)
-      : columns_{of}, file_{std::move(path)} {
-    line([](std::string& out, const auto& column) { out += column.name; });
+  /// @param columns  Outlive it.
+  csv_file(std::filesystem::path path, csv_columns<Row> columns)
+      : columns_{columns}, file_{std::move(path)} {
+    append_names(file_.text(), columns_);
+    file_.text() += '\n';
   }
 
   void write(const Row& row) {
-    line([&row](std::string& out, const auto& column) {
-      std::visit([&out](const auto& x) { append(out, x); }, column.field(row));
-    });
+    append_fields(file_.text(), columns_, row);
+    file_.text() += '\n';
     file_.end_line();
   }
 
@@ -85,17 +107,7 @@ public:
   void close() { file_.close(); }
 
 private:
-  template <class Put>
-  void line(Put put) {
-    auto& out = file_.text();
-    for (const auto& column : columns_) {
-      put(out, column);
-      out += ',';
-    }
-    out.back() = '\n';
-  }
-
-  columns columns_;
+  csv_columns<Row> columns_;
   output_file file_;
 };
 
