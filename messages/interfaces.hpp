@@ -174,25 +174,7 @@ using road_actor = caf::typed_actor<
 
 /// Keeps what happened.
 using recorder_actor = caf::typed_actor<
-    // Something worth a line in the log.
-    reacts_to<event_record>,
-    // A requested service was answered.
-    reacts_to<decision_record>,
-    // A remote result came in.
-    reacts_to<cycle_record>,
-    // One side has closed a running service.
-    reacts_to<episode_record>,
-    // Where a vehicle is.
-    reacts_to<track_record>,
-    // How safely a vehicle drove.
-    reacts_to<safety_record>,
-    // Two bodies have touched.
-    reacts_to<collision_record>,
-    // How smoothly a vehicle drove.
-    reacts_to<drive_record>,
-    // The plans that a vehicle follows come from another source.
-    reacts_to<plan_switch_record>,
-    // An ITS message was sent.
-    reacts_to<air_record>>;
+    // Something has.
+    reacts_to<record>>;
 
 } // namespace sofof

@@ -5,7 +5,11 @@
 #include "messages/admission.hpp"
 #include "messages/interfaces.hpp"
 
+#include <caf/allowed_unsafe_message_type.hpp>
 #include <caf/type_id.hpp>
+
+// Never leaves its process: it can neither be written nor read.
+CAF_ALLOW_UNSAFE_MESSAGE_TYPE(sofof::record)
 
 CAF_BEGIN_TYPE_ID_BLOCK(sofof, first_custom_type_id)
 
@@ -29,13 +33,7 @@ CAF_ADD_TYPE_ID(sofof, (sofof::motion_report))
 CAF_ADD_TYPE_ID(sofof, (sofof::ego_state))
 CAF_ADD_TYPE_ID(sofof, (sofof::source_change))
 CAF_ADD_TYPE_ID(sofof, (sofof::perception))
-CAF_ADD_TYPE_ID(sofof, (sofof::event_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::decision_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::cycle_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::episode_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::track_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::safety_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::collision_record))
+CAF_ADD_TYPE_ID(sofof, (sofof::record))
 CAF_ADD_TYPE_ID(sofof, (sofof::instance_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::result_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::client_actor))
@@ -51,11 +49,8 @@ CAF_ADD_TYPE_ID(sofof, (sofof::vehicle_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::road_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::recorder_actor))
 CAF_ADD_ATOM(sofof, sofof, tick_atom)
-CAF_ADD_TYPE_ID(sofof, (sofof::drive_record))
-CAF_ADD_TYPE_ID(sofof, (sofof::plan_switch_record))
 CAF_ADD_TYPE_ID(sofof, (sofof::roadside_detections))
 CAF_ADD_TYPE_ID(sofof, (sofof::its_pdu))
-CAF_ADD_TYPE_ID(sofof, (sofof::air_record))
 CAF_ADD_TYPE_ID(sofof, (sofof::peer_hello))
 CAF_ADD_TYPE_ID(sofof, (sofof::peer_welcome))
 CAF_ADD_TYPE_ID(sofof, (sofof::ping))

@@ -2,6 +2,7 @@
 #include "offloading/provider.hpp"
 
 #include "base/protocol.hpp"
+#include "policies/api/periodic_task.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -257,8 +258,8 @@ double provider::utilisation_by(const service_name& service) const {
   const auto* found = find(service);
   if (!found)
     return 0;
-  return setup_.computer.mean_s * found->demand / to_seconds(found->period)
-         / static_cast<double>(setup_.computer.workers);
+  return worker_share(setup_.computer.mean_s * found->demand, found->period,
+                      setup_.computer.workers);
 }
 
 // @returns what all that runs here takes of them.

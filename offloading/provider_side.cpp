@@ -172,7 +172,7 @@ private:
     sessions_.erase(end.running.counter);
   }
 
-  void record(const episode_record& x) override { port_.record(x); }
+  void record(sofof::record x) override { port_.record(std::move(x)); }
 
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::provider, 0, number});

@@ -20,7 +20,7 @@ public:
   /// @returns what computes for a session that begins, and how long it takes:
   /// `function` and `finish` of a cycle; the rest is filled in.
   virtual cycle_setup make_function(const session_start& start) = 0;
-  virtual void record(const episode_record& x) = 0;
+  virtual void record(sofof::record x) = 0;
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };

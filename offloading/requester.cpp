@@ -106,7 +106,7 @@ void requester::expire(const epoch_end&, time_point now) {
 void requester::on_offer(const service_offer& offer, peer_id from,
                          time_point now) {
   pass(now);
-  log("offer", {offer.provider, setup_.station, {}, 0}, {}, now);
+  log(event_type::offer, {offer.provider, setup_.station, {}, 0}, {}, now);
   auto& provider = meet(offer.provider, from);
   assert(provider.offered_at <= now);
   if (provider.peer != from)
@@ -180,7 +180,7 @@ void requester::on_lost(peer_id peer, time_point now) {
     }
     const auto id = i->first;
     i = providers_.erase(i);
-    log("peer_lost", {id, setup_.station, {}, 0}, {}, now);
+    log(event_type::peer_lost, {id, setup_.station, {}, 0}, {}, now);
     for (auto& service : services_) {
       const auto* session = service.find(id);
       if (session && session->at == phase::requested)
@@ -242,8 +242,9 @@ requester::decide(service_state& service,
       wanted.push_back(id);
   if (wanted.empty()) {
     if (service.sessions.empty() && offering)
-      log("stay_local", {*offering, setup_.station, service.service.name, 0},
-          decision.why, now);
+      log(event_type::stay_local,
+          {*offering, setup_.station, service.service.name, 0}, decision.why,
+          now);
     return {};
   }
   assert(wanted.size() <= 2);
@@ -302,7 +303,7 @@ void requester::request(provider_id id, std::vector<service_name> wanted,
     auto* service = find(name);
     assert(!service->find(id));
     service->sessions.push_back({.provider = id});
-    log("request", {id, setup_.station, name, 0}, {}, now);
+    log(event_type::request, {id, setup_.station, name, 0}, {}, now);
   }
   port_.send(provider.peer,
              service_request{id, setup_.station, number, std::move(wanted),

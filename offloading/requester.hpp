@@ -56,9 +56,7 @@ public:
   /// Whether any service is run by a provider has perhaps changed.
   virtual void on_placement(bool any_remote) = 0;
 
-  virtual void record(event_record x) = 0;
-  virtual void record(const decision_record& x) = 0;
-  virtual void record(const episode_record& x) = 0;
+  virtual void record(sofof::record x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -196,7 +194,8 @@ private:
   void log_verdict(const service_state& service, provider_id provider,
                    std::uint32_t counter, std::string_view why, bool accepted,
                    time_point now);
-  void log(std::string what, const session_id& session, std::string_view detail,
+  void log_switch(const session_id& session, bool remote, time_point now);
+  void log(event_type what, const session_id& session, std::string_view detail,
            time_point now);
 
   requester_setup setup_;

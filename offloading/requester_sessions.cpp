@@ -162,9 +162,9 @@ void requester::on_first_data(const session_id& session, time_point now) {
   started.first_data = now;
   announce_placement();
   if (started.joined)
-    log("joined", session, {}, now);
+    log(event_type::joined, session, {}, now);
   else
-    log("switch", session, "remote", now);
+    log_switch(session, true, now);
   leave_unwanted(service, now);
   assert(is_consistent());
 }
@@ -178,14 +178,16 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   const auto reason = reason_of(violation.breach);
   if (violation.breach == qos_breach::implausible) {
     // Also if the session has ended in the same instant.
-    log("implausible", session, violation.why, now);
+    port_.record(event_record{now, event_type::implausible, setup_.station,
+                              session.provider, session.kind, session.counter,
+                              violation.why, false, violation.check});
     distrust_peer_of(session.provider, now);
   }
   const auto found = find(session);
   if (!found)
     return;
   if (violation.breach != qos_breach::implausible)
-    log("violation", session, name_of(reason), now);
+    log(event_type::violation, session, name_of(reason), now);
   auto& service = *found.service;
   if (violation.breach != qos_breach::latency)
     setup_.policy->observe(
@@ -281,12 +283,12 @@ void requester::log_end(service_state& service, const requester_session& ended,
                               is_fallback(reason) && comes_home});
   if (comes_home) {
     service.since = now;
-    log("switch", ended.running, "local", now);
+    log_switch(ended.running, false, now);
   } else if (was_remote) {
-    log("left", ended.running, name_of(reason), now);
+    log(event_type::left, ended.running, name_of(reason), now);
     auto& other = *service.find(service.current().value());
     if (!ended.joined && std::exchange(other.joined, false))
-      log("switch", other.running, "remote", now);
+      log_switch(other.running, true, now);
   }
 }
 
@@ -314,14 +316,21 @@ void requester::log_verdict(const service_state& service, provider_id provider,
                             bool accepted, time_point now) {
   const auto& name = service.service.name;
   port_.record(decision_record{now, setup_.station, name, accepted});
-  log(accepted ? "accepted" : "refused",
+  log(accepted ? event_type::accepted : event_type::refused,
       {provider, setup_.station, name, counter}, why, now);
 }
 
-void requester::log(std::string what, const session_id& session,
-                    std::string_view detail, time_point now) {
-  port_.record(event_record{now, std::move(what), setup_.station,
+void requester::log_switch(const session_id& session, bool remote,
+                           time_point now) {
+  port_.record(event_record{now, event_type::switched, setup_.station,
                             session.provider, session.kind, session.counter,
+                            remote ? "remote" : "local", remote});
+}
+
+void requester::log(event_type what, const session_id& session,
+                    std::string_view detail, time_point now) {
+  port_.record(event_record{now, what, setup_.station, session.provider,
+                            session.kind, session.counter,
                             std::string{detail}});
 }
 

@@ -134,7 +134,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
       can_judge(*x, result, now)
       && in_time(result.created, now, service_.limits.max_latency);
   if (!in_limits) {
-    take(*x, result, now, false, {});
+    on_result_of(*x, result, now, false, {});
     return;
   }
   auto judged = x->judge->judge(
@@ -153,10 +153,10 @@ void source_selector::on_result(const service_result& result, time_point now) {
   else if (judged.useless)
     leave_out(*x, *judged.useless, now);
   else if (!judged.what.empty())
-    take(*x,
-         {result.running, result.cycle, result.created, std::move(judged.what),
-          result.about, result.doubt},
-         now, true, judged.margins);
+    on_result_of(*x,
+                 {result.running, result.cycle, result.created,
+                  std::move(judged.what), result.about, result.doubt},
+                 now, true, judged.margins);
 }
 
 /// A latency is not judged by a clock that is not known well enough: results
@@ -168,10 +168,10 @@ bool source_selector::can_judge(source& x, const service_result& result,
   const auto can = result.doubt <= service_.limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
-    port_.record(event_record{now, can ? "clock_known" : "clock_in_doubt",
-                              service_.station, result.running.provider,
-                              service_.name, result.running.counter,
-                              in_ms(result.doubt)});
+    port_.record(event_record{
+        now, can ? event_type::clock_known : event_type::clock_in_doubt,
+        service_.station, result.running.provider, service_.name,
+        result.running.counter, in_ms(result.doubt)});
   }
   return can;
 }
@@ -180,7 +180,8 @@ bool source_selector::can_judge(source& x, const service_result& result,
 void source_selector::refuse(const session_id& session, const objection& why,
                              time_point now) {
   on_end({session, end_reason::implausible, side::requester}, now);
-  port_.report({session, qos_breach::implausible, now, true, in_words(why)});
+  port_.report({session, qos_breach::implausible, now, true, in_words(why),
+                std::string{why.check}});
 }
 
 void source_selector::leave_out(source& x, const objection& why,
@@ -191,9 +192,9 @@ void source_selector::leave_out(source& x, const objection& why,
 }
 
 /// @param in_limits  It came in time.
-void source_selector::take(source& x, const service_result& result,
-                           time_point now, bool in_limits,
-                           std::span<const margin> margins) {
+void source_selector::on_result_of(source& x, const service_result& result,
+                                   time_point now, bool in_limits,
+                                   std::span<const margin> margins) {
   assert(result.running == x.session);
   assert(!in_limits || !x.in_doubt);
   assert(in_limits || margins.empty());

@@ -67,8 +67,7 @@ public:
                              const std::string& why) = 0;
   virtual void watch_end(const service_end& end) = 0;
 
-  virtual void record(cycle_record x) = 0;
-  virtual void record(event_record x) = 0;
+  virtual void record(sofof::record x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -148,8 +147,8 @@ private:
   bool can_judge(source& x, const service_result& result, time_point now);
   void refuse(const session_id& session, const objection& why, time_point now);
   void leave_out(source& x, const objection& why, time_point now);
-  void take(source& x, const service_result& result, time_point now,
-            bool in_limits, std::span<const margin> margins);
+  void on_result_of(source& x, const service_result& result, time_point now,
+                    bool in_limits, std::span<const margin> margins);
   void record_cycle(const source& x, const service_result& result,
                     time_point now, bool used, std::span<const margin> margins);
   bool may_follow(const service_result& result, time_point now) const;

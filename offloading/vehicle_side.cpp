@@ -211,8 +211,7 @@ private:
       report(std::move(violation));
     }
 
-    void record(cycle_record x) override { all.port_.record(std::move(x)); }
-    void record(event_record x) override { all.port_.record(std::move(x)); }
+    void record(sofof::record x) override { all.port_.record(std::move(x)); }
 
     void wake_at(time_point t, std::uint64_t number) override {
       wake_at(t, timer_of::selector, number);
@@ -310,9 +309,7 @@ private:
     at(service).selector.on_standby(chosen, now_);
   }
   void on_placement(bool) override {}
-  void record(event_record x) override { port_.record(std::move(x)); }
-  void record(const decision_record& x) override { port_.record(x); }
-  void record(const episode_record& x) override { port_.record(x); }
+  void record(sofof::record x) override { port_.record(std::move(x)); }
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::requester, nullptr, number});
   }

@@ -20,10 +20,6 @@ using to_provider = std::variant<service_request, service_input, service_end>;
 using to_vehicle =
     std::variant<service_offer, service_response, service_result, service_end>;
 
-/// What has happened.
-using record =
-    std::variant<event_record, decision_record, cycle_record, episode_record>;
-
 /// One service of a vehicle: what is known of it, and what it runs by.
 struct onboard_service {
   requested_service requested;
@@ -74,7 +70,7 @@ public:
   /// The results of a service come from providers now, or from its own function
   /// again.
   virtual void on_source(const service_name& service, bool remote) = 0;
-  virtual void record(offloading::record x) = 0;
+  virtual void record(sofof::record x) = 0;
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };

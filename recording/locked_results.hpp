@@ -31,20 +31,11 @@ public:
       : on_failure_{write_failure::ends_the_files}, results_{std::move(run)},
         loss_{std::move(why)} {}
 
-  void take(const event_record& x) override { keep(x); }
-  void take(const decision_record& x) override { keep(x); }
-  void take(const cycle_record& x) override { keep(x); }
-  void take(const episode_record& x) override { keep(x); }
-  void take(const track_record& x) override { keep(x); }
-  void take(const safety_record& x) override { keep(x); }
-  void take(const collision_record& x) override { keep(x); }
-  void take(const drive_record& x) override { keep(x); }
-  void take(const plan_switch_record& x) override { keep(x); }
-  void take(const air_record& x) override { keep(x); }
+  void on_record(const record& x) override;
 
   /// Calls `use(results&)` while nobody else does; twice if files that may end
   /// cannot be written.
-  /// @throws what went wrong in a `take` before.
+  /// @throws what went wrong with a record before.
   template <class Use>
   auto with(Use use) {
     const std::lock_guard lock{mutex_};
@@ -67,18 +58,6 @@ public:
   }
 
 private:
-  template <class Record>
-  void keep(const Record& x) {
-    const std::lock_guard lock{mutex_};
-    if (failure_)
-      return;
-    try {
-      survive([&x](results& r) { r.take(x); });
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
-  }
-
   template <class Use>
   auto survive(Use use) {
     try {
@@ -98,5 +77,16 @@ private:
   std::optional<std::string> loss_;
   std::exception_ptr failure_;
 };
+
+inline void locked_results::on_record(const record& x) {
+  const std::lock_guard lock{mutex_};
+  if (failure_)
+    return;
+  try {
+    survive([&x](results& r) { r.on_record(x); });
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
 
 } // namespace sofof

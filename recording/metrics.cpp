@@ -4,6 +4,7 @@
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/etsi/uper.hpp"
+#include "recording/safety_line.hpp"
 
 #include <algorithm>
 
@@ -57,6 +58,11 @@ void safety_metrics::add(const safety_record& x) {
   max_plan_age = std::max(max_plan_age, x.max_plan_age);
 }
 
+bool safety_metrics::ok() const {
+  return std::ranges::all_of(
+      safety_line, [this](const auto& x) { return x.of(*this) == 0; });
+}
+
 metrics::metrics(const run_info& run)
     : headline_{run.headline_kind}, names_{run.provider_names},
       costs_{run.energy}, obstacles_{run.obstacles} {
@@ -64,23 +70,34 @@ metrics::metrics(const run_info& run)
     of(service_name{kind});
 }
 
-void metrics::take(const event_record& x) {
-  if (x.what == "offer") {
-    ++offers_;
-  } else if (x.what == "near_miss") {
-    ++together_.safety.near_misses;
-  } else if (x.what == "implausible") {
-    const auto check = x.detail.substr(0, x.detail.find(' '));
-    ++of(x.kind).implausible[std::string{name_of(x.provider, names_)}][check];
-  } else if (x.what == "switch") {
-    source_changed(x);
+void metrics::on_record(const record& x) {
+  std::visit([this](const auto& which) { add(which); }, x);
+}
+
+void metrics::add(const event_record& x) {
+  switch (x.what) {
+    case event_type::offer:
+      ++offers_;
+      break;
+    case event_type::near_miss:
+      ++together_.safety.near_misses;
+      break;
+    case event_type::implausible:
+      ++of(x.kind)
+            .implausible[std::string{name_of(x.provider, names_)}][x.check];
+      break;
+    case event_type::switched:
+      source_changed(x);
+      break;
+    default: // scored by other records, or not at all
+      break;
   }
 }
 
 void metrics::source_changed(const event_record& x) {
   const user who{x.kind, x.station};
   const auto open = open_.find(who);
-  if (x.detail != "remote") {
+  if (!x.remote) {
     left_[who] = {x.provider, x.at};
     if (open != open_.end())
       open_.erase(open);
@@ -100,12 +117,12 @@ void metrics::source_changed(const event_record& x) {
                 straight ? open->second.remote_since : x.at};
 }
 
-void metrics::take(const decision_record& x) {
+void metrics::add(const decision_record& x) {
   auto& service = of(x.kind);
   ++(x.accepted ? service.accepted : service.rejected);
 }
 
-void metrics::take(const cycle_record& x) {
+void metrics::add(const cycle_record& x) {
   auto& service = of(x.running.kind);
   service.latency.add(x.received - x.created);
   service.results_used += x.used;
@@ -127,7 +144,7 @@ void metrics::take(const cycle_record& x) {
   counts.newest = x.cycle;
 }
 
-void metrics::take(const episode_record& x) {
+void metrics::add(const episode_record& x) {
   auto& service = of(x.running.kind);
   if (x.of == side::provider) {
     service.served_s.add(to_seconds(x.ended - x.accepted));
@@ -153,19 +170,19 @@ void metrics::take(const episode_record& x) {
     open_.erase(open);
 }
 
-void metrics::take(const safety_record& x) {
+void metrics::add(const safety_record& x) {
   together_.safety.add(x);
   vehicles_[x.station].safety.add(x);
 }
 
-void metrics::take(const collision_record& x) {
+void metrics::add(const collision_record& x) {
   ++together_.safety.collisions;
   for (const auto station : {x.first, x.second})
     if (!is_obstacle(station, obstacles_))
       ++vehicles_[station].safety.collisions;
 }
 
-void metrics::take(const drive_record& x) {
+void metrics::add(const drive_record& x) {
   for (auto* sum : {&together_, &vehicles_[x.station]}) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
@@ -173,7 +190,7 @@ void metrics::take(const drive_record& x) {
   cycles_[x.station].on_board += x.plans.on_board;
 }
 
-void metrics::take(const air_record& x) {
+void metrics::add(const air_record& x) {
   const auto octets = x.message.view();
   etsi::bit_reader in{octets};
   etsi::pdu_header header;
@@ -186,7 +203,7 @@ void metrics::take(const air_record& x) {
   count.add(octets.size());
 }
 
-void metrics::take(const plan_switch_record& x) {
+void metrics::add(const plan_switch_record& x) {
   switches_.d_m.add(x.jump.d_m);
   switches_.curvature_1pm.add(x.jump.curvature_1pm);
   switches_.speed_mps.add(x.jump.speed_mps);

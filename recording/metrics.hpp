@@ -86,10 +86,7 @@ struct safety_metrics {
   void add(const safety_record& x);
 
   /// @returns whether the safety line held all the time.
-  bool ok() const {
-    return without_fresh_plan == duration::zero()
-           && off_road == duration::zero() && collisions == 0;
-  }
+  bool ok() const;
 };
 
 /// Cycles of the headline service, and what they took out of the batteries of
@@ -154,15 +151,7 @@ public:
   ///             others follow in the order of their first record.
   explicit metrics(const run_info& run);
 
-  void take(const event_record& x);
-  void take(const decision_record& x);
-  void take(const cycle_record& x);
-  void take(const episode_record& x);
-  void take(const safety_record& x);
-  void take(const collision_record& x);
-  void take(const drive_record& x);
-  void take(const plan_switch_record& x);
-  void take(const air_record& x);
+  void on_record(const record& x);
 
   /// The run ends: what is still offloaded counts up to here.
   void finish(time_point end);
@@ -206,6 +195,18 @@ private:
     std::uint64_t sent = 0; // to all providers
     std::uint64_t newest = 0;
   };
+
+  void add(const event_record& x);
+  void add(const decision_record& x);
+  void add(const cycle_record& x);
+  void add(const episode_record& x);
+  void add(const safety_record& x);
+  void add(const collision_record& x);
+  void add(const drive_record& x);
+  void add(const plan_switch_record& x);
+  void add(const air_record& x);
+  template <class Other>
+  void add(const Other&) {}
 
   service_metrics& of(const service_name& kind);
   void source_changed(const event_record& x);

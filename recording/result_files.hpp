@@ -5,6 +5,7 @@
 #include "base/files/output_file.hpp"
 #include "base/text/csv.hpp"
 #include "messages/protocol/record.hpp"
+#include "recording/columns.hpp"
 #include "recording/metrics.hpp"
 #include "recording/pcap_file.hpp"
 #include "recording/run_info.hpp"
@@ -35,11 +36,7 @@ public:
   /// @param folder  Exists.
   result_files(std::filesystem::path folder, const run_info& run);
 
-  void write(const event_record& x);
-  void write(const cycle_record& x);
-  void write(const episode_record& x);
-  void write(const track_record& x);
-  void write(const air_record& x);
+  void on_record(const record& x);
 
   /// Brings all files up to date.
   void flush();
@@ -51,7 +48,16 @@ public:
 private:
   using timing = figures_of_clock::timing;
 
+  void write(const event_record& x);
+  void write(const cycle_record& x);
+  void write(const episode_record& x);
+  void write(const track_record& x);
+  void write(const air_record& x);
+  template <class Other>
+  void write(const Other&) {}
+
   std::string_view name_of(provider_id provider) const;
+  row_context context_of(const session_id& session) const;
   void write_vehicles(const metrics& all) const;
   void write_distributions(const metrics& all) const;
   void write_timing(const run_end& end,
@@ -61,10 +67,10 @@ private:
   std::filesystem::path folder_;
   time_point start_;
   provider_names names_;
-  csv_file episodes_;
-  std::optional<csv_file> cycles_;
-  std::optional<csv_file> tracks_;
-  std::optional<csv_file> margins_;
+  csv_file<episode_row> episodes_;
+  std::optional<csv_file<cycle_row>> cycles_;
+  std::optional<csv_file<track_row>> tracks_;
+  std::optional<csv_file<margin_row>> margins_;
   output_file events_;
 };
 

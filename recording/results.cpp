@@ -11,62 +11,18 @@ namespace {
 
 constexpr int jump_places = 6;
 
-} // namespace
-
-results::results(std::filesystem::path folder, run_info run)
-    : run_{std::move(run)}, metrics_{run_}, files_{std::in_place,
-                                                   std::move(folder), run_} {}
-
-results::results(run_info run) : run_{std::move(run)}, metrics_{run_} {}
-
-void results::take(const event_record& x) {
-  if (files_)
-    files_->write(x);
-  metrics_.take(x);
+/// What of a record stands in events.jsonl besides events.
+template <class Record>
+std::optional<event_record> event_of(const Record&) {
+  return std::nullopt;
 }
 
-void results::take(const cycle_record& x) {
-  if (files_)
-    files_->write(x);
-  metrics_.take(x);
+std::optional<event_record> event_of(const collision_record& x) {
+  return event_record{x.at, event_type::collision,           x.first, 0, "",
+                      0,    fmt::format("with {}", x.second)};
 }
 
-void results::take(const episode_record& x) {
-  if (files_)
-    files_->write(x);
-  metrics_.take(x);
-}
-
-void results::take(const air_record& x) {
-  if (files_)
-    files_->write(x);
-  metrics_.take(x);
-}
-
-void results::take(const track_record& x) {
-  if (files_)
-    files_->write(x);
-}
-
-void results::take(const decision_record& x) {
-  metrics_.take(x);
-}
-
-void results::take(const safety_record& x) {
-  metrics_.take(x);
-}
-
-void results::take(const drive_record& x) {
-  metrics_.take(x);
-}
-
-void results::take(const collision_record& x) {
-  take(event_record{x.at, "collision", x.first, 0, "", 0,
-                    fmt::format("with {}", x.second)});
-  metrics_.take(x);
-}
-
-void results::take(const plan_switch_record& x) {
+std::optional<event_record> event_of(const plan_switch_record& x) {
   const auto& id = x.running;
   std::string detail = x.remote ? "remote" : "local";
   const auto figure = [&detail](std::string_view name, double value) {
@@ -77,16 +33,36 @@ void results::take(const plan_switch_record& x) {
   figure(" kappa_1pm=", x.jump.curvature_1pm);
   figure(" v_mps=", x.jump.speed_mps);
   figure(" a_mps2=", x.jump.accel_mps2);
-  take(event_record{x.at, "plan_switch", id.station, id.provider, id.kind,
-                    id.counter, std::move(detail)});
-  metrics_.take(x);
+  return event_record{
+      x.at,       event_type::plan_switch, id.station, id.provider, id.kind,
+      id.counter, std::move(detail)};
 }
 
-void results::take_timing(std::string name, double value) {
+} // namespace
+
+results::results(std::filesystem::path folder, run_info run)
+    : run_{std::move(run)}, metrics_{run_}, files_{std::in_place,
+                                                   std::move(folder), run_} {}
+
+results::results(run_info run) : run_{std::move(run)}, metrics_{run_} {}
+
+void results::on_record(const record& x) {
+  if (auto line = std::visit([](const auto& r) { return event_of(r); }, x))
+    keep(std::move(*line));
+  keep(x);
+}
+
+void results::keep(const record& x) {
+  if (files_)
+    files_->on_record(x);
+  metrics_.on_record(x);
+}
+
+void results::add_timing(std::string name, double value) {
   of_clock_.timings.push_back({std::move(name), value});
 }
 
-void results::take(const cpu_table& x) {
+void results::add_cpu(const cpu_table& x) {
   of_clock_.cpu_csv = to_csv(x);
 }
 

@@ -26,23 +26,14 @@ public:
   /// Without files.
   explicit results(run_info run);
 
-  void take(const event_record& x) override;
-  void take(const decision_record& x) override;
-  void take(const cycle_record& x) override;
-  void take(const episode_record& x) override;
-  void take(const track_record& x) override;
-  void take(const safety_record& x) override;
-  void take(const collision_record& x) override;
-  void take(const drive_record& x) override;
-  void take(const plan_switch_record& x) override;
-  void take(const air_record& x) override;
+  void on_record(const record& x) override;
 
   /// A figure of the wall's clock, for timing.csv.
   /// @param name  With its unit, e.g. "solve_p99_us".
-  void take_timing(std::string name, double value);
+  void add_timing(std::string name, double value);
 
   /// Who computed how much, for cpu.csv.
-  void take(const cpu_table& x);
+  void add_cpu(const cpu_table& x);
 
   const metrics& so_far() const { return metrics_; }
 
@@ -59,6 +50,8 @@ public:
   run_end finish(time_point end, double wall_s, bool interrupted);
 
 private:
+  void keep(const record& x);
+
   run_info run_;
   metrics metrics_;
   figures_of_clock of_clock_;

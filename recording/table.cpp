@@ -1,7 +1,10 @@
 // Lining up figures.
 #include "recording/table.hpp"
 
+#include "base/overloaded.hpp"
 #include "base/text/terminal_style.hpp"
+#include "recording/figures.hpp"
+#include "recording/safety_line.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +12,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sofof {
@@ -29,29 +34,46 @@ constexpr std::size_t drive_column_width = 14;
 /// What a reader sees of an absent figure.
 constexpr auto absent = "-";
 
-std::string with_unit(std::optional<double> x, int places,
-                      std::string_view unit) {
-  return x ? fmt::format("{:.{}f} {}", *x, places, unit) : absent;
+/// @returns a figure as the console shows it; nothing where there is none.
+template <class Of>
+std::optional<std::string> shown(const figure<Of>& x, const Of& of) {
+  const auto& as = x.console;
+  if (as.text)
+    return as.text(of);
+  const auto number = [&as](double value) {
+    return fmt::format("{:.{}f} {}", as.scale * value, as.decimals, as.unit);
+  };
+  using text = std::optional<std::string>;
+  return std::visit(
+      overloaded{[](auto count) { return text{fmt::format("{}", count)}; },
+                 [&](std::optional<double> value) {
+                   return value ? text{number(*value)} : std::nullopt;
+                 },
+                 [&](std::optional<duration> value) {
+                   return value ? text{number(to_seconds(*value))}
+                                : std::nullopt;
+                 }},
+      x.value(of));
 }
 
-std::string in_s(std::optional<double> x) {
-  return with_unit(x, 2, "s");
-}
-std::string in_ms(std::optional<double> x) {
-  return with_unit(x, 2, "ms");
-}
-
-std::string mean_and_deviation(const statistics& ms) {
-  if (!ms.deviation())
-    return in_ms(ms.mean());
-  return fmt::format("{:.2f} ± {:.2f} ms", *ms.mean(), *ms.deviation());
+/// @returns those of a block, in their order.
+template <class Of>
+std::vector<const figure<Of>*> in_block(std::span<const figure<Of>> all,
+                                        console_block block) {
+  std::vector<const figure<Of>*> found;
+  for (const auto& x : all)
+    if (x.console.in == block)
+      found.push_back(&x);
+  std::ranges::sort(found, {}, [](const auto* x) { return x->console.place; });
+  return found;
 }
 
 /// Figures in lines, a column for each kind of service.
 class block {
 public:
-  explicit block(std::span<const service_metrics> services)
-      : services_{services} {}
+  block(std::span<const service_metrics> services, const run_info& run,
+        const run_end& end)
+      : services_{services}, run_{run}, end_{end} {}
 
   /// A heading, and the names of the services.
   void names(std::string_view heading) {
@@ -63,6 +85,14 @@ public:
   template <class Figure>
   void row(std::string_view label, Figure of) {
     add({fmt::format("  {}", label), false, {}}, of);
+  }
+
+  /// The figures of a block, one under the other.
+  void rows(std::span<const service_figure> all, console_block which) {
+    for (const auto* x : in_block(all, which))
+      row(x->console.label, [this, x](const service_metrics& service) {
+        return shown(*x, {service, run_, end_}).value_or(absent);
+      });
   }
 
   void endings(end_counts service_metrics::*of) {
@@ -146,58 +176,31 @@ private:
   }
 
   std::span<const service_metrics> services_;
+  const run_info& run_;
+  const run_end& end_;
   std::vector<line> lines_;
 };
 
-void offloading(block& to, const run_info& run, const run_end& end) {
-  using service = service_metrics;
+void offloading(block& to) {
   to.names("offloading");
-  to.row("requests", &service::requests);
-  to.row("accepted", &service::accepted);
-  to.row("rejected", &service::rejected);
-  to.row("no data", &service::no_data);
-  to.row("episodes", &service::episodes);
-  to.endings(&service::ended_by);
+  to.rows(service_figures(), console_block::asked);
+  to.endings(&service_metrics::ended_by);
   to.refusals();
   to.running();
-  to.row("fallbacks", &service::fallbacks);
-  to.row("t_off mean", [](const service& x) { return in_s(x.t_off_s.mean()); });
-  to.row("t_off max", [](const service& x) { return in_s(x.t_off_s.max()); });
-  to.row("offloaded share", [&](const service& x) {
-    const auto share = x.offloaded_share(run.vehicles, end.virtual_s);
-    return with_unit(share ? std::optional{100 * *share} : share, 1, "%");
-  });
+  to.rows(service_figures(), console_block::offloaded);
 }
 
 void remote_results(block& to) {
-  using service = service_metrics;
   to.names("remote results");
-  to.row("received", [](const service& x) { return x.latency.ms().count(); });
-  to.row("used", &service::results_used);
-  to.row("latency",
-         [](const service& x) { return mean_and_deviation(x.latency.ms()); });
-  to.row("  p50",
-         [](const service& x) { return in_ms(x.latency.quantile_ms(0.5)); });
-  to.row("  p99",
-         [](const service& x) { return in_ms(x.latency.quantile_ms(0.99)); });
-  to.row("  max", [](const service& x) { return in_ms(x.latency.ms().max()); });
-  to.row("inter-arrival",
-         [](const service& x) { return in_ms(x.interarrival.ms().mean()); });
-  to.row("  p99", [](const service& x) {
-    return in_ms(x.interarrival.quantile_ms(0.99));
-  });
-  to.row("  max",
-         [](const service& x) { return in_ms(x.interarrival.ms().max()); });
+  to.rows(service_figures(), console_block::results);
 }
 
 /// What a process has to say that only provides.
 void providing(block& to) {
-  using service = service_metrics;
   to.names("providing");
-  to.row("services run", [](const service& x) { return x.served_s.count(); });
-  to.endings(&service::served_until);
-  to.row("time mean", [](const service& x) { return in_s(x.served_s.mean()); });
-  to.row("time max", [](const service& x) { return in_s(x.served_s.max()); });
+  to.rows(served_figures(), console_block::provided);
+  to.endings(&service_metrics::served_until);
+  to.rows(served_figures(), console_block::provided_time);
 }
 
 void drive_line(std::string& out, std::string_view label,
@@ -206,55 +209,37 @@ void drive_line(std::string& out, std::string_view label,
                      drive_column_width, verdict);
 }
 
+/// The figures of a block, one under the other, as far as there are any.
+/// @param verdict  Of a figure, for the end of its line.
+template <class Verdict>
+void drive_lines(std::string& out, const whole_run& x, console_block which,
+                 Verdict verdict) {
+  for (const auto* figure : in_block(vehicle_figures(), which))
+    if (const auto text = shown(*figure, x))
+      drive_line(out, figure->console.label, *text, verdict(*figure));
+}
+
 void safety_lines(std::string& out, const terminal_style& paint,
-                  const safety_metrics& safety) {
+                  const whole_run& x) {
   out += '\n' + paint.heading("safety") + '\n';
-  if (safety.driven == duration::zero()) {
+  if (x.of.safety().driven == duration::zero()) {
     out += "  not recorded\n";
     return;
   }
-  const auto line = [&](std::string_view label, const std::string& figure,
-                        bool ok) {
-    drive_line(out, label, figure,
-               "   " + (ok ? paint.good("ok") : paint.bad("VIOLATED")));
-  };
-  const auto none = duration::zero();
-  const auto time = [&](std::string_view label, duration d) {
-    line(label, with_unit(to_seconds(d), 3, "s"), d == none);
-  };
-  time("without a fresh plan", safety.without_fresh_plan);
-  time("off the road", safety.off_road);
-  line("collisions", fmt::format("{}", safety.collisions),
-       safety.collisions == 0);
-  drive_line(out, "oldest plan in use",
-             with_unit(to_seconds(safety.max_plan_age), 3, "s"));
+  drive_lines(out, x, console_block::safety, [&](const run_figure& figure) {
+    const auto judged =
+        std::ranges::find(safety_line, figure.name, &safety_criterion::name);
+    if (judged == std::end(safety_line))
+      return std::string{};
+    const auto ok = judged->of(x.of.safety()) == 0;
+    return "   " + (ok ? paint.good("ok") : paint.bad("VIOLATED"));
+  });
 }
 
-void comfort_lines(std::string& out, const terminal_style& paint,
-                   const drive_metrics& drive) {
-  if (drive.safety.driven == duration::zero())
-    return;
-  out += '\n' + paint.heading("comfort") + '\n';
-  const auto& ride = drive.ride;
-  drive_line(out, "lateral acceleration",
-             with_unit(ride.extremes.lateral_accel_mps2, 2, "m/s²"));
-  drive_line(out, "jerk", with_unit(ride.extremes.jerk_mps3, 2, "m/s³"));
-  drive_line(out, "hard brakes", fmt::format("{}", ride.hard_brakes));
-  drive_line(out, "emergency plans", fmt::format("{}", drive.plans.emergency));
-}
-
-void energy_lines(std::string& out, const terminal_style& paint,
-                  const cycle_figures& cycles, double distance_m) {
-  constexpr auto m_per_km = 1e3;
-  if (cycles.all_on_board_j <= 0)
-    return;
-  out += '\n' + paint.heading("energy of planning in the vehicles") + '\n';
-  drive_line(out, "all together", with_unit(cycles.energy_j(), 1, "J"));
-  if (distance_m > 0)
-    drive_line(out, "per km",
-               with_unit(cycles.energy_j() * m_per_km / distance_m, 1, "J"));
-  drive_line(out, "saved by offloading",
-             with_unit(100 * *cycles.saved_share(), 1, "%"));
+void lines_of(std::string& out, const terminal_style& paint, const whole_run& x,
+              std::string_view heading, console_block which) {
+  out += '\n' + paint.heading(std::string{heading}) + '\n';
+  drive_lines(out, x, which, [](const run_figure&) { return std::string{}; });
 }
 
 std::uint64_t messages_of(const air_metrics& air) {
@@ -310,18 +295,22 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   out += fmt::format("  {} clock, channel {}, LODM {}, CODM {}\n", run.clock,
                      run.profile, run.lodm, run.codm);
 
-  block services{m.services()};
+  block services{m.services(), run, end};
   if (run.provider.empty()) {
-    offloading(services, run, end);
+    offloading(services);
     remote_results(services);
   } else {
     providing(services);
   }
   services.print(out, paint);
   if (run.provider.empty()) {
-    safety_lines(out, paint, m.safety());
-    comfort_lines(out, paint, m.together());
-    energy_lines(out, paint, m.cycles(), m.together().ride.distance_m);
+    const whole_run whole{m, run, end};
+    safety_lines(out, paint, whole);
+    if (m.safety().driven > duration::zero())
+      lines_of(out, paint, whole, "comfort", console_block::comfort);
+    if (m.cycles().all_on_board_j > 0)
+      lines_of(out, paint, whole, "energy of planning in the vehicles",
+               console_block::energy);
   }
   air_lines(out, paint, m.air());
   if (folder.empty())

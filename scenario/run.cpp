@@ -269,9 +269,9 @@ run_outcome finish(const played& run, const run_info& info,
                    stage& on) {
   const auto last = on.keeper.with([&](results& r) {
     if (run.computed)
-      r.take(*run.computed);
+      r.add_cpu(*run.computed);
     for (const auto& [name, value] : run.decisions)
-      r.take_timing(name, value);
+      r.add_timing(name, value);
     return r.finish(run.ended, on.watch.elapsed_s(), is_cut);
   });
   on.losses.look_at(on.keeper, on.shown, on.console);

@@ -76,8 +76,8 @@ void provider_links::end(const service_end& end) {
   self_->send(manager.mapped(), end);
 }
 
-void provider_links::record(const episode_record& x) {
-  self_->send(recorder_, x);
+void provider_links::record(sofof::record x) {
+  self_->send(recorder_, std::move(x));
 }
 
 void provider_links::wake_at(time_point t, std::uint64_t number) {

@@ -72,7 +72,10 @@ event_record provider_services::record_of(const station_doubt& x) const {
   const auto why = x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
                                           name_of(x.check), x.value, x.limit)
                             : std::string{};
-  return {x.at, x.begins ? "doubted" : "believed", x.station, id_, {}, 0, why};
+  return {x.at,      x.begins ? event_type::doubted : event_type::believed,
+          x.station, id_,
+          {},        0,
+          why};
 }
 
 offloading::provider_setup rules_of(provider_setup setup,

@@ -72,16 +72,8 @@ void requester_links::on_placement(bool any_remote) {
   charge(self_->system(), self_->id(), {station_, {}, any_remote});
 }
 
-void requester_links::record(event_record x) {
+void requester_links::record(sofof::record x) {
   self_->send(recorder_, std::move(x));
-}
-
-void requester_links::record(const decision_record& x) {
-  self_->send(recorder_, x);
-}
-
-void requester_links::record(const episode_record& x) {
-  self_->send(recorder_, x);
 }
 
 void requester_links::wake_at(time_point t, std::uint64_t number) {

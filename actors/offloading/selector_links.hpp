@@ -42,8 +42,7 @@ public:
   void watch_useless(const session_id& session,
                      const std::string& why) override;
   void watch_end(const service_end& end) override;
-  void record(cycle_record x) override;
-  void record(event_record x) override;
+  void record(sofof::record x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:

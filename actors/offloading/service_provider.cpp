@@ -3,6 +3,7 @@
 
 #include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/provider_links.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -65,7 +66,7 @@ struct provider_state {
   template <class Function>
   void tell(Function what) {
     for (auto& doubt : services->tell_listeners(what))
-      self->send(recorder, std::move(doubt));
+      send_record(self, recorder, std::move(doubt));
   }
 };
 

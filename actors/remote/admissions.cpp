@@ -2,6 +2,7 @@
 #include "actors/remote/admissions.hpp"
 
 #include "actors/remote/provider_endpoint.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "base/text/printable.hpp"
@@ -138,10 +139,14 @@ struct admissions_state {
   void on_refusal(const std::string& why) {
     const auto t = now(self);
     if (auto line = refusals.add(printable(why), t))
-      self->send(
-          setup->recorder,
-          event_record{
-              t, "peer_refused", 0, setup->boot, {}, 0, std::move(*line)});
+      send_record(self, setup->recorder,
+                  event_record{t,
+                               event_type::peer_refused,
+                               0,
+                               setup->boot,
+                               {},
+                               0,
+                               std::move(*line)});
   }
 };
 

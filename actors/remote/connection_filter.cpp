@@ -39,13 +39,14 @@ struct shared_setup {
       why += fmt::format("; {} more", std::exchange(left_out, 0));
     given.on_refusal(why);
     if (given.recorder)
-      caf::anon_send(given.recorder, event_record{test_clock.shown(at),
-                                                  "peer_disconnected",
-                                                  0,
-                                                  0,
-                                                  {},
-                                                  0,
-                                                  std::move(why)});
+      caf::anon_send(given.recorder,
+                     record{event_record{test_clock.shown(at),
+                                         event_type::peer_disconnected,
+                                         0,
+                                         0,
+                                         {},
+                                         0,
+                                         std::move(why)}});
   }
 };
 

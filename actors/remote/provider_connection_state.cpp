@@ -2,6 +2,7 @@
 // connection is lost.
 #include "actors/remote/provider_connection_state.hpp"
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 
@@ -101,7 +102,7 @@ void provider_connection_state::on_welcome(
   self->monitor(peer);
   send_to_provider(life->beat(t));
   boot = welcome.boot;
-  log_event("provider_connected", setup->address);
+  log_event(event_type::provider_connected, setup->address);
   publish(fmt::format("connected to provider {} at {}", setup->provider,
                       setup->address));
 }
@@ -119,7 +120,7 @@ void provider_connection_state::disconnect(std::string_view why) {
     send_to_vehicle(x.station,
                     service_end{x, end_reason::peer_lost, side::provider});
   running.clear();
-  log_event("provider_lost", why);
+  log_event(event_type::provider_lost, why);
   publish(fmt::format("lost provider {} at {}: {}; vehicles plan for "
                       "themselves",
                       setup->provider, setup->address, why));
@@ -141,12 +142,11 @@ void provider_connection_state::publish(const std::string& sentence) {
     setup->on_news(sentence);
 }
 
-void provider_connection_state::log_event(std::string what,
+void provider_connection_state::log_event(event_type what,
                                           std::string_view detail) {
-  self->send(
-      setup->recorder,
-      event_record{
-          now(self), std::move(what), 0, boot, {}, 0, std::string{detail}});
+  send_record(
+      self, setup->recorder,
+      event_record{now(self), what, 0, boot, {}, 0, std::string{detail}});
 }
 
 } // namespace sofof

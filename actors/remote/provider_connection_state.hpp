@@ -92,7 +92,7 @@ private:
   void disconnect(std::string_view why);
   void forget(const session_id& ended);
   void publish(const std::string& sentence);
-  void log_event(std::string what, std::string_view detail);
+  void log_event(event_type what, std::string_view detail);
 
   template <class... Ts>
   void send_to_provider(const Ts&... xs) {

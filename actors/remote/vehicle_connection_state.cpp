@@ -1,6 +1,7 @@
 // How long a provider is connected to vehicles on another host.
 #include "actors/remote/vehicle_connection_state.hpp"
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "network/keys/identity.hpp"
 
@@ -32,7 +33,7 @@ void vehicle_connection_state::start(vehicle_connection_setup with,
                   protocol::silence_limit);
   self->monitor(setup.peer);
   self->monitor(setup.provider);
-  log_event("peer_connected", 0, stations());
+  log_event(event_type::peer_connected, 0, stations());
   on_tick();
 }
 
@@ -59,7 +60,7 @@ void vehicle_connection_state::on_down(const caf::down_msg& down) {
 }
 
 void vehicle_connection_state::leave(std::string_view why) {
-  log_event("peer_lost", 0, fmt::format("{}: {}", stations(), why));
+  log_event(event_type::peer_lost, 0, fmt::format("{}: {}", stations(), why));
   self->quit(caf::exit_reason::remote_link_unreachable);
 }
 
@@ -68,12 +69,11 @@ std::string vehicle_connection_state::stations() const {
   return describe({{setup.stations.begin(), setup.stations.end()}, {}});
 }
 
-void vehicle_connection_state::log_event(std::string what, station_id station,
+void vehicle_connection_state::log_event(event_type what, station_id station,
                                          std::string_view detail) {
-  self->send(
-      setup.recorder,
-      event_record{
-          now(self), std::move(what), station, 0, {}, 0, std::string{detail}});
+  send_record(
+      self, setup.recorder,
+      event_record{now(self), what, station, 0, {}, 0, std::string{detail}});
 }
 
 } // namespace sofof

@@ -73,7 +73,7 @@ private:
   void forget(const session_id& ended);
   void leave(std::string_view why);
   std::string stations() const;
-  void log_event(std::string what, station_id station, std::string_view detail);
+  void log_event(event_type what, station_id station, std::string_view detail);
 
   template <class... Ts>
   void send_to_peer(const Ts&... xs) {

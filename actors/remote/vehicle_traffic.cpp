@@ -25,7 +25,7 @@ bool vehicle_connection_state::is_dropped(station_id station,
   if (objection.empty())
     return false;
   if (const auto line = dropped.add(objection, now(self)))
-    log_event("peer_ignored", station, *line);
+    log_event(event_type::peer_ignored, station, *line);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // Tells the records of ITS messages as they are sent.
 #pragma once
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "messages/type_ids.hpp"
 
@@ -10,7 +11,7 @@ namespace sofof {
 template <class Self>
 void note_on_air(Self* self, const recorder_actor& recorder,
                  const its_pdu& message) {
-  self->send(recorder, air_record{now(self), message});
+  send_record(self, recorder, air_record{now(self), message});
 }
 
 /// The same, if it is one.

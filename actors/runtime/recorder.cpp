@@ -10,18 +10,7 @@ namespace {
 
 recorder_actor::behavior_type
 recorder(recorder_actor::pointer, const std::shared_ptr<record_sink>& sink) {
-  return {
-      [sink](const event_record& r) { sink->take(r); },
-      [sink](const decision_record& r) { sink->take(r); },
-      [sink](const cycle_record& r) { sink->take(r); },
-      [sink](const episode_record& r) { sink->take(r); },
-      [sink](const track_record& r) { sink->take(r); },
-      [sink](const safety_record& r) { sink->take(r); },
-      [sink](const collision_record& r) { sink->take(r); },
-      [sink](const drive_record& r) { sink->take(r); },
-      [sink](const plan_switch_record& r) { sink->take(r); },
-      [sink](const air_record& r) { sink->take(r); },
-  };
+  return {[sink](const record& x) { sink->on_record(x); }};
 }
 
 } // namespace

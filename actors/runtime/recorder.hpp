@@ -6,11 +6,18 @@
 #include <caf/actor_system.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace sofof {
 
 /// @param sink  Used by this actor only, until it has quit.
 recorder_actor spawn_recorder(caf::actor_system& sys,
                               std::shared_ptr<record_sink> sink);
+
+/// Tells it from an actor what has happened.
+template <class Self>
+void send_record(Self* self, const recorder_actor& recorder, record what) {
+  self->send(recorder, std::move(what));
+}
 
 } // namespace sofof

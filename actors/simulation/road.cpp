@@ -1,6 +1,7 @@
 // The streets and all that moves on them, and what sensors see of it.
 #include "actors/simulation/road.hpp"
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 #include "world/traffic/near_miss.hpp"
@@ -116,8 +117,8 @@ struct road_state {
     auto touch = users->collisions();
     for (const auto& pair : touch)
       if (!std::ranges::binary_search(touching, pair))
-        self->send(setup.recorder,
-                   collision_record{t, pair.first, pair.second});
+        send_record(self, setup.recorder,
+                    collision_record{t, pair.first, pair.second});
     touching = std::move(touch);
   }
 
@@ -126,15 +127,15 @@ struct road_state {
     const auto all = users->bodies();
     for (const auto& x :
          conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
-      self->send(setup.recorder,
-                 event_record{t,
-                              "near_miss",
-                              x.first,
-                              0,
-                              {},
-                              0,
-                              fmt::format("with {} ttc_s={:.3f}", x.second,
-                                          x.time_to_collision_s)});
+      send_record(self, setup.recorder,
+                  event_record{t,
+                               event_type::near_miss,
+                               x.first,
+                               0,
+                               {},
+                               0,
+                               fmt::format("with {} ttc_s={:.3f}", x.second,
+                                           x.time_to_collision_s)});
   }
 };
 

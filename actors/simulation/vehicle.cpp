@@ -52,7 +52,7 @@ struct vehicle_actor_state {
 
   void on_place() {
     if (setup.appears_after > 0ms)
-      links->log_event("appeared");
+      links->log_event(event_type::appeared);
     car->appear(now(self));
     if (setup.v2x)
       broadcast.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
@@ -79,7 +79,7 @@ struct vehicle_actor_state {
   // At the end of an open route: makes room for others.
   void arrive() {
     has_arrived = true;
-    links->log_event("arrived");
+    links->log_event(event_type::arrived);
     links->record_figures(*car);
     links->leave_road();
     if (requester)
@@ -91,7 +91,7 @@ struct vehicle_actor_state {
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
-      links->log_event("requester_lost");
+      links->log_event(event_type::requester_lost);
   }
 
   // -- moving -------------------------------------------------------------

@@ -2,6 +2,7 @@
 #include "actors/simulation/vehicle_links.hpp"
 
 #include "actors/runtime/on_air.hpp"
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
@@ -40,16 +41,16 @@ void vehicle_links::log_event(std::string what) {
 }
 
 void vehicle_links::record(const driven_car& car, bool remote) {
-  self_->send(setup_.recorder, car.track(remote));
+  send_record(self_, setup_.recorder, car.track(remote));
 }
 
 void vehicle_links::record(const plan_switch_record& jump) {
-  self_->send(setup_.recorder, jump);
+  send_record(self_, setup_.recorder, jump);
 }
 
 void vehicle_links::record_figures(driven_car& car) {
-  self_->send(setup_.recorder, car.flush_safety());
-  self_->send(setup_.recorder, car.flush_figures());
+  send_record(self_, setup_.recorder, car.flush_safety());
+  send_record(self_, setup_.recorder, car.flush_figures());
 }
 
 } // namespace sofof

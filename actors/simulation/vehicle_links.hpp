@@ -4,7 +4,6 @@
 #include "actors/simulation/vehicle.hpp"
 
 #include <optional>
-#include <string>
 
 namespace sofof {
 
@@ -30,7 +29,7 @@ public:
   void broadcast(const std::optional<its_pdu>& message, point from,
                  const onboard_requester_actor& requester);
 
-  void log_event(std::string what);
+  void log_event(event_type what);
   void record(const driven_car& car, bool remote);
   void record(const plan_switch_record& jump);
   void record_figures(driven_car& car);

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace sofof {
 
@@ -66,12 +65,6 @@ void append(std::string& out, std::string_view x) {
   for (const auto c : x)
     out.append(c == '"' ? 2 : 1, c);
   out += '"';
-}
-
-csv_file::csv_file(std::filesystem::path path, std::string_view header)
-    : file_{std::move(path)} {
-  file_.text() += header;
-  file_.text() += '\n';
 }
 
 } // namespace sofof

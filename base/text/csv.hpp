@@ -4,11 +4,15 @@
 #include "base/files/output_file.hpp"
 #include "base/time.hpp"
 
-#include <concepts>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 namespace sofof {
 
@@ -40,20 +44,62 @@ void append(std::string& out, std::uint64_t x);
 /// Appends a text, in quotes where it needs them (RFC 4180).
 void append(std::string& out, std::string_view x);
 
-/// A CSV file, row by row.
+/// What may stand in a field; a bool is 1 or 0.
+using csv_field = std::variant<decimal, std::string_view, std::uint64_t>;
+
+/// One column of a table: its name, and what of a row stands in it.
+template <class Row>
+struct csv_column {
+  std::string_view name;
+  csv_field (*field)(const Row&);
+
+  /// @param of  Without captures: gives what makes a `csv_field` of a row,
+  ///            which keeps texts alive.
+  template <class Of>
+  constexpr csv_column(std::string_view name, Of)
+      : name{name}, field{[](const Row& row) -> csv_field {
+          return std::invoke(Of{}, row);
+        }} {}
+};
+
+/// The columns of a table, in their order; outlived by their array.
+template <class Row>
+using csv_columns = std::span<const csv_column<Row>>;
+
+/// Appends their names, separated by commas.
+template <class Row>
+void append_names(std::string& out, csv_columns<Row> columns) {
+  for (const auto& column : columns) {
+    if (&column != &columns.front())
+      out += ',';
+    out += column.name;
+  }
+}
+
+/// Appends what stands in them, separated by commas.
+template <class Row>
+void append_fields(std::string& out, csv_columns<Row> columns, const Row& row) {
+  for (const auto& column : columns) {
+    if (&column != &columns.front())
+      out += ',';
+    std::visit([&out](const auto& x) { append(out, x); }, column.field(row));
+  }
+}
+
+/// A CSV file, row by row, as its columns say.
+template <class Row>
 class csv_file {
 public:
-  /// @param header  Names of the columns, separated by commas.
-  csv_file(std::filesystem::path path, std::string_view header);
+  /// @param columns  Outlive it.
+  csv_file(std::filesystem::path path, csv_columns<Row> columns)
+      : columns_{columns}, file_{std::move(path)} {
+    append_names(file_.text(), columns_);
+    file_.text() += '\n';
+  }
 
-  /// Writes a row; the fields are decimals, texts, or unsigned integers
-  /// (a bool is 1 or 0).
-  template <class First, class... Rest>
-  void row(const First& first, const Rest&... rest) {
-    auto& out = file_.text();
-    put(out, first);
-    ((out += ',', put(out, rest)), ...);
-    out += '\n';
+  void write(const Row& row) {
+    append_fields(file_.text(), columns_, row);
+    file_.text() += '\n';
     file_.end_line();
   }
 
@@ -61,14 +107,7 @@ public:
   void close() { file_.close(); }
 
 private:
-  template <class T>
-  static void put(std::string& out, const T& x) {
-    if constexpr (std::unsigned_integral<T>)
-      append(out, std::uint64_t{x});
-    else
-      append(out, x);
-  }
-
+  csv_columns<Row> columns_;
   output_file file_;
 };
 

@@ -73,7 +73,7 @@ struct roadside final : offloading::provider_side_port {
     cycle.finish = [](time_point start, std::uint64_t) { return start + 2ms; };
     return cycle;
   }
-  void record(const episode_record&) override {}
+  void record(sofof::record) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     net.at(t, [this, number] { side.on_timer(number, net.now); });
   }
@@ -109,7 +109,7 @@ struct vehicle final : offloading::vehicle_port {
                 std::string{service.view()}.c_str(),
                 remote ? "by the server" : "in the car");
   }
-  void record(offloading::record) override {}
+  void record(sofof::record) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     net.at(t, [this, number] { side.on_timer(number, net.now); });
   }

@@ -1,6 +1,9 @@
 // From summaries to criteria.
 #include "experiments/benchmark/criteria.hpp"
 
+#include "policies/api/periodic_task.hpp"
+#include "recording/safety_line.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,49 +12,13 @@ namespace sofof::bench {
 namespace {
 
 constexpr double hour_s = 3600;
-constexpr double percent = 100;
 
-// What a planning cycle costs: λ of time, of energy and of violations.
-// Source: as for Chen et al., ToN 24(5) 2016, eqs. (4), (8), with the weights
-// of docs/bench.md.
-constexpr double of_time = 0.3;
-constexpr double of_energy = 0.3;
-constexpr double of_violations = 1.0;
-
-constexpr criterion all_criteria[]{
-    {"offloaded_percent", "offloaded share, %", "share %", 1, better::more},
-    {"violations_per_h", "QoS violations, 1/h", "viol/h", 2, better::less},
-    {"without_plan_s_per_h", "without a fresh plan, s/h", "", 3, better::less},
-    {"collisions", "collisions", "", 2, better::less},
-    {"fallbacks_per_h", "fallbacks, 1/h", "fallb/h", 2, better::less},
-    {"ping_pongs_per_h", "ping-pongs, 1/h", "", 2, better::less},
-    {"hand_overs_per_h", "hand-overs, 1/h", "", 2, better::neither},
-    {"latency_mean_ms", "latency, mean, ms", "", 2, better::less},
-    {"latency_p50_ms", "latency, median, ms", "", 2, better::less},
-    {"latency_p95_ms", "latency, 95 %, ms", "", 2, better::less},
-    {"latency_p99_ms", "latency, 99 %, ms", "p99 ms", 2, better::less},
-    {"vehicle_cpu_percent", "planning on board, % of a core", "", 2,
-     better::less},
-    {"energy_j_per_km", "energy, J/km", "", 1, better::less},
-    {"energy_on_board_j_per_km", "energy of planning on board, J/km", "", 1,
-     better::less},
-    {"energy_offloading_j_per_km", "energy of offloading, J/km", "", 1,
-     better::less},
-    {"energy_saved_percent", "energy saved, %", "saved %", 1, better::more},
-    {"utilisation_percent", "utilisation of providers, %", "", 1,
-     better::neither},
-    {"rejected_percent", "rejected, %", "", 1, better::neither},
-    {"fairness", "fairness (Jain)", "Jain", 3, better::more},
-    {"messages_per_s", "signalling, messages/s", "", 2, better::less},
-    {regret_name, "regret, %", "regret %", 1, better::less},
-    {than_location_name, "than location, %", "", 1, better::less},
-    {score_name, "score", "score", 4, better::less},
-};
+} // namespace
 
 /// The figures of a run as far as it tells them.
-class run_figures {
+class summary_figures {
 public:
-  explicit run_figures(const study::measured_run& run) : run_{run} {}
+  explicit summary_figures(const study::measured_run& run) : run_{run} {}
 
   double must(const std::string& name) const { return run_.figure(name); }
   std::optional<double> may(const std::string& name) const {
@@ -62,6 +29,11 @@ public:
 
   double vehicle_hours() const {
     return must("vehicles") * must("virtual_s") / hour_s;
+  }
+  /// @returns how long a provider has run a service, by its place.
+  double served_s(provider_id place, const std::string& service) const {
+    const auto found = run_.served_s.find({place, service});
+    return found != run_.served_s.end() ? found->second : 0;
   }
   double violations() const {
     return must("ended_by.qos_latency") + must("ended_by.qos_gap")
@@ -87,28 +59,40 @@ private:
   const study::measured_run& run_;
 };
 
+namespace {
+
+constexpr double percent = 100;
+
+// What a planning cycle costs: λ of time, of energy and of violations.
+// Source: as for Chen et al., ToN 24(5) 2016, eqs. (4), (8), with the weights
+// of docs/bench.md.
+constexpr double of_time = 0.3;
+constexpr double of_energy = 0.3;
+constexpr double of_violations = 1.0;
+
 /// @returns the share of all workers' time that running services took.
-double utilisation(const run_figures& run, const baseline& by) {
-  double worker_s = 0;
-  for (const auto& [kind, share] : by.utilisation_by) {
-    const auto served = "services." + kind + ".served.";
-    if (const auto mean_s = run.may(served + "time_s.mean"))
-      worker_s += share * *mean_s * run.must(served + "count");
+double utilisation(const summary_figures& run, const baseline& by) {
+  double busy_s = 0, workers = 0;
+  for (std::size_t k = 0; k < by.providers.size(); ++k) {
+    const auto& provider = by.providers[k];
+    workers += provider.workers;
+    for (const auto& [service, share] : provider.utilisation_by)
+      busy_s += provider.workers * share * run.served_s(k + 1, service);
   }
-  return worker_s / (by.providers * run.must("virtual_s"));
+  return busy_s / (workers * run.must("virtual_s"));
 }
 
 /// @returns how many messages of the protocol there were, as far as a run
 /// tells: offers that came, and requests, answers and ends, each counted per
 /// service.
-double signalling(const run_figures& run) {
+double signalling(const summary_figures& run) {
   constexpr double request_and_answer = 2;
   return run.must("offers") + request_and_answer * run.over_services("requests")
          + run.over_services("ended_by.");
 }
 
 /// @returns the mean cost of a planning cycle.
-double score(const run_figures& run, const baseline& by) {
+double score(const summary_figures& run, const baseline& by) {
   const auto share = run.offloaded_share();
   const auto latency_s = run.may("latency_ms.mean").value_or(0) * 1e-3;
   const auto time = share * latency_s + (1 - share) * by.local_s;
@@ -136,6 +120,143 @@ void compare(std::vector<judged_run>& runs, std::string_view with,
   }
 }
 
+// -- what criteria are made of ------------------------------------------------
+
+using value_of = std::optional<double>;
+
+value_of in_percent(value_of share) {
+  return share ? value_of{percent * *share} : share;
+}
+
+value_of per_hour(const summary_figures& run, double count) {
+  const auto hours = run.vehicle_hours();
+  return hours > 0 ? value_of{count / hours} : std::nullopt;
+}
+
+/// @returns a part of the energy, per km.
+value_of part_per_km(const summary_figures& run, const std::string& part) {
+  const auto per_km = run.may("energy.per_km_j");
+  const auto all_j = run.may("energy.j");
+  const auto part_j = run.may(part);
+  if (!per_km || !part_j || !(all_j > 0.0))
+    return std::nullopt;
+  return *per_km / *all_j * *part_j;
+}
+
+constexpr criterion all_criteria[]{
+    {"offloaded_percent", "offloaded share, %", "share %", 1, better::more,
+     [](const summary_figures& run, const baseline&) {
+       return in_percent(run.may("offloaded_share"));
+     }},
+    {"violations_per_h", "QoS violations, 1/h", "viol/h", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.violations());
+     }},
+    {"without_plan_s_per_h", "without a fresh plan, s/h", "", 3, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.must("safety.without_fresh_plan_s"));
+     }},
+    {"collisions", "collisions", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return value_of{run.must("safety.collisions")};
+     }},
+    {"fallbacks_per_h", "fallbacks, 1/h", "fallb/h", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.must("fallbacks"));
+     }},
+    {"ping_pongs_per_h", "ping-pongs, 1/h", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.must("ping_pongs"));
+     }},
+    {"hand_overs_per_h", "hand-overs, 1/h", "", 2, better::neither,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.must("hand_overs"));
+     }},
+    {"latency_mean_ms", "latency, mean, ms", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("latency_ms.mean");
+     }},
+    {"latency_p50_ms", "latency, median, ms", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("latency_ms.p50");
+     }},
+    {"latency_p95_ms", "latency, 95 %, ms", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("latency_ms.p95");
+     }},
+    {"latency_p99_ms", "latency, 99 %, ms", "p99 ms", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("latency_ms.p99");
+     }},
+    {"vehicle_cpu_percent", "planning on board, % of a core", "", 2,
+     better::less,
+     [](const summary_figures& run, const baseline& by) {
+       if (by.period_s <= 0)
+         return value_of{};
+       return in_percent((1 - run.offloaded_share()) * by.local_s
+                         / by.period_s);
+     }},
+    {"energy_j_per_km", "energy, J/km", "", 1, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("energy.per_km_j");
+     }},
+    {"energy_on_board_j_per_km", "energy of planning on board, J/km", "", 1,
+     better::less,
+     [](const summary_figures& run, const baseline&) {
+       return part_per_km(run, "energy.local_j");
+     }},
+    {"energy_offloading_j_per_km", "energy of offloading, J/km", "", 1,
+     better::less,
+     [](const summary_figures& run, const baseline&) {
+       return part_per_km(run, "energy.offloading_j");
+     }},
+    {"energy_saved_percent", "energy saved, %", "saved %", 1, better::more,
+     [](const summary_figures& run, const baseline&) {
+       return in_percent(run.may("energy.saved_share"));
+     }},
+    {"utilisation_percent", "utilisation of providers, %", "", 1,
+     better::neither,
+     [](const summary_figures& run, const baseline& by) {
+       if (by.providers.empty())
+         return value_of{};
+       return in_percent(utilisation(run, by));
+     }},
+    {"rejected_percent", "rejected, %", "", 1, better::neither,
+     [](const summary_figures& run, const baseline&) {
+       const auto requests = run.must("requests");
+       if (requests <= 0)
+         return value_of{};
+       return in_percent(run.must("rejected") / requests);
+     }},
+    {"fairness", "fairness (Jain)", "Jain", 3, better::more,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("fairness");
+     }},
+    {"messages_per_s", "signalling, messages/s", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return value_of{signalling(run) / run.must("virtual_s")};
+     }},
+    {regret_name, "regret, %", "regret %", 1, better::less, nullptr, "oracle"},
+    {than_location_name, "than location, %", "", 1, better::less, nullptr,
+     "location"},
+    {score_name, "score", "score", 4, better::less,
+     [](const summary_figures& run, const baseline& by) {
+       return value_of{score(run, by)};
+     }},
+};
+
+provider_capacity capacity_of(const scenario& s,
+                              const channel_profile& profile) {
+  const auto workers = static_cast<std::size_t>(profile.workers);
+  provider_capacity capacity{static_cast<double>(workers), {}};
+  for (const auto& kind : s.services)
+    capacity.utilisation_by.emplace(
+        kind->name(),
+        worker_share(profile.mean_service_s() * kind->options.demand,
+                     kind->options.period, workers));
+  return capacity;
+}
+
 } // namespace
 
 std::span<const criterion> criteria() {
@@ -144,79 +265,37 @@ std::span<const criterion> criteria() {
 
 baseline baseline_of(const scenario& s) {
   baseline by;
-  const auto& channel = *s.network.channel;
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    by.providers.push_back(capacity_of(s, *s.channel_to(k)));
   for (const auto& kind : s.services) {
     const auto& options = kind->options;
-    by.utilisation_by.emplace(kind->name(),
-                              channel.mean_service_s() * options.demand
-                                  / to_seconds(options.period)
-                                  / static_cast<double>(channel.workers));
     if (kind->name() != study::planning)
       continue;
     by.limit_s = to_seconds(options.limits.max_latency);
     by.period_s = to_seconds(options.period);
     by.local_s = to_seconds(options.run_time_mean);
   }
-  by.providers = static_cast<double>(s.providers.size());
   return by;
 }
 
 judged_run judge(const study::measured_run& measured, const baseline& by) {
-  const run_figures run{measured};
+  const summary_figures run{measured};
   judged_run judged;
   judged.seed = measured.point.seed;
   if (!measured.point.labels.empty())
     judged.entrant = measured.point.labels.front();
-  auto& to = judged.values;
-  const auto add = [&to](std::string_view name, std::optional<double> value,
-                         double scale = 1) {
-    if (value)
-      to.emplace(name, scale * *value);
-  };
-  const auto hours = run.vehicle_hours();
-  const auto per_hour = [&](std::string_view name, double count) {
-    if (hours > 0)
-      add(name, count / hours);
-  };
-  add("offloaded_percent", run.may("offloaded_share"), percent);
-  per_hour("violations_per_h", run.violations());
-  per_hour("without_plan_s_per_h", run.must("safety.without_fresh_plan_s"));
-  add("collisions", run.must("safety.collisions"));
-  per_hour("fallbacks_per_h", run.must("fallbacks"));
-  per_hour("ping_pongs_per_h", run.must("ping_pongs"));
-  per_hour("hand_overs_per_h", run.must("hand_overs"));
-  add("latency_mean_ms", run.may("latency_ms.mean"));
-  add("latency_p50_ms", run.may("latency_ms.p50"));
-  add("latency_p95_ms", run.may("latency_ms.p95"));
-  add("latency_p99_ms", run.may("latency_ms.p99"));
-  if (by.period_s > 0)
-    add("vehicle_cpu_percent",
-        (1 - run.offloaded_share()) * by.local_s / by.period_s, percent);
-  const auto per_km = run.may("energy.per_km_j");
-  add("energy_j_per_km", per_km);
-  if (const auto all_j = run.may("energy.j"); per_km && all_j > 0.0) {
-    add("energy_on_board_j_per_km", run.may("energy.local_j"),
-        *per_km / *all_j);
-    add("energy_offloading_j_per_km", run.may("energy.offloading_j"),
-        *per_km / *all_j);
-  }
-  add("energy_saved_percent", run.may("energy.saved_share"), percent);
-  if (by.providers > 0)
-    add("utilisation_percent", utilisation(run, by), percent);
-  if (const auto requests = run.must("requests"); requests > 0)
-    add("rejected_percent", run.must("rejected") / requests, percent);
-  add("fairness", run.may("fairness"));
-  add("messages_per_s", signalling(run) / run.must("virtual_s"));
-  add(score_name, score(run, by));
-  judged.safe = run.must("safety.without_fresh_plan_s") == 0
-                && run.must("safety.off_road_s") == 0
-                && run.must("safety.collisions") == 0;
+  for (const auto& one : criteria())
+    if (const auto value = one.of ? one.of(run, by) : std::nullopt)
+      judged.values.emplace(one.name, *value);
+  judged.safe =
+      is_safe([&run](const std::string& name) { return run.must(name); });
   return judged;
 }
 
 void compare_scores(std::vector<judged_run>& runs) {
-  compare(runs, "oracle", regret_name);
-  compare(runs, "location", than_location_name);
+  for (const auto& one : criteria())
+    if (!one.with.empty())
+      compare(runs, one.with, one.name);
 }
 
 } // namespace sofof::bench

@@ -16,13 +16,22 @@ namespace sofof::bench {
 
 enum class better { more, less, neither };
 
-/// One column of a leaderboard. Meanings: docs/bench.md.
+class summary_figures;
+struct baseline;
+
+/// One column of a leaderboard, all that is to be said of it. Meanings:
+/// docs/bench.md.
 struct criterion {
   std::string_view name;  ///< In files, with its unit.
   std::string_view title; ///< For people, with its unit.
   std::string_view brief; ///< The same in a narrow table; empty: not in it.
   int decimals = 0;
   better wanted = better::neither;
+  /// Of a run; nothing where it does not tell. Null for a comparison.
+  std::optional<double> (*of)(const summary_figures& run,
+                              const baseline& by) = nullptr;
+  /// Of a comparison: the entrant that the score is compared with.
+  std::string_view with{};
 };
 
 /// @returns all of them, in the order of columns; none is of the wall's clock.
@@ -32,14 +41,19 @@ inline constexpr std::string_view score_name = "score";
 inline constexpr std::string_view regret_name = "regret_percent";
 inline constexpr std::string_view than_location_name = "than_location_percent";
 
+/// A provider's computer.
+struct provider_capacity {
+  double workers = 1;
+  /// The share of them that a running service takes.
+  std::map<std::string, double, std::less<>> utilisation_by;
+};
+
 /// What a scenario says about its runs, whoever decides.
 struct baseline {
   double limit_s = 0;  ///< τ: longest latency of trajectory planning.
   double period_s = 0; ///< T_p: of its cycles.
   double local_s = 0;  ///< T_loc: of a cycle on board, mean.
-  /// The share of one provider's workers that a running service takes.
-  std::map<std::string, double, std::less<>> utilisation_by;
-  double providers = 0;
+  std::vector<provider_capacity> providers; ///< By their places.
 };
 
 /// @param s  Loaded, so that it has trajectory planning.

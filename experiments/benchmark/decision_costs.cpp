@@ -17,6 +17,18 @@ namespace {
 
 constexpr int us_places = 1;
 
+constexpr csv_column<decision_cost> columns_of_costs[]{
+    {"scenario", [](const auto& x) { return std::string_view{x.scenario}; }},
+    {"entrant", [](const auto& x) { return std::string_view{x.entrant}; }},
+    {"side", [](const auto& x) { return std::string_view{x.side}; }},
+    {"decisions",
+     [](const auto& x) { return static_cast<std::uint64_t>(x.decisions); }},
+    {"mean_us", [](const auto& x) { return rounded(x.mean_us, us_places); }},
+    {"p50_us", [](const auto& x) { return rounded(x.p50_us, us_places); }},
+    {"p99_us", [](const auto& x) { return rounded(x.p99_us, us_places); }},
+    {"max_us", [](const auto& x) { return rounded(x.max_us, us_places); }},
+};
+
 using figures = std::map<std::string, double>;
 
 figures read_timing(const std::filesystem::path& folder) {
@@ -92,21 +104,12 @@ std::optional<double> slowest_p99_us(std::span<const decision_cost> costs,
 }
 
 std::string to_csv(std::span<const decision_cost> costs) {
-  std::string text =
-      "scenario,entrant,side,decisions,mean_us,p50_us,p99_us,max_us\n";
+  const csv_columns<decision_cost> columns = columns_of_costs;
+  std::string text;
+  append_names(text, columns);
+  text += '\n';
   for (const auto& cost : costs) {
-    append(text, std::string_view{cost.scenario});
-    for (const auto& cell : {cost.entrant, cost.side}) {
-      text += ',';
-      append(text, std::string_view{cell});
-    }
-    text += ',';
-    append(text, static_cast<std::uint64_t>(cost.decisions));
-    for (const auto us :
-         {cost.mean_us, cost.p50_us, cost.p99_us, cost.max_us}) {
-      text += ',';
-      append(text, rounded(us, us_places));
-    }
+    append_fields(text, columns, cost);
     text += '\n';
   }
   return text;

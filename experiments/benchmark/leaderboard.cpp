@@ -59,6 +59,44 @@ std::size_t above_line(const std::vector<standing>& all) {
       std::ranges::count_if(all, &standing::above_line));
 }
 
+struct standing_row {
+  const leaderboard& board;
+  const standing& one;
+  std::uint64_t place; // counting from 1
+  const entrant& who;
+};
+
+constexpr csv_column<standing_row> columns_of_standings[]{
+    {"scenario",
+     [](const auto& x) {
+       return x.board.scenario.empty() ? "all"
+                                       : std::string_view{x.board.scenario};
+     }},
+    {"place", [](const auto& x) { return x.place; }},
+    {"entrant", [](const auto& x) { return std::string_view{x.who.name}; }},
+    {"lodm", [](const auto& x) { return std::string_view{x.who.lodm}; }},
+    {"codm", [](const auto& x) { return std::string_view{x.who.codm}; }},
+    {"status",
+     [](const auto& x) -> std::string_view {
+       return x.one.above_line() ? "ranked" : "below the line";
+     }},
+    {"runs", [](const auto& x) { return x.one.runs; }},
+    {"unsafe", [](const auto& x) { return x.one.unsafe; }},
+    {"failed", [](const auto& x) { return x.one.failed; }},
+};
+
+/// Three columns for each criterion.
+struct part_of_interval {
+  std::string_view name_ends; // of the column
+  double study::interval::*of;
+};
+
+constexpr part_of_interval parts_of_interval[]{
+    {"", &study::interval::mean},
+    {"_low", &study::interval::low},
+    {"_high", &study::interval::high},
+};
+
 } // namespace
 
 std::span<const standing> leaderboard::above() const {
@@ -103,36 +141,26 @@ const study::interval* best_of(const leaderboard& all, const criterion& by) {
 
 std::string to_csv(std::span<const leaderboard> boards,
                    std::span<const entrant> entrants) {
-  std::string text =
-      "scenario,place,entrant,lodm,codm,status,runs,unsafe,failed";
+  const csv_columns<standing_row> columns = columns_of_standings;
+  std::string text;
+  append_names(text, columns);
   for (const auto& by : criteria())
-    for (const auto* end : {"", "_low", "_high"})
+    for (const auto& [end, of] : parts_of_interval)
       ((text += ',') += by.name) += end;
   text += '\n';
   for (const auto& board : boards) {
     std::uint64_t place = 0;
     for (const auto& one : board.standings) {
-      const auto& who =
-          *std::ranges::find(entrants, one.entrant, &entrant::name);
-      append(text, board.scenario.empty() ? "all" : board.scenario);
-      text += ',';
-      append(text, ++place);
-      for (const auto& cell : {who.name, who.lodm, who.codm}) {
-        text += ',';
-        append(text, std::string_view{cell});
-      }
-      text += one.above_line() ? ",ranked" : ",below the line";
-      for (const auto count : {one.runs, one.unsafe, one.failed}) {
-        text += ',';
-        append(text, std::uint64_t{count});
-      }
+      append_fields(
+          text, columns,
+          {board, one, ++place,
+           *std::ranges::find(entrants, one.entrant, &entrant::name)});
       for (const auto& by : criteria()) {
         const auto found = one.values.find(by.name);
         const auto known = found != one.values.end();
-        for (auto end : {&study::interval::mean, &study::interval::low,
-                         &study::interval::high}) {
+        for (const auto& [end, of] : parts_of_interval) {
           text += ',';
-          append(text, rounded(known ? std::optional{found->second.*end}
+          append(text, rounded(known ? std::optional{found->second.*of}
                                      : std::nullopt,
                                csv_places));
         }

@@ -27,6 +27,9 @@ measured_run read_run(const sweep_point& point,
         fmt::format("{}: this run has not come to its end.", folder.string())};
   measured_run run{point, folder, summary->figures, {}, 0};
   for (const auto& episode : report::read_episodes(folder)) {
+    if (!episode.by_requester)
+      run.served_s[{place_of(episode.of.provider_id), episode.of.service}] +=
+          episode.ended_s - episode.accepted_s;
     if (!episode.by_requester || episode.of.service != planning
         || !episode.t_off_s || episode.reason == "shutdown")
       continue;

@@ -1,6 +1,7 @@
 // What a study needs to know of one finished run.
 #pragma once
 
+#include "base/ids.hpp"
 #include "experiments/dehler2025/bootstrap.hpp"
 #include "experiments/sweep/plan.hpp"
 
@@ -9,6 +10,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof::study {
@@ -26,6 +28,8 @@ struct measured_run {
   /// ended.
   std::vector<double> t_off_s;
   std::uint64_t ended_early = 0; ///< Episodes that ended by a violation.
+  /// How long providers, by their places, have run each service for vehicles.
+  std::map<std::pair<provider_id, std::string>, double> served_s{};
 
   /// @throws input_error for one that the summary does not have.
   double figure(const std::string& name) const;

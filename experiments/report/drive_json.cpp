@@ -4,11 +4,11 @@
 #include "experiments/report/delta_encoding.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/scenery_json.hpp"
+#include "messages/protocol/event_type.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -26,16 +26,18 @@ constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
 
 /// What befell an offloading or a vehicle: shown on the map when it happens.
-constexpr std::array<std::string_view, 6> alarming{
-    "violation", "collision",     "near_miss",
-    "peer_lost", "provider_lost", "requester_lost"};
+constexpr event_type alarming[]{
+    event_type::violation,     event_type::collision,
+    event_type::near_miss,     event_type::peer_lost,
+    event_type::provider_lost, event_type::requester_lost};
 /// What else is worth a line.
-constexpr std::array<std::string_view, 5> notable{
-    "refused", "clock_in_doubt", "clock_known", "provider_connected",
-    "arrived"};
+constexpr event_type notable[]{
+    event_type::refused, event_type::clock_in_doubt, event_type::clock_known,
+    event_type::provider_connected, event_type::arrived};
 
-bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
+bool is_one_of(std::span<const event_type> types, std::string_view name) {
+  return std::ranges::any_of(
+      types, [name](event_type x) { return name_of(x) == name; });
 }
 
 json car_json() {
@@ -86,7 +88,7 @@ std::vector<offloading> switched(std::span<const event_line> events,
   std::vector<offloading> all;
   std::map<std::pair<std::uint64_t, std::string>, std::size_t> open;
   for (const auto& event : events) {
-    if (event.what != "switch")
+    if (event.what != name_of(event_type::switched))
       continue;
     const std::pair key{event.of.station, event.of.service};
     if (const auto found = open.find(key); found != open.end()) {

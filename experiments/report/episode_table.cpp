@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sofof::report {
@@ -41,36 +42,64 @@ std::string seconds_text(std::optional<double> s) {
   return s ? fmt::format("{:.3f}", *s) : "";
 }
 
-std::vector<std::string> episode_row(const episode_line& x,
-                                     const episode_results& results) {
-  const auto if_any = [&results](double ms) {
-    return results.count > 0 ? fmt::format("{:.2f}", ms) : "";
-  };
-  return {std::to_string(x.of.station),
-          x.of.service,
-          x.of.provider,
-          fmt::format("{:.3f}", x.accepted_s),
-          seconds_text(x.first_data_s),
-          fmt::format("{:.3f}", x.ended_s),
-          seconds_text(x.t_off_s),
-          x.reason,
-          x.fallback ? "yes" : "",
-          results.count > 0 ? std::to_string(results.count) : "",
-          if_any(results.latency_sum_ms / static_cast<double>(results.count)),
-          if_any(results.longest_latency_ms),
-          if_any(results.longest_gap_ms)};
+std::string ms_text(const episode_results& of, double ms) {
+  return of.count > 0 ? fmt::format("{:.2f}", ms) : "";
 }
+
+/// An episode, and its results.
+struct episode_entry {
+  const episode_line& x;
+  episode_results results;
+};
+
+struct episode_column {
+  std::string_view title;
+  std::string (*text)(const episode_entry& of);
+};
+
+constexpr episode_column episode_columns[]{
+    {"vehicle",
+     [](const episode_entry& e) { return std::to_string(e.x.of.station); }},
+    {"service", [](const episode_entry& e) { return e.x.of.service; }},
+    {"provider", [](const episode_entry& e) { return e.x.of.provider; }},
+    {"accepted, s",
+     [](const episode_entry& e) { return seconds_text(e.x.accepted_s); }},
+    {"first data, s",
+     [](const episode_entry& e) { return seconds_text(e.x.first_data_s); }},
+    {"ended, s",
+     [](const episode_entry& e) { return seconds_text(e.x.ended_s); }},
+    {"offloaded, s",
+     [](const episode_entry& e) { return seconds_text(e.x.t_off_s); }},
+    {"ended by", [](const episode_entry& e) { return e.x.reason; }},
+    {"fallback",
+     [](const episode_entry& e) {
+       return std::string{e.x.fallback ? "yes" : ""};
+     }},
+    {"results",
+     [](const episode_entry& e) {
+       return e.results.count > 0 ? std::to_string(e.results.count) : "";
+     }},
+    {"mean latency, ms",
+     [](const episode_entry& e) {
+       return ms_text(e.results, e.results.latency_sum_ms
+                                     / static_cast<double>(e.results.count));
+     }},
+    {"longest latency, ms",
+     [](const episode_entry& e) {
+       return ms_text(e.results, e.results.longest_latency_ms);
+     }},
+    {"longest gap, ms",
+     [](const episode_entry& e) {
+       return ms_text(e.results, e.results.longest_gap_ms);
+     }},
+};
 
 } // namespace
 
 table episode_table(const recorded_run& run) {
-  table all{.title = "",
-            .columns = {"vehicle", "service", "provider", "accepted, s",
-                        "first data, s", "ended, s", "offloaded, s", "ended by",
-                        "fallback", "results", "mean latency, ms",
-                        "longest latency, ms", "longest gap, ms"},
-            .rows = {},
-            .note = ""};
+  table all;
+  for (const auto& column : episode_columns)
+    all.columns.emplace_back(column.title);
   const auto by_vehicles =
       std::ranges::any_of(run.episodes, &episode_line::by_requester);
   const auto results = results_by_episode(run);
@@ -78,8 +107,11 @@ table episode_table(const recorded_run& run) {
     if (one.by_requester != by_vehicles)
       continue;
     const auto found = results.find(one.of);
-    all.rows.push_back(episode_row(
-        one, found == results.end() ? episode_results{} : found->second));
+    const episode_entry entry{one, found == results.end() ? episode_results{}
+                                                          : found->second};
+    auto& row = all.rows.emplace_back();
+    for (const auto& column : episode_columns)
+      row.push_back(column.text(entry));
   }
   if (!by_vehicles && !all.rows.empty())
     all.note = "As the provider closed them.";

@@ -2,10 +2,12 @@
 #include "experiments/sweep/point_table.hpp"
 
 #include "base/text/csv.hpp"
+#include "recording/safety_line.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -72,9 +74,11 @@ void append_cell(std::string& line, std::string_view text) {
 
 bool point_result::safe() const {
   const auto summary = ordered_json::parse(this->summary);
-  const auto& safety = summary.at("safety");
-  return safety.at("without_fresh_plan_s") == 0.0
-         && safety.at("off_road_s") == 0.0 && safety.at("collisions") == 0;
+  return is_safe([&summary](const std::string& name) {
+    auto path = '/' + name;
+    std::ranges::replace(path, '.', '/');
+    return summary.at(ordered_json::json_pointer{path}).get<double>();
+  });
 }
 
 void run_counts::add(const point_result& result) {

@@ -30,7 +30,8 @@ struct qos_violation {
   /// Another provider runs the service as it should, or the manager has left
   /// the one that broke them already.
   bool others_hold = false;
-  std::string why{}; ///< Of an implausible result: check, value and limit.
+  std::string why{};   ///< Of an implausible result: check, value and limit.
+  std::string check{}; ///< Likewise, the check alone.
 };
 
 template <class Inspector>
@@ -56,7 +57,7 @@ bool inspect(Inspector& f, qos_violation& x) {
   return f.object(x).fields(f.field("running", x.running),
                             f.field("breach", x.breach), f.field("at", x.at),
                             f.field("others_hold", x.others_hold),
-                            f.field("why", x.why));
+                            f.field("why", x.why), f.field("check", x.check));
 }
 
 } // namespace sofof

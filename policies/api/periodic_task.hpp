@@ -3,6 +3,7 @@
 
 #include "base/time.hpp"
 
+#include <cstddef>
 #include <span>
 
 namespace sofof {
@@ -17,5 +18,14 @@ struct periodic_task {
 
 /// @returns Σ C/T: the share of one core that the tasks take.
 double utilisation(std::span<const periodic_task> tasks);
+
+/// @param computing_s  Of a cycle, mean, s, ≥ 0.
+/// @param period       Of its cycles, > 0.
+/// @param workers      Of the computer, > 0.
+/// @returns the share of all workers' time that a running service takes.
+inline double worker_share(double computing_s, duration period,
+                           std::size_t workers) {
+  return computing_s / to_seconds(period) / static_cast<double>(workers);
+}
 
 } // namespace sofof

@@ -157,7 +157,7 @@ struct acceptor_world : virtual_world {
   std::vector<event_record> refusals() const {
     std::vector<event_record> found;
     for (const auto& e : recorder->all<event_record>())
-      if (e.what == "peer_refused")
+      if (e.what == event_type::peer_refused)
         found.push_back(e);
     return found;
   }

@@ -167,7 +167,7 @@ TEST_CASE_FIXTURE(listening_world,
   const auto recorded = [&] {
     std::vector<event_record> all;
     for (const auto& e : recorder->all<event_record>())
-      if (e.what == "doubted")
+      if (e.what == event_type::doubted)
         all.push_back(e);
     return all;
   };

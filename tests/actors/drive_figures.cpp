@@ -28,12 +28,12 @@ struct driver {
     const auto next = plan(accel_mps2);
     plan_report report;
     report.emergency = accel_mps2 < -2.6;
-    return figures.take(in_use, next, report, from, next.start);
+    return figures.on_plan(in_use, next, report, from, next.start);
   }
   /// Drives on with jerks of 100 m/s³.
   void jolt(int steps) {
     for (auto i = 0; i < steps; ++i)
-      figures.take(vehicle_state{{}, 0, 10, i % 10 < 5 ? 0. : 5., 0});
+      figures.on_step(vehicle_state{{}, 0, 10, i % 10 < 5 ? 0. : 5., 0});
   }
 };
 
@@ -75,7 +75,7 @@ TEST_CASE_FIXTURE(driver, "plans that are kept, stop, or were not solved are "
     report.origin = origin;
     report.path = path;
     report.velocity = velocity;
-    figures.take(in_use, in_use, report, local, in_use.start);
+    figures.on_plan(in_use, in_use, report, local, in_use.start);
     return figures.flush().plans;
   };
   auto x = take_one(plan_origin::planned, converged, acceptable);
@@ -129,11 +129,11 @@ TEST_CASE_FIXTURE(driver, "to stand in the beginning is no safe stop, and to "
 
 TEST_CASE("a car that starts driving and never gets a plan makes a safe stop") {
   drive_figures figures{station, vehicle_params{}, 10};
-  figures.take(vehicle_state{{}, 0, 10, 0, 0});
+  figures.on_step(vehicle_state{{}, 0, 10, 0, 0});
   CHECK(figures.flush().ride.distance_m == doctest::Approx(0.1));
   figures.stop_safely();
   figures.stop_safely();
-  figures.take(vehicle_state{{}, 0, 10, -5, 0});
+  figures.on_step(vehicle_state{{}, 0, 10, -5, 0});
   const auto x = figures.flush();
   CHECK(x.plans.safe_stops == 1);
   CHECK(x.ride.extremes.jerk_mps3 == 0); // it is an emergency

@@ -473,7 +473,7 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(episodes().front().fallback);
   const auto events = recorder->all<event_record>();
   const auto found =
-      std::ranges::find(events, "implausible", &event_record::what);
+      std::ranges::find(events, event_type::implausible, &event_record::what);
   REQUIRE(found != events.end());
   CHECK(found->provider == here);
   CHECK(found->kind == one);
@@ -490,7 +490,8 @@ TEST_CASE_FIXTURE(requester_world,
                                         side::provider});
   settle();
   const auto events = recorder->all<event_record>();
-  CHECK(std::ranges::count(events, "implausible", &event_record::what) == 1);
+  CHECK(std::ranges::count(events, event_type::implausible, &event_record::what)
+        == 1);
   const auto asked = requests();
   run_for(30s);
   offer({one});

@@ -199,7 +199,7 @@ TEST_CASE("words of the process itself are none of a peer's") {
   refused(message_of(std::string{"a line for the journal"}));
   refused(
       message_of(peer_hello{}, vehicle_endpoint_actor{}, std::string{"name"}));
-  refused(message_of(event_record{}));
+  refused(message_of(motion_report{}));
   refused(message_of(caf::make_message(caf::make_message())));
   refused(message_of(caf::exit_msg{{}, caf::exit_reason::kill}));
   refused(message_of(ping{}, ping{}));

@@ -30,8 +30,8 @@ struct remote_service_world : requester_world {
   std::vector<std::string> switches() const {
     std::vector<std::string> all;
     for (const auto& e : recorder->all<event_record>())
-      if (e.what == "switch" || e.what == "left")
-        all.push_back(e.what + " " + e.detail);
+      if (e.what == event_type::switched || e.what == event_type::left)
+        all.push_back(std::string{name_of(e.what)} + " " + e.detail);
     return all;
   }
 };
@@ -91,7 +91,7 @@ TEST_CASE_FIXTURE(remote_service_world,
   run_for(100ms);
   CHECK(is_remote(one));
   CHECK(!std::ranges::any_of(recorder->all<event_record>(), [](const auto& e) {
-    return e.what == "violation";
+    return e.what == event_type::violation;
   }));
   run_for(1ms);
   const auto told = other->all<service_end>();

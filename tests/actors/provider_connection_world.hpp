@@ -221,7 +221,7 @@ struct provider_connection_world : virtual_world {
   std::size_t notes(std::string_view what) const {
     std::size_t n = 0;
     for (const auto& e : recorder->all<event_record>())
-      n += e.what == what;
+      n += name_of(e.what) == what;
     return n;
   }
 };

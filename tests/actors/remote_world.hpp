@@ -215,7 +215,7 @@ struct remote_world : virtual_world {
                                          std::string_view what) {
     std::vector<event_record> found;
     for (const auto& e : at->all<event_record>())
-      if (e.what == what)
+      if (name_of(e.what) == what)
         found.push_back(e);
     return found;
   }

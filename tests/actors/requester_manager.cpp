@@ -538,7 +538,7 @@ TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
     uncertain_result(++cycle, 30ms);
   REQUIRE(recorder->count<event_record>() == 1);
   const auto doubt = recorder->all<event_record>().front();
-  CHECK(doubt.what == "clock_in_doubt");
+  CHECK(doubt.what == event_type::clock_in_doubt);
   CHECK(doubt.at == now());
   CHECK(doubt.station == 101);
   CHECK(doubt.provider == 1);
@@ -548,9 +548,10 @@ TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
   for (int k = 0; k < 5; ++k)
     uncertain_result(++cycle, 1ms);
   REQUIRE(recorder->count<event_record>() == 2);
-  CHECK(recorder->all<event_record>().back().what == "clock_known");
+  CHECK(recorder->all<event_record>().back().what == event_type::clock_known);
   uncertain_result(++cycle, 30ms);
-  CHECK(recorder->all<event_record>().back().what == "clock_in_doubt");
+  CHECK(recorder->all<event_record>().back().what
+        == event_type::clock_in_doubt);
 }
 
 TEST_CASE_FIXTURE(managed_world,

@@ -142,7 +142,7 @@ TEST_CASE_FIXTURE(road_world, "who comes near too fast is noted once") {
   run_for(1s);
   const auto events = recorder->all<event_record>();
   REQUIRE(events.size() == 1);
-  CHECK(events[0].what == "near_miss");
+  CHECK(events[0].what == event_type::near_miss);
   CHECK(events[0].station == 1);
   CHECK(events[0].detail == "with 2 ttc_s=1.400");
   CHECK(collisions() == 0);

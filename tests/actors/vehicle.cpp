@@ -366,10 +366,10 @@ TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
   CHECK(road->all<station_id>().front() == station);
   CHECK(last_report().s_m > 990);
   CHECK(is_gone(requester.handle));
-  std::vector<std::string> events;
+  std::vector<event_type> events;
   for (const auto& e : recorder->all<event_record>())
     events.push_back(e.what);
-  CHECK(events == std::vector<std::string>{"arrived"});
+  CHECK(events == std::vector{event_type::arrived});
   CHECK(!is_gone(car)); // it waits for the end of the run
 }
 
@@ -397,7 +397,7 @@ TEST_CASE_FIXTURE(late_world, "a vehicle that was let in drives like any") {
   CHECK(total().driven <= 6s);
   const auto events = recorder->all<event_record>();
   REQUIRE(!events.empty());
-  CHECK(events.front().what == "appeared");
+  CHECK(events.front().what == event_type::appeared);
   CHECK(events.front().at == time_point{12s});
 }
 

@@ -111,7 +111,7 @@ struct vehicle_connection_world : virtual_world {
   std::vector<event_record> notes(std::string_view what) const {
     std::vector<event_record> found;
     for (const auto& e : recorder->all<event_record>())
-      if (e.what == what)
+      if (name_of(e.what) == what)
         found.push_back(e);
     return found;
   }

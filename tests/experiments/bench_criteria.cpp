@@ -45,11 +45,14 @@ study::measured_run one_hour() {
                  {"services.trajectory_planning.served.ended_by.left_area", 28},
                  {"services.trajectory_planning.served.count", 30},
                  {"services.trajectory_planning.served.time_s.mean", 60}};
+  run.served_s = {{{1, "trajectory_planning"}, 10 * 60},
+                  {{2, "trajectory_planning"}, 20 * 60}};
   return run;
 }
 
 baseline usual() {
-  return {0.05, 0.1, 0.01, {{"trajectory_planning", 0.08}}, 2};
+  const provider_capacity each{1, {{"trajectory_planning", 0.08}}};
+  return {0.05, 0.1, 0.01, {each, each}};
 }
 
 double value(const judged_run& run, std::string_view name) {
@@ -84,6 +87,14 @@ TEST_CASE("a provider is used as much as what it served takes of its time") {
   // 30 · 60 s of 8 % of the workers, of two providers for 360 s.
   CHECK(value(judge(one_hour(), usual()), "utilisation_percent")
         == near(100 * 30 * 60 * 0.08 / (2 * 360), 1e-9));
+}
+
+TEST_CASE("what a provider served takes its own computer's time") {
+  // 600 s of 8 % of one worker here, 1200 s of 2 % of each of four there.
+  auto by = usual();
+  by.providers[1] = {4, {{"trajectory_planning", 0.02}}};
+  CHECK(value(judge(one_hour(), by), "utilisation_percent")
+        == near(100 * (600 * 0.08 + 1200 * 4 * 0.02) / (5 * 360), 1e-9));
 }
 
 TEST_CASE("a vehicle's planner takes its run times of a core, when on board") {
@@ -123,6 +134,7 @@ TEST_CASE("who never offloads has the cost of planning on board") {
                            "services.trajectory_planning.served."
                            "time_s.mean"})
     run.figures.erase(name);
+  run.served_s.clear();
   for (const auto* name : {"offloaded_share", "requests", "rejected",
                            "ended_by.qos_latency", "ended_by.qos_gap"})
     run.figures[name] = 0;
@@ -198,8 +210,44 @@ TEST_CASE("a scenario tells limits, periods and what a service takes") {
   CHECK(by.limit_s == near(0.05, 1e-12));
   CHECK(by.period_s == near(0.1, 1e-12));
   CHECK(by.local_s > 0);
-  CHECK(by.providers == 1);
-  CHECK(by.utilisation_by.at("trajectory_planning") == near(0.08, 1e-9));
+  REQUIRE(by.providers.size() == 1);
+  CHECK(by.providers[0].utilisation_by.at("trajectory_planning")
+        == near(0.08, 1e-9));
+}
+
+TEST_CASE("each provider computes by its own profile") {
+  const auto s = parse_scenario(R"([street_grid]
+columns = 3
+rows = 2
+[[fleet]]
+count = 1
+routes = ["block *"]
+[[provider]]
+name = "near"
+position_m = [100.0, 50.0]
+network = { profile = "ideal", more_computing = "8ms" }
+[[provider]]
+name = "far"
+position_m = [100.0, 50.0]
+network = { profile = "ideal", more_computing = "2ms", workers = 4 }
+[network]
+profile = "ideal"
+more_computing = "50ms"
+[[service]]
+name = "trajectory_planning"
+planner = "lane_follow"
+period = "100ms"
+max_interarrival = "150ms"
+)",
+                                "two.toml");
+  const auto by = baseline_of(s);
+  REQUIRE(by.providers.size() == 2);
+  const auto share = [&by](std::size_t place) {
+    return by.providers[place].utilisation_by.at("trajectory_planning");
+  };
+  CHECK(share(0) == near(0.08, 1e-9));
+  CHECK(by.providers[1].workers == 4);
+  CHECK(share(1) == near(0.02 / 4, 1e-9));
 }
 
 } // namespace sofof::bench

@@ -65,9 +65,9 @@ public:
     results to{folder_, info};
     play(to);
     for (int i = 0; i < 3; ++i)
-      to.take(track(101, i * 100ms, {1.5 * i, -2}, i > 0));
-    to.take(event_record{at(65s), "violation", 101, provider, planning, 2,
-                         "qos_gap"});
+      to.on_record(track(101, i * 100ms, {1.5 * i, -2}, i > 0));
+    to.on_record(event_record{at(65s), event_type::violation, 101, provider,
+                              planning, 2, "qos_gap"});
     to.finish(at(100s), 0.5, false);
   }
   ~played_folder() { std::filesystem::remove_all(base_); }

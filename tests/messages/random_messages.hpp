@@ -46,7 +46,7 @@ inline constexpr std::size_t arity<qos_limits> = 2;
 template <>
 inline constexpr std::size_t arity<arrival> = 3;
 template <>
-inline constexpr std::size_t arity<qos_violation> = 5;
+inline constexpr std::size_t arity<qos_violation> = 6;
 template <>
 inline constexpr std::size_t arity<vehicle_state> = 5;
 template <>
@@ -64,36 +64,6 @@ inline constexpr std::size_t arity<roadside_detections> = 4;
 template <>
 inline constexpr std::size_t arity<viewpoint> = 4;
 template <>
-inline constexpr std::size_t arity<event_record> = 7;
-template <>
-inline constexpr std::size_t arity<decision_record> = 4;
-template <>
-inline constexpr std::size_t arity<cycle_record::margin> = 2;
-template <>
-inline constexpr std::size_t arity<cycle_record> = 8;
-template <>
-inline constexpr std::size_t arity<episode_record> = 8;
-template <>
-inline constexpr std::size_t arity<track_record> = 5;
-template <>
-inline constexpr std::size_t arity<safety_record> = 5;
-template <>
-inline constexpr std::size_t arity<collision_record> = 3;
-template <>
-inline constexpr std::size_t arity<motion_extremes> = 3;
-template <>
-inline constexpr std::size_t arity<plan_figures> = 8;
-template <>
-inline constexpr std::size_t arity<ride_figures> = 4;
-template <>
-inline constexpr std::size_t arity<plan_jump> = 4;
-template <>
-inline constexpr std::size_t arity<drive_record> = 3;
-template <>
-inline constexpr std::size_t arity<plan_switch_record> = 4;
-template <>
-inline constexpr std::size_t arity<air_record> = 2;
-template <>
 inline constexpr std::size_t arity<peer_hello> = 6;
 template <>
 inline constexpr std::size_t arity<peer_welcome> = 2;
@@ -110,10 +80,8 @@ using all_messages =
                service_offer, service_request, service_response, service_input,
                service_result, service_end, qos_limits, arrival, qos_violation,
                lifecycle_step, motion_report, ego_state, source_change,
-               perception, event_record, decision_record, cycle_record,
-               episode_record, track_record, safety_record, collision_record,
-               drive_record, plan_switch_record, roadside_detections, its_pdu,
-               air_record, peer_hello, peer_welcome, ping, pong, stream_id>;
+               perception, roadside_detections, its_pdu, peer_hello,
+               peer_welcome, ping, pong, stream_id>;
 
 /// @returns references to all members.
 template <class T>

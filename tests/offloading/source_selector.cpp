@@ -85,8 +85,10 @@ struct diary final : offloading::selector_port {
     write("useless: " + name(x));
   }
   void watch_end(const service_end&) override { write("watch nothing"); }
-  void record(cycle_record) override {}
-  void record(event_record x) override { write(x.what); }
+  void record(sofof::record x) override {
+    if (const auto* event = std::get_if<event_record>(&x))
+      write(std::string{name_of(event->what)});
+  }
   void wake_at(time_point t, std::uint64_t number) override {
     wakes.emplace_back(t, number);
   }

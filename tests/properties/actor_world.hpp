@@ -79,11 +79,13 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
 }
 
 /// Gives episodes to a ledger.
-struct ledger_sink final : no_records {
-  using no_records::take;
+struct ledger_sink final : record_sink {
   std::shared_ptr<ledger> book;
   explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
-  void take(const episode_record& r) override { book->add(r); }
+  void on_record(const record& x) override {
+    if (const auto* episode = std::get_if<episode_record>(&x))
+      book->add(*episode);
+  }
 };
 
 struct actor_world : virtual_world {

@@ -232,7 +232,10 @@ struct library_world {
       };
       return cycle;
     }
-    void record(const episode_record& x) override { world.book->add(x); }
+    void record(sofof::record x) override {
+      if (const auto* episode = std::get_if<episode_record>(&x))
+        world.book->add(*episode);
+    }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
       world.time.at(t, provider_timer{number, number_of_timer});
     }
@@ -259,7 +262,7 @@ struct library_world {
     void on_source(const service_name& service, bool remote) override {
       world.diary->on_source(service, remote);
     }
-    void record(offloading::record x) override {
+    void record(sofof::record x) override {
       if (const auto* episode = std::get_if<episode_record>(&x))
         world.book->add(*episode);
     }

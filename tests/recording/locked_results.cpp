@@ -23,11 +23,11 @@ run_info onto_full_disk() {
 constexpr int many = 2000;
 
 /// Takes records whose lines fill many blocks.
-void take_many(record_sink& keeper) {
+void record_many(record_sink& keeper) {
   for (int k = 0; k < many; ++k) {
-    keeper.take(result(running(), static_cast<std::uint64_t>(k), 1s, 5ms,
-                       std::nullopt));
-    keeper.take(air_record{});
+    keeper.on_record(result(running(), static_cast<std::uint64_t>(k), 1s, 5ms,
+                            std::nullopt));
+    keeper.on_record(air_record{});
   }
 }
 
@@ -45,11 +45,11 @@ TEST_CASE("records are counted once, whether their files can be written or "
   locked_results keeper{at.path(), onto_full_disk(),
                         write_failure::ends_the_files};
   CHECK_FALSE(keeper.loss());
-  take_many(keeper);
+  record_many(keeper);
   keeper.with([](results& r) { r.flush(); });
   REQUIRE(keeper.loss());
   CHECK(test::contains(*keeper.loss(), "/dev/full: No space left on device"));
-  take_many(keeper);
+  record_many(keeper);
   CHECK(results_counted(keeper) == 2 * many);
   CHECK(
       keeper
@@ -63,7 +63,7 @@ TEST_CASE("a disk that is full at the end only is told, too") {
   const test::scratch at;
   locked_results keeper{at.path(), onto_full_disk(),
                         write_failure::ends_the_files};
-  keeper.take(air_record{});
+  keeper.on_record(air_record{});
   CHECK_FALSE(keeper.loss());
   keeper.with([](results& r) { return r.finish(made_up::at(9s), 1, false); });
   CHECK(keeper.loss());
@@ -72,14 +72,14 @@ TEST_CASE("a disk that is full at the end only is told, too") {
 TEST_CASE("a full disk ends a run that has to leave results") {
   const test::scratch at;
   locked_results keeper{at.path(), onto_full_disk()};
-  take_many(keeper);
+  record_many(keeper);
   CHECK_THROWS_AS(keeper.with([](results& r) { r.flush(); }), storage_error);
 }
 
 TEST_CASE("without files from the beginning all is counted") {
   locked_results keeper{run(), "the disk is full"};
   CHECK(keeper.loss() == "the disk is full");
-  take_many(keeper);
+  record_many(keeper);
   CHECK(results_counted(keeper) == many);
 }
 

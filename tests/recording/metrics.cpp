@@ -54,13 +54,14 @@ TEST_CASE("a run is counted as the protocol says") {
 TEST_CASE("implausible results are counted by the provider's name and the "
           "check") {
   metrics m{run()};
-  const auto refuse = [&m](std::string detail) {
-    m.take(event_record{at(1s), "implausible", 101, provider, planning, 1,
-                        std::move(detail)});
+  const auto refuse = [&m](std::string check) {
+    m.on_record(event_record{at(1s), event_type::implausible, 101, provider,
+                             planning, 1, "with words", false,
+                             std::move(check)});
   };
-  refuse("road value=0.312 limit=0.250");
-  refuse("road value=0.400 limit=0.250");
-  refuse("others value=1.200 limit=2.500");
+  refuse("road");
+  refuse("road");
+  refuse("others");
   const auto& counts = m.headline().implausible;
   REQUIRE(counts.size() == 1);
   CHECK(counts.at("mec").at("road") == 2);
@@ -70,7 +71,7 @@ TEST_CASE("implausible results are counted by the provider's name and the "
 
 TEST_CASE("an episode that still runs at the end counts up to the end") {
   metrics m{run()};
-  m.take(switched(running(), true, 90s));
+  m.on_record(switched(running(), true, 90s));
   m.finish(at(100s));
   CHECK(m.headline().episodes == 1);
   CHECK(m.headline().t_off_s.mean() == doctest::Approx(10));
@@ -91,7 +92,7 @@ TEST_CASE("only the requester's side of an episode is counted") {
   metrics m{run()};
   auto provider_side = episode(running(), 10s, 30s, end_reason::left_area);
   provider_side.of = side::provider;
-  m.take(provider_side);
+  m.on_record(provider_side);
   CHECK(m.headline().episodes == 0);
   CHECK(m.headline().t_off_s.count() == 0);
 }
@@ -99,13 +100,13 @@ TEST_CASE("only the requester's side of an episode is counted") {
 TEST_CASE("vehicles are offloaded now between switch and switch back") {
   metrics m{run()};
   CHECK(m.offloaded_now() == 0);
-  m.take(switched(running(101), true, 10s));
-  m.take(switched(running(102), true, 11s));
-  m.take(switched(running(101, 1, "environment"), true, 11s));
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(switched(running(102), true, 11s));
+  m.on_record(switched(running(101, 1, "environment"), true, 11s));
   CHECK(m.offloaded_now() == 2);
-  m.take(switched(running(101), false, 12s));
+  m.on_record(switched(running(101), false, 12s));
   CHECK(m.offloaded_now() == 1);
-  m.take(episode(running(102), 11s, 13s, end_reason::left_area));
+  m.on_record(episode(running(102), 11s, 13s, end_reason::left_area));
   CHECK(m.offloaded_now() == 0);
 }
 
@@ -113,9 +114,9 @@ TEST_CASE("a hand-over to the next provider leaves its episode open") {
   auto next = running(101);
   next.provider = 2;
   metrics m{run()};
-  m.take(switched(running(101), true, 10s));
-  m.take(switched(next, true, 20s));
-  m.take(episode(running(101), 10s, 20s, end_reason::left_area));
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(switched(next, true, 20s));
+  m.on_record(episode(running(101), 10s, 20s, end_reason::left_area));
   CHECK(m.offloaded_now() == 1);
   m.finish(at(25s));
   CHECK(m.headline().episodes == 2);
@@ -127,11 +128,11 @@ TEST_CASE("who goes straight to the next provider is handed over, who was "
   auto next = running(101);
   next.provider = 2;
   metrics m{run()};
-  m.take(switched(running(101), true, 10s));
-  m.take(switched(next, true, 20s));
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(switched(next, true, 20s));
   CHECK(m.headline().hand_overs == 1);
-  m.take(switched(next, false, 30s));
-  m.take(switched(running(101), true, 40s));
+  m.on_record(switched(next, false, 30s));
+  m.on_record(switched(running(101), true, 40s));
   CHECK(m.headline().hand_overs == 1);
   CHECK(m.headline().ping_pongs == 0);
 }
@@ -139,24 +140,24 @@ TEST_CASE("who goes straight to the next provider is handed over, who was "
 TEST_CASE("who is remote again within five seconds of leaving has gone in "
           "vain") {
   metrics m{run()};
-  m.take(switched(running(101), true, 10s));
-  m.take(switched(running(101), false, 20s));
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(switched(running(101), false, 20s));
   SUBCASE("back in time") {
-    m.take(switched(running(101, 2), true, 25s));
+    m.on_record(switched(running(101, 2), true, 25s));
     CHECK(m.headline().ping_pongs == 1);
   }
   SUBCASE("at another provider") {
     auto next = running(101, 2);
     next.provider = 2;
-    m.take(switched(next, true, 21s));
+    m.on_record(switched(next, true, 21s));
     CHECK(m.headline().ping_pongs == 1);
   }
   SUBCASE("too late to count") {
-    m.take(switched(running(101, 2), true, 25s + 1ns));
+    m.on_record(switched(running(101, 2), true, 25s + 1ns));
     CHECK(m.headline().ping_pongs == 0);
   }
   SUBCASE("somebody else") {
-    m.take(switched(running(102), true, 21s));
+    m.on_record(switched(running(102), true, 21s));
     CHECK(m.headline().ping_pongs == 0);
   }
 }
@@ -165,10 +166,10 @@ TEST_CASE("a hand-over is in vain if the next one goes back") {
   auto next = running(101);
   next.provider = 2;
   metrics m{run()};
-  m.take(switched(running(101), true, 10s));
-  m.take(switched(next, true, 20s));
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(switched(next, true, 20s));
   CHECK(m.headline().ping_pongs == 0);
-  m.take(switched(running(101, 2), true, 23s));
+  m.on_record(switched(running(101, 2), true, 23s));
   CHECK(m.headline().ping_pongs == 1);
   CHECK(m.headline().hand_overs == 2);
 }
@@ -176,11 +177,11 @@ TEST_CASE("a hand-over is in vain if the next one goes back") {
 TEST_CASE("fairness is one when all are offloaded alike, 1/n for one alone") {
   metrics m{run()};
   CHECK_FALSE(m.headline().fairness(2));
-  m.take(episode(running(101), 10s, 30s, end_reason::left_area));
+  m.on_record(episode(running(101), 10s, 30s, end_reason::left_area));
   CHECK(m.headline().fairness(2) == doctest::Approx(0.5));
-  m.take(episode(running(102), 10s, 20s, end_reason::left_area));
+  m.on_record(episode(running(102), 10s, 20s, end_reason::left_area));
   CHECK(m.headline().fairness(2) == doctest::Approx(0.9)); // 30² / (2 · 500)
-  m.take(switched(running(102, 2), true, 40s));
+  m.on_record(switched(running(102, 2), true, 40s));
   m.finish(at(50s));
   CHECK(m.headline().fairness(2) == doctest::Approx(1));
   CHECK_FALSE(m.headline().fairness(0));
@@ -188,29 +189,29 @@ TEST_CASE("fairness is one when all are offloaded alike, 1/n for one alone") {
 
 TEST_CASE("results without an inter-arrival time are not counted as zero") {
   metrics m{run()};
-  m.take(result(running(101, 1), 0, 1s, 9ms, std::nullopt));
+  m.on_record(result(running(101, 1), 0, 1s, 9ms, std::nullopt));
   CHECK(m.headline().interarrival.ms().count() == 0);
-  m.take(result(running(101, 1), 1, 2s, 9ms, 50ms));
-  m.take(result(running(101, 1), 2, 2s, 9ms, 0ms)); // released together
+  m.on_record(result(running(101, 1), 1, 2s, 9ms, 50ms));
+  m.on_record(result(running(101, 1), 2, 2s, 9ms, 0ms)); // released together
   CHECK(m.headline().interarrival.ms().count() == 2);
   CHECK(m.headline().interarrival.ms().mean() == doctest::Approx(25));
 }
 
 TEST_CASE("one touch, one second off the road or with an old plan is unsafe") {
   metrics m{run()};
-  m.take(safety_record{101, 10s, 0s, 0s, 150ms});
-  m.take(safety_record{102, 10s, 0s, 0s, 120ms});
+  m.on_record(safety_record{101, 10s, 0s, 0s, 150ms});
+  m.on_record(safety_record{102, 10s, 0s, 0s, 120ms});
   CHECK(m.safety().ok());
   CHECK(m.safety().driven == duration{20s});
   CHECK(m.safety().max_plan_age == duration{150ms});
   SUBCASE("old plan") {
-    m.take(safety_record{101, 1s, 1ns, 0s, 201ms});
+    m.on_record(safety_record{101, 1s, 1ns, 0s, 201ms});
   }
   SUBCASE("off the road") {
-    m.take(safety_record{101, 1s, 0s, 1s, 0ms});
+    m.on_record(safety_record{101, 1s, 0s, 1s, 0ms});
   }
   SUBCASE("touch") {
-    m.take(collision_record{at(3s), 101, 102});
+    m.on_record(collision_record{at(3s), 101, 102});
   }
   CHECK_FALSE(m.safety().ok());
 }
@@ -242,8 +243,8 @@ TEST_CASE("all vehicles together have the sums and extremes of each") {
 TEST_CASE("a vehicle's figures are those of all its records") {
   metrics m{run()};
   for (auto i = 0; i < 3; ++i) {
-    m.take(safety_record{101, 1s, 0s, 0s, 100ms});
-    m.take(drive_record{101, {20, 1, 0, 0, 0, 0, {}}, {10, {}, 1, 2}});
+    m.on_record(safety_record{101, 1s, 0s, 0s, 100ms});
+    m.on_record(drive_record{101, {20, 1, 0, 0, 0, 0, {}}, {10, {}, 1, 2}});
   }
   const auto& x = m.vehicles().at(101);
   CHECK(x.safety.driven == duration{3s});
@@ -254,10 +255,12 @@ TEST_CASE("a vehicle's figures are those of all its records") {
 
 TEST_CASE("cycles are paid for where they were computed") {
   metrics m{run()};
-  m.take(drive_record{101, {.count = 3, .extremes = {}, .on_board = 3}, {}});
-  m.take(drive_record{102, {.count = 8, .extremes = {}, .on_board = 4}, {}});
-  m.take(result(running(102), 100, 5s, 10ms, {}));
-  m.take(result(running(102), 101, 5s, 10ms, {}));
+  m.on_record(
+      drive_record{101, {.count = 3, .extremes = {}, .on_board = 3}, {}});
+  m.on_record(
+      drive_record{102, {.count = 8, .extremes = {}, .on_board = 4}, {}});
+  m.on_record(result(running(102), 100, 5s, 10ms, {}));
+  m.on_record(result(running(102), 101, 5s, 10ms, {}));
   const auto x = m.cycles(102);
   CHECK(x.on_board == 4);
   CHECK(x.offloaded == 2);
@@ -275,8 +278,8 @@ TEST_CASE("a cycle that two providers compute is sent twice, and is one") {
   auto other = running(101, 2);
   other.provider = 7;
   for (std::uint64_t cycle = 1; cycle <= 10; ++cycle) {
-    m.take(result(running(101, 1), cycle, 5s, 10ms, {}));
-    m.take(result(other, cycle, 5s, 12ms, {}));
+    m.on_record(result(running(101, 1), cycle, 5s, 10ms, {}));
+    m.on_record(result(other, cycle, 5s, 12ms, {}));
   }
   CHECK(m.cycles(101).offloaded == 10);
   CHECK(m.cycles(101).offloaded_j == 20 * 0.125);
@@ -284,14 +287,14 @@ TEST_CASE("a cycle that two providers compute is sent twice, and is one") {
 
 TEST_CASE("only cycles of the headline service are counted") {
   metrics m{run()};
-  m.take(result(running(101, 1, "environment"), 1, 5s, 10ms, {}));
+  m.on_record(result(running(101, 1, "environment"), 1, 5s, 10ms, {}));
   CHECK(m.cycles().offloaded == 0);
   CHECK_FALSE(m.cycles().saved_share().has_value());
 }
 
 TEST_CASE("a touch counts once for the run and once for either vehicle") {
   metrics m{run()};
-  m.take(collision_record{at(3s), 101, 102});
+  m.on_record(collision_record{at(3s), 101, 102});
   CHECK(m.safety().collisions == 1);
   CHECK(m.vehicles().at(101).safety.collisions == 1);
   CHECK(m.vehicles().at(102).safety.collisions == 1);
@@ -299,7 +302,8 @@ TEST_CASE("a touch counts once for the run and once for either vehicle") {
 
 TEST_CASE("a near miss counts for the run") {
   metrics m{run()};
-  m.take(event_record{at(3s), "near_miss", 101, 0, {}, 0, "with 102"});
+  m.on_record(
+      event_record{at(3s), event_type::near_miss, 101, 0, {}, 0, "with 102"});
   CHECK(m.safety().near_misses == 1);
   CHECK(m.safety().ok());
 }
@@ -308,9 +312,10 @@ TEST_CASE("an obstacle that is touched is no vehicle") {
   auto info = run();
   info.obstacles = 2;
   metrics m{info};
-  m.take(collision_record{at(3s), 101, obstacle_id(0)});
-  m.take(collision_record{at(4s), 101, obstacle_id(1)});
-  m.take(collision_record{at(5s), 101, obstacle_id(2)}); // there are but two
+  m.on_record(collision_record{at(3s), 101, obstacle_id(0)});
+  m.on_record(collision_record{at(4s), 101, obstacle_id(1)});
+  m.on_record(
+      collision_record{at(5s), 101, obstacle_id(2)}); // there are but two
   CHECK(m.safety().collisions == 3);
   CHECK(m.vehicles().at(101).safety.collisions == 3);
   CHECK(m.vehicles().size() == 2);
@@ -334,7 +339,7 @@ TEST_CASE("a run without the headline's service has empty headlines") {
   auto info = run();
   info.kinds = {"environment"};
   metrics m{info};
-  m.take(decision(true, "environment"));
+  m.on_record(decision(true, "environment"));
   CHECK(m.headline().requests() == 0);
   CHECK(m.services().size() == 1);
 }

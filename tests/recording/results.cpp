@@ -95,7 +95,7 @@ TEST_CASE("cycles and tracks are written only when wanted") {
   info.cycles = info.tracks = false;
   results r{dir.path(), info};
   play(r);
-  r.take(track());
+  r.on_record(track());
   r.finish(at(100s), 2, false);
   CHECK_FALSE(fs::exists(dir / "cycles.csv"));
   CHECK_FALSE(fs::exists(dir / "tracks.csv"));
@@ -109,10 +109,10 @@ TEST_CASE("margins are written when wanted, the least ones in the summary") {
   results r{dir.path(), info};
   auto one = result(running(), 3, 60s, 10ms, std::nullopt);
   one.margins = {{"road_m", 0.75}, {"standing_s", 1.2}};
-  r.take(one);
+  r.on_record(one);
   one.cycle = 4;
   one.margins = {{"road_m", -0.0125}};
-  r.take(one);
+  r.on_record(one);
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "margins.csv");
   REQUIRE(all.size() == 4);
@@ -209,11 +209,11 @@ TEST_CASE("the summary says what happened") {
 TEST_CASE("times in files count from the start and are exact to the ns") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.take(result(running(), 3, 60s, 12'345'678ns, std::nullopt));
+  r.on_record(result(running(), 3, 60s, 12'345'678ns, std::nullopt));
   auto late = result(running(), 4, 60s + 50ms + 1ns, 9ms, 46'654'323ns);
   late.used = false;
   late.doubt = 250us;
-  r.take(late);
+  r.on_record(late);
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "cycles.csv");
   REQUIRE(all.size() == 3);
@@ -252,7 +252,7 @@ TEST_CASE("each closed side is a line in episodes.csv") {
 TEST_CASE("tracks have millimetres, and zero has no sign") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.take(track());
+  r.on_record(track());
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "tracks.csv");
   REQUIRE(all.size() == 2);
@@ -268,7 +268,7 @@ TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
   const scratch dir;
   results r{dir.path(), run()};
   play(r);
-  r.take(collision_record{at(2s), 9, 101});
+  r.on_record(collision_record{at(2s), 9, 101});
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "vehicles.csv");
   REQUIRE(all.size() == 4);
@@ -293,7 +293,7 @@ TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
 TEST_CASE("a switch of plans is an event with its jumps") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.take(plan_switch_record{
+  r.on_record(plan_switch_record{
       at(10s), running(101, 1), false, {0.25, 0.00015, 0.5, 1.75}});
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "events.jsonl");
@@ -310,8 +310,9 @@ TEST_CASE("every event is a JSON object, whatever its text") {
   const scratch dir;
   results r{dir.path(), run()};
   const std::string odd = "say \"no\"\\\n\tt_off \x01 \xff ü";
-  r.take(event_record{at(1s), "response", 101, provider, planning, 4, odd});
-  r.take(collision_record{at(2s), 101, 102});
+  r.on_record(event_record{at(1s), event_type::stay_local, 101, provider,
+                           planning, 4, odd});
+  r.on_record(collision_record{at(2s), 101, 102});
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "events.jsonl");
   REQUIRE(all.size() == 2);
@@ -374,7 +375,7 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
   for (const auto* dir : {&first, &second}) {
     results r{dir->path(), run()};
     play(r);
-    r.take(track());
+    r.on_record(track());
     r.finish(at(100s), dir == &first ? 2 : 3, false);
   }
   for (const auto* name :
@@ -393,7 +394,7 @@ TEST_CASE("the same records give the same bytes, whatever the wall's clock") {
 TEST_CASE("figures of the wall's clock have a file of their own") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.take_timing("solve_p99_us", 31.5);
+  r.add_timing("solve_p99_us", 31.5);
   r.finish(at(100s), 2, false);
   CHECK(content_of(dir / "timing.csv")
         == "figure,value\nwall_s,2.000000\nx_real_time,50.000000\n"
@@ -457,7 +458,7 @@ TEST_CASE("a long run reaches the disk without being asked to") {
   const scratch dir;
   results r{dir.path(), run()};
   for (int i = 0; i < 10'000; ++i)
-    r.take(track());
+    r.on_record(track());
   CHECK(fs::file_size(dir / "tracks.csv") > 500'000);
 }
 

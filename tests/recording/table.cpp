@@ -88,7 +88,7 @@ TEST_CASE("columns never touch, however wide a figure is") {
   metrics m{info};
   for (const auto* kind : {"one", "two", "three"})
     for (const auto latency : {1ms, 1'234'567ms})
-      m.take(result(running(101, 1, kind), 1, 10s, latency, 50ms));
+      m.on_record(result(running(101, 1, kind), 1, 10s, latency, 50ms));
   m.finish(at(100s));
   const auto text = table(m, info, {100, 2, false}, "out", false);
   MESSAGE("\n" << text);
@@ -104,7 +104,7 @@ TEST_CASE("the table counts what was on the air, and what a capture holds") {
   metrics m{run()};
   CHECK_FALSE(contains(table_of(m), "on the air"));
   const auto send = [&m](const auto& message) {
-    m.take(air_record{at(1s), encoded(message)});
+    m.on_record(air_record{at(1s), encoded(message)});
   };
   send(etsi::cam{});
   send(etsi::cam{});
@@ -145,7 +145,7 @@ TEST_CASE("a violated safety line cannot be overlooked") {
   CHECK(contains(line_of(table_of(m), "without a fresh plan"), "ok"));
   CHECK(contains(line_of(table_of(m), "collisions"), "ok"));
   CHECK_FALSE(contains(table_of(m), "VIOLATED"));
-  m.take(collision_record{at(3s), 101, 102});
+  m.on_record(collision_record{at(3s), 101, 102});
   CHECK(contains(line_of(table_of(m), "collisions"), "VIOLATED"));
   CHECK(contains(line_of(table_of(m), "off the road"), "ok"));
 }

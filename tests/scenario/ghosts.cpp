@@ -144,7 +144,7 @@ outcome drive(const scenario& s, const attack& says) {
     if (r.ego.own.station == victim)
       all.tracks.push_back(r);
   for (const auto& e : records->events)
-    all.doubted += e.what == "doubted" ? 1 : 0;
+    all.doubted += e.what == event_type::doubted ? 1 : 0;
   all.collisions = records->collisions.size();
   return all;
 }

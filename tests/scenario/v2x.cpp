@@ -82,7 +82,7 @@ TEST_CASE("the summary's figures of messages are those that were sent") {
     auto& of_its_kind = sent[name_of(x.message.octets)];
     ++of_its_kind.messages;
     of_its_kind.octets += x.message.octets.size();
-    r.take(x);
+    r.on_record(x);
   }
   r.finish(made_up::at(std::chrono::seconds{30}), 2, false);
   REQUIRE(sent.size() == 4);

@@ -206,7 +206,7 @@ TEST_CASE("vehicles appear over time, and never on each other") {
   check_safety(records);
   std::map<station_id, time_point> appeared;
   for (const auto& e : records.events)
-    if (e.what == "appeared")
+    if (e.what == event_type::appeared)
       appeared[e.station] = e.at;
   CHECK(appeared.size() == 11); // but for the first, who is there
   for (const auto& [station, at] : appeared)

@@ -197,9 +197,9 @@ figures measure(const scenario& s, const memory_sink& lied,
 
   std::map<station_id, std::size_t> requests;
   for (const auto& e : lied.events) {
-    if (e.what == "request" && e.kind == service_name{planning})
+    if (e.what == event_type::request && e.kind == service_name{planning})
       out.requests = std::max(out.requests, ++requests[e.station]);
-    if (e.what != "implausible")
+    if (e.what != event_type::implausible)
       continue;
     ++out.refused;
     ++out.checks[e.detail.substr(0, e.detail.find(' '))];

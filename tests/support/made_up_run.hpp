@@ -41,13 +41,9 @@ inline session_id running(station_id station = 101, std::uint32_t counter = 1,
 }
 
 inline event_record switched(const session_id& id, bool remote, duration when) {
-  return {at(when),
-          "switch",
-          id.station,
-          id.provider,
-          id.kind,
-          id.counter,
-          remote ? "remote" : "local"};
+  return {
+      at(when),   event_type::switched,        id.station, id.provider, id.kind,
+      id.counter, remote ? "remote" : "local", remote};
 }
 
 inline decision_record decision(bool accepted, service_name kind = planning) {
@@ -84,40 +80,42 @@ inline episode_record without_data(const session_id& id, duration from) {
 /// on its own and brakes hard twice.
 template <class Sink>
 void play(Sink& to) {
-  to.take(event_record{at(9s), "offer", 101, provider, "", 0, ""});
-  to.take(event_record{at(19s), "offer", 102, provider, "", 0, ""});
+  to.on_record(
+      event_record{at(9s), event_type::offer, 101, provider, "", 0, ""});
+  to.on_record(
+      event_record{at(19s), event_type::offer, 102, provider, "", 0, ""});
   for (const bool accepted : {true, false, true, true, true})
-    to.take(decision(accepted));
-  to.take(decision(true, "environment"));
+    to.on_record(decision(accepted));
+  to.on_record(decision(true, "environment"));
 
-  to.take(switched(running(101, 1), true, 10s));
+  to.on_record(switched(running(101, 1), true, 10s));
   std::optional<duration> gap; // none before the first
   for (int i = 0; i < 400; ++i, gap = 50ms)
-    to.take(result(running(101, 1), 200 + static_cast<std::uint64_t>(i),
-                   10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
-  to.take(switched(running(101, 1), false, 30s));
-  to.take(episode(running(101, 1), 10s, 30s, end_reason::left_area));
-  to.take(episode_record{running(101, 1), side::provider, at(9s), at(9s), true,
-                         at(30s), end_reason::left_area, false});
+    to.on_record(result(running(101, 1), 200 + static_cast<std::uint64_t>(i),
+                        10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
+  to.on_record(switched(running(101, 1), false, 30s));
+  to.on_record(episode(running(101, 1), 10s, 30s, end_reason::left_area));
+  to.on_record(episode_record{running(101, 1), side::provider, at(9s), at(9s),
+                              true, at(30s), end_reason::left_area, false});
 
-  to.take(switched(running(101, 2), true, 60s));
-  to.take(result(running(101, 2), 1200, 60s, 12'345'678ns, std::nullopt));
-  to.take(switched(running(101, 2), false, 65s));
-  to.take(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
+  to.on_record(switched(running(101, 2), true, 60s));
+  to.on_record(result(running(101, 2), 1200, 60s, 12'345'678ns, std::nullopt));
+  to.on_record(switched(running(101, 2), false, 65s));
+  to.on_record(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
 
-  to.take(without_data(running(102, 3), 40s));
-  to.take(switched(running(102, 4), true, 90s));
-  to.take(safety_record{101, 100s, 0s, 0s, 150ms});
-  to.take(safety_record{102, 100s, 0s, 0s, 180ms});
-  to.take(drive_record{101,
-                       {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
-                       {900, {1.75, 1.5, -4}, 2, 80}});
-  to.take(drive_record{102,
-                       {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
-                       {800.5, {1, 2, -2.5}, 0, 20.5}});
-  to.take(plan_switch_record{
+  to.on_record(without_data(running(102, 3), 40s));
+  to.on_record(switched(running(102, 4), true, 90s));
+  to.on_record(safety_record{101, 100s, 0s, 0s, 150ms});
+  to.on_record(safety_record{102, 100s, 0s, 0s, 180ms});
+  to.on_record(drive_record{101,
+                            {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
+                            {900, {1.75, 1.5, -4}, 2, 80}});
+  to.on_record(drive_record{102,
+                            {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
+                            {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.on_record(plan_switch_record{
       at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});
-  to.take(plan_switch_record{
+  to.on_record(plan_switch_record{
       at(30s), running(101, 1), false, {0.75, 0.002, 0.25, 0}});
 }
 

@@ -1,6 +1,7 @@
 // Keeps the records of a run in memory, for tests that look at them.
 #pragma once
 
+#include "base/overloaded.hpp"
 #include "messages/protocol/record.hpp"
 
 #include <vector>
@@ -19,18 +20,21 @@ struct memory_sink final : record_sink {
   std::vector<plan_switch_record> plan_switches;
   std::vector<air_record> air;
 
-  void take(const event_record& x) override { events.push_back(x); }
-  void take(const decision_record& x) override { decisions.push_back(x); }
-  void take(const cycle_record& x) override { cycles.push_back(x); }
-  void take(const episode_record& x) override { episodes.push_back(x); }
-  void take(const track_record& x) override { tracks.push_back(x); }
-  void take(const safety_record& x) override { safety.push_back(x); }
-  void take(const collision_record& x) override { collisions.push_back(x); }
-  void take(const drive_record& x) override { drives.push_back(x); }
-  void take(const plan_switch_record& x) override {
-    plan_switches.push_back(x);
+  void on_record(const record& x) override {
+    std::visit(
+        overloaded{
+            [this](const event_record& r) { events.push_back(r); },
+            [this](const decision_record& r) { decisions.push_back(r); },
+            [this](const cycle_record& r) { cycles.push_back(r); },
+            [this](const episode_record& r) { episodes.push_back(r); },
+            [this](const track_record& r) { tracks.push_back(r); },
+            [this](const safety_record& r) { safety.push_back(r); },
+            [this](const collision_record& r) { collisions.push_back(r); },
+            [this](const drive_record& r) { drives.push_back(r); },
+            [this](const plan_switch_record& r) { plan_switches.push_back(r); },
+            [this](const air_record& r) { air.push_back(r); }},
+        x);
   }
-  void take(const air_record& x) override { air.push_back(x); }
 };
 
 } // namespace sofof::test

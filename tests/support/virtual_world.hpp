@@ -34,13 +34,14 @@ public:
     entries_.push_back({at, std::move(what), std::move(from)});
   }
 
-  /// @returns the first elements of all messages that begin with a T.
+  /// @returns the first elements of all messages that begin with a T, or with a
+  /// record that is one.
   template <class T>
   std::vector<T> all() const {
     std::vector<T> found;
     for (const auto& e : entries_)
-      if (begins_with<T>(e))
-        found.push_back(e.what.get_as<T>(0));
+      if (const auto* first = begin_of<T>(e))
+        found.push_back(*first);
     return found;
   }
 
@@ -49,7 +50,7 @@ public:
   std::vector<time_point> times() const {
     std::vector<time_point> found;
     for (const auto& e : entries_)
-      if (begins_with<T>(e))
+      if (begin_of<T>(e))
         found.push_back(e.at);
     return found;
   }
@@ -74,8 +75,15 @@ public:
 
 private:
   template <class T>
-  static bool begins_with(const entry& e) {
-    return e.what.size() > 0 && e.what.type_at(0) == caf::type_id_v<T>;
+  static const T* begin_of(const entry& e) {
+    if constexpr (!caf::has_type_id_v<T>) {
+      const auto* what = begin_of<record>(e);
+      return what ? std::get_if<T>(what) : nullptr;
+    } else {
+      if (e.what.size() == 0 || e.what.type_at(0) != caf::type_id_v<T>)
+        return nullptr;
+      return &e.what.get_as<T>(0);
+    }
   }
 
   std::vector<entry> entries_;

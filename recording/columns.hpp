@@ -1,0 +1,222 @@
+// The columns of a run's CSV files, one by one: docs/results.md.
+#pragma once
+
+#include "base/text/csv.hpp"
+#include "messages/protocol/record.hpp"
+#include "recording/metrics.hpp"
+
+#include <string_view>
+
+namespace sofof {
+
+/// What rows of records need besides: who the provider is, and second 0.
+struct row_context {
+  std::string_view provider; ///< Its name.
+  time_point start;
+};
+
+struct episode_row {
+  const episode_record& x;
+  row_context in;
+
+  const session_id& id() const { return x.running; }
+  bool by_requester() const { return x.of == side::requester; }
+  decimal if_data(duration d) const {
+    return by_requester() && x.got_data ? seconds(d) : decimal{};
+  }
+};
+
+struct cycle_row {
+  const cycle_record& x;
+  row_context in;
+
+  const session_id& id() const { return x.running; }
+};
+
+struct margin_row {
+  const cycle_record& x;
+  const cycle_record::margin& of;
+  row_context in;
+
+  const session_id& id() const { return x.running; }
+};
+
+struct track_row {
+  const track_record& x;
+  row_context in;
+
+  const cam& own() const { return x.ego.own; }
+};
+
+/// How a vehicle drove.
+struct vehicle_row {
+  station_id station = 0;
+  const drive_metrics& x;
+  cycle_figures cycles;
+};
+
+struct distribution_row {
+  service_name service;
+  std::string_view figure;
+  distribution::bin bin;
+};
+
+namespace columns {
+
+inline constexpr int length_places = 3;
+inline constexpr int angle_places = 6;
+inline constexpr int comfort_places = 6;
+inline constexpr int margin_places = 4;
+inline constexpr int energy_places = 6;
+
+// Which offloading it was.
+inline constexpr auto station = [](const auto& r) { return r.id().station; };
+inline constexpr auto provider = [](const auto& r) { return r.in.provider; };
+inline constexpr auto provider_id = [](const auto& r) {
+  return r.id().provider;
+};
+inline constexpr auto service = [](const auto& r) {
+  return r.id().kind.view();
+};
+inline constexpr auto counter = [](const auto& r) { return r.id().counter; };
+inline constexpr auto cycle = [](const auto& r) { return r.x.cycle; };
+inline constexpr auto received = [](const auto& r) {
+  return seconds(r.x.received - r.in.start);
+};
+
+inline constexpr csv_column<episode_row> of_episodes[]{
+    {"side",
+     [](const auto& r) -> std::string_view {
+       return r.by_requester() ? "requester" : "provider";
+     }},
+    {"station", station},
+    {"provider", provider},
+    {"provider_id", provider_id},
+    {"service", service},
+    {"counter", counter},
+    {"accepted_s",
+     [](const auto& r) { return seconds(r.x.accepted - r.in.start); }},
+    {"first_data_s",
+     [](const auto& r) { return r.if_data(r.x.first_data - r.in.start); }},
+    {"ended_s", [](const auto& r) { return seconds(r.x.ended - r.in.start); }},
+    {"t_off_s",
+     [](const auto& r) { return r.if_data(r.x.ended - r.x.first_data); }},
+    {"reason", [](const auto& r) { return name_of(r.x.reason); }},
+    {"fallback", [](const auto& r) { return r.x.fallback; }},
+};
+
+inline constexpr csv_column<cycle_row> of_cycles[]{
+    {"station", station},
+    {"provider", provider},
+    {"provider_id", provider_id},
+    {"service", service},
+    {"counter", counter},
+    {"cycle", cycle},
+    {"created_s",
+     [](const auto& r) { return seconds(r.x.created - r.in.start); }},
+    {"received_s", received},
+    {"latency_ms",
+     [](const auto& r) { return milliseconds(r.x.received - r.x.created); }},
+    {"interarrival_ms",
+     [](const auto& r) { return milliseconds(r.x.interarrival); }},
+    {"used", [](const auto& r) { return r.x.used; }},
+    {"doubt_ms",
+     [](const auto& r) {
+       return r.x.doubt > duration{} ? milliseconds(r.x.doubt) : decimal{};
+     }},
+};
+
+inline constexpr csv_column<margin_row> of_margins[]{
+    {"station", station},
+    {"provider", provider},
+    {"provider_id", provider_id},
+    {"service", service},
+    {"counter", counter},
+    {"cycle", cycle},
+    {"received_s", received},
+    {"margin", [](const auto& r) { return std::string_view{r.of.name}; }},
+    {"left", [](const auto& r) { return rounded(r.of.left, margin_places); }},
+};
+
+inline constexpr csv_column<track_row> of_tracks[]{
+    {"t_s", [](const auto& r) { return seconds(r.x.at - r.in.start); }},
+    {"station", [](const auto& r) { return r.own().station; }},
+    {"x_m",
+     [](const auto& r) {
+       return rounded(r.own().position.x_m, length_places);
+     }},
+    {"y_m",
+     [](const auto& r) {
+       return rounded(r.own().position.y_m, length_places);
+     }},
+    {"heading_rad",
+     [](const auto& r) { return rounded(r.own().heading_rad, angle_places); }},
+    {"speed_mps",
+     [](const auto& r) { return rounded(r.own().speed_mps, length_places); }},
+    {"accel_mps2",
+     [](const auto& r) { return rounded(r.own().accel_mps2, length_places); }},
+    {"s_m", [](const auto& r) { return rounded(r.x.ego.s_m, length_places); }},
+    {"lateral_m",
+     [](const auto& r) { return rounded(r.x.lateral_m, length_places); }},
+    {"plan_age_ms", [](const auto& r) { return milliseconds(r.x.plan_age); }},
+    {"source",
+     [](const auto& r) -> std::string_view {
+       return r.x.remote ? "remote" : "local";
+     }},
+};
+
+inline constexpr csv_column<vehicle_row> of_vehicles[]{
+    {"station", [](const auto& r) { return r.station; }},
+    {"driven_s", [](const auto& r) { return seconds(r.x.safety.driven); }},
+    {"distance_m",
+     [](const auto& r) { return rounded(r.x.ride.distance_m, length_places); }},
+    {"without_fresh_plan_s",
+     [](const auto& r) { return seconds(r.x.safety.without_fresh_plan); }},
+    {"off_road_s", [](const auto& r) { return seconds(r.x.safety.off_road); }},
+    {"collisions", [](const auto& r) { return r.x.safety.collisions; }},
+    {"max_plan_age_ms",
+     [](const auto& r) { return milliseconds(r.x.safety.max_plan_age); }},
+    {"plans", [](const auto& r) { return r.x.plans.count; }},
+    {"emergency_plans", [](const auto& r) { return r.x.plans.emergency; }},
+    {"kept_plans", [](const auto& r) { return r.x.plans.kept; }},
+    {"stop_plans", [](const auto& r) { return r.x.plans.stops; }},
+    {"imperfect_plans", [](const auto& r) { return r.x.plans.imperfect; }},
+    {"safe_stops", [](const auto& r) { return r.x.plans.safe_stops; }},
+    {"min_accel_mps2",
+     [](const auto& r) {
+       return rounded(r.x.ride.extremes.min_accel_mps2, comfort_places);
+     }},
+    {"max_jerk_mps3",
+     [](const auto& r) {
+       return rounded(r.x.ride.extremes.jerk_mps3, comfort_places);
+     }},
+    {"max_lateral_accel_mps2",
+     [](const auto& r) {
+       return rounded(r.x.ride.extremes.lateral_accel_mps2, comfort_places);
+     }},
+    {"hard_brakes", [](const auto& r) { return r.x.ride.hard_brakes; }},
+    {"comfort_cost_m2ps3",
+     [](const auto& r) {
+       return rounded(r.x.ride.comfort_cost_m2ps3, comfort_places);
+     }},
+    {"on_board_cycles", [](const auto& r) { return r.cycles.on_board; }},
+    {"offloaded_cycles", [](const auto& r) { return r.cycles.offloaded; }},
+    {"energy_j",
+     [](const auto& r) { return rounded(r.cycles.energy_j(), energy_places); }},
+    {"all_on_board_j",
+     [](const auto& r) {
+       return rounded(r.cycles.all_on_board_j, energy_places);
+     }},
+};
+
+inline constexpr csv_column<distribution_row> of_distributions[]{
+    {"service", [](const auto& r) { return r.service.view(); }},
+    {"figure", [](const auto& r) { return r.figure; }},
+    {"up_to_ms",
+     [](const auto& r) { return rounded(r.bin.up_to_ms, length_places); }},
+    {"count", [](const auto& r) { return r.bin.count; }},
+};
+
+} // namespace columns
+
+} // namespace sofof
