@@ -2,7 +2,6 @@
 #pragma once
 
 #include "actors/offloading/service_instance.hpp"
-#include "actors/offloading/service_type.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/service.hpp"
 
