@@ -46,7 +46,7 @@ void provider::wake_at(time_point t, timer what) {
 
 void provider::on_timer(std::uint64_t number, time_point now) {
   pass(now);
-  if (const auto due = timers_.take(number))
+  if (const auto due = timers_.claim(number))
     std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 

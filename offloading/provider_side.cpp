@@ -36,7 +36,7 @@ public:
 
   void on_timer(std::uint64_t number, time_point now) {
     begin_call(now);
-    if (const auto due = timers_.take(number))
+    if (const auto due = timers_.claim(number))
       handle(*due);
   }
 
@@ -113,7 +113,7 @@ private:
         return session.cycle.on_timer(due.number, now_);
       case timer_of::result:
         return port_.send(session.requester,
-                          session.results.take(due.number).value());
+                          session.results.claim(due.number).value());
       case timer_of::first_input:
         // The response was lost on its way, or the vehicle has changed its
         // mind.

@@ -68,7 +68,7 @@ void requester::wake_at(time_point t, timer what) {
 
 void requester::on_timer(std::uint64_t number, time_point now) {
   pass(now);
-  if (const auto due = timers_.take(number))
+  if (const auto due = timers_.claim(number))
     std::visit([&](const auto& x) { expire(x, now); }, *due);
 }
 

@@ -25,7 +25,7 @@ public:
 
   /// @param number  That has been given.
   /// @returns what this timer was for, once.
-  std::optional<T> take(std::uint64_t number) {
+  std::optional<T> claim(std::uint64_t number) {
     assert(number <= last_);
     const auto i =
         std::ranges::lower_bound(timers_, number, {}, &timer::number);

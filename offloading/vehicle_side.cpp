@@ -56,7 +56,7 @@ public:
 
   void on_timer(std::uint64_t number, time_point now) {
     begin_call(now);
-    if (const auto due = timers_.take(number))
+    if (const auto due = timers_.claim(number))
       handle(*due);
     end_call();
   }
@@ -271,7 +271,7 @@ private:
         return due.service->own.on_timer(due.number, now_);
       case timer_of::result:
         return due.service->selector.on_result(
-            due.service->results.take(due.number).value(), now_);
+            due.service->results.claim(due.number).value(), now_);
     }
   }
 

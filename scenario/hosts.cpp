@@ -192,6 +192,80 @@ std::vector<station_id> connected_stations(const scenario& s,
   return all;
 }
 
+/// @returns the moment of a start, in ms since 1970.
+std::uint64_t start_of(const runtime& time) {
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(
+      time.clock().unix_time(time.now()));
+  return static_cast<std::uint64_t>(now.count());
+}
+
+/// @returns whom a provider lets in; what is of its actors is filled in later.
+acceptor_setup acceptor_of(const scenario& s, std::size_t place,
+                           std::shared_ptr<key_ring> keys,
+                           network_runtime& time,
+                           const std::shared_ptr<news_board>& board) {
+  acceptor_setup setup;
+  setup.name = s.providers[place].name;
+  setup.world = fingerprint_of_world(s);
+  setup.clock = time.clock();
+  setup.draw_nonce = &draw_nonce;
+  setup.examine = [keys = std::move(keys), &time](const peer_hello& hello,
+                                                  const std::string& nonce,
+                                                  const caf::node_id& process) {
+    return keys ? examine(keys->now(), hello, nonce, time.identity_of(process))
+                : believe(hello);
+  };
+  setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
+    board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
+                + (is_here ? " connected" : " disconnected"));
+  };
+  return setup;
+}
+
+/// Lets a connection go through TLS.
+/// @param connector  Outlives the connection.
+void secure(provider_connection_setup& setup, tls_connector& connector,
+            const std::shared_ptr<key_ring>& keys, network_runtime& time) {
+  keys->add_user(
+      [&connector](const credentials& fresh) { connector.renew(fresh); });
+  setup.connect = [&time,
+                   &connector]() -> std::variant<acceptor_actor, std::string> {
+    auto acceptor = time.connect(connector.port());
+    const auto why = connector.last_error();
+    if (std::holds_alternative<std::string>(acceptor) && !why.empty())
+      return why;
+    return acceptor;
+  };
+  setup.hang_up = [&connector] { connector.hang_up(); };
+  setup.prove = [keys, provider = setup.provider](peer_hello& hello,
+                                                  const std::string& nonce) {
+    const auto own = keys->now();
+    hello.certificate = own.certificate_pem();
+    hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
+  };
+}
+
+/// @returns the connection to one provider, as far as it is like that to any.
+provider_connection_setup
+connection_to(const scenario& s, std::size_t place, const drive_options& what,
+              const std::vector<station_id>& stations,
+              const std::shared_ptr<news_board>& board) {
+  provider_connection_setup setup;
+  setup.provider = s.providers[place].name;
+  setup.stations = stations;
+  setup.world = fingerprint_of_world(s);
+  setup.rest = first_rest;
+  setup.protocol = what.protocol;
+  setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
+                    .part(place)
+                    .part(stations.empty() ? 0 : stations.front());
+  setup.prove = [](peer_hello&, const std::string&) {};
+  setup.on_connected = [board] { board->connected(); };
+  setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
+  setup.on_news = [board](const std::string& news) { board->tell(news); };
+  return setup;
+}
+
 } // namespace
 
 run_outcome provide(const scenario& s, const provide_options& what,
@@ -219,30 +293,12 @@ run_outcome provide(const scenario& s, const provide_options& what,
   here.drives = [](station_id) { return false; };
   here.provides = [place](std::size_t k) { return k == place; };
   here.serves_others = true;
-  here.start =
-      static_cast<std::uint64_t>(std::chrono::floor<std::chrono::milliseconds>(
-                                     time->clock().unix_time(time->now()))
-                                     .count());
+  here.start = start_of(*time);
   const auto open = [&](const world_actors& actors) {
-    acceptor_setup setup;
+    auto setup = acceptor_of(s, place, keys, *time, board);
     setup.provider = actors.providers.front();
     setup.boot = boot_of(static_cast<std::uint32_t>(place + 1), here.start);
-    setup.name = name;
-    setup.world = fingerprint_of_world(s);
-    setup.clock = time->clock();
     setup.recorder = actors.recorder;
-    setup.draw_nonce = &draw_nonce;
-    setup.examine = [keys, &time = *time](const peer_hello& hello,
-                                          const std::string& nonce,
-                                          const caf::node_id& process) {
-      return keys
-                 ? examine(keys->now(), hello, nonce, time.identity_of(process))
-                 : believe(hello);
-    };
-    setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
-      board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
-                  + (is_here ? " connected" : " disconnected"));
-    };
     filter_setup filter;
     if (keys)
       filter.identify = [&listener](std::uint16_t port) {
@@ -303,50 +359,20 @@ run_outcome drive(const scenario& s, const drive_options& what,
                        [&](const credentials& own) {
                          check_identity(own, what.keys, stations);
                        });
-    provider_connection_setup setup;
-    setup.provider = s.providers[place].name;
+    auto setup = connection_to(s, place, what, stations, board);
     setup.address = print_address(to.at);
-    setup.stations = stations;
-    setup.world = fingerprint_of_world(s);
     setup.clock = time->clock();
-    setup.rest = first_rest;
-    setup.protocol = what.protocol;
-    setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
-                      .part(place)
-                      .part(stations.empty() ? 0 : stations.front());
     if (keys) {
       const auto own = keys->now();
       connectors.push_back(std::make_unique<tls_connector>(
           &own,
           connector_options{.remote = to.at, .provider = setup.provider}));
-      keys->add_user([&connector = *connectors.back()](
-                         const credentials& fresh) { connector.renew(fresh); });
-      setup.connect = [&time = *time, &connector = *connectors.back()]()
-          -> std::variant<acceptor_actor, std::string> {
-        auto acceptor = time.connect(connector.port());
-        const auto why = connector.last_error();
-        if (std::holds_alternative<std::string>(acceptor) && !why.empty())
-          return why;
-        return acceptor;
-      };
-      setup.hang_up = [&connector = *connectors.back()] {
-        connector.hang_up();
-      };
-      setup.prove = [keys, provider = setup.provider](
-                        peer_hello& hello, const std::string& nonce) {
-        const auto own = keys->now();
-        hello.certificate = own.certificate_pem();
-        hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
-      };
+      secure(setup, *connectors.back(), keys, *time);
     } else {
       setup.connect = [&time = *time, port = to.at.port] {
         return time.connect(port);
       };
-      setup.prove = [](peer_hello&, const std::string&) {};
     }
-    setup.on_connected = [board] { board->connected(); };
-    setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
-    setup.on_news = [board](const std::string& news) { board->tell(news); };
     here.remotes.push_back(
         {place, [&time = *time, setup](const recorder_actor& recorder) {
            auto with = setup;

@@ -129,8 +129,6 @@ struct vehicle_actor_state {
       links->record_figures(*car);
   }
 
-  // -- planning -----------------------------------------------------------
-
   void on_perception(perception& others) {
     newest = std::move(others); // a report of this moment tells of it
     catch_up();
@@ -155,8 +153,6 @@ struct vehicle_actor_state {
     catch_up();
     remote = change.remote;
   }
-
-  // -- telling others -----------------------------------------------------
 
   void publish() {
     if (!requester)

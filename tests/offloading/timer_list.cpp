@@ -8,19 +8,19 @@ using sofof::offloading::timer_list;
 TEST_CASE("a timer is taken once, in any order") {
   timer_list<char> timers;
   const auto a = timers.add('a'), b = timers.add('b'), c = timers.add('c');
-  CHECK(timers.take(b) == 'b');
-  CHECK(timers.take(a) == 'a');
-  CHECK(!timers.take(b));
-  CHECK(timers.take(c) == 'c');
+  CHECK(timers.claim(b) == 'b');
+  CHECK(timers.claim(a) == 'a');
+  CHECK(!timers.claim(b));
+  CHECK(timers.claim(c) == 'c');
   CHECK(timers.size() == 0);
 }
 
 TEST_CASE("no two timers have the same number") {
   timer_list<char> timers;
   const auto a = timers.add('a');
-  timers.take(a);
+  timers.claim(a);
   const auto b = timers.add('b');
   CHECK(a != b);
-  CHECK(!timers.take(a));
-  CHECK(timers.take(b) == 'b');
+  CHECK(!timers.claim(a));
+  CHECK(timers.claim(b) == 'b');
 }
