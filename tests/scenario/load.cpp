@@ -32,7 +32,7 @@ TEST_CASE("a scenario holds what its file says") {
   CHECK(s.providers[1].services == std::vector<std::string>{"cabin_climate"});
   REQUIRE(s.services.size() == 2);
   CHECK(s.services[0]->name() == "trajectory_planning");
-  CHECK(s.services[0]->common.limits.max_latency == 50ms);
+  CHECK(s.services[0]->options.limits.max_latency == 50ms);
   CHECK(s.policies.lodm->name() == "location");
   CHECK(s.policies.codm->name() == "always");
   CHECK(s.network.channel->name == "paper-sim");
@@ -132,8 +132,8 @@ TEST_CASE("fleets have computers, services have tasks") {
                       "provider.mec.returns_at=6min"});
   CHECK(s.fleets[0].computer.clock_ghz == 3);
   CHECK(s.fleets[1].computer.clock_ghz == 1.5);
-  CHECK(s.services[0]->common.task.input_kbit == 40);
-  CHECK(s.services[0]->common.task.gigacycles == 0.03);
+  CHECK(s.services[0]->options.task.input_kbit == 40);
+  CHECK(s.services[0]->options.task.gigacycles == 0.03);
   CHECK(s.fleets[1].appear_every == std::chrono::seconds{10});
   CHECK(s.providers[0].fails_at == std::chrono::minutes{5});
   CHECK(s.providers[0].returns_at == std::chrono::minutes{6});
@@ -187,7 +187,7 @@ TEST_CASE("--set changes any option") {
   CHECK(s.fleets[0].routes[1] == "round_trip");
   CHECK(s.providers[0].area_radius_m == 110);
   CHECK(s.providers[1].position_m == point{1, 2.5});
-  CHECK(s.services[1]->common.limits.max_latency == 1s);
+  CHECK(s.services[1]->options.limits.max_latency == 1s);
   CHECK_FALSE(s.record.tracks);
   const auto text = to_toml(s);
   CHECK(text.find("radius_m = 200.0") != text.npos);
