@@ -5,6 +5,7 @@
 #include "experiments/report/drive_json.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/page.hpp"
+#include "tests/experiments/report_document.hpp"
 #include "tests/experiments/report_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +17,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-#include <zlib.h>
 
 namespace sofof::report {
 
@@ -24,24 +24,6 @@ using namespace made_up;
 using nlohmann::json;
 
 namespace {
-
-std::string bytes_of(std::string_view base64) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                       "abcdefghijklmnopqrstuvwxyz"
-                                       "0123456789+/";
-  std::string bytes;
-  std::uint32_t pending = 0;
-  int bits = 0;
-  for (const auto c : base64) {
-    if (c == '=')
-      break;
-    pending = pending << 6 | static_cast<std::uint32_t>(letters.find(c));
-    bits += 6;
-    if (bits >= 8)
-      bytes += static_cast<char>(pending >> (bits -= 8));
-  }
-  return bytes;
-}
 
 /// Reads a column as the page does.
 std::vector<double> unpacked(const json& from) {
@@ -57,26 +39,6 @@ std::vector<double> unpacked(const json& from) {
     for (const std::size_t gap : from.at(3))
       column[gap] = std::numeric_limits<double>::quiet_NaN();
   return column;
-}
-
-/// @returns what was compressed.
-std::string inflated(std::string_view base64) {
-  const auto bytes = bytes_of(base64);
-  std::string text(1 << 22, '\0');
-  auto size = static_cast<uLongf>(text.size());
-  REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
-                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size())
-          == Z_OK);
-  text.resize(size);
-  return text;
-}
-
-/// @returns the document of a page.
-json document_in(const std::string& page) {
-  constexpr std::string_view begin = "type=\"text/plain\">";
-  const auto from = page.find(begin) + begin.size();
-  return json::parse(
-      inflated(page.substr(from, page.find("</script", from) - from)));
 }
 
 } // namespace
