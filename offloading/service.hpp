@@ -101,8 +101,8 @@ struct provider_context {
   std::function<time_point()> clock = [] { return time_point{}; };
 };
 
-/// A service at one provider. Where time is real, functions run in threads of
-/// their own while the provider goes on: what they share must lock.
+/// A service at one provider. Where time is real, functions of several sessions
+/// run at the same time, and the provider goes on: what they share must lock.
 class provider_service {
 public:
   virtual ~provider_service() = default;
