@@ -19,8 +19,8 @@ struct service_output {
 };
 
 /// One running function. It has no clock of its own. In virtual time the same
-/// inputs at the same times give the same results. It is called by one thread at
-/// a time, not always the same; others of its service may run meanwhile.
+/// inputs at the same times give the same results. It is called by one thread
+/// at a time, not always the same; others of its service may run meanwhile.
 class service_function {
 public:
   virtual ~service_function() = default;

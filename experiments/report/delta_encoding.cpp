@@ -36,8 +36,8 @@ std::vector<std::int64_t> differences(std::vector<std::int64_t> of) {
 }
 
 // About as many bits as they take when they are compressed.
-std::int64_t size_of(std::span<const std::int64_t> values) {
-  std::int64_t bits = 0;
+std::uint64_t size_of(std::span<const std::int64_t> values) {
+  std::uint64_t bits = 0;
   for (const auto x : values)
     bits += std::bit_width(static_cast<std::uint64_t>(std::abs(x)));
   return bits;
