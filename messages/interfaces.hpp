@@ -69,8 +69,8 @@ using watchdog_actor = caf::typed_actor<
     reacts_to<session_id, time_point>,
     // Another result has come.
     reacts_to<arrival>,
-    // One has come that is of no use, for this reason.
-    reacts_to<session_id, std::string>,
+    // One has come that is of no use, for this reason; and the check alone.
+    reacts_to<session_id, std::string, std::string>,
     // Watch no longer.
     reacts_to<service_end>>;
 

@@ -41,6 +41,9 @@ public:
   /// @param from  Where its requester is reached.
   void on_cam(const cam& c, peer_id from, time_point now);
 
+  /// A station has sent something else, a CPM say: it lives.
+  void on_sign_of_life(station_id station, peer_id from, time_point now);
+
   void on_message(peer_id from, to_provider message, time_point now);
 
   /// A requester cannot be reached any more.

@@ -208,6 +208,7 @@ void requester::on_end(const service_end& e, time_point now) {
 }
 
 void requester::shut_down(time_point now) {
+  pass(now);
   for (auto& service : services_) {
     const auto all = service.sessions;
     for (const auto& session : all)

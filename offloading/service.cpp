@@ -22,22 +22,23 @@ service_options on(const computer_options& computer, service_options options) {
 }
 
 service_input vehicle_service::encode_input(service_input input,
-                                            bool takes_over) {
+                                            bool takes_over) const {
   if (!takes_over)
     input.in_use = {};
   return input;
 }
 
-bool vehicle_service::continues(const payload&, const payload&, time_point) {
+bool vehicle_service::continues(const payload&, const payload&,
+                                time_point) const {
   return true;
 }
 
-std::unique_ptr<result_judge> vehicle_service::make_judge() {
+std::unique_ptr<result_judge> vehicle_service::make_judge() const {
   return believe_all();
 }
 
 payload vehicle_service::termination_message(const service_end&, time_point,
-                                             const cam&) {
+                                             const cam&) const {
   return {};
 }
 

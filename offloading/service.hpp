@@ -60,13 +60,14 @@ struct vehicle_context {
   std::function<time_point()> clock = [] { return time_point{}; };
 };
 
-/// A service in one vehicle.
+/// A service in one vehicle. It says the same whenever it is asked: where time
+/// is real, more than one thread asks.
 class vehicle_service {
 public:
   virtual ~vehicle_service() = default;
 
   /// @returns what computes it on board; not null.
-  virtual std::shared_ptr<service_function> make_function() = 0;
+  virtual std::shared_ptr<service_function> make_function() const = 0;
 
   /// What of an input crosses the air to a provider; as it is, unless the
   /// service says it in messages of its own. `input.in_use` is the result in
@@ -74,23 +75,24 @@ public:
   /// @param takes_over  Whether the provider is to take over from the source
   ///                    of the result in use.
   /// @returns nothing in `what` if there is nothing to say.
-  virtual service_input encode_input(service_input input, bool takes_over);
+  virtual service_input encode_input(service_input input,
+                                     bool takes_over) const;
 
   /// Whether results may come from one provider and from another in turns.
   /// @param in_use   The result in use.
   /// @param offered  The first one of another provider.
   virtual bool continues(const payload& in_use, const payload& offered,
-                         time_point now);
+                         time_point now) const;
 
   /// @returns what reads and judges the results of one session; by default
   /// they are used as they are.
-  virtual std::unique_ptr<result_judge> make_judge();
+  virtual std::unique_ptr<result_judge> make_judge() const;
 
   /// What tells a provider in the terms of the service that the vehicle ends a
   /// session; by default nothing.
   /// @param own  The vehicle's motion.
   virtual payload termination_message(const service_end& end, time_point now,
-                                      const cam& own);
+                                      const cam& own) const;
 };
 
 /// At which provider parts of a service are made.

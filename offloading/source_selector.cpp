@@ -27,6 +27,10 @@ std::string in_words(const objection& why) {
                      why.limit);
 }
 
+implausibility told(const objection& why) {
+  return {in_words(why), std::string{why.check}};
+}
+
 } // namespace
 
 source_selector::source_selector(selected_service service, selector_port& port)
@@ -180,15 +184,16 @@ bool source_selector::can_judge(source& x, const service_result& result,
 void source_selector::refuse(const session_id& session, const objection& why,
                              time_point now) {
   on_end({session, end_reason::implausible, side::requester}, now);
-  port_.report({session, qos_breach::implausible, now, true, in_words(why),
-                std::string{why.check}});
+  auto found = told(why);
+  port_.report({session, qos_breach::implausible, now, true,
+                std::move(found.why), std::move(found.check)});
 }
 
 void source_selector::leave_out(source& x, const objection& why,
                                 time_point now) {
-  x.useless = in_words(why);
+  x.useless = told(why);
   x.useless_at = now;
-  port_.watch_useless(x.session, x.useless);
+  port_.watch_useless(x.session, *x.useless);
 }
 
 /// @param in_limits  It came in time.
@@ -213,7 +218,7 @@ void source_selector::on_result_of(source& x, const service_result& result,
     x.last_received = now;
   if (in_limits) {
     x.last_in_time = now;
-    x.useless.clear();
+    x.useless.reset();
     x.calls_in_vain = 0;
   }
   if (x.in_use && alone && !x.in_doubt)
@@ -320,10 +325,10 @@ void source_selector::give_up_silent(time_point now) {
       continue;
     x.given_up = true;
     const auto lies =
-        !x.useless.empty()
-        && now - x.useless_at <= patience_periods * service_.period;
+        x.useless && now - x.useless_at <= patience_periods * service_.period;
+    const auto found = x.useless.value_or(implausibility{});
     port_.report({x.session, lies ? qos_breach::implausible : qos_breach::gap,
-                  now, true, x.useless});
+                  now, true, found.why, lies ? found.check : std::string{}});
   }
 }
 

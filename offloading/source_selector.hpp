@@ -64,7 +64,7 @@ public:
   virtual void watch(const session_id& session, time_point last) = 0;
   virtual void watch_arrival(const arrival& result) = 0;
   virtual void watch_useless(const session_id& session,
-                             const std::string& why) = 0;
+                             const implausibility& found) = 0;
   virtual void watch_end(const service_end& end) = 0;
 
   virtual void record(sofof::record x) = 0;
@@ -127,7 +127,7 @@ private:
     std::optional<time_point> last_sent;
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
-    std::string useless; // why the results since then are so
+    std::optional<implausibility> useless; // of the results since then
     time_point useless_at;
     bool knows_it_stands_by = false; // by the last input
     int calls_in_vain = 0;

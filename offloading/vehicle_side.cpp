@@ -187,8 +187,8 @@ private:
         bark(std::move(*late));
     }
     void watch_useless(const session_id& session,
-                       const std::string& why) override {
-      dog.on_useless(session, why);
+                       const implausibility& found) override {
+      dog.on_useless(session, found);
     }
     void watch_end(const service_end& end) override {
       if (dog.disarm(end.running))

@@ -12,7 +12,7 @@ void watchdog::arm(const session_id& session, time_point first) {
   watched_ = session;
   gaps_ = gap_monitor{limits_.max_interarrival};
   gaps_.arrived(first);
-  useless_.clear();
+  useless_.reset();
 }
 
 bool watchdog::disarm(const session_id& session) {
@@ -29,15 +29,15 @@ std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
   if (watched_ != result.running)
     return std::nullopt;
   gaps_.arrived(result.received);
-  useless_.clear();
+  useless_.reset();
   if (in_time(result.created, result.received, limits_.max_latency))
     return std::nullopt;
   return found(qos_breach::latency, now);
 }
 
-void watchdog::on_useless(const session_id& session, std::string why) {
+void watchdog::on_useless(const session_id& session, implausibility found) {
   if (watched_ == session)
-    useless_ = std::move(why);
+    useless_ = std::move(found);
 }
 
 std::optional<time_point> watchdog::deadline() const {
@@ -55,9 +55,11 @@ std::optional<qos_violation> watchdog::on_deadline(time_point now) {
 qos_violation watchdog::found(qos_breach breach, time_point now) {
   assert(watched_);
   qos_violation violation{*watched_, breach, now};
-  if (breach == qos_breach::gap && !useless_.empty()) {
+  if (breach == qos_breach::gap && useless_) {
     violation.breach = qos_breach::implausible;
-    violation.why = std::exchange(useless_, {});
+    violation.why = std::move(useless_->why);
+    violation.check = std::move(useless_->check);
+    useless_.reset();
   }
   watched_.reset();
   return violation;

@@ -5,7 +5,6 @@
 #include "offloading/qos_monitor.hpp"
 
 #include <optional>
-#include <string>
 
 namespace sofof::offloading {
 
@@ -35,8 +34,8 @@ public:
                                           time_point now);
 
   /// A result of the session has come that cannot be used; the gap goes on.
-  /// @param why  For the violation, if no other result comes in time.
-  void on_useless(const session_id& session, std::string why);
+  /// @param found  For the violation, if no other result comes in time.
+  void on_useless(const session_id& session, implausibility found);
 
   /// @returns the first moment at which the gap is too long unless another
   /// result comes; nullopt: nothing is watched.
@@ -53,7 +52,7 @@ private:
   qos_limits limits_;
   std::optional<session_id> watched_;
   gap_monitor gaps_{duration{0}};
-  std::string useless_; // why the results since the last arrival are so
+  std::optional<implausibility> useless_; // of results since the last arrival
 };
 
 } // namespace sofof::offloading

@@ -8,6 +8,7 @@
 #include <caf/typed_event_based_actor.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 namespace sofof {
@@ -72,6 +73,7 @@ void provider_links::start(const offloading::session_start& start) {
 
 void provider_links::end(const service_end& end) {
   const auto manager = managers_.extract(end.running);
+  assert(!manager.empty());
   self_->demonitor(manager.mapped());
   self_->send(manager.mapped(), end);
 }

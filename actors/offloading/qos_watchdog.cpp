@@ -72,8 +72,9 @@ watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
         if (auto late = self->state.rules->on_arrival(result, now(self)))
           self->state.report(std::move(*late));
       },
-      [self](const session_id& session, std::string& why) {
-        self->state.rules->on_useless(session, std::move(why));
+      [self](const session_id& session, std::string& why, std::string& check) {
+        self->state.rules->on_useless(session,
+                                      {std::move(why), std::move(check)});
       },
       [self](const service_end& end) { self->state.disarm(end.running); },
       [self](tick_atom, std::uint64_t epoch) { self->state.on_timer(epoch); },

@@ -89,8 +89,8 @@ void selector_links::watch_arrival(const arrival& result) {
 }
 
 void selector_links::watch_useless(const session_id& session,
-                                   const std::string& why) {
-  self_->send(watchdog_, session, why);
+                                   const implausibility& found) {
+  self_->send(watchdog_, session, found.why, found.check);
 }
 
 void selector_links::watch_end(const service_end& end) {

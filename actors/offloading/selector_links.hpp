@@ -40,7 +40,7 @@ public:
   void watch(const session_id& session, time_point last) override;
   void watch_arrival(const arrival& result) override;
   void watch_useless(const session_id& session,
-                     const std::string& why) override;
+                     const implausibility& found) override;
   void watch_end(const service_end& end) override;
   void record(sofof::record x) override;
   void wake_at(time_point t, std::uint64_t number) override;

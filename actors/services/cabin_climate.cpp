@@ -64,10 +64,10 @@ public:
   explicit climate_in_vehicle(const climate_options& options)
       : options_{options} {}
 
-  std::shared_ptr<service_function> make_function() override {
+  std::shared_ptr<service_function> make_function() const override {
     return std::make_shared<climate_function>(options_);
   }
-  std::unique_ptr<result_judge> make_judge() override {
+  std::unique_ptr<result_judge> make_judge() const override {
     return std::make_unique<power_judge>(options_);
   }
 

@@ -40,13 +40,10 @@ public:
   /// @returns the service with these options in this world.
   virtual offloading::service in(const service_world& world) const = 0;
 
-  /// @param vehicle  The vehicle that the client belongs to; it is the client
-  ///                 unless a service has one of its own.
+  /// @param vehicle  The vehicle that the client belongs to. It is itself the
+  ///                 client of the service that has `plans`, and of no other.
   virtual client_actor spawn_client(caf::actor_system& sys,
-                                    const vehicle_actor& vehicle) const {
-    static_cast<void>(sys);
-    return vehicle;
-  }
+                                    const vehicle_actor& vehicle) const = 0;
 
   /// @returns how vehicles ask it for plans to drive by; null for a service
   /// that makes none.

@@ -53,6 +53,11 @@ public:
                 }};
   }
 
+  client_actor spawn_client(caf::actor_system&,
+                            const vehicle_actor& vehicle) const override {
+    return vehicle;
+  }
+
   std::shared_ptr<const plan_client> plans() const override {
     return make_plan_client();
   }

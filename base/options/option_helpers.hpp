@@ -14,7 +14,7 @@
 
 namespace sofof {
 
-/// Lists a list of tables, each of which has `fields`.
+/// Lists a list of tables, each of which has `visit_options`.
 template <class T>
 void visit_list(option_visitor& s, std::string_view key,
                 std::vector<T>& items) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 namespace sofof {
@@ -78,8 +80,13 @@ static_assert(std::ranges::all_of(event_names, [](const event_name& x) {
   return &x == &event_names[static_cast<std::size_t>(x.what)];
 }));
 
+static_assert(std::size(event_names)
+                  == static_cast<std::size_t>(event_type::near_miss) + 1,
+              "the last of them has the last name");
+
 /// @returns its name in files.
 constexpr std::string_view name_of(event_type what) {
+  assert(static_cast<std::size_t>(what) < std::size(event_names));
   return event_names[static_cast<std::size_t>(what)].name;
 }
 

@@ -36,6 +36,7 @@ public:
   /// it came in are broken.
   template <class T>
   std::shared_ptr<const T> as() const {
+    static_assert(!payload_name<T>.empty(), "the type needs a payload_name");
     if (type() != payload_name<T>)
       return nullptr;
     if (const auto* value = static_cast<const T*>(held_->value()))

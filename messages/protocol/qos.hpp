@@ -22,6 +22,12 @@ struct arrival {
 
 enum class qos_breach : std::uint8_t { latency, gap, implausible };
 
+/// Why a result is implausible, or of no use.
+struct implausibility {
+  std::string why;   ///< Check, value and limit.
+  std::string check; ///< The check alone.
+};
+
 /// A running service broke its limits.
 struct qos_violation {
   session_id running;

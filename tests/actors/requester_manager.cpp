@@ -31,11 +31,12 @@ struct echo_judge final : result_judge {
 struct quiet_echo final : echo_in_vehicle {
   std::shared_ptr<echo_in_vehicle> speaks;
 
-  service_input encode_input(service_input input, bool takes_over) override {
+  service_input encode_input(service_input input,
+                             bool takes_over) const override {
     return speaks ? speaks->encode_input(std::move(input), takes_over)
                   : echo_in_vehicle::encode_input(std::move(input), takes_over);
   }
-  std::unique_ptr<result_judge> make_judge() override {
+  std::unique_ptr<result_judge> make_judge() const override {
     return std::make_unique<echo_judge>();
   }
 };
@@ -606,6 +607,7 @@ TEST_CASE_FIXTURE(managed_world,
     const auto violation = requester->all<qos_violation>().front();
     CHECK(violation.breach == qos_breach::implausible);
     CHECK(violation.why == "use value=0.000 limit=1.000");
+    CHECK(violation.check == "use");
   }
 }
 
@@ -626,6 +628,7 @@ TEST_CASE_FIXTURE(managed_world,
   const auto violation = requester->all<qos_violation>().front();
   CHECK(violation.running == running);
   CHECK(violation.breach == qos_breach::implausible);
+  CHECK(violation.check == "use");
 }
 
 TEST_CASE_FIXTURE(managed_world,

@@ -81,7 +81,7 @@ struct diary final : offloading::selector_port {
     write("watch " + name(x));
   }
   void watch_arrival(const arrival&) override {}
-  void watch_useless(const session_id& x, const std::string&) override {
+  void watch_useless(const session_id& x, const implausibility&) override {
     write("useless: " + name(x));
   }
   void watch_end(const service_end&) override { write("watch nothing"); }

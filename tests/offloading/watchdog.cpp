@@ -68,12 +68,13 @@ TEST_CASE_FIXTURE(armed_watchdog, "a result later than allowed is a violation, "
 
 TEST_CASE_FIXTURE(armed_watchdog, "a gap in which results came that could not "
                                   "be used is implausible") {
-  dog.on_useless(session, "place");
+  dog.on_useless(session, {"place value=1.000 limit=0.500", "place"});
   SUBCASE("until its end") {
     const auto found = dog.on_deadline(at(2s));
     REQUIRE(found);
     CHECK(found->breach == qos_breach::implausible);
-    CHECK(found->why == "place");
+    CHECK(found->why == "place value=1.000 limit=0.500");
+    CHECK(found->check == "place");
   }
   SUBCASE("but not after one that could") {
     CHECK_FALSE(result(1050ms));
@@ -84,7 +85,7 @@ TEST_CASE_FIXTURE(armed_watchdog, "a gap in which results came that could not "
   }
   SUBCASE("of this session, not of another one") {
     dog.arm(session, at(1s));
-    dog.on_useless(other, "place");
+    dog.on_useless(other, {"place", "place"});
     CHECK(dog.on_deadline(at(2s))->breach == qos_breach::gap);
   }
 }

@@ -17,16 +17,17 @@ struct echo_function final : service_function {
 
 /// Gives back its input. Its numbers can be refused, useless, or a jump.
 struct echo_in_vehicle : offloading::vehicle_service {
-  std::shared_ptr<service_function> make_function() override {
+  std::shared_ptr<service_function> make_function() const override {
     return std::make_shared<echo_function>();
   }
 
-  bool continues(const payload&, const payload& offered, time_point) override {
+  bool continues(const payload&, const payload& offered,
+                 time_point) const override {
     const auto said = offered.as<echo>();
     return !said || said->number != echo::jump;
   }
 
-  std::unique_ptr<result_judge> make_judge() override {
+  std::unique_ptr<result_judge> make_judge() const override {
     struct sceptic final : result_judge {
       judged_result judge(const payload& result, const service_input&,
                           time_point) override {
@@ -77,14 +78,15 @@ inline payload its_octets(std::uint64_t first, bool second) {
 
 /// Says its number and whether it takes over; at its end, which side ends it.
 struct its_echo_in_vehicle final : echo_in_vehicle {
-  service_input encode_input(service_input input, bool takes_over) override {
+  service_input encode_input(service_input input,
+                             bool takes_over) const override {
     const auto said = input.what.as<echo>();
     input.what = said ? its_octets(said->number, takes_over) : payload{};
     input.in_use = {};
     return input;
   }
   payload termination_message(const service_end&, time_point,
-                              const cam&) override {
+                              const cam&) const override {
     return its_octets(0, true);
   }
 };

@@ -343,23 +343,24 @@ public:
       : real_{std::move(real)}, world_{std::move(world)}, station_{station},
         figures_{figures} {}
 
-  std::shared_ptr<service_function> make_function() override {
+  std::shared_ptr<service_function> make_function() const override {
     return real_->make_function();
   }
-  service_input encode_input(service_input input, bool takes_over) override {
+  service_input encode_input(service_input input,
+                             bool takes_over) const override {
     return real_->encode_input(std::move(input), takes_over);
   }
   bool continues(const payload& in_use, const payload& offered,
-                 time_point now) override {
+                 time_point now) const override {
     return real_->continues(in_use, offered, now);
   }
-  std::unique_ptr<result_judge> make_judge() override {
+  std::unique_ptr<result_judge> make_judge() const override {
     return std::make_unique<timed_judge>(real_->make_judge(),
                                          real_->make_function(), world_,
                                          station_, figures_);
   }
   payload termination_message(const service_end& end, time_point now,
-                              const cam& own) override {
+                              const cam& own) const override {
     return real_->termination_message(end, now, own);
   }
 

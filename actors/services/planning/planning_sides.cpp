@@ -66,17 +66,18 @@ public:
                       offloading::vehicle_context vehicle)
       : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
 
-  std::shared_ptr<service_function> make_function() override {
+  std::shared_ptr<service_function> make_function() const override {
     return make_onboard_planning(world_, vehicle_);
   }
 
-  std::unique_ptr<result_judge> make_judge() override {
+  std::unique_ptr<result_judge> make_judge() const override {
     return make_suggestion_judge(world_, vehicle_);
   }
 
   /// An MCM: where the vehicle may go, and the plan in use for who takes over,
   /// or that it follows what was suggested.
-  service_input encode_input(service_input input, bool takes_over) override {
+  service_input encode_input(service_input input,
+                             bool takes_over) const override {
     const auto request = input.what.as<plan_request>();
     const auto way = request ? world_->streets->find(request->way) : nullptr;
     if (!way)
@@ -99,7 +100,7 @@ public:
 
   /// Where both plans lead in the next 0.5 s.
   bool continues(const payload& in_use, const payload& offered,
-                 time_point now) override {
+                 time_point now) const override {
     const auto one = in_use.as<trajectory>();
     const auto other = offered.as<trajectory>();
     if (!one || !other || one->empty() || other->empty())
@@ -116,7 +117,7 @@ public:
   }
 
   payload termination_message(const service_end& end, time_point,
-                              const cam& own) override {
+                              const cam& own) const override {
     mcm_uplink word{own, {}, nullptr, {}};
     word.answer.emplace(name_of_maneuver(end.running),
                         etsi::maneuver_response::reject);
