@@ -48,13 +48,15 @@ TEST_CASE_FIXTURE(watchdog_world,
                   "after a good result is a gap") {
   tell(dog, running, now());
   run_for(50ms);
-  tell(dog, running, std::string{"place"});
+  tell(dog, running, std::string{"place value=1.000 limit=0.500"},
+       std::string{"place"});
   SUBCASE("of no use until the end") {
     run_for(51ms);
     REQUIRE(requester->count<qos_violation>() == 1);
     const auto violation = requester->all<qos_violation>().front();
     CHECK(violation.breach == qos_breach::implausible);
-    CHECK(violation.why == "place");
+    CHECK(violation.why == "place value=1.000 limit=0.500");
+    CHECK(violation.check == "place");
   }
   SUBCASE("good in the end") {
     arrive();
