@@ -5,8 +5,8 @@
 #include "experiments/report/drive_json.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/page.hpp"
-#include "tests/experiments/report_document.hpp"
 #include "tests/experiments/report_folder.hpp"
+#include "tests/support/report_document.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,9 @@
 #include "experiments/report/describe.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/recorded_run.hpp"
-#include "tests/experiments/report_document.hpp"
 #include "tests/experiments/report_folder.hpp"
 #include "tests/support/mistakes.hpp"
+#include "tests/support/report_document.hpp"
 
 #include <doctest/doctest.h>
 
