@@ -13,4 +13,10 @@ struct candidate {
   friend bool operator==(const candidate&, const candidate&) = default;
 };
 
+void visit_fields(auto& v, candidate& x) {
+  v("provider", x.provider);
+  v("gain", x.gain);
+  v("utilisation", x.utilisation);
+}
+
 } // namespace sofof

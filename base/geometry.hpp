@@ -24,6 +24,11 @@ struct point {
   friend point operator*(double k, point a) { return {k * a.x_m, k * a.y_m}; }
 };
 
+void visit_fields(auto& v, point& x) {
+  v("x_m", x.x_m);
+  v("y_m", x.y_m);
+}
+
 inline double dot(point a, point b) {
   return a.x_m * b.x_m + a.y_m * b.y_m;
 }

@@ -1,5 +1,6 @@
-// The one block of type ids. An id is a position, and processes that talk
-// must agree on it: append only.
+// The one block of type ids. An id is a position, and processes that talk must
+// agree on it: they compare a fingerprint of all names
+// (actors/remote/type_block) before anything else, so the order is free.
 #pragma once
 
 #include "messages/admission.hpp"

@@ -19,8 +19,8 @@ struct number {
   double value = 0;
 };
 
-void archive(auto& bytes, number& x) {
-  bytes(x.value);
+void visit_fields(auto& v, number& x) {
+  v("value", x.value);
 }
 
 template <>

@@ -1,6 +1,7 @@
 // Plain bytes for what services exchange: little-endian, no padding.
 #pragma once
 
+#include "base/fields.hpp"
 #include "base/time.hpp"
 
 #include <bit>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -19,8 +21,8 @@ namespace sofof {
 static_assert(std::endian::native == std::endian::little,
               "bytes are written as they lie in memory");
 
-/// Takes values one after the other as plain bytes. A struct takes part through
-/// `archive(auto& bytes, T& x) { bytes(x.first, x.second); }`.
+/// Takes values one after the other as plain bytes; a struct field by field
+/// (base/fields.hpp).
 /// @tparam Sink  Has `append(const std::byte* from, std::size_t size)`.
 template <class Sink>
 class byte_output {
@@ -39,8 +41,9 @@ private:
     if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       sink_.append(reinterpret_cast<const std::byte*>(&x), sizeof(T));
     } else {
-      // `archive` serves both directions, hence takes a mutable reference.
-      archive(*this, const_cast<T&>(x));
+      auto each = [this](std::string_view, auto& field) { write(field); };
+      // The list serves both directions, hence takes a mutable reference.
+      visit_fields(each, const_cast<T&>(x));
     }
   }
   void write(const duration& d) { write(d.count()); }
@@ -114,14 +117,21 @@ private:
       read(byte);
       ok_ = ok_ && byte <= 1;
       x = ok_ && byte == 1;
-    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    } else if constexpr (has_last<T>) {
+      std::underlying_type_t<T> number{};
+      read(number);
+      ok_ = ok_ && number >= 0 && static_cast<T>(number) <= last_of(T{});
+      x = ok_ ? static_cast<T>(number) : T{};
+    } else if constexpr (std::is_arithmetic_v<
+                             T> || std::is_same_v<T, std::byte>) {
       x = T{};
       if (!fits(sizeof(T)))
         return;
       std::memcpy(&x, in_.data(), sizeof(T));
       in_ = in_.subspan(sizeof(T));
     } else {
-      archive(*this, x);
+      auto each = [this](std::string_view, auto& field) { read(field); };
+      visit_fields(each, x);
     }
   }
   void read(duration& d) {

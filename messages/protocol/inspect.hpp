@@ -1,6 +1,7 @@
-// How the types of world/ travel; every message header builds on these.
+// How structs, enumerations and times travel in CAF's messages.
 #pragma once
 
+#include "base/fields.hpp"
 #include "base/geometry.hpp"
 #include "base/time.hpp"
 
@@ -13,12 +14,12 @@
 namespace sofof {
 
 /// Enumerations travel as numbers; unknown ones are refused.
-template <class Inspector, class Enum>
-bool inspect_enum(Inspector& f, Enum& x, Enum last) {
+template <class Inspector, has_last Enum>
+bool inspect(Inspector& f, Enum& x) {
   using number = std::underlying_type_t<Enum>;
   auto get = [&x] { return static_cast<number>(x); };
-  auto set = [&x, last](number value) {
-    if (value > static_cast<number>(last))
+  auto set = [&x](number value) {
+    if (value > static_cast<number>(last_of(x)))
       return false;
     x = static_cast<Enum>(value);
     return true;
@@ -36,21 +37,42 @@ bool inspect(Inspector& f, time_point& x) {
   return f.apply(get, set);
 }
 
-/// A finite number as its bits: CAF 0.18 breaks those next to zero.
+/// Hands the fields of a struct to one of CAF's inspectors.
 template <class Inspector>
-auto exact_field(Inspector& f, std::string_view name, double& x) {
-  auto get = [&x] { return std::bit_cast<std::uint64_t>(x); };
-  auto set = [&x](std::uint64_t bits) {
-    x = std::bit_cast<double>(bits);
-    return std::isfinite(x);
-  };
-  return f.field({name.data(), name.size()}, get, set);
-}
+class field_inspector {
+public:
+  explicit field_inspector(Inspector& f) : f_{f} {}
 
-template <class Inspector>
-bool inspect(Inspector& f, point& x) {
-  return f.object(x).fields(exact_field(f, "x_m", x.x_m),
-                            exact_field(f, "y_m", x.y_m));
+  template <class T>
+  void operator()(std::string_view name, T& x) {
+    ok_ = ok_ && f_.field({name.data(), name.size()}, x)(f_);
+  }
+
+  /// A number, finite and as its bits: CAF 0.18 breaks those next to zero.
+  void operator()(std::string_view name, double& x) {
+    auto get = [&x] { return std::bit_cast<std::uint64_t>(x); };
+    auto set = [&x](std::uint64_t bits) {
+      x = std::bit_cast<double>(bits);
+      return std::isfinite(x);
+    };
+    ok_ = ok_ && f_.field({name.data(), name.size()}, get, set)(f_);
+  }
+
+  bool ok() const { return ok_; }
+
+private:
+  Inspector& f_;
+  bool ok_ = true;
+};
+
+/// Structs travel as the list of their fields says.
+template <class Inspector, has_fields T>
+bool inspect(Inspector& f, T& x) {
+  return f.object(x).fields([&x](Inspector& g) {
+    field_inspector each{g};
+    visit_fields(each, x);
+    return each.ok();
+  });
 }
 
 } // namespace sofof

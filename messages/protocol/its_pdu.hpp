@@ -37,16 +37,11 @@ struct its_pdu {
   }
 };
 
+void visit_fields(auto& v, its_pdu& x) {
+  v("octets", x.octets);
+}
+
 template <>
 inline constexpr std::string_view payload_name<its_pdu> = "its_pdu";
-
-void archive(auto& bytes, its_pdu& x) {
-  bytes(x.octets);
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, its_pdu& x) {
-  return f.object(x).fields(f.field("octets", x.octets));
-}
 
 } // namespace sofof

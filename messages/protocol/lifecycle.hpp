@@ -23,6 +23,10 @@ enum class lifecycle_step : std::uint8_t {
   shut_down,  ///< any but finalized → finalized
 };
 
+constexpr lifecycle_step last_of(lifecycle_step) {
+  return lifecycle_step::shut_down;
+}
+
 inline constexpr std::string_view name_of(lifecycle_state state) {
   constexpr std::string_view names[] = {"unconfigured", "inactive", "active",
                                         "finalized"};
@@ -43,11 +47,6 @@ constexpr std::optional<lifecycle_state> after(lifecycle_state from,
   if (step == shut_down && from != finalized)
     return finalized;
   return std::nullopt;
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, lifecycle_step& x) {
-  return inspect_enum(f, x, lifecycle_step::shut_down);
 }
 
 } // namespace sofof

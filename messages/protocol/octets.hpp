@@ -29,16 +29,16 @@ public:
 
   template <class T>
   auto field(std::string_view, T& x) {
-    return [this, &x] { return add(x); };
+    return [&x](octet_counter& f) { return f.add(x); };
   }
   template <class Get, class Set>
   auto field(std::string_view, Get get, Set set) {
-    return [this, get, set] { return apply(get, set); };
+    return [=](octet_counter& f) { return f.apply(get, set); };
   }
 
   template <class... Fields>
   bool fields(Fields... all) {
-    return (all() && ...);
+    return (all(*this) && ...);
   }
 
   template <class Get, class Set>

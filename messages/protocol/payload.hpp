@@ -14,7 +14,7 @@
 namespace sofof {
 
 /// The name under which a payload type travels; every type that becomes a
-/// payload specialises it, and has an `archive` (messages/protocol/bytes.hpp).
+/// payload specialises it, and lists its fields (base/fields.hpp).
 template <class T>
 inline constexpr std::string_view payload_name = {};
 

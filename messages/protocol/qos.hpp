@@ -13,6 +13,11 @@ struct qos_limits {
   duration max_interarrival{}; ///< Between two received results.
 };
 
+void visit_fields(auto& v, qos_limits& x) {
+  v("max_latency", x.max_latency);
+  v("max_interarrival", x.max_interarrival);
+}
+
 /// A remote result came in.
 struct arrival {
   session_id running;
@@ -20,7 +25,17 @@ struct arrival {
   time_point received;
 };
 
+void visit_fields(auto& v, arrival& x) {
+  v("running", x.running);
+  v("created", x.created);
+  v("received", x.received);
+}
+
 enum class qos_breach : std::uint8_t { latency, gap, implausible };
+
+constexpr qos_breach last_of(qos_breach) {
+  return qos_breach::implausible;
+}
 
 /// Why a result is implausible, or of no use.
 struct implausibility {
@@ -40,30 +55,13 @@ struct qos_violation {
   std::string check{}; ///< Likewise, the check alone.
 };
 
-template <class Inspector>
-bool inspect(Inspector& f, qos_limits& x) {
-  return f.object(x).fields(f.field("max_latency", x.max_latency),
-                            f.field("max_interarrival", x.max_interarrival));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, arrival& x) {
-  return f.object(x).fields(f.field("running", x.running),
-                            f.field("created", x.created),
-                            f.field("received", x.received));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, qos_breach& x) {
-  return inspect_enum(f, x, qos_breach::implausible);
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, qos_violation& x) {
-  return f.object(x).fields(f.field("running", x.running),
-                            f.field("breach", x.breach), f.field("at", x.at),
-                            f.field("others_hold", x.others_hold),
-                            f.field("why", x.why), f.field("check", x.check));
+void visit_fields(auto& v, qos_violation& x) {
+  v("running", x.running);
+  v("breach", x.breach);
+  v("at", x.at);
+  v("others_hold", x.others_hold);
+  v("why", x.why);
+  v("check", x.check);
 }
 
 } // namespace sofof

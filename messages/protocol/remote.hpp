@@ -34,11 +34,25 @@ struct peer_hello {
   std::vector<std::byte> signature; ///< Of what `proof_of` says.
 };
 
+void visit_fields(auto& v, peer_hello& x) {
+  v("provider", x.provider);
+  v("stations", x.stations);
+  v("world", x.world);
+  v("epoch_unix_ms", x.epoch_unix_ms);
+  v("certificate", x.certificate);
+  v("signature", x.signature);
+}
+
 /// Which boot of the provider this is.
 struct peer_welcome {
   provider_id boot = 0;
   std::int64_t epoch_unix_ms = 0;
 };
+
+void visit_fields(auto& v, peer_welcome& x) {
+  v("boot", x.boot);
+  v("epoch_unix_ms", x.epoch_unix_ms);
+}
 
 /// "Are you there?" Sent at a fixed rate by both sides.
 struct ping {
@@ -46,12 +60,23 @@ struct ping {
   time_point sent; ///< On the sender's clock.
 };
 
+void visit_fields(auto& v, ping& x) {
+  v("number", x.number);
+  v("sent", x.sent);
+}
+
 /// The answer, at once.
 struct pong {
   ping of;
   time_point received; ///< On the answerer's clock, as is
   time_point answered;
 };
+
+void visit_fields(auto& v, pong& x) {
+  v("of", x.of);
+  v("received", x.received);
+  v("answered", x.answered);
+}
 
 /// Messages of which only the latest counts, and of which one at a time is
 /// under way.
@@ -64,6 +89,16 @@ struct stream_id {
 
   friend auto operator<=>(const stream_id&, const stream_id&) = default;
 };
+
+void visit_fields(auto& v, stream_id& x) {
+  v("station", x.station);
+  v("of", x.of);
+  v("counter", x.counter);
+}
+
+constexpr stream_id::what last_of(stream_id::what) {
+  return stream_id::what::result;
+}
 
 /// @returns the stream of what a station tells everybody: CAMs, or CPMs.
 inline stream_id stream_of(station_id station, const its_pdu& message) {
@@ -88,44 +123,6 @@ proof_of(const std::string& nonce, const std::string& provider,
   byte_writer text;
   text(std::string{purpose}, nonce, provider, stations);
   return text.take();
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, peer_hello& x) {
-  return f.object(x).fields(
-      f.field("provider", x.provider), f.field("stations", x.stations),
-      f.field("world", x.world), f.field("epoch_unix_ms", x.epoch_unix_ms),
-      f.field("certificate", x.certificate), f.field("signature", x.signature));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, peer_welcome& x) {
-  return f.object(x).fields(f.field("boot", x.boot),
-                            f.field("epoch_unix_ms", x.epoch_unix_ms));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, ping& x) {
-  return f.object(x).fields(f.field("number", x.number),
-                            f.field("sent", x.sent));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, pong& x) {
-  return f.object(x).fields(f.field("of", x.of),
-                            f.field("received", x.received),
-                            f.field("answered", x.answered));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, stream_id::what& x) {
-  return inspect_enum(f, x, stream_id::what::result);
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, stream_id& x) {
-  return f.object(x).fields(f.field("station", x.station), f.field("of", x.of),
-                            f.field("counter", x.counter));
 }
 
 } // namespace sofof

@@ -26,6 +26,13 @@ struct session_id {
   friend auto operator<=>(const session_id&, const session_id&) = default;
 };
 
+void visit_fields(auto& v, session_id& x) {
+  v("provider", x.provider);
+  v("station", x.station);
+  v("kind", x.kind);
+  v("counter", x.counter);
+}
+
 /// A vehicle's own motion, as its CAMs tell it.
 struct cam {
   station_id station = 0;
@@ -38,6 +45,18 @@ struct cam {
   double length_m = 5.1;    ///< Of its body; the test vehicle's, as below.
   double width_m = 1.89;
 };
+
+void visit_fields(auto& v, cam& x) {
+  v("station", x.station);
+  v("at", x.at);
+  v("position", x.position);
+  v("heading_rad", x.heading_rad);
+  v("speed_mps", x.speed_mps);
+  v("accel_mps2", x.accel_mps2);
+  v("curvature_1pm", x.curvature_1pm);
+  v("length_m", x.length_m);
+  v("width_m", x.width_m);
+}
 
 /// A provider has seen a station in its area and offers its services.
 struct service_offer {
@@ -53,6 +72,16 @@ struct service_offer {
   std::optional<time_point> created{};
 };
 
+void visit_fields(auto& v, service_offer& x) {
+  v("provider", x.provider);
+  v("position", x.position);
+  v("kinds", x.kinds);
+  v("utilisation", x.utilisation);
+  v("workers", x.workers);
+  v("computing", x.computing);
+  v("created", x.created);
+}
+
 /// A requester asks for some of the offered services.
 struct service_request {
   provider_id provider = 0;
@@ -65,6 +94,16 @@ struct service_request {
   std::vector<candidate> candidates{};
 };
 
+void visit_fields(auto& v, service_request& x) {
+  v("provider", x.provider);
+  v("station", x.station);
+  v("number", x.number);
+  v("kinds", x.kinds);
+  v("route", x.route);
+  v("speed_mps", x.speed_mps);
+  v("candidates", x.candidates);
+}
+
 /// What a provider says to one requested service.
 struct verdict {
   session_id running; ///< Counter 0 when refused.
@@ -73,6 +112,13 @@ struct verdict {
   provider_id instead = 0; ///< If refused: who should be asked; 0: nobody.
 };
 
+void visit_fields(auto& v, verdict& x) {
+  v("running", x.running);
+  v("accepted", x.accepted);
+  v("why", x.why);
+  v("instead", x.instead);
+}
+
 /// A provider's answer to one request: a verdict for each requested service.
 struct service_response {
   provider_id provider = 0;
@@ -80,6 +126,13 @@ struct service_response {
   std::uint32_t number = 0; ///< Of the request.
   std::vector<verdict> verdicts;
 };
+
+void visit_fields(auto& v, service_response& x) {
+  v("provider", x.provider);
+  v("station", x.station);
+  v("number", x.number);
+  v("verdicts", x.verdicts);
+}
 
 /// What a running service works on next; newer input replaces older. Whoever is
 /// on call gives one result at once, and the next one when it is called again.
@@ -93,6 +146,14 @@ struct service_input {
   bool on_call = false; ///< Else a result comes in every period.
 };
 
+void visit_fields(auto& v, service_input& x) {
+  v("running", x.running);
+  v("at", x.at);
+  v("what", x.what);
+  v("in_use", x.in_use);
+  v("on_call", x.on_call);
+}
+
 /// What one cycle of a running service gave.
 struct service_result {
   session_id running;
@@ -103,6 +164,15 @@ struct service_result {
   /// `created` may be off by this: clocks of two hosts never quite agree.
   duration doubt{};
 };
+
+void visit_fields(auto& v, service_result& x) {
+  v("running", x.running);
+  v("cycle", x.cycle);
+  v("created", x.created);
+  v("what", x.what);
+  v("about", x.about);
+  v("doubt", x.doubt);
+}
 
 /// Why an offloading ended.
 enum class end_reason : std::uint8_t {
@@ -120,6 +190,10 @@ enum class end_reason : std::uint8_t {
   shutdown,
 };
 
+constexpr end_reason last_of(end_reason) {
+  return end_reason::shutdown;
+}
+
 inline constexpr std::string_view name_of(end_reason reason) {
   constexpr std::string_view names[] = {
       "left_area", "cam_timeout", "qos_latency", "qos_gap",
@@ -130,6 +204,10 @@ inline constexpr std::string_view name_of(end_reason reason) {
 
 enum class side : std::uint8_t { requester, provider };
 
+constexpr side last_of(side) {
+  return side::provider;
+}
+
 /// One side has ended a running service; saying it twice does no harm.
 struct service_end {
   session_id running;
@@ -138,93 +216,11 @@ struct service_end {
   payload what{}; ///< The same in the service's own terms, if it has any.
 };
 
-template <class Inspector>
-bool inspect(Inspector& f, session_id& x) {
-  return f.object(x).fields(
-      f.field("provider", x.provider), f.field("station", x.station),
-      f.field("kind", x.kind), f.field("counter", x.counter));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, cam& x) {
-  return f.object(x).fields(
-      f.field("station", x.station), f.field("at", x.at),
-      f.field("position", x.position), f.field("heading_rad", x.heading_rad),
-      f.field("speed_mps", x.speed_mps), f.field("accel_mps2", x.accel_mps2),
-      f.field("curvature_1pm", x.curvature_1pm),
-      f.field("length_m", x.length_m), f.field("width_m", x.width_m));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_offer& x) {
-  return f.object(x).fields(
-      f.field("provider", x.provider), f.field("position", x.position),
-      f.field("kinds", x.kinds), exact_field(f, "utilisation", x.utilisation),
-      f.field("workers", x.workers), f.field("computing", x.computing),
-      f.field("created", x.created));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, candidate& x) {
-  return f.object(x).fields(f.field("provider", x.provider),
-                            exact_field(f, "gain", x.gain),
-                            exact_field(f, "utilisation", x.utilisation));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_request& x) {
-  return f.object(x).fields(
-      f.field("provider", x.provider), f.field("station", x.station),
-      f.field("number", x.number), f.field("kinds", x.kinds),
-      f.field("route", x.route), exact_field(f, "speed_mps", x.speed_mps),
-      f.field("candidates", x.candidates));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, verdict& x) {
-  return f.object(x).fields(
-      f.field("running", x.running), f.field("accepted", x.accepted),
-      f.field("why", x.why), f.field("instead", x.instead));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_response& x) {
-  return f.object(x).fields(
-      f.field("provider", x.provider), f.field("station", x.station),
-      f.field("number", x.number), f.field("verdicts", x.verdicts));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_input& x) {
-  return f.object(x).fields(f.field("running", x.running), f.field("at", x.at),
-                            f.field("what", x.what),
-                            f.field("in_use", x.in_use),
-                            f.field("on_call", x.on_call));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_result& x) {
-  return f.object(x).fields(
-      f.field("running", x.running), f.field("cycle", x.cycle),
-      f.field("created", x.created), f.field("what", x.what),
-      f.field("about", x.about), f.field("doubt", x.doubt));
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, end_reason& x) {
-  return inspect_enum(f, x, end_reason::shutdown);
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, side& x) {
-  return inspect_enum(f, x, side::provider);
-}
-
-template <class Inspector>
-bool inspect(Inspector& f, service_end& x) {
-  return f.object(x).fields(f.field("running", x.running),
-                            f.field("reason", x.reason),
-                            f.field("from", x.from), f.field("what", x.what));
+void visit_fields(auto& v, service_end& x) {
+  v("running", x.running);
+  v("reason", x.reason);
+  v("from", x.from);
+  v("what", x.what);
 }
 
 } // namespace sofof

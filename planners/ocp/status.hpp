@@ -15,6 +15,10 @@ enum class solve_status {
   bad_input,       ///< The problem itself makes no sense; nothing was done.
 };
 
+constexpr solve_status last_of(solve_status) {
+  return solve_status::bad_input;
+}
+
 /// @returns the name in capitals, as in files: "CONVERGED".
 constexpr std::string_view name(solve_status s) {
   switch (s) {

@@ -21,6 +21,17 @@ struct planning_input {
   driving_scene others;
 };
 
+/// The others stay with whoever has perceived them.
+void visit_fields(auto& v, planning_input& x) {
+  v("at", x.at);
+  v("s_m", x.s_m);
+  v("d_m", x.d_m);
+  v("heading_error_rad", x.heading_error_rad);
+  v("curvature_1pm", x.curvature_1pm);
+  v("speed_mps", x.speed_mps);
+  v("accel_mps2", x.accel_mps2);
+}
+
 /// @returns `x` with what no car's own motion can be cut off (10 000 km, 5 m
 /// off the lane, 1 rad, 1/m, 0 to 100 m/s, 20 m/s²); what is no number is 0.
 planning_input made_possible(planning_input x);

@@ -18,6 +18,10 @@ enum class plan_origin : std::uint8_t {
   stop,    ///< Braking, because there was nothing better.
 };
 
+constexpr plan_origin last_of(plan_origin) {
+  return plan_origin::stop;
+}
+
 /// How a plan came about; it travels with the plan.
 struct plan_report {
   plan_origin origin = plan_origin::planned;
@@ -33,6 +37,20 @@ struct plan_report {
   /// Of the plan as it was made; on the air it is rounded.
   std::optional<motion_extremes> extremes;
 };
+
+void visit_fields(auto& v, plan_report& x) {
+  v("origin", x.origin);
+  v("path", x.path);
+  v("velocity", x.velocity);
+  v("emergency", x.emergency);
+  v("violation", x.violation);
+  v("iterations", x.iterations);
+  v("candidates", x.candidates);
+  v("choice", x.choice);
+  v("dwell_s", x.dwell_s);
+  v("input", x.input);
+  v("extremes", x.extremes);
+}
 
 /// Plans cycle by cycle: a plan continues the plan before.
 class trajectory_planner {

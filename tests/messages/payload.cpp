@@ -35,9 +35,18 @@ struct everything {
   friend bool operator==(const everything&, const everything&) = default;
 };
 
-void archive(auto& bytes, everything& x) {
-  bytes(x.flag, x.small, x.big, x.number, x.enumeration, x.length, x.moment,
-        x.text, x.maybe, x.line, x.words);
+void visit_fields(auto& v, everything& x) {
+  v("flag", x.flag);
+  v("small", x.small);
+  v("big", x.big);
+  v("number", x.number);
+  v("enumeration", x.enumeration);
+  v("length", x.length);
+  v("moment", x.moment);
+  v("text", x.text);
+  v("maybe", x.maybe);
+  v("line", x.line);
+  v("words", x.words);
 }
 
 everything random_everything(filler& random) {

@@ -19,8 +19,8 @@ struct echo {
   static constexpr std::uint64_t useless = jump - 2;
 };
 
-void archive(auto& bytes, echo& x) {
-  bytes(x.number);
+void visit_fields(auto& v, echo& x) {
+  v("number", x.number);
 }
 
 } // namespace sofof::test

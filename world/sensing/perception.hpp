@@ -19,6 +19,15 @@ struct perceived_object {
   double width_m = 0;
 };
 
+void visit_fields(auto& v, perceived_object& x) {
+  v("centre", x.centre);
+  v("heading_rad", x.heading_rad);
+  v("speed_mps", x.speed_mps);
+  v("accel_mps2", x.accel_mps2);
+  v("length_m", x.length_m);
+  v("width_m", x.width_m);
+}
+
 /// What a driver has to know about the others.
 struct perception {
   time_point at;
@@ -30,5 +39,11 @@ struct perception {
   /// leaves it empty; the road fills it in.
   std::vector<perceived_object> objects;
 };
+
+void visit_fields(auto& v, perception& x) {
+  v("at", x.at);
+  v("stop_at_m", x.stop_at_m);
+  v("objects", x.objects);
+}
 
 } // namespace sofof

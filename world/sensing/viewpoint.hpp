@@ -13,4 +13,11 @@ struct viewpoint {
   double field_of_view_deg = 360; ///< Round its heading.
 };
 
+void visit_fields(auto& v, viewpoint& x) {
+  v("at", x.at);
+  v("heading_rad", x.heading_rad);
+  v("range_m", x.range_m);
+  v("field_of_view_deg", x.field_of_view_deg);
+}
+
 } // namespace sofof

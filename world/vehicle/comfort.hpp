@@ -22,6 +22,12 @@ struct motion_extremes {
   void add(const motion_extremes& x);
 };
 
+void visit_fields(auto& v, motion_extremes& x) {
+  v("lateral_accel_mps2", x.lateral_accel_mps2);
+  v("jerk_mps3", x.jerk_mps3);
+  v("min_accel_mps2", x.min_accel_mps2);
+}
+
 /// What a car that comes from `before` feels of jerk.
 /// @param before_mps  Speed at the beginning.
 /// @param change_mps2  Difference of acceleration over `dt_s`.

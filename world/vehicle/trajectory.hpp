@@ -19,6 +19,16 @@ struct trajectory_point {
   double accel_mps2 = 0;
 };
 
+void visit_fields(auto& v, trajectory_point& x) {
+  v("t_s", x.t_s);
+  v("s_m", x.s_m);
+  v("at", x.at);
+  v("heading_rad", x.heading_rad);
+  v("curvature_1pm", x.curvature_1pm);
+  v("speed_mps", x.speed_mps);
+  v("accel_mps2", x.accel_mps2);
+}
+
 /// A plan in time; points in rising, equal steps of t, the first at 0.
 struct trajectory {
   time_point start; ///< Start of the planning cycle (t_creation).
@@ -45,6 +55,11 @@ struct trajectory {
   /// @param t_s  Since the start.
   trajectory_point at(double t_s) const;
 };
+
+void visit_fields(auto& v, trajectory& x) {
+  v("start", x.start);
+  v("points", x.points);
+}
 
 /// @returns what a plan still holds from a time on, in the same steps; a plan
 /// that begins later as it is, and nothing of one that is over.

@@ -30,6 +30,14 @@ struct vehicle_state {
   double steer_rad = 0; ///< Front wheel angle, left positive.
 };
 
+void visit_fields(auto& v, vehicle_state& x) {
+  v("at", x.at);
+  v("heading_rad", x.heading_rad);
+  v("speed_mps", x.speed_mps);
+  v("accel_mps2", x.accel_mps2);
+  v("steer_rad", x.steer_rad);
+}
+
 /// What the controller asks of the actuators.
 struct vehicle_command {
   double accel_mps2 = 0;

@@ -20,17 +20,20 @@ struct climate_request {
   double set_point_c = 0;
 };
 
+void visit_fields(auto& v, climate_request& x) {
+  v("air_c", x.air_c);
+  v("mass_c", x.mass_c);
+  v("outside_c", x.outside_c);
+  v("set_point_c", x.set_point_c);
+}
+
 /// This one.
 struct climate_power {
   double power_w = 0; ///< Negative cools.
 };
 
-void archive(auto& bytes, climate_request& x) {
-  bytes(x.air_c, x.mass_c, x.outside_c, x.set_point_c);
-}
-
-void archive(auto& bytes, climate_power& x) {
-  bytes(x.power_w);
+void visit_fields(auto& v, climate_power& x) {
+  v("power_w", x.power_w);
 }
 
 template <>

@@ -20,56 +20,18 @@ struct plan_request {
   cam own;             ///< Its motion as its CAMs tell it.
 };
 
+void visit_fields(auto& v, plan_request& x) {
+  v("way", x.way);
+  v("from", x.from);
+  v("seen", x.seen);
+  v("own", x.own);
+}
+
 template <>
 inline constexpr std::string_view payload_name<plan_request> = "plan_request";
 template <>
 inline constexpr std::string_view payload_name<trajectory> = "trajectory";
 template <>
 inline constexpr std::string_view payload_name<plan_report> = "plan_report";
-
-void archive(auto& bytes, perceived_object& x) {
-  bytes(x.centre, x.heading_rad, x.speed_mps, x.accel_mps2, x.length_m,
-        x.width_m);
-}
-
-void archive(auto& bytes, perception& x) {
-  bytes(x.at, x.stop_at_m, x.objects);
-}
-
-void archive(auto& bytes, planning_input& x) {
-  bytes(x.at, x.s_m, x.d_m, x.heading_error_rad, x.curvature_1pm, x.speed_mps,
-        x.accel_mps2);
-}
-
-void archive(auto& bytes, point& x) {
-  bytes(x.x_m, x.y_m);
-}
-
-void archive(auto& bytes, cam& x) {
-  bytes(x.station, x.at, x.position, x.heading_rad, x.speed_mps, x.accel_mps2,
-        x.curvature_1pm, x.length_m, x.width_m);
-}
-
-void archive(auto& bytes, plan_request& x) {
-  bytes(x.way, x.from, x.seen, x.own);
-}
-
-void archive(auto& bytes, trajectory_point& x) {
-  bytes(x.t_s, x.s_m, x.at, x.heading_rad, x.curvature_1pm, x.speed_mps,
-        x.accel_mps2);
-}
-
-void archive(auto& bytes, trajectory& x) {
-  bytes(x.start, x.points);
-}
-
-void archive(auto& bytes, motion_extremes& x) {
-  bytes(x.lateral_accel_mps2, x.jerk_mps3, x.min_accel_mps2);
-}
-
-void archive(auto& bytes, plan_report& x) {
-  bytes(x.origin, x.path, x.velocity, x.emergency, x.violation, x.iterations,
-        x.candidates, x.choice, x.dwell_s, x.input, x.extremes);
-}
 
 } // namespace sofof
