@@ -3,7 +3,6 @@
 #include "apps/command.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
-#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
 
 #include <fmt/format.h>

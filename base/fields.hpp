@@ -21,8 +21,9 @@ struct no_field_visitor {
 ///       v("y_m", x.y_m);
 ///     }
 template <class T>
-concept has_fields =
-    requires(no_field_visitor& v, T& x) { visit_fields(v, x); };
+concept has_fields = requires(no_field_visitor& v, T& x) {
+  visit_fields(v, x);
+};
 
 /// An enumeration that says beside it which is its last number, the first one
 /// being 0; others are refused when one is read.

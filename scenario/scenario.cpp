@@ -4,7 +4,6 @@
 #include "base/options/option_helpers.hpp"
 #include "base/options/option_printer.hpp"
 #include "base/protocol.hpp"
-#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
 
 #include <fmt/format.h>

@@ -133,7 +133,7 @@ private:
 
 } // namespace
 
-service_type_ptr make_cabin_climate() {
+service_type_ptr service_cabin_climate() {
   return std::make_shared<cabin_climate>();
 }
 

@@ -6,17 +6,12 @@
 namespace sofof {
 
 service_type_ptr make_service_type(std::string_view name) {
-  for (const auto& [known, make] : service_table)
-    if (known == name)
-      return make();
-  return nullptr;
+  const auto* make = find_named(service_table, name);
+  return make ? (*make)() : nullptr;
 }
 
 std::vector<std::string_view> service_type_names() {
-  std::vector<std::string_view> names;
-  for (const auto& entry : service_table)
-    names.push_back(entry.first);
-  return names;
+  return names_of(service_table);
 }
 
 } // namespace sofof

@@ -68,7 +68,7 @@ private:
 
 } // namespace
 
-service_type_ptr make_trajectory_planning() {
+service_type_ptr service_trajectory_planning() {
   return std::make_shared<trajectory_planning>();
 }
 

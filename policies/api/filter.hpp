@@ -33,17 +33,4 @@ using local_filter = filter<local_context, provider_view>;
 /// Which requests a provider may accept.
 using central_filter = filter<central_context, request_view>;
 
-/// A filter that lets everything through.
-template <class Context, class Candidate>
-class no_filter final : public filter<Context, Candidate> {
-public:
-  std::string_view objection(const Context&, const Candidate&) const override {
-    return {};
-  }
-  std::string_view name() const override { return "none"; }
-  std::unique_ptr<filter<Context, Candidate>> clone() const override {
-    return std::make_unique<no_filter>(*this);
-  }
-};
-
 } // namespace sofof

@@ -24,23 +24,4 @@ struct policy_info {
   std::vector<option_info> parameters{};
 };
 
-/// Part of a table that knows things by name.
-/// @returns the notes of each.
-template <class Table>
-std::vector<policy_info> notes_of(const Table& table) {
-  std::vector<policy_info> all;
-  for (const auto& entry : table)
-    all.push_back(entry.notes);
-  return all;
-}
-
-/// @returns all names.
-template <class Table>
-std::vector<std::string_view> names_of(const Table& table) {
-  std::vector<std::string_view> all;
-  for (const auto& entry : table)
-    all.push_back(entry.notes.name);
-  return all;
-}
-
 } // namespace sofof

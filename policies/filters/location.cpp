@@ -1,6 +1,8 @@
 // The paper's decisions: offload where enough of the way lies ahead.
 #include "policies/filters/location.hpp"
 
+#include "policies/entry.hpp"
+
 #include <limits>
 
 namespace sofof {
@@ -93,6 +95,27 @@ std::vector<option_info> stays_in_area::parameters() {
 
 std::unique_ptr<central_filter> stays_in_area::clone() const {
   return std::make_unique<stays_in_area>(*this);
+}
+
+local_filter_entry local_filter_location() {
+  return {
+      {"location",
+       "Lets through where the way ahead stays long enough near a provider.",
+       "d_passed > d_min, the way on the planned path before it leaves the "
+       "disc of radius r_off round the provider",
+       "the planned path, where providers are",
+       "Dehler & Buchholz, IEEE RA-L 10(5), 2025", near_provider::parameters()},
+      unfiltered<local_filter, near_provider>};
+}
+
+central_filter_entry central_filter_location() {
+  return {
+      {"location", "Lets vehicles through that stay long enough in the area.",
+       "t_in_area >= t_min, the way on the route before it leaves the area by "
+       "the present speed; and until t_min the route is on the map",
+       "the route and the speed that requests tell",
+       "Dehler & Buchholz, IEEE RA-L 10(5), 2025", stays_in_area::parameters()},
+      unfiltered<central_filter, stays_in_area>};
 }
 
 } // namespace sofof

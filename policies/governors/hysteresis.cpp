@@ -1,34 +1,80 @@
-// Keeps a scorer from switching to and fro.
-#include "policies/governors/hysteresis.hpp"
+// Governor "hysteresis": no hasty changes of where a service runs.
+#include "policies/algorithms/switching/hysteresis.hpp"
+
+#include "policies/entry.hpp"
+
+#include <map>
+#include <string>
 
 namespace sofof {
 
-provider_id hysteresis::next(const wish& wanted, time_point now) {
-  if (wanted.must_fall_back) {
-    better_since_.reset();
-    if (source_ != local)
-      switch_to(local, now);
-    return source_;
+namespace {
+
+/// Lets a service go to a provider only when that was wanted for a while, and
+/// not soon after it came home or somewhere else. What comes home is never
+/// kept.
+class hysteresis_governor final : public governor {
+public:
+  local_decision govern(const local_context& context,
+                        const local_decision& wanted) override;
+  void visit_options(option_visitor& s) override;
+  double epoch_s() const override { return epoch_s_; }
+  std::string_view name() const override { return "hysteresis"; }
+  std::unique_ptr<governor> clone() const override {
+    return std::make_unique<hysteresis_governor>(*this);
   }
-  if (wanted.source == source_ || !(wanted.advantage > options_.margin)) {
-    better_since_.reset();
-    return source_;
+
+private:
+  hysteresis_options options_;
+  double epoch_s_ = 0.1;
+  std::map<std::string, hysteresis, std::less<>> services_;
+};
+
+local_decision hysteresis_governor::govern(const local_context& context,
+                                           const local_decision& wanted) {
+  auto i = services_.find(context.kind);
+  if (i == services_.end())
+    i = services_.emplace(context.kind, hysteresis{options_}).first;
+  auto& service = i->second;
+  service.is_at(context.current, context.since);
+  if (wanted.release) {
+    service.next({hysteresis::local, 0, true}, context.now);
+    return wanted;
   }
-  if (!better_since_ || wanted.source != challenger_) {
-    challenger_ = wanted.source;
-    better_since_ = now;
+  const auto source = wanted.source != 0 ? wanted.source : context.current;
+  const auto next = service.next({source, wanted.advantage}, context.now);
+  if (next == source)
+    return wanted;
+  auto decision = as_it_is("not for long enough");
+  if (context.current != 0) { // else it would be the first
+    decision.second = wanted.second;
+    decision.hedge_after = wanted.hedge_after;
   }
-  const auto triggered = now - *better_since_ >= options_.time_to_trigger;
-  const auto dwelt = !switched_ || now - *switched_ >= options_.dwell;
-  if (triggered && dwelt)
-    switch_to(wanted.source, now);
-  return source_;
+  return decision;
 }
 
-void hysteresis::switch_to(provider_id source, time_point now) {
-  source_ = source;
-  switched_ = now;
-  better_since_.reset();
+void hysteresis_governor::visit_options(option_visitor& s) {
+  s.field("margin", options_.margin, {0, 1e3});
+  s.field("time_to_trigger", options_.time_to_trigger, duration{0});
+  s.field("min_dwell", options_.dwell, duration{0});
+  s.field("epoch_s", epoch_s_, {1e-3, 3600});
+}
+
+} // namespace
+
+governor_entry governor_hysteresis() {
+  return {
+      {"hysteresis",
+       "No hasty changes of where a service runs.",
+       "advantage > margin for time_to_trigger without a break, and the last "
+       "change is min_dwell ago; who comes home is never kept",
+       "what the policy wants",
+       "event A3 of 3GPP TS 36.331, with a dwell in addition",
+       {{"margin", "1", "an advantage counts above this, as normalised gain"},
+        {"time_to_trigger", "time", "so long must it last"},
+        {"min_dwell", "time", "between two changes"},
+        {"epoch_s", "s", "between two looks"}}},
+      unfiltered<governor, hysteresis_governor>};
 }
 
 } // namespace sofof

@@ -1,6 +1,6 @@
 // Tests of the service provider: requests that are decided together, decisions
 // that are missing, and services that are revoked.
-#include "policies/filters/composition.hpp"
+#include "policies/filtered.hpp"
 #include "tests/actors/provider_world.hpp"
 
 using namespace sofof;

@@ -1,6 +1,6 @@
 // Tests of what keeps a scorer in check: gate and hysteresis.
 #include "policies/algorithms/forecast/predictive_gate.hpp"
-#include "policies/governors/hysteresis.hpp"
+#include "policies/algorithms/switching/hysteresis.hpp"
 #include "tests/support/at.hpp"
 #include "tests/support/dice.hpp"
 

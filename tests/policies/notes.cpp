@@ -1,5 +1,4 @@
 // Tests of what users are told of policies, filters and governors.
-#include "policies/governors/governors.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/option_list.hpp"
 

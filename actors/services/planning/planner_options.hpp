@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/services/planning/known_roads.hpp"
+#include "actors/services/planning/planner_entry.hpp"
 #include "base/options/option_visitor.hpp"
 #include "planners/speed/comfort_limits.hpp"
 #include "planners/trajectory/spatial_planner.hpp"

@@ -1,8 +1,8 @@
 // An LODM and its governors.
-#include "policies/governors/governed.hpp"
+#include "policies/governed.hpp"
 
 #include "base/options/option_helpers.hpp"
-#include "policies/governors/governors.hpp"
+#include "policies/registry.hpp"
 
 namespace sofof {
 

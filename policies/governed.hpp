@@ -1,8 +1,8 @@
 // An LODM and its governors.
 #pragma once
 
+#include "policies/api/governor.hpp"
 #include "policies/api/policy.hpp"
-#include "policies/governors/governor.hpp"
 
 #include <memory>
 #include <vector>

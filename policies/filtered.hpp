@@ -2,7 +2,7 @@
 #pragma once
 
 #include "policies/api/filter.hpp"
-#include "policies/api/notes.hpp"
+#include "policies/api/policy.hpp"
 
 #include <memory>
 #include <optional>
@@ -12,14 +12,6 @@
 #include <vector>
 
 namespace sofof {
-
-/// @returns what is said of each filter.
-std::vector<policy_info> local_filter_notes();
-std::vector<policy_info> central_filter_notes();
-
-/// @returns the filter with its default options; null for an unknown name.
-std::unique_ptr<local_filter> make_local_filter(std::string_view name);
-std::unique_ptr<central_filter> make_central_filter(std::string_view name);
 
 /// What both sides have in common. Goes by the name of its choice.
 template <class Policy, class Filter>

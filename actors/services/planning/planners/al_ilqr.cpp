@@ -1,0 +1,18 @@
+// Planner "al_ilqr": optimal control.
+#include "actors/services/planning/planner_options.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
+
+#include <utility>
+
+namespace sofof {
+
+planner_entry planner_al_ilqr() {
+  return [](const planner_options& options, route_profile_ptr along,
+            bool remote) -> std::unique_ptr<trajectory_planner> {
+    return std::make_unique<spatial_planner>(std::move(along), options.style,
+                                             remote ? options.mec
+                                                    : options.onboard);
+  };
+}
+
+} // namespace sofof

@@ -1,0 +1,79 @@
+// Governor "redundancy": two providers plan the same cycles.
+#include "policies/entry.hpp"
+
+namespace sofof {
+
+namespace {
+
+/// Who waits for a result longer than that waits in vain.
+constexpr duration longest_hedge = std::chrono::seconds{10};
+
+/// Where a service runs at one provider, or shall, has another one run it too:
+/// of those that come into question the one that is late least often. Of each
+/// cycle the first result is used.
+/// Source: Dean & Barroso, The Tail at Scale, CACM 56(2), 2013.
+class redundancy_governor final : public governor {
+public:
+  local_decision govern(const local_context& context,
+                        const local_decision& wanted) override;
+  void visit_options(option_visitor& s) override;
+  std::string_view name() const override { return "redundancy"; }
+  std::unique_ptr<governor> clone() const override {
+    return std::make_unique<redundancy_governor>(*this);
+  }
+
+private:
+  double least_late_ = 0;  // below this one provider is enough
+  duration hedge_after_{}; // 0: the other one plans every cycle
+};
+
+local_decision redundancy_governor::govern(const local_context& context,
+                                           const local_decision& wanted) {
+  auto decision = wanted;
+  const auto first = wanted.source != 0 ? wanted.source : context.current;
+  if (wanted.release || first == 0)
+    return decision;
+  const provider_view* best = nullptr;
+  bool is_enough = false;
+  for (const auto& other : context.providers) {
+    if (other.id == first)
+      is_enough = other.link.late < least_late_;
+    else if (!best || other.link.late < best->link.late)
+      best = &other;
+  }
+  if (best && !is_enough) {
+    decision.second = best->id;
+    decision.hedge_after = hedge_after_;
+  } else {
+    decision.source = first; // alone: a second one ends
+  }
+  return decision;
+}
+
+void redundancy_governor::visit_options(option_visitor& s) {
+  s.field("least_late", least_late_, {0, 1});
+  s.field("hedge_after", hedge_after_, duration{0});
+  if (hedge_after_ > longest_hedge)
+    s.refuse("hedge_after", "must not be more than \"10s\".");
+}
+
+} // namespace
+
+governor_entry governor_redundancy() {
+  return {
+      {"redundancy",
+       "Two providers plan the same cycles; the first result is used.",
+       "with another one of least P(latency > limit), if that of the first is "
+       "not below least_late",
+       "latencies of what came from each provider",
+       "Dean & Barroso, CACM 56(2), 2013",
+       {{"least_late", "1",
+         "probability to be late below which one provider is enough"},
+        {"hedge_after", "time",
+         "the second plans only cycles that the first has not answered for so "
+         "long, well below max_interarrival - period, at most \"10s\"; 0: "
+         "all"}}},
+      unfiltered<governor, redundancy_governor>};
+}
+
+} // namespace sofof
