@@ -1,5 +1,6 @@
 // What the channel's draws cost.
 #include "channel/link_direction.hpp"
+#include "channel/provider_compute.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -16,13 +17,15 @@ constexpr duration between_results = std::chrono::milliseconds{50};
 void result_through(benchmark::State& state, const std::string& profile) {
   const auto definition =
       std::make_shared<const channel_profile>(*find_channel_profile(profile));
-  const channel draws{definition, random_stream{1, "benchmark"}, 101, 1};
-  link_direction link{draws, direction::down,
+  const random_stream seed{1, "benchmark"};
+  const auto computers = compute_measured_with(profile);
+  const auto draws = result_draws(seed, 101, 1);
+  link_direction link{channel{definition, seed, 101, 1}, direction::down,
                       std::make_shared<multi_server_queue>(1)};
   std::uint64_t cycle = 0;
   time_point created;
   for (auto _ : state) {
-    const auto sent = created + draws.service_time(cycle);
+    const auto sent = created + computers.computing_time(draws, cycle);
     benchmark::DoNotOptimize(link.arrival(sent, message_class::result, cycle));
     created += between_results;
     ++cycle;

@@ -1,5 +1,6 @@
 // Good and bad phases, spikes, outages, and radios of their own.
 #include "channel/link_direction.hpp"
+#include "channel/provider_compute.hpp"
 #include "tests/channel/cycles.hpp"
 #include "tests/support/near.hpp"
 
@@ -56,10 +57,13 @@ struct shares {
 
 shares late_results(const channel_profile& p, std::uint64_t count) {
   std::vector<bool> late;
+  const auto computers = compute_measured_with(p.name);
   for (station_id v = 1; v <= 40; ++v) {
     const auto one = phase_channel(p, v);
+    const auto draws = result_draws(phase_seed, v, 0);
     for (std::uint64_t n = 0; n < count; ++n)
-      late.push_back(one.service_time(n) + one.downlink_delay(n, cycle(n))
+      late.push_back(computers.computing_time(draws, n)
+                         + one.downlink_delay(n, cycle(n))
                      > 50ms);
   }
   constexpr std::size_t second = 20;

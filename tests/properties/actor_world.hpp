@@ -130,7 +130,7 @@ struct actor_world : virtual_world {
     setup.services = {echo_service("one"), echo_service("two")};
     setup.codm = make_codm("always");
     setup.recorder = recorder;
-    setup.profile = profile;
+    setup.compute = compute_measured_with(profile->name);
     setup.seed = random_stream{seed, "network"};
     setup.number = static_cast<std::uint32_t>(k);
     providers.push_back(spawn_service_provider(system(), std::move(setup)));
