@@ -19,7 +19,7 @@ channel_profile ideal() {
 // Ours, fitted to 10.54 ± 9.83 ms and nearly nothing over 50 ms (Dehler &
 // Buchholz 2025, figure "delay-plot"): a light tail.
 channel_profile paper_sim() {
-  const auto computing = compute_measured_with("paper-sim");
+  const auto computing = compute_measured_with("paper_sim");
   channel_profile p;
   p.joint = computing.joint;
   p.joint_share = 1 - computing.joint_share;
@@ -84,12 +84,12 @@ struct entry {
 
 constexpr std::array known_profiles{
     entry{"ideal", ideal},
-    entry{"paper-sim", paper_sim},
-    entry{"paper-sim-stalls", paper_sim_stalls},
-    entry{"paper-5g", paper_5g},
-    entry{"cicv5g-n8", cicv5g_n8},
-    entry{"cicv5g-n78", cicv5g_n78},
-    entry{"spiky-5g", spiky_5g},
+    entry{"paper_sim", paper_sim},
+    entry{"paper_sim_stalls", paper_sim_stalls},
+    entry{"paper_5g", paper_5g},
+    entry{"cicv5g_n8", cicv5g_n8},
+    entry{"cicv5g_n78", cicv5g_n78},
+    entry{"spiky_5g", spiky_5g},
     entry{"trace", trace},
 };
 

@@ -31,13 +31,13 @@ double provider_compute::deviation_s() const {
 provider_compute compute_measured_with(std::string_view profile) {
   provider_compute c;
   c.model = profile;
-  if (profile == "paper-sim") { // a light tail: docs/channels.md
+  if (profile == "paper_sim") { // a light tail: docs/channels.md
     c.joint = delay_distribution::beta(45ms, 0.646, 2.11);
     c.joint_share = 0.3;
-  } else if (profile == "paper-5g") {
+  } else if (profile == "paper_5g") {
     c.workers = 2;
     c.alone = delay_distribution::lognormal(0ms, 3ms, 1ms);
-  } else if (profile == "spiky-5g") {
+  } else if (profile == "spiky_5g") {
     c.workers = 8;
     c.alone = delay_distribution::lognormal(0ms, 3ms, 1ms);
   }

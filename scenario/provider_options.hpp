@@ -36,7 +36,7 @@ struct roadside_options {
 /// The channel between vehicles and providers.
 struct network_options {
   /// The profile that the file names, with what it changes in it.
-  channel_profile profile = *find_channel_profile("paper-sim");
+  channel_profile profile = *find_channel_profile("paper_sim");
   /// File with measured delays, for the profile "trace"; relative to the
   /// scenario file.
   std::string trace;

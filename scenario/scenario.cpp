@@ -39,6 +39,21 @@ std::string right_place(std::string_view name) {
   return {};
 }
 
+/// Lists the name of a channel profile; hyphens were once in some.
+void visit_profile(option_visitor& s, std::string_view key, std::string& name) {
+  const auto known = channel_profile_names();
+  s.field(key, name);
+  auto now = name;
+  std::ranges::replace(now, '-', '_');
+  if (now != name && std::ranges::find(known, now) != known.end()) {
+    s.note(key, fmt::format("\"{}\" is \"{}\" now; the old name still counts.",
+                            name, now));
+    name = now;
+  }
+  if (std::ranges::find(known, name) == known.end())
+    s.refuse(key, unknown_word("channel profile", name, known));
+}
+
 } // namespace
 
 oriented_box obstacle_options::box() const {
@@ -63,7 +78,7 @@ bool provider_options::offers(std::string_view service) const {
 
 void network_options::visit_options(option_visitor& s) {
   auto name = profile.name;
-  visit_word(s, "profile", name, "channel profile", channel_profile_names());
+  visit_profile(s, "profile", name);
   if (name != profile.name)
     profile = find_channel_profile(name).value_or(profile);
   if (s.has("trace", !trace.empty())) {
@@ -80,8 +95,7 @@ void network_options::visit_options(option_visitor& s) {
 
 void compute_options::visit_options(option_visitor& s) {
   if (s.has("model", model.has_value()))
-    visit_word(s, "model", model ? *model : model.emplace(), "channel profile",
-               channel_profile_names());
+    visit_profile(s, "model", model ? *model : model.emplace());
   if (s.has("workers", workers.has_value()))
     s.field("workers", workers ? *workers : workers.emplace(1), {1, 1024});
   if (s.has("more_computing", more_computing.has_value()))

@@ -32,9 +32,9 @@ void result_through(benchmark::State& state, const std::string& profile) {
   }
 }
 BENCHMARK_CAPTURE(result_through, ideal, "ideal");
-BENCHMARK_CAPTURE(result_through, paper_sim, "paper-sim");
-BENCHMARK_CAPTURE(result_through, paper_sim_stalls, "paper-sim-stalls");
-BENCHMARK_CAPTURE(result_through, paper_5g, "paper-5g");
-BENCHMARK_CAPTURE(result_through, cicv5g_n78, "cicv5g-n78");
+BENCHMARK_CAPTURE(result_through, paper_sim, "paper_sim");
+BENCHMARK_CAPTURE(result_through, paper_sim_stalls, "paper_sim_stalls");
+BENCHMARK_CAPTURE(result_through, paper_5g, "paper_5g");
+BENCHMARK_CAPTURE(result_through, cicv5g_n78, "cicv5g_n78");
 
 } // namespace

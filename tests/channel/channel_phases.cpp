@@ -164,11 +164,11 @@ TEST_CASE("each radio of a vehicle has stalls of its own") {
   CHECK(both == near(20'000 * 0.134 * 0.134, 0.4)); // as if by chance
 }
 
-TEST_CASE("spiky-5g is late in phases that can be foreseen") {
-  auto calm = *find_channel_profile("spiky-5g");
+TEST_CASE("spiky_5g is late in phases that can be foreseen") {
+  auto calm = *find_channel_profile("spiky_5g");
   calm.spikes = {};
   const auto foreseeable = late_results(calm, 72'000);
-  const auto all = late_results(*find_channel_profile("spiky-5g"), 72'000);
+  const auto all = late_results(*find_channel_profile("spiky_5g"), 72'000);
   MESSAGE("late without spikes: ", foreseeable.late,
           ", 1 s after a late one: ", foreseeable.after_late,
           "; with spikes: ", all.late, ", ", all.after_late);

@@ -39,10 +39,10 @@ TEST_CASE("each channel profile has the computers it was measured with") {
     double mean_s, deviation_s;
   };
   for (const auto& x :
-       {figures{"ideal", 1, 0, 0}, figures{"paper-sim", 1, 3.164e-3, 2.946e-3},
-        figures{"paper-sim-stalls", 1, 0, 0},
-        figures{"paper-5g", 2, 3e-3, 1e-3}, figures{"cicv5g-n8", 1, 0, 0},
-        figures{"cicv5g-n78", 1, 0, 0}, figures{"spiky-5g", 8, 3e-3, 1e-3},
+       {figures{"ideal", 1, 0, 0}, figures{"paper_sim", 1, 3.164e-3, 2.946e-3},
+        figures{"paper_sim_stalls", 1, 0, 0},
+        figures{"paper_5g", 2, 3e-3, 1e-3}, figures{"cicv5g_n8", 1, 0, 0},
+        figures{"cicv5g_n78", 1, 0, 0}, figures{"spiky_5g", 8, 3e-3, 1e-3},
         figures{"trace", 1, 0, 0}}) {
     CAPTURE(x.profile);
     REQUIRE(find_channel_profile(x.profile));
@@ -57,7 +57,7 @@ TEST_CASE("each channel profile has the computers it was measured with") {
 }
 
 TEST_CASE("mean and deviation of computing times are those of the draws") {
-  for (const auto name : {"paper-sim", "paper-5g"}) {
+  for (const auto name : {"paper_sim", "paper_5g"}) {
     CAPTURE(name);
     const auto c = compute_measured_with(name);
     const auto draws = draws_here();
@@ -77,9 +77,9 @@ TEST_CASE("mean and deviation of computing times are those of the draws") {
 }
 
 TEST_CASE(
-    "paper-sim shares out one draw a result, 3 of 10 parts to computing") {
-  const auto c = compute_measured_with("paper-sim");
-  const auto way = channel_here("paper-sim");
+    "paper_sim shares out one draw a result, 3 of 10 parts to computing") {
+  const auto c = compute_measured_with("paper_sim");
+  const auto way = channel_here("paper_sim");
   for (std::uint64_t k = 0; k < 100; ++k) {
     const auto computing_s = to_seconds(c.computing_time(draws_here(), k));
     const auto network_s = to_seconds(way.downlink_delay(k, {}));
@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE("computing times belong to a vehicle, a provider and a radio") {
-  const auto c = compute_measured_with("paper-5g");
+  const auto c = compute_measured_with("paper_5g");
   const auto one = c.computing_time(draws_here(), 7);
   CHECK(one == c.computing_time(draws_here(), 7));
   CHECK(one != c.computing_time(draws_here(), 8));
@@ -99,7 +99,7 @@ TEST_CASE("computing times belong to a vehicle, a provider and a radio") {
 }
 
 TEST_CASE("a service computes as long as it demands, the constant part too") {
-  auto c = compute_measured_with("paper-5g");
+  auto c = compute_measured_with("paper_5g");
   const auto plain = c.computing_time(draws_here(), 3);
   const auto mean_s = c.mean_s();
   c.more_computing = 8ms;

@@ -102,7 +102,7 @@ struct actor_world : virtual_world {
   moving_client vehicle;
 
   actor_world(std::uint64_t seed, link_fault_options faults, int provider_count,
-              std::string_view channel = "paper-5g")
+              std::string_view channel = "paper_5g")
       : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)

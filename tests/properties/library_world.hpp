@@ -290,7 +290,7 @@ struct library_world {
   std::unique_ptr<offloading::vehicle_side> side;
 
   library_world(std::uint64_t seed, link_fault_options faults,
-                int provider_count, std::string_view channel = "paper-5g")
+                int provider_count, std::string_view channel = "paper_5g")
       : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)

@@ -14,7 +14,7 @@ namespace {
 
 /// Both providers of the example; the second one has a network of its own.
 const std::string own_network =
-    example::with("[network]", "network = { profile = \"paper-5g\" }\n"
+    example::with("[network]", "network = { profile = \"paper_5g\" }\n"
                                "[network]");
 
 provider_compute computers(const std::string& text, std::size_t place,
@@ -26,13 +26,13 @@ provider_compute computers(const std::string& text, std::size_t place,
 
 TEST_CASE("providers compute as was measured with their channel") {
   const auto first = computers(own_network, 0);
-  CHECK(first.model == "paper-sim");
+  CHECK(first.model == "paper_sim");
   CHECK(first.workers == 1);
-  CHECK(first.mean_s() == compute_measured_with("paper-sim").mean_s());
+  CHECK(first.mean_s() == compute_measured_with("paper_sim").mean_s());
   const auto second = computers(own_network, 1);
-  CHECK(second.model == "paper-5g");
+  CHECK(second.model == "paper_5g");
   CHECK(second.workers == 2);
-  CHECK(second.mean_s() == compute_measured_with("paper-5g").mean_s());
+  CHECK(second.mean_s() == compute_measured_with("paper_5g").mean_s());
 }
 
 TEST_CASE("[compute] is for all providers that have no table of their own") {
@@ -43,8 +43,8 @@ TEST_CASE("[compute] is for all providers that have no table of their own") {
     CHECK(c.workers == 16);
     CHECK(c.more_computing == 4ms);
   }
-  CHECK(computers(own_network, 1, set).model == "paper-5g");
-  CHECK(computers(own_network, 1, {"compute.model=spiky-5g"}).workers == 8);
+  CHECK(computers(own_network, 1, set).model == "paper_5g");
+  CHECK(computers(own_network, 1, {"compute.model=spiky_5g"}).workers == 8);
 }
 
 TEST_CASE("a provider's own table stands in place of [compute]") {
@@ -54,10 +54,10 @@ TEST_CASE("a provider's own table stands in place of [compute]") {
   const auto own = computers(example::text, 1, set);
   CHECK(own.workers == 3);
   CHECK(own.more_computing == 0ms);
-  CHECK(own.model == "paper-sim");
+  CHECK(own.model == "paper_sim");
   CHECK(computers(example::text, 0, set).workers == 16);
   const auto other =
-      computers(example::text, 1, {"provider.cloud.compute.model=paper-5g"});
+      computers(example::text, 1, {"provider.cloud.compute.model=paper_5g"});
   CHECK(other.workers == 2);
   CHECK(other.mean_s() == doctest::Approx(0.003));
 }
@@ -71,9 +71,9 @@ TEST_CASE("the effective configuration has the tables, and loads to itself") {
   const auto s = example::load(own_network, {"compute.workers=16"});
   const auto text = to_toml(s);
   for (const auto part :
-       {"[compute]\nmodel = \"paper-sim\"\nworkers = 16\n"
+       {"[compute]\nmodel = \"paper_sim\"\nworkers = 16\n"
         "more_computing = \"0s\"\n",
-        "[provider.compute]\nmodel = \"paper-5g\"\nworkers = 16\n",
+        "[provider.compute]\nmodel = \"paper_5g\"\nworkers = 16\n",
         "[fleet.compute]\nclock_ghz = 3.0\n",
         "[service.compute]\nrun_time_mean = \"5.5ms\"\n"}) {
     CAPTURE(part);
@@ -126,6 +126,25 @@ TEST_CASE("what [network] said of workers was not for other networks") {
   const auto other = computers(own_network, 1, set);
   CHECK(other.workers == 2);
   CHECK(other.more_computing == 4ms);
+}
+
+TEST_CASE("hyphens in names of channel profiles are read, with a note") {
+  const auto before =
+      example::load(example::text, {"network.profile=paper-sim-stalls",
+                                    "compute.model=paper-5g"});
+  const auto now =
+      example::load(example::text, {"network.profile=paper_sim_stalls",
+                                    "compute.model=paper_5g"});
+  CHECK(before.network.channel->name == "paper_sim_stalls");
+  CHECK(to_toml(before) == to_toml(now));
+  CHECK(now.notes.empty());
+  REQUIRE(before.notes.size() == 2);
+  CHECK(before.notes[0].text.starts_with(
+      "\"paper-sim-stalls\" is \"paper_sim_stalls\" now"));
+  CHECK(before.notes[0].place == "--set network.profile=paper-sim-stalls");
+  const auto error =
+      example::error_of(example::text, {"network.profile=paper-6g"});
+  CHECK(error.find("\"paper-6g\" is no channel profile") != error.npos);
 }
 
 TEST_CASE("an option at its old and at its new place is refused") {
