@@ -13,7 +13,7 @@ void add_check(CLI::App& app, int&) {
   auto args = std::make_shared<scenario_arguments>();
   args->add_to(*command);
   command->footer("Example:\n  sofof check config/ulm_lehr.toml "
-                  "--set network.profile=paper-5g");
+                  "--set network.profile=paper_5g");
   command->callback([args] { std::cout << to_toml(args->load()); });
 }
 

@@ -1,5 +1,7 @@
-// How long messages travel and results are computed: the draws of one vehicle.
+// How long messages travel: the draws of one vehicle.
 #include "channel/channel.hpp"
+
+#include "channel/draw_lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +13,10 @@ namespace sofof {
 
 namespace {
 
-// Tells the draws of one message apart.
-enum draw : std::uint32_t {
-  joint_lane,
-  service_lane,
-  network_lane,
-  airtime_lane,
-  loss_lane,
-  spike_lane,
-  spike_length_lane
-};
-
 double network_draw_s(const channel_profile& p, const random_stream& draws,
                       std::uint64_t number) {
   return p.network.draw_s(draws, number, network_lane)
-         + (1 - p.joint_service_share)
-               * p.joint.draw_s(draws, number, joint_lane);
+         + p.joint_share * p.joint.draw_s(draws, number, joint_lane);
 }
 
 double spike_s(const spike_options& p, const random_stream& draws,
@@ -37,16 +27,26 @@ double spike_s(const spike_options& p, const random_stream& draws,
                        spike_length_lane);
 }
 
-random_stream radio_of(const random_stream& vehicle, std::string_view name) {
+random_stream radio_of(const random_stream& seed, station_id station,
+                       std::string_view name) {
+  const auto vehicle = seed.part("channel").part(station);
   return name.empty() ? vehicle : vehicle.part("radio").part(name);
 }
+
+random_stream provider_part(const random_stream& radio,
+                            std::string_view direction,
+                            std::uint32_t provider) {
+  return radio.part(direction).part(provider);
+}
+
+constexpr std::string_view results_part = "results";
 
 } // namespace
 
 channel::channel(std::shared_ptr<const channel_profile> profile,
                  random_stream seed, station_id station, std::uint32_t provider,
                  std::string_view radio)
-    : of_radio_{radio_of(seed.part("channel").part(station), radio)},
+    : of_radio_{radio_of(seed, station, radio)},
       drift_{of_radio_.part("drift").part(provider)}, // stalls by radio
       up_{split("up", provider)}, // the rest by provider, too
       down_{split("down", provider)}, profile_{std::move(profile)} {
@@ -57,15 +57,6 @@ channel::channel(std::shared_ptr<const channel_profile> profile,
   if (profile_->scatters_trace)
     trace_start_s_ =
         of_radio_.part("trace").uniform(0, replay_length_s(profile_->trace), 0);
-}
-
-duration channel::service_time(std::uint64_t cycle) const {
-  const auto& draws = of({direction::down, message_class::result, cycle});
-  const auto& p = *profile_;
-  return p.more_computing
-         + from_seconds(p.service.draw_s(draws, cycle, service_lane)
-                        + p.joint_service_share
-                              * p.joint.draw_s(draws, cycle, joint_lane));
 }
 
 duration channel::network_delay(const message_id& m, time_point sent) const {
@@ -146,8 +137,8 @@ bool channel::is_out(duration since_start) const {
 
 channel::streams channel::split(std::string_view direction,
                                 std::uint32_t provider) const {
-  const auto s = of_radio_.part(direction).part(provider);
-  return {s.part("results"), s.part("others"), s.part("bursts")};
+  const auto s = provider_part(of_radio_, direction, provider);
+  return {s.part(results_part), s.part("others"), s.part("bursts")};
 }
 
 const channel::streams& channel::of(direction to) const {
@@ -157,6 +148,12 @@ const channel::streams& channel::of(direction to) const {
 const random_stream& channel::of(const message_id& m) const {
   const auto& streams = of(m.to);
   return m.kind == message_class::result ? streams.results : streams.others;
+}
+
+random_stream result_draws(const random_stream& seed, station_id station,
+                           std::uint32_t provider, std::string_view radio) {
+  return provider_part(radio_of(seed, station, radio), "down", provider)
+      .part(results_part);
 }
 
 } // namespace sofof

@@ -1,4 +1,4 @@
-// How long messages travel and results are computed: the draws of one vehicle.
+// How long messages travel: the draws of one vehicle.
 // All of them are exogenous: a function of (seed, vehicle, provider,
 // direction, number) and, for what happens at a time, of that time.
 #pragma once
@@ -43,9 +43,6 @@ public:
   channel(std::shared_ptr<const channel_profile> profile, random_stream seed,
           station_id station, std::uint32_t provider,
           std::string_view radio = {});
-
-  /// Computing time of one result of unit demand on one worker.
-  duration service_time(std::uint64_t cycle) const;
 
   /// Network delay without queues and stalls.
   /// @param sent  Matters when a trace is replayed, or where delays drift.
@@ -96,5 +93,11 @@ private:
   std::shared_ptr<const channel_profile> profile_;
   double trace_start_s_ = 0;
 };
+
+/// @returns the draws of a vehicle's results from a provider, by which a
+/// `provider_compute` computes them; those of a channel that is made of the
+/// same.
+random_stream result_draws(const random_stream& seed, station_id station,
+                           std::uint32_t provider, std::string_view radio = {});
 
 } // namespace sofof

@@ -2,9 +2,9 @@
 #include "channel/channel_profile.hpp"
 
 #include "base/options/option_helpers.hpp"
+#include "channel/provider_compute.hpp"
 
 #include <array>
-#include <cmath>
 
 namespace sofof {
 
@@ -19,9 +19,10 @@ channel_profile ideal() {
 // Ours, fitted to 10.54 ± 9.83 ms and nearly nothing over 50 ms (Dehler &
 // Buchholz 2025, figure "delay-plot"): a light tail.
 channel_profile paper_sim() {
+  const auto computing = compute_measured_with("paper_sim");
   channel_profile p;
-  p.joint = delay_distribution::beta(45ms, 0.646, 2.11);
-  p.joint_service_share = 0.3;
+  p.joint = computing.joint;
+  p.joint_share = 1 - computing.joint_share;
   return p;
 }
 
@@ -37,8 +38,6 @@ channel_profile paper_sim_stalls() {
 // Ours, fitted to the drives of Dehler & Buchholz 2025: 11.94 ± 2.98 ms.
 channel_profile paper_5g() {
   channel_profile p;
-  p.workers = 2;
-  p.service = delay_distribution::lognormal(0ms, 3ms, 1ms);
   p.network = delay_distribution::lognormal(5ms, 3740us, 2800us);
   p.airtime = delay_distribution::exponential(200us);
   return p;
@@ -66,8 +65,6 @@ channel_profile cicv5g_n78() {
 // which cannot. docs/channels.md tells what it does.
 channel_profile spiky_5g() {
   channel_profile p;
-  p.workers = 8;
-  p.service = delay_distribution::lognormal(0ms, 3ms, 1ms);
   p.network = delay_distribution::lognormal_about(0ms, 16500us, 0.17);
   p.drift = {0.45, 15s};
   p.spikes = {0.01, 5ms, 32ms};
@@ -87,26 +84,16 @@ struct entry {
 
 constexpr std::array known_profiles{
     entry{"ideal", ideal},
-    entry{"paper-sim", paper_sim},
-    entry{"paper-sim-stalls", paper_sim_stalls},
-    entry{"paper-5g", paper_5g},
-    entry{"cicv5g-n8", cicv5g_n8},
-    entry{"cicv5g-n78", cicv5g_n78},
-    entry{"spiky-5g", spiky_5g},
+    entry{"paper_sim", paper_sim},
+    entry{"paper_sim_stalls", paper_sim_stalls},
+    entry{"paper_5g", paper_5g},
+    entry{"cicv5g_n8", cicv5g_n8},
+    entry{"cicv5g_n78", cicv5g_n78},
+    entry{"spiky_5g", spiky_5g},
     entry{"trace", trace},
 };
 
 } // namespace
-
-double channel_profile::mean_service_s() const {
-  return service.mean_s() + joint_service_share * joint.mean_s()
-         + to_seconds(more_computing);
-}
-
-double channel_profile::service_deviation_s() const {
-  return std::hypot(service.deviation_s(),
-                    joint_service_share * joint.deviation_s());
-}
 
 std::vector<std::string_view> channel_profile_names() {
   std::vector<std::string_view> names;

@@ -110,13 +110,12 @@ struct outage_options {
   }
 };
 
-/// Everything that tells one kind of channel from another. docs/channels.md
-/// has the sources and the measured figures.
+/// Everything that tells one kind of channel from another; computing times are
+/// in `provider_compute`. docs/channels.md has the sources and the measured
+/// figures.
 struct channel_profile {
   std::string name = "ideal";
 
-  std::int64_t workers = 1;   ///< Of one provider, >= 1.
-  delay_distribution service; ///< Computing time of a result of unit demand.
   delay_distribution network; ///< Delay of any message, one way.
   delay_distribution airtime; ///< Time that a message of `usual_octets` takes
                               ///< in the radio cell that all share; others take
@@ -124,10 +123,10 @@ struct channel_profile {
   double cell_mbps = 0; ///< What the cell carries, Mbit/s, which takes time
                         ///< besides; 0: as much as there is.
 
-  /// One draw X a message, on top of the above: `joint_service_share` · X is
-  /// computing time, the rest network delay.
+  /// One draw X a message, on top of the above, which a `provider_compute` may
+  /// have in common: `joint_share` · X is network delay.
   delay_distribution joint;
-  double joint_service_share = 0; ///< In [0, 1].
+  double joint_share = 0; ///< In [0, 1].
 
   stall_options stalls;
   double loss = 0; ///< Probability in [0, 1] for each message.
@@ -143,22 +142,12 @@ struct channel_profile {
   /// Each vehicle starts at its own place in the trace, else all at its begin.
   bool scatters_trace = true;
 
-  /// Constant parts, on top of the above and of a trace.
-  duration more_computing{}; ///< Of a result of unit demand.
-  duration more_delay{};     ///< Of any message, one way.
-
-  /// @returns the mean computing time of a result of unit demand, s; without
-  /// what is part of a trace.
-  double mean_service_s() const;
-
-  /// @returns its standard deviation, s.
-  double service_deviation_s() const;
+  /// Of any message, one way, on top of the above and of a trace.
+  duration more_delay{};
 
   /// What a scenario may change about a named profile.
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
-    s.field("workers", workers, {1, 1024});
-    s.field("more_computing", more_computing, 0ns);
     s.field("more_delay", more_delay, 0ns);
     s.field("loss", loss, {0, 1});
     s.field("cell_mbps", cell_mbps, {0, 1e6});

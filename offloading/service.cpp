@@ -14,10 +14,11 @@ service_options on(const computer_options& computer, service_options options) {
   const auto scaled = [slower](duration d) {
     return from_seconds(slower * to_seconds(d));
   };
-  options.run_time_mean = scaled(options.run_time_mean);
-  options.run_time_sd = scaled(options.run_time_sd);
-  const auto longest = std::max(options.run_time_max, options.period);
-  options.run_time_max = std::min(scaled(options.run_time_max), longest);
+  auto& cycle = options.compute;
+  cycle.run_time_mean = scaled(cycle.run_time_mean);
+  cycle.run_time_sd = scaled(cycle.run_time_sd);
+  const auto longest = std::max(cycle.run_time_max, options.period);
+  cycle.run_time_max = std::min(scaled(cycle.run_time_max), longest);
   return options;
 }
 

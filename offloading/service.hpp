@@ -12,6 +12,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace sofof {
 
@@ -23,16 +24,10 @@ namespace sofof::offloading {
 
 /// The options that every service has.
 struct service_options {
-  qos_limits limits;        ///< Of the remote service.
-  duration period{};        ///< Of a cycle, local and remote.
-  duration input_period{};  ///< At least this between two inputs on the air.
-  double demand = 1;        ///< Provider's computing time, in units of the
-                            ///< channel profile's service time.
-  duration run_time_mean{}; ///< Of a local cycle, in virtual time, at
-                            ///< `usual_clock_ghz`.
-  duration run_time_sd{};
-  duration run_time_max{};
-  task_options task; ///< What a cycle asks of who computes it.
+  qos_limits limits;       ///< Of the remote service.
+  duration period{};       ///< Of a cycle, local and remote.
+  duration input_period{}; ///< At least this between two inputs on the air.
+  cycle_options compute;   ///< What a cycle asks of who computes it.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -40,11 +35,11 @@ struct service_options {
     s.field("max_interarrival", limits.max_interarrival, duration{1});
     s.field("period", period, 1ms);
     s.field("input_period", input_period, 1ms);
-    s.field("demand", demand, {0, 1e3});
-    s.field("run_time_mean", run_time_mean, duration{0});
-    s.field("run_time_sd", run_time_sd, duration{0});
-    s.field("run_time_max", run_time_max, duration{0});
-    s.table("task", [this](option_visitor& t) { task.visit_options(t); });
+    for (const std::string key :
+         {"demand", "run_time_mean", "run_time_sd", "run_time_max"})
+      s.moved(key, "compute." + key);
+    s.moved("task", "compute");
+    s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
   }
 };
 

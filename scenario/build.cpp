@@ -208,7 +208,7 @@ private:
         setup.services.push_back(service);
     setup.codm = s_.policies.codm->clone();
     setup.recorder = world_.recorder;
-    setup.profile = s_.channel_to(number);
+    setup.compute = s_.compute_of(number);
     setup.seed = noise_of(s_, "network");
     setup.number = number;
     setup.virtual_time = virtual_time_;
@@ -296,8 +296,8 @@ private:
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station),
-            virtual_time = virtual_time_,
-            computer = s_.fleets[v.fleet].computer, future = std::move(future),
+            virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
+            future = std::move(future),
             margins = s_.record.margins](const vehicle_actor& vehicle) {
       const auto path_ahead = [way](const ego_state& ego) {
         return way->waypoints(ego.s_m, protocol::route_ahead_m,

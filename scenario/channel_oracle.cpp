@@ -19,9 +19,10 @@ namespace {
 /// The results of one service at one provider, as they would come.
 class results_to_come {
 public:
-  results_to_come(const channel& draws,
+  results_to_come(const channel& way, const random_stream& draws,
+                  const provider_compute& compute,
                   const offloading::service_options& options, duration phase)
-      : draws_{draws}, way_{draws, direction::down, nullptr},
+      : draws_{draws}, compute_{&compute}, way_{way, direction::down, nullptr},
         options_{&options}, phase_{phase} {}
 
   foreseen_results look(time_point from, time_point until) {
@@ -54,10 +55,10 @@ private:
   void foresee(time_point until) {
     for (auto cycle = latencies_s_.size(); created(cycle) < until; ++cycle) {
       const auto number = cycle + 1; // as services count
-      const auto work =
-          to_seconds(draws_.service_time(number)) * options_->demand;
       const auto begun = created(cycle);
-      sent_ = std::max(sent_, begun + from_seconds(work));
+      const auto takes =
+          compute_->computing_time(draws_, number, options_->compute.demand);
+      sent_ = std::max(sent_, begun + takes);
       const auto comes = way_.arrival(sent_, message_class::result, number);
       auto& latency_s = latencies_s_.emplace_back();
       if (comes && *comes - begun <= options_->limits.max_latency)
@@ -65,7 +66,8 @@ private:
     }
   }
 
-  channel draws_;
+  random_stream draws_;
+  const provider_compute* compute_;
   link_direction way_;
   const offloading::service_options* options_;
   duration phase_;
@@ -78,6 +80,7 @@ struct air {
   struct provider {
     std::uint32_t place;
     std::shared_ptr<const channel_profile> channel;
+    provider_compute compute;
     std::string radio;
   };
   random_stream noise;
@@ -112,7 +115,8 @@ private:
             key,
             channel{provider.channel, all_->noise, station_, provider.place,
                     provider.radio},
-            kind.options,
+            result_draws(all_->noise, station_, provider.place, provider.radio),
+            provider.compute, kind.options,
             random_phase(own.part("remote phase"), kind.options.period))
         .first->second;
   }
@@ -135,7 +139,8 @@ foresee(const scenario& s) {
     const auto& x = s.providers[k];
     const auto add = [&](std::uint64_t start,
                          std::shared_ptr<const channel_profile> channel) {
-      all->providers[boot_of(k + 1, start)] = {k, std::move(channel), x.radio};
+      all->providers[boot_of(k + 1, start)] = {k, std::move(channel),
+                                               s.compute_of(k), x.radio};
     };
     const auto channel = s.channel_to(k);
     add(0, x.fails_at ? with_outage(*channel, *x.fails_at, duration::max())

@@ -36,7 +36,7 @@ struct fleet_options {
   /// somebody near its place waits.
   duration appears_at{};
   duration appear_every{};
-  computer_options computer{}; ///< In each of them.
+  computer_options compute{}; ///< In each of them.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -56,8 +56,8 @@ struct fleet_options {
     s.field("connected", connected);
     s.field("appears_at", appears_at, 0ns);
     s.field("appear_every", appear_every, 0ns);
-    s.table("computer",
-            [this](option_visitor& t) { computer.visit_options(t); });
+    s.moved("computer", "compute");
+    s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
   }
 };
 

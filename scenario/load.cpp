@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 
 namespace sofof {
@@ -62,7 +65,7 @@ void load_trace(scenario& all, const fs::path& folder,
                 const toml_file& source) {
   constexpr std::string_view key = "network.trace";
   const auto file = folder / all.network.trace;
-  auto filled = *all.network.channel;
+  auto filled = all.network.profile;
   try {
     all.trace_text = read_named(file, key, source);
     all.read_from.push_back(file);
@@ -72,6 +75,35 @@ void load_trace(scenario& all, const fs::path& folder,
   }
   all.network.channel =
       std::make_shared<const channel_profile>(std::move(filled));
+}
+
+/// Gives everybody a channel, and computers as they fit to it.
+void complete_networks(scenario& all) {
+  const auto share = [](network_options& network) {
+    network.channel = std::make_shared<const channel_profile>(network.profile);
+  };
+  share(all.network);
+  for (auto& p : all.providers) {
+    if (p.network)
+      share(*p.network);
+    if (p.network && !p.compute)
+      p.compute = all.compute.for_own_network();
+    if (p.compute)
+      p.compute->complete((p.network ? *p.network : all.network).profile.name);
+  }
+  all.compute.complete(all.network.profile.name);
+}
+
+/// Tells each note on stderr, of notes that say the same only the first: a
+/// sweep loads one file again and again, and a report many alike.
+void tell(const std::vector<option_note>& notes) {
+  static std::mutex lock;
+  static std::set<std::string> told;
+  const std::lock_guard locked{lock};
+  for (const auto& note : notes)
+    if (told.insert(note.text).second)
+      std::fprintf(stderr, "sofof: %s: %s\n", note.place.c_str(),
+                   note.text.c_str());
 }
 
 } // namespace
@@ -84,6 +116,8 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
   scenario all;
   source.read([&](option_visitor& s) { all.visit_options(s); });
   all.read_from.push_back(file);
+  all.notes = source.notes();
+  complete_networks(all);
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())
     load_trace(all, folder, source);
@@ -94,7 +128,9 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
 
 scenario load_scenario(const fs::path& file,
                        std::span<const std::string> overrides) {
-  return parse_scenario(require_text(file), file, overrides);
+  auto all = parse_scenario(require_text(file), file, overrides);
+  tell(all.notes);
+  return all;
 }
 
 } // namespace sofof

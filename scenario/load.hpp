@@ -16,11 +16,12 @@ namespace sofof {
 ///                   are sought from its folder on.
 /// @param overrides  "KEY=VALUE" as given to `--set`, applied in this order
 ///                   before anything is checked.
+/// Options at former places are told once on stderr.
 /// @throws input_error with the place of the first mistake.
 scenario load_scenario(const std::filesystem::path& file,
                        std::span<const std::string> overrides = {});
 
-/// The same for text in memory.
+/// The same for text in memory; of notes nothing is told.
 /// @param file  Where it could stand.
 scenario parse_scenario(std::string_view text,
                         const std::filesystem::path& file,

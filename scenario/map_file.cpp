@@ -146,7 +146,7 @@ road_map build_map(const map_entries& all, const toml_file& source) {
 
 streets_ptr parse_map(std::string_view text,
                       const std::filesystem::path& file) {
-  const toml_file source{text, file.string()};
+  toml_file source{text, file.string()};
   map_entries all;
   source.read([&](option_visitor& s) { all.visit_options(s); });
   if (all.lanes.empty())

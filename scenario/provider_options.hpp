@@ -3,7 +3,8 @@
 
 #include "base/geometry.hpp"
 #include "base/options/option_helpers.hpp"
-#include "channel/channel.hpp"
+#include "channel/channel_profile.hpp"
+#include "channel/provider_compute.hpp"
 #include "world/sensing/sensors.hpp"
 
 #include <chrono>
@@ -34,13 +35,41 @@ struct roadside_options {
 
 /// The channel between vehicles and providers.
 struct network_options {
-  std::string profile = "paper-sim";
+  /// The profile that the file names, with what it changes in it.
+  channel_profile profile = *find_channel_profile("paper_sim");
   /// File with measured delays, for the profile "trace"; relative to the
   /// scenario file.
   std::string trace;
-  std::shared_ptr<const channel_profile> channel; ///< The profile, resolved.
+  /// The profile as all use it, with its trace; a loaded scenario has one.
+  std::shared_ptr<const channel_profile> channel;
 
   void visit_options(option_visitor& s);
+};
+
+/// What a provider computes with. What a file leaves out is as it was measured
+/// with the provider's channel profile; a loaded scenario has everything.
+struct compute_options {
+  std::optional<std::string> model; ///< Its channel profile: computing times.
+  std::optional<std::int64_t> workers;
+  std::optional<duration> more_computing;
+  /// Which of these the file says in [network], their former place: those are
+  /// not for providers that have a network of their own.
+  struct {
+    bool workers = false;
+    bool more_computing = false;
+  } of_network;
+
+  void visit_options(option_visitor& s);
+
+  /// @returns what of it counts for a provider with a network of its own.
+  compute_options for_own_network() const;
+
+  /// Fills in what is left out.
+  /// @param profile  The name of the provider's channel profile.
+  void complete(const std::string& profile);
+
+  /// @returns the computers. Precondition: it is complete.
+  provider_compute computers() const;
 };
 
 /// Where a provider is, and what it offers.
@@ -57,6 +86,7 @@ struct provider_options {
   /// same times; providers without a name share one.
   std::string radio;
   std::optional<network_options> network; ///< Its own; else everybody's.
+  std::optional<compute_options> compute; ///< Likewise.
   std::optional<duration> fails_at;       ///< It dies then, without goodbye,
   std::optional<duration> returns_at;     ///< and boots again.
 
@@ -102,13 +132,21 @@ struct provider_options {
     }
     if (s.has("radio", !radio.empty()))
       s.field("radio", radio);
+    s.moved("network.workers", "compute.workers");
+    s.moved("network.more_computing", "compute.more_computing");
     if (s.has("network", network.has_value()))
       s.table("network", [this](option_visitor& t) {
         if (!network)
           network.emplace();
         network->visit_options(t);
-        if (network->channel && network->channel->replays)
+        if (network->profile.replays)
           t.refuse("profile", "replays a file, which only [network] can.");
+      });
+    if (s.has("compute", compute.has_value()))
+      s.table("compute", [this](option_visitor& t) {
+        if (!compute)
+          compute.emplace();
+        compute->visit_options(t);
       });
   }
 };

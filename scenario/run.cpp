@@ -43,8 +43,8 @@ cycle_energy energy_of(const scenario& s, std::string_view kind,
                        const computer_options& computer) {
   for (const auto& k : s.services)
     if (k->name() == kind)
-      return {on_board_cost(computer, k->options.task).energy_j,
-              offloaded_cost(computer, k->options.task).energy_j};
+      return {on_board_cost(computer, k->options.compute).energy_j,
+              offloaded_cost(computer, k->options.compute).energy_j};
   return {};
 }
 
@@ -67,7 +67,7 @@ run_info describe(const scenario& s, const run_options& options,
     if (here.drives(v.station)) {
       ++info.vehicles;
       info.energy[v.station] =
-          energy_of(s, info.headline_kind, s.fleets[v.fleet].computer);
+          energy_of(s, info.headline_kind, s.fleets[v.fleet].compute);
     }
   if (info.vehicles == 0)
     for (std::size_t k = 0; k < s.providers.size(); ++k)

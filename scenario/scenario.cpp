@@ -38,6 +38,21 @@ std::string right_place(std::string_view name) {
   return {};
 }
 
+/// Lists the name of a channel profile; hyphens were once in some.
+void visit_profile(option_visitor& s, std::string_view key, std::string& name) {
+  const auto known = channel_profile_names();
+  s.field(key, name);
+  auto now = name;
+  std::ranges::replace(now, '-', '_');
+  if (now != name && std::ranges::find(known, now) != known.end()) {
+    s.note(key, fmt::format("\"{}\" is \"{}\" now; the old name still counts.",
+                            name, now));
+    name = now;
+  }
+  if (std::ranges::find(known, name) == known.end())
+    s.refuse(key, unknown_word("channel profile", name, known));
+}
+
 } // namespace
 
 oriented_box obstacle_options::box() const {
@@ -61,23 +76,53 @@ bool provider_options::offers(std::string_view service) const {
 }
 
 void network_options::visit_options(option_visitor& s) {
-  s.field("profile", profile);
-  const auto known = find_channel_profile(profile);
-  if (!known)
-    return s.refuse("profile", unknown_word("channel profile", profile,
-                                            channel_profile_names()));
+  auto name = profile.name;
+  visit_profile(s, "profile", name);
+  if (name != profile.name)
+    profile = find_channel_profile(name).value_or(profile);
   if (s.has("trace", !trace.empty())) {
     s.field("trace", trace);
-    if (!known->replays)
+    if (!profile.replays)
       s.refuse("trace", "has no effect with this profile; use \"trace\".");
     if (trace.empty())
       s.refuse("trace", "must name a file.");
-  } else if (known->replays) {
+  } else if (profile.replays) {
     s.refuse("profile", "needs a file to replay: add trace = \"FILE\".");
   }
-  auto options = channel && channel->name == profile ? *channel : *known;
-  options.visit_options(s);
-  channel = std::make_shared<const channel_profile>(std::move(options));
+  profile.visit_options(s);
+}
+
+void compute_options::visit_options(option_visitor& s) {
+  if (s.has("model", model.has_value()))
+    visit_profile(s, "model", model ? *model : model.emplace());
+  if (s.has("workers", workers.has_value()))
+    s.field("workers", workers ? *workers : workers.emplace(1), {1, 1024});
+  if (s.has("more_computing", more_computing.has_value()))
+    s.field("more_computing",
+            more_computing ? *more_computing : more_computing.emplace(), 0ns);
+}
+
+compute_options compute_options::for_own_network() const {
+  auto own = *this;
+  if (of_network.workers)
+    own.workers.reset();
+  if (of_network.more_computing)
+    own.more_computing.reset();
+  return own;
+}
+
+void compute_options::complete(const std::string& profile) {
+  const auto measured = compute_measured_with(model.value_or(profile));
+  model = measured.model;
+  workers = workers.value_or(measured.workers);
+  more_computing = more_computing.value_or(measured.more_computing);
+}
+
+provider_compute compute_options::computers() const {
+  auto all = compute_measured_with(model.value());
+  all.workers = workers.value();
+  all.more_computing = more_computing.value();
+  return all;
 }
 
 policy_options::policy_options()
@@ -98,15 +143,20 @@ scenario::channel_to(std::size_t place) const {
   return own ? own->channel : network.channel;
 }
 
+provider_compute scenario::compute_of(std::size_t place) const {
+  const auto& own = providers[place].compute;
+  return (own ? *own : compute).computers();
+}
+
 std::string scenario::profiles() const {
   std::vector<std::string_view> names;
   for (const auto& p : providers) {
     const std::string_view name =
-        p.network ? p.network->profile : network.profile;
+        (p.network ? *p.network : network).profile.name;
     if (std::ranges::find(names, name) == names.end())
       names.push_back(name);
   }
-  return names.empty() ? network.profile
+  return names.empty() ? network.profile.name
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -126,7 +176,12 @@ void scenario::visit_options(option_visitor& s) {
   s.table("sensors", [this](option_visitor& t) { sensors.visit_options(t); });
   visit_list(s, "obstacle", obstacles);
   visit_list(s, "provider", providers);
+  if (s.moved("network.workers", "compute.workers"))
+    compute.of_network.workers = true;
+  if (s.moved("network.more_computing", "compute.more_computing"))
+    compute.of_network.more_computing = true;
   s.table("network", [this](option_visitor& t) { network.visit_options(t); });
+  s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
   s.table("v2x", [this](option_visitor& t) { v2x.visit_options(t); });
   s.tables("service", services.size(),
            [this](std::size_t i, option_visitor& t) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/services/service_type.hpp"
+#include "base/options/option_note.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/v2x_options.hpp"
@@ -65,7 +66,8 @@ struct scenario {
   sensor_params sensors;                   ///< Of every vehicle.
   std::vector<provider_options> providers;
   network_options network;
-  v2x_options v2x; ///< What vehicles tell everybody.
+  compute_options compute; ///< Of providers that have none of their own.
+  v2x_options v2x;         ///< What vehicles tell everybody.
   std::vector<service_type_ptr> services;
   policy_options policies;
   record_options record;
@@ -76,10 +78,15 @@ struct scenario {
   std::string trace_text;
   /// The files that all this was read from.
   std::vector<std::filesystem::path> read_from;
+  std::vector<option_note> notes; ///< On the scenario's file.
 
   /// @returns the channel between vehicles and a provider, by its place.
   const std::shared_ptr<const channel_profile>&
   channel_to(std::size_t place) const;
+
+  /// @returns the computers of a provider, by its place. Precondition: the
+  /// scenario was loaded.
+  provider_compute compute_of(std::size_t place) const;
 
   /// @returns the names of the profiles in use, each once, by commas.
   std::string profiles() const;

@@ -18,8 +18,9 @@ constexpr double doubts_at_once = 50;
 
 provider_services::provider_services(const provider_setup& setup,
                                      std::function<time_point()> clock)
-    : id_{setup.boot}, profile_{setup.profile},
-      workers_{std::make_shared<multi_server_queue>(setup.profile->workers)},
+    : id_{setup.boot}, compute_{setup.compute},
+      workers_{std::make_shared<multi_server_queue>(
+          static_cast<unsigned>(compute_.workers))},
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
@@ -35,7 +36,7 @@ std::vector<offloading::offered_service> provider_services::offered() const {
         {.name = what.name,
          .period = what.options.period,
          .max_latency = what.options.limits.max_latency,
-         .demand = what.options.demand,
+         .demand = what.options.compute.demand,
          .termination_message = [here](const service_end& end, time_point t) {
            return here->termination_message(end, t);
          }});
@@ -60,11 +61,10 @@ provider_services::computing_time(const offloading::service_options& options,
                                   station_id station) const {
   if (!virtual_time_)
     return [](time_point start, std::uint64_t) { return start; };
-  const channel draws{profile_, seed_, station, number_};
-  return [draws, demand = options.demand,
+  return [draws = result_draws(seed_, station, number_), compute = compute_,
+          demand = options.compute.demand,
           queue = workers_](time_point start, std::uint64_t cycle) {
-    const auto work = to_seconds(draws.service_time(cycle)) * demand;
-    return queue->finish(start, from_seconds(work));
+    return queue->finish(start, compute.computing_time(draws, cycle, demand));
   };
 }
 
@@ -80,14 +80,14 @@ event_record provider_services::record_of(const station_doubt& x) const {
 
 offloading::provider_setup rules_of(provider_setup setup,
                                     const provider_services& services) {
-  const auto& profile = *setup.profile;
+  const auto& compute = setup.compute;
   return {.id = setup.boot,
           .position = setup.position,
           .area = std::move(setup.area),
           .services = services.offered(),
           .policy = std::move(setup.codm),
-          .computer = {static_cast<std::size_t>(profile.workers),
-                       profile.mean_service_s(), profile.service_deviation_s()},
+          .computer = {static_cast<std::size_t>(compute.workers),
+                       compute.mean_s(), compute.deviation_s()},
           .map = std::move(setup.map),
           .noise = setup.seed};
 }

@@ -58,7 +58,7 @@ private:
 
   provider_id id_;
   std::vector<local_service> services_;
-  std::shared_ptr<const channel_profile> profile_;
+  provider_compute compute_;
   std::shared_ptr<multi_server_queue> workers_;
   random_stream seed_;
   std::uint32_t number_;

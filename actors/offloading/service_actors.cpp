@@ -18,12 +18,12 @@ local_run_time(bool virtual_time, const offloading::service_options& options,
                const random_stream& noise) {
   if (!virtual_time)
     return [](time_point start, std::uint64_t) { return start; };
-  return [options, draws = noise.part("local run time")](time_point start,
-                                                         std::uint64_t cycle) {
+  return [compute = options.compute, draws = noise.part("local run time")](
+             time_point start, std::uint64_t cycle) {
     const auto drawn =
-        from_seconds(draws.normal(to_seconds(options.run_time_mean),
-                                  to_seconds(options.run_time_sd), cycle));
-    return start + std::clamp(drawn, duration{0}, options.run_time_max);
+        from_seconds(draws.normal(to_seconds(compute.run_time_mean),
+                                  to_seconds(compute.run_time_sd), cycle));
+    return start + std::clamp(drawn, duration{0}, compute.run_time_max);
   };
 }
 
@@ -65,10 +65,10 @@ requested(const requester_setup& vehicle, const offloading::service& what,
   return {.name = what.name,
           .needs = {options.period, options.limits.max_latency,
                     options.limits.max_interarrival},
-          .demand = options.demand,
-          .on_board = on_board_cost(vehicle.computer, options.task),
+          .demand = options.compute.demand,
+          .on_board = on_board_cost(vehicle.computer, options.compute),
           .offloaded =
-              offloaded_cost(vehicle.computer, options.task, in_no_time),
+              offloaded_cost(vehicle.computer, options.compute, in_no_time),
           .termination_message = [own = std::move(own)](const service_end& end,
                                                         time_point t,
                                                         const cam& motion) {

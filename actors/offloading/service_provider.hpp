@@ -2,6 +2,7 @@
 #pragma once
 
 #include "channel/channel.hpp"
+#include "channel/provider_compute.hpp"
 #include "messages/type_ids.hpp"
 #include "messages/v2x/decode_broadcast.hpp"
 #include "offloading/service.hpp"
@@ -26,7 +27,7 @@ struct provider_setup {
   std::vector<offloading::service> services; ///< With different names.
   std::unique_ptr<central_policy> codm;
   recorder_actor recorder;
-  std::shared_ptr<const channel_profile> profile; ///< Computing times.
+  provider_compute compute;
   random_stream seed{0, ""};
   std::uint32_t number = 0; ///< Of the provider, for its draws.
   bool virtual_time = true; ///< Model computing times.

@@ -94,11 +94,12 @@ public:
     options.limits = {2s, 5s};
     options.period = 1s;
     options.input_period = 1s;
-    options.demand = 0.02;
-    options.run_time_mean = 200us;
-    options.run_time_sd = 50us;
-    options.run_time_max = 1ms;
-    options.task = {.gigacycles = 6e-4, .input_kbit = 1}; // 200 us at 3 GHz
+    options.compute = {.run_time_mean = 200us,
+                       .run_time_sd = 50us,
+                       .run_time_max = 1ms,
+                       .demand = 0.02,
+                       .gigacycles = 6e-4, // 200 us at 3 GHz
+                       .input_kbit = 1};
   }
 
   std::string_view name() const override { return "cabin_climate"; }

@@ -22,9 +22,9 @@ public:
     options.limits = {50ms, 100ms};
     options.period = 50ms;
     options.input_period = 100ms;
-    options.run_time_mean = 5500us;
-    options.run_time_sd = 2ms;
-    options.run_time_max = 45ms;
+    options.compute.run_time_mean = 5500us;
+    options.compute.run_time_sd = 2ms;
+    options.compute.run_time_max = 45ms;
   }
 
   std::string_view name() const override { return "trajectory_planning"; }

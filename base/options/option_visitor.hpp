@@ -52,6 +52,19 @@ public:
   /// @param set  Whether it is set now; a printer returns it. A loader
   ///             returns whether its file has the key.
   virtual bool has(std::string_view, bool set) { return set; }
+  /// Lists the former place of an option of this table, before the new one: a
+  /// loader still reads there, with a note, and refuses to read both.
+  /// @param from  Its path in this table as it was: "network.workers".
+  /// @param to    As it is. A table's options move one by one.
+  /// @returns whether a loader has found it at the former place.
+  virtual bool moved([[maybe_unused]] std::string_view from,
+                     [[maybe_unused]] std::string_view to) {
+    return false;
+  }
+  /// Says of the value just read under `key` what should be written instead; a
+  /// loader adds file, line and column. Printers ignore it.
+  virtual void note([[maybe_unused]] std::string_view key,
+                    [[maybe_unused]] const std::string& what) {}
   /// Refuses the value just read under `key`; a loader adds file, line and
   /// column. Printers ignore it.
   /// @param why  What would be right: "must not be less than …".

@@ -135,6 +135,7 @@ private:
 struct toml_file::content {
   std::string file;
   toml::table root;
+  std::vector<option_note> notes;
 };
 
 std::optional<std::string> read_text(const std::filesystem::path& file,
@@ -154,7 +155,7 @@ std::string require_text(const std::filesystem::path& file, std::size_t most) {
 }
 
 toml_file::toml_file(std::string_view text, const std::string& file)
-    : content_{new content{file, parse_toml(text, file)}} {}
+    : content_{new content{file, parse_toml(text, file), {}}} {}
 
 toml_file::~toml_file() = default;
 
@@ -176,10 +177,14 @@ std::string toml_file::numbered(std::string_view key) const {
   return path;
 }
 
-void toml_file::read(const std::function<void(option_visitor&)>& list) const {
-  toml_options reader{content_->root, content_->file};
+void toml_file::read(const std::function<void(option_visitor&)>& list) {
+  toml_options reader{content_->root, content_->file, content_->notes};
   list(reader);
   reader.finish();
+}
+
+const std::vector<option_note>& toml_file::notes() const {
+  return content_->notes;
 }
 
 void toml_file::refuse(std::string_view key, std::string_view why) const {

@@ -1,6 +1,7 @@
 // A TOML file in memory, with the place of everything in it.
 #pragma once
 
+#include "base/options/option_note.hpp"
 #include "base/options/option_visitor.hpp"
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sofof {
 
@@ -50,8 +52,12 @@ public:
   std::string numbered(std::string_view key) const;
 
   /// Loads: walks the options that `list` lists, and refuses what stands in
-  /// the file and nobody asked for.
-  void read(const std::function<void(option_visitor&)>& list) const;
+  /// the file and nobody asked for. What stands at the former place of an
+  /// option is moved, and a note made of it.
+  void read(const std::function<void(option_visitor&)>& list);
+
+  /// @returns what is to be told of the file, as far as it was read.
+  const std::vector<option_note>& notes() const;
 
   /// Refuses what stands at `key`; if nothing does, the place named is that of
   /// the nearest table around it.

@@ -2,6 +2,7 @@
 #include "base/options/toml_options.hpp"
 
 #include "base/input_error.hpp"
+#include "base/options/moved_option.hpp"
 #include "base/options/spelling.hpp"
 #include "base/options/toml_text.hpp"
 #include "base/options/units.hpp"
@@ -58,8 +59,9 @@ std::string place_of(const toml::source_region& region, std::string_view file) {
                      region.begin.column);
 }
 
-toml_options::toml_options(const toml::node& node, std::string_view file)
-    : node_{node}, file_{file} {}
+toml_options::toml_options(toml::node& node, std::string_view file,
+                           std::vector<option_note>& notes)
+    : node_{node}, file_{file}, notes_{notes} {}
 
 void toml_options::field(std::string_view key, bool& value) {
   if (const auto* n = find(key)) {
@@ -130,11 +132,11 @@ void toml_options::field(std::string_view key, std::vector<point>& value) {
 
 void toml_options::table(std::string_view key,
                          const std::function<void(option_visitor&)>& list) {
-  static const toml::table absent;
-  const auto* n = find(key);
+  toml::table absent;
+  auto* n = find(key);
   if (n && !n->is_table() && !n->is_string())
     fail(*n, key, "must be a table");
-  toml_options reader{n ? *n : absent, file_};
+  toml_options reader{n ? *n : absent, file_, notes_};
   list(reader);
   reader.finish();
 }
@@ -142,15 +144,15 @@ void toml_options::table(std::string_view key,
 void toml_options::tables(
     std::string_view key, std::size_t,
     const std::function<void(std::size_t, option_visitor&)>& list) {
-  const auto* n = find(key);
+  auto* n = find(key);
   if (!n)
     return;
   std::size_t i = 0;
-  for (const auto& element :
-       read_list(*n, key, fmt::format("a list of tables [[{}]]", key))) {
+  read_list(*n, key, fmt::format("a list of tables [[{}]]", key));
+  for (auto& element : *n->as_array()) {
     if (!element.is_table() && !element.is_string())
       fail(element, key, "must be a list of tables");
-    toml_options reader{element, file_};
+    toml_options reader{element, file_, notes_};
     list(i++, reader);
     reader.finish();
   }
@@ -158,6 +160,22 @@ void toml_options::tables(
 
 bool toml_options::has(std::string_view key, bool) {
   return find(key) != nullptr;
+}
+
+bool toml_options::moved(std::string_view from, std::string_view to) {
+  auto* table = node_.as_table();
+  const auto place = table ? move_option(*table, from, to, file_) : "";
+  if (place.empty())
+    return false;
+  notes_.push_back(
+      {place,
+       fmt::format("{} is {} now; the old place still counts.", from, to)});
+  return true;
+}
+
+void toml_options::note(std::string_view key, const std::string& what) {
+  const auto* n = find(key);
+  notes_.push_back({place_of((n ? *n : node_).source(), file_), what});
 }
 
 void toml_options::refuse(std::string_view key, const std::string& why) {
@@ -183,10 +201,10 @@ void toml_options::finish() const {
   }
 }
 
-const toml::node* toml_options::find(std::string_view key) {
+toml::node* toml_options::find(std::string_view key) {
   if (std::ranges::find(asked_, key) == asked_.end())
     asked_.emplace_back(key);
-  if (const auto* table = node_.as_table())
+  if (auto* table = node_.as_table())
     return table->get(key);
   return key == "name" ? &node_ : nullptr;
 }

@@ -1,6 +1,7 @@
 // Loads options from a table of a TOML file.
 #pragma once
 
+#include "base/options/option_note.hpp"
 #include "base/options/option_visitor.hpp"
 
 #include <toml++/toml.h>
@@ -22,10 +23,12 @@ std::string place_of(const toml::source_region& region, std::string_view file);
 /// `input_error` with its place.
 class toml_options final : public option_visitor {
 public:
-  /// @param node  A table, or a string that stands for a table with that
-  ///              `name`; outlives this.
-  /// @param file  What the file is called; outlives this.
-  toml_options(const toml::node& node, std::string_view file);
+  /// @param node   A table, or a string that stands for a table with that
+  ///               `name`; outlives this. Options at former places are moved.
+  /// @param file   What the file is called; outlives this.
+  /// @param notes  Gets what is to be told; outlives this.
+  toml_options(toml::node& node, std::string_view file,
+               std::vector<option_note>& notes);
 
   using option_visitor::field;
   void field(std::string_view key, bool& value) override;
@@ -42,13 +45,15 @@ public:
       std::string_view key, std::size_t size,
       const std::function<void(std::size_t, option_visitor&)>& list) override;
   bool has(std::string_view key, bool set) override;
+  bool moved(std::string_view from, std::string_view to) override;
+  void note(std::string_view key, const std::string& what) override;
   void refuse(std::string_view key, const std::string& why) override;
 
   /// Refuses keys of the table that nobody asked for.
   void finish() const;
 
 private:
-  const toml::node* find(std::string_view key);
+  toml::node* find(std::string_view key);
   [[noreturn]] void fail(const toml::node& at, std::string_view key,
                          std::string_view why) const;
   void check(const toml::node& at, std::string_view key, double value,
@@ -59,8 +64,9 @@ private:
   const toml::array& read_list(const toml::node& n, std::string_view key,
                                std::string_view wanted) const;
 
-  const toml::node& node_;
+  toml::node& node_;
   std::string_view file_;
+  std::vector<option_note>& notes_;
   std::vector<std::string> asked_; // keys
 };
 

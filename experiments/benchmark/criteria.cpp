@@ -246,13 +246,13 @@ constexpr criterion all_criteria[]{
 };
 
 provider_capacity capacity_of(const scenario& s,
-                              const channel_profile& profile) {
-  const auto workers = static_cast<std::size_t>(profile.workers);
+                              const provider_compute& compute) {
+  const auto workers = static_cast<std::size_t>(compute.workers);
   provider_capacity capacity{static_cast<double>(workers), {}};
   for (const auto& kind : s.services)
     capacity.utilisation_by.emplace(
         kind->name(),
-        worker_share(profile.mean_service_s() * kind->options.demand,
+        worker_share(compute.mean_s() * kind->options.compute.demand,
                      kind->options.period, workers));
   return capacity;
 }
@@ -266,14 +266,14 @@ std::span<const criterion> criteria() {
 baseline baseline_of(const scenario& s) {
   baseline by;
   for (std::size_t k = 0; k < s.providers.size(); ++k)
-    by.providers.push_back(capacity_of(s, *s.channel_to(k)));
+    by.providers.push_back(capacity_of(s, s.compute_of(k)));
   for (const auto& kind : s.services) {
     const auto& options = kind->options;
     if (kind->name() != study::planning)
       continue;
     by.limit_s = to_seconds(options.limits.max_latency);
     by.period_s = to_seconds(options.period);
-    by.local_s = to_seconds(options.run_time_mean);
+    by.local_s = to_seconds(options.compute.run_time_mean);
   }
   return by;
 }

@@ -79,9 +79,10 @@ void check_name(std::string_view name, const std::string& place) {
 }
 
 /// Reads them as a scenario would, and finds mistakes where they stand.
-policy_options read_policies(const toml::node& line, std::string_view file) {
+policy_options read_policies(toml::node& line, std::string_view file) {
   policy_options policies;
-  toml_options reader{line, file};
+  std::vector<option_note> notes; // no option of policies has moved
+  toml_options reader{line, file, notes};
   policies.visit_options(reader);
   reader.finish();
   return policies;
@@ -120,10 +121,10 @@ std::vector<entrant> plain_entrants() {
 
 std::vector<entrant> parse_entrants(std::string_view text,
                                     const std::string& file) {
-  const auto root = parse_toml(text, file);
+  auto root = parse_toml(text, file);
   const auto plain = plain_entrants();
   std::vector<entrant> all;
-  for (const auto& [key, line] : root) {
+  for (auto&& [key, line] : root) {
     const auto place = place_of(line.source(), file);
     check_name(key.str(), place);
     if (is_among(key.str(), plain))
@@ -152,8 +153,8 @@ std::optional<entrant> own_entrant(const std::filesystem::path& scenario) {
   const auto name = scenario.filename().string();
   if (!text || !is_name(name))
     return std::nullopt; // who loads it says what is wrong
-  const auto root = parse_toml(*text, scenario.string());
-  const auto* policies = root["policies"].as_table();
+  auto root = parse_toml(*text, scenario.string());
+  auto* policies = root["policies"].as_table();
   if (!policies || are_usual(read_policies(*policies, scenario.string())))
     return std::nullopt;
   return entrant{name, text_of(*policies, "lodm"), text_of(*policies, "codm")};

@@ -106,7 +106,7 @@ report::section delay_plot(const paper_runs& e) {
       e, "interarrival", "How gaps between results are distributed",
       paper::max_interarrival_ms, "Δt_max"));
   s.blocks.emplace_back(paragraph{
-      "The channel `paper-sim` is fitted to the paper's mean and deviation for "
+      "The channel `paper_sim` is fitted to the paper's mean and deviation for "
       "one vehicle, so that these only tell that the way of the data adds "
       "little of its own. The growth with the number of vehicles is not "
       "fitted: results wait for the one worker at the edge server, which takes "

@@ -111,7 +111,7 @@ report::figure other_reading(const paper_runs& e) {
   f.y_label = "t_off per accepted request, s";
   for (const auto& n : {"1", "6"}) {
     f.curves.push_back(curve_of(e.stalls, n, name_of(n) + ", stalls"));
-    f.curves.push_back(curve_of(e.latency_plot, n, name_of(n) + ", paper-sim"));
+    f.curves.push_back(curve_of(e.latency_plot, n, name_of(n) + ", paper_sim"));
     f.curves.back().dashed = true;
   }
   f.caption = "Solid: with stalls, planned by `lane_follow`.";
@@ -179,14 +179,14 @@ paragraph about_stalls(const paper_runs& e) {
   };
   return {fmt::format(
       "Mean and spread of 10.54 ± 9.83 ms can come from a wide distribution "
-      "without outliers (`paper-sim`) or from a narrow one with rare stalls "
-      "(`paper-sim-stalls`, one in 74 s), as measured 5G networks have them. "
+      "without outliers (`paper_sim`) or from a narrow one with rare stalls "
+      "(`paper_sim_stalls`, one in 74 s), as measured 5G networks have them. "
       "What a stall holds back ends the offloading and is no latency of it: "
       "results that arrive have {:.1f} ± {:.1f} ms then. One vehicle with "
       "stalls ends {} offloadings early per hour of it, six of them {}; "
       "without stalls {} and {}, all at 150 ms. The paper describes a late "
       "rise, saturation near the time in the area, and six below the others: "
-      "so are the curves of `paper-sim`.",
+      "so are the curves of `paper_sim`.",
       latency.mean, latency.deviation, early(e.stalls, "1"),
       early(e.stalls, "6"), early(e.latency_plot, "1"),
       early(e.latency_plot, "6"))};

@@ -159,7 +159,7 @@ report::section real_world(const paper_runs& e) {
       "The paper drove 15 times on three routes over the pilot crossing, "
       "about 220 m of each in the area, planned 100 times a second over 5G. "
       "We have no car there: this is an emulation with the channel "
-      "`paper-5g`, whose mean and deviation are fitted to the paper's, on "
+      "`paper_5g`, whose mean and deviation are fitted to the paper's, on "
       "the same routes, for 20 seeds."});
   s.blocks.emplace_back(comparison(e));
   s.blocks.emplace_back(timelines(e));

@@ -215,8 +215,8 @@ TEST_CASE_FIXTURE(provider_world, "a refusal names who should be asked "
 
 TEST_CASE_FIXTURE(provider_world, "offers tell workers, the mean computing "
                                   "time and when they were made") {
-  profile->service = delay_distribution::uniform(5ms, 15ms);
-  profile->workers = 3;
+  compute.alone = delay_distribution::uniform(5ms, 15ms);
+  compute.workers = 3;
   restart();
   hear(inside);
   stay(1s);

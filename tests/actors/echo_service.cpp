@@ -58,7 +58,6 @@ struct echo_world : virtual_world {
     s.services = {service};
     s.codm = make_codm("always");
     s.recorder = recorder.handle;
-    s.profile = profile();
     return spawn_service_provider(system(), std::move(s));
   }
   link_actor spawn_link() {

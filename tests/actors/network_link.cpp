@@ -203,7 +203,7 @@ TEST_CASE_FIXTURE(linked_world,
 TEST_CASE_FIXTURE(linked_world,
                   "results arrive in the order they were sent, however the "
                   "delay varies") {
-  link = join({}, *find_channel_profile("paper-5g"));
+  link = join({}, *find_channel_profile("paper_5g"));
   meet();
   std::vector<std::uint64_t> sent;
   for (std::uint64_t k = 1; k <= 500; ++k) {
@@ -217,7 +217,7 @@ TEST_CASE_FIXTURE(linked_world,
 
 TEST_CASE_FIXTURE(linked_world,
                   "what else is sent does not change when results arrive") {
-  const auto profile = *find_channel_profile("paper-5g");
+  const auto profile = *find_channel_profile("paper_5g");
   const auto arrivals = [&](bool with_offers) {
     link = join({}, profile);
     meet();

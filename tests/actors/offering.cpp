@@ -192,8 +192,8 @@ TEST_CASE_FIXTURE(provider_world, "the CODM sees what runs, of all stations") {
 TEST_CASE_FIXTURE(provider_world, "offers and the CODM tell what share of the "
                                   "workers is needed by what runs") {
   // Every 50 ms 10 ms on one of two workers.
-  profile->service = delay_distribution::uniform(5ms, 15ms);
-  profile->workers = 2;
+  compute.alone = delay_distribution::uniform(5ms, 15ms);
+  compute.workers = 2;
   restart();
   hear(inside);
   CHECK(offers().back().utilisation == 0);
@@ -211,7 +211,7 @@ TEST_CASE_FIXTURE(provider_world, "a service computes at the offset that the "
                                   "CODM has assigned, and stays there") {
   codm->worker = 1;
   codm->offset = 30ms;
-  profile->workers = 2;
+  compute.workers = 2;
   restart();
   hear(inside);
   start({one});

@@ -21,8 +21,7 @@ struct provider_world : virtual_world {
   const service_name one{"one"}, two{"two"};
 
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
-  std::shared_ptr<channel_profile> profile =
-      std::make_shared<channel_profile>(*find_channel_profile("ideal"));
+  provider_compute compute;
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<requester_actor> requester = listen<requester_actor>();
   probe<requester_actor> neighbour = listen<requester_actor>();
@@ -42,12 +41,13 @@ struct provider_world : virtual_world {
     s.services = {echo_service("one"), echo_service("two")};
     s.codm = std::make_unique<spy_codm>(codm);
     s.recorder = recorder.handle;
-    s.profile = profile;
+    s.compute = compute;
     s.seed = random_stream{1, "network"};
     return s;
   }
 
-  /// A provider with the profile as it is now takes the place of the first.
+  /// A provider with the computers as they are now takes the place of the
+  /// first.
   void restart() { provider = own(spawn_service_provider(system(), setup())); }
 
   // -- what happens to the provider ---------------------------------------

@@ -134,8 +134,6 @@ struct remote_world : virtual_world {
     s.services = services();
     s.codm = std::make_unique<spy_codm>(codm);
     s.recorder = there.handle;
-    s.profile =
-        std::make_shared<channel_profile>(*find_channel_profile("ideal"));
     s.seed = random_stream{1, "network"};
     provider = own(spawn_service_provider(system(), std::move(s)));
     acceptor_setup g;

@@ -86,8 +86,9 @@ TEST_CASE("every kind lists its options once, defaults within their ranges, "
     make_service_type(name)->visit_options(options);
     CHECK(options.refused.empty());
     for (const auto key :
-         {"max_latency", "max_interarrival", "period", "input_period", "demand",
-          "run_time_mean", "run_time_sd", "run_time_max"})
+         {"max_latency", "max_interarrival", "period", "input_period",
+          "compute.demand", "compute.run_time_mean", "compute.run_time_sd",
+          "compute.run_time_max", "compute.gigacycles"})
       CHECK(options.names.contains(key));
   }
 }
@@ -97,22 +98,22 @@ TEST_CASE("trajectory planning promises what the paper chose") {
   CHECK(kind->options.limits.max_latency == 50ms);
   CHECK(kind->options.limits.max_interarrival == 100ms);
   CHECK(kind->options.period == 50ms);
-  CHECK(kind->options.run_time_mean == 5500us);
-  CHECK(kind->options.run_time_sd == 2ms);
+  CHECK(kind->options.compute.run_time_mean == 5500us);
+  CHECK(kind->options.compute.run_time_sd == 2ms);
 }
 
 TEST_CASE("a slow computer takes longer, and never longer than a period") {
   const auto usual = make_service_type("trajectory_planning")->options;
   const auto same = on(computer_options{}, usual);
-  CHECK(same.run_time_mean == usual.run_time_mean);
-  CHECK(same.run_time_max == usual.run_time_max);
+  CHECK(same.compute.run_time_mean == usual.compute.run_time_mean);
+  CHECK(same.compute.run_time_max == usual.compute.run_time_max);
   const auto slow = on(computer_options{.clock_ghz = 1.5}, usual);
-  CHECK(slow.run_time_mean == 11ms);
-  CHECK(slow.run_time_sd == 4ms);
-  CHECK(slow.run_time_max == usual.period);
+  CHECK(slow.compute.run_time_mean == 11ms);
+  CHECK(slow.compute.run_time_sd == 4ms);
+  CHECK(slow.compute.run_time_max == usual.period);
   const auto fast = on(computer_options{.clock_ghz = 6}, usual);
-  CHECK(fast.run_time_mean == 2750us);
-  CHECK(fast.run_time_max == 22500us);
+  CHECK(fast.compute.run_time_mean == 2750us);
+  CHECK(fast.compute.run_time_max == 22500us);
 }
 
 TEST_CASE("cabin climate is slow and patient") {
@@ -126,8 +127,8 @@ TEST_CASE("every kind keeps its own limits at home") {
   for (const auto name : service_type_names()) {
     CAPTURE(name);
     const auto common = make_service_type(name)->options;
-    CHECK(common.run_time_max <= common.period);
-    CHECK(common.run_time_mean <= common.run_time_max);
+    CHECK(common.compute.run_time_max <= common.period);
+    CHECK(common.compute.run_time_mean <= common.compute.run_time_max);
     CHECK(common.period <= common.limits.max_interarrival);
   }
 }

@@ -28,13 +28,13 @@ void run_episodes(benchmark::State& state, const char* channel) {
 void actors(benchmark::State& state, const char* channel) {
   run_episodes<test::actor_world>(state, channel);
 }
-BENCHMARK_CAPTURE(actors, paper, "paper-5g");
+BENCHMARK_CAPTURE(actors, paper, "paper_5g");
 BENCHMARK_CAPTURE(actors, ideal, "ideal");
 
 void library(benchmark::State& state, const char* channel) {
   run_episodes<test::library_world>(state, channel);
 }
-BENCHMARK_CAPTURE(library, paper, "paper-5g");
+BENCHMARK_CAPTURE(library, paper, "paper_5g");
 BENCHMARK_CAPTURE(library, ideal, "ideal");
 
 } // namespace

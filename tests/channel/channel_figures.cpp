@@ -26,19 +26,19 @@ TEST_CASE("an ideal channel adds no latency") {
   CHECK(l.sd_ms == 0);
 }
 
-TEST_CASE("paper-sim gives one vehicle 10.54 ± 9.83 ms, never over 50 ms") {
-  const auto l = latency_of(of("paper-sim"), 200);
+TEST_CASE("paper_sim gives one vehicle 10.54 ± 9.83 ms, never over 50 ms") {
+  const auto l = latency_of(of("paper_sim"), 200);
   CHECK(l.mean_ms == near(10.54, 0.03));
   CHECK(l.sd_ms == near(9.83, 0.03));
   CHECK(l.share_late == 0);
 }
 
-TEST_CASE("paper-sim grows slower with every vehicle that shares the worker") {
+TEST_CASE("paper_sim grows slower with every vehicle that shares the worker") {
   // protocol figures for 1 to 6 vehicles, ± 5 %
   constexpr std::array mean_ms{10.5, 10.8, 11.0, 11.2, 11.5, 11.7};
   auto last = 0.0;
   for (std::uint32_t n = 1; n <= 6; ++n) {
-    const auto l = latency_of(of("paper-sim", n), 200);
+    const auto l = latency_of(of("paper_sim", n), 200);
     CHECK(l.mean_ms == near(mean_ms[n - 1], 0.05));
     CHECK(l.sd_ms == near(9.8 + 0.08 * (n - 1), 0.05));
     CHECK(l.mean_ms > last);
@@ -47,9 +47,9 @@ TEST_CASE("paper-sim grows slower with every vehicle that shares the worker") {
   }
 }
 
-TEST_CASE("paper-sim lets one vehicle offload longer when gaps may be longer") {
+TEST_CASE("paper_sim lets one vehicle offload longer when gaps may be longer") {
   const auto offloaded_s = [](duration longest_gap) {
-    return mean_offloading_s(of("paper-sim"), longest_gap, 100);
+    return mean_offloading_s(of("paper_sim"), longest_gap, 100);
   };
   CHECK(offloaded_s(50ms) == near(0.08, 0.1));
   CHECK(offloaded_s(60ms) == near(0.2, 0.1));
@@ -59,8 +59,8 @@ TEST_CASE("paper-sim lets one vehicle offload longer when gaps may be longer") {
   CHECK(offloaded_s(100ms) == near(68, 0.01)); // all of the run
 }
 
-TEST_CASE("paper-sim-stalls has the same moments for another reason") {
-  auto f = of("paper-sim-stalls");
+TEST_CASE("paper_sim_stalls has the same moments for another reason") {
+  auto f = of("paper_sim_stalls");
   f.length = 5000s;
   const auto l = latency_of(f, 20);
   CHECK(l.mean_ms == near(10.54, 0.03));
@@ -68,17 +68,17 @@ TEST_CASE("paper-sim-stalls has the same moments for another reason") {
   CHECK(l.share_late > 1e-3);
 }
 
-TEST_CASE("paper-5g gives 11.94 ± 2.98 ms to up to six vehicles") {
+TEST_CASE("paper_5g gives 11.94 ± 2.98 ms to up to six vehicles") {
   for (const std::uint32_t n : {1, 6}) {
-    const auto l = latency_of(of("paper-5g", n), 100);
+    const auto l = latency_of(of("paper_5g", n), 100);
     CHECK(l.mean_ms == near(11.94, 0.03));
     CHECK(l.sd_ms == near(2.98, 0.03));
     CHECK(l.share_late < 2e-4);
   }
 }
 
-TEST_CASE("paper-5g stays itself at the 100 Hz of the test drives") {
-  auto f = of("paper-5g");
+TEST_CASE("paper_5g stays itself at the 100 Hz of the test drives") {
+  auto f = of("paper_5g");
   f.period = 10ms;
   const auto l = latency_of(f, 20);
   CHECK(l.mean_ms == near(11.94, 0.03));
@@ -91,7 +91,7 @@ TEST_CASE("the measured 5G profiles have the measured moments") {
     double mean_ms;
   };
   for (const auto& [name, mean_ms] :
-       {expected{"cicv5g-n8", 19.3}, expected{"cicv5g-n78", 16.8}}) {
+       {expected{"cicv5g_n8", 19.3}, expected{"cicv5g_n78", 16.8}}) {
     auto f = of(name);
     f.length = 5000s;
     const auto l = latency_of(f, 20);

@@ -215,7 +215,7 @@ TEST_CASE("a scenario tells limits, periods and what a service takes") {
         == near(0.08, 1e-9));
 }
 
-TEST_CASE("each provider computes by its own profile") {
+TEST_CASE("each provider computes by its own table") {
   const auto s = parse_scenario(R"([street_grid]
 columns = 3
 rows = 2
@@ -225,13 +225,13 @@ routes = ["block *"]
 [[provider]]
 name = "near"
 position_m = [100.0, 50.0]
-network = { profile = "ideal", more_computing = "8ms" }
+compute = { model = "ideal", more_computing = "8ms" }
 [[provider]]
 name = "far"
 position_m = [100.0, 50.0]
-network = { profile = "ideal", more_computing = "2ms", workers = 4 }
-[network]
-profile = "ideal"
+network = { profile = "ideal" }
+compute = { more_computing = "2ms", workers = 4 }
+[compute]
 more_computing = "50ms"
 [[service]]
 name = "trajectory_planning"

@@ -139,9 +139,9 @@ TEST_CASE("an unknown service is refused") {
 }
 
 TEST_CASE("an unknown channel profile is refused") {
-  check_mistake({"profile = \"paper-sim\"",
-                 "profile = @\"paper-7g\"",
-                 {"\"paper-7g\"", "did you mean \"paper-5g\"?"}});
+  check_mistake({"profile = \"paper_sim\"",
+                 "profile = @\"paper_7g\"",
+                 {"\"paper_7g\"", "did you mean \"paper_5g\"?"}});
 }
 
 TEST_CASE("an unknown rule for messages is refused") {

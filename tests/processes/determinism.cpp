@@ -103,7 +103,7 @@ TEST_CASE("who does not offload drives the same, whatever others may do") {
 TEST_CASE("a decision changes nobody's delays") {
   // Enough workers that nobody waits for anybody.
   const std::vector<std::string> common{"--duration", "120s", "--set",
-                                        "network.workers=64"};
+                                        "compute.workers=64"};
   auto smaller = common;
   smaller.insert(smaller.end(), {"--set", "provider.mec.area_radius_m=250"});
   const workplace at;

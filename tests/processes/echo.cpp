@@ -41,7 +41,7 @@ TEST_CASE("the configuration of a run runs again, anywhere, to the same "
           "results") {
   const workplace at, elsewhere;
   const auto first = at.drive("first", {"--duration", "30s", "--seed", "3",
-                                        "--set", "network.profile=paper-5g"});
+                                        "--set", "network.profile=paper_5g"});
   const auto config = read_file(first / "config.toml");
   CHECK(config.starts_with("# "));
   CHECK(config.ends_with(check(at, {"first/config.toml"})));

@@ -45,7 +45,7 @@ position_m = [100.0, 50.0]
 area_radius_m = 400.0
 
 [network]
-profile = "paper-sim"
+profile = "paper_sim"
 
 [[service]]
 name = "trajectory_planning"

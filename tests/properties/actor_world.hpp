@@ -102,7 +102,7 @@ struct actor_world : virtual_world {
   moving_client vehicle;
 
   actor_world(std::uint64_t seed, link_fault_options faults, int provider_count,
-              std::string_view channel = "paper-5g")
+              std::string_view channel = "paper_5g")
       : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
@@ -130,7 +130,7 @@ struct actor_world : virtual_world {
     setup.services = {echo_service("one"), echo_service("two")};
     setup.codm = make_codm("always");
     setup.recorder = recorder;
-    setup.profile = profile;
+    setup.compute = compute_measured_with(profile->name);
     setup.seed = random_stream{seed, "network"};
     setup.number = static_cast<std::uint32_t>(k);
     providers.push_back(spawn_service_provider(system(), std::move(setup)));

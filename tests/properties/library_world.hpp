@@ -180,14 +180,17 @@ struct library_world {
   struct provider_node final : offloading::provider_side_port {
     library_world& world;
     std::size_t number;
+    provider_compute computers;
     std::shared_ptr<multi_server_queue> workers;
     library_link link;
     bool alive = true;
     std::unique_ptr<offloading::provider_side> side;
 
     provider_node(library_world& w, std::size_t k)
-        : world{w}, number{k}, workers{std::make_shared<multi_server_queue>(
-                                   w.profile->workers)},
+        : world{w}, number{k}, computers{compute_measured_with(
+                                   w.profile->name)},
+          workers{std::make_shared<multi_server_queue>(
+              static_cast<unsigned>(computers.workers))},
           link{w.time, draws(),
                link_faults{random_stream{w.seed, "faults"}.part(k + 1),
                            w.faults}} {
@@ -198,9 +201,8 @@ struct library_world {
         setup.services.push_back(
             {.name = name, .period = period, .max_latency = period});
       setup.policy = make_codm("always");
-      setup.computer = {static_cast<std::size_t>(w.profile->workers),
-                        w.profile->mean_service_s(),
-                        w.profile->service_deviation_s()};
+      setup.computer = {static_cast<std::size_t>(computers.workers),
+                        computers.mean_s(), computers.deviation_s()};
       setup.map = {w.world, &w.world->map};
       setup.noise = random_stream{w.seed, "network"};
       side =
@@ -226,9 +228,12 @@ struct library_world {
     make_function(const offloading::session_start&) override {
       offloading::cycle_setup cycle;
       cycle.function = std::make_shared<echo_function>();
-      cycle.finish = [draws = draws(), queue = workers](time_point start,
-                                                        std::uint64_t number) {
-        return queue->finish(start, draws.service_time(number));
+      const auto draws =
+          result_draws(random_stream{world.seed, "network"}, shuttle::station,
+                       static_cast<std::uint32_t>(number));
+      cycle.finish = [draws, computers = computers,
+                      queue = workers](time_point start, std::uint64_t number) {
+        return queue->finish(start, computers.computing_time(draws, number));
       };
       return cycle;
     }
@@ -285,7 +290,7 @@ struct library_world {
   std::unique_ptr<offloading::vehicle_side> side;
 
   library_world(std::uint64_t seed, link_fault_options faults,
-                int provider_count, std::string_view channel = "paper-5g")
+                int provider_count, std::string_view channel = "paper_5g")
       : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
@@ -310,7 +315,7 @@ struct library_world {
     using namespace std::chrono_literals;
     const auto noise = random_stream{seed, "vehicle"}.part(name);
     const computer_options computer;
-    const task_options task;
+    const cycle_options task;
     offloading::onboard_service service;
     service.requested = {.name = name,
                          .needs = {period, 50ms, 100ms},

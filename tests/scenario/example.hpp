@@ -46,7 +46,7 @@ area_m = [[0, 0], [50, 0], [50.5, 50], [0, 50]]
 services = ["cabin_climate"]
 
 [network]
-profile = "paper-sim"
+profile = "paper_sim"
 
 [[service]]
 name = "trajectory_planning"

@@ -35,7 +35,7 @@ TEST_CASE("a scenario holds what its file says") {
   CHECK(s.services[0]->options.limits.max_latency == 50ms);
   CHECK(s.policies.lodm->name() == "location");
   CHECK(s.policies.codm->name() == "always");
-  CHECK(s.network.channel->name == "paper-sim");
+  CHECK(s.network.channel->name == "paper_sim");
   CHECK(s.record.tracks_period == 250ms);
   CHECK_FALSE(s.record.cycles);
 }
@@ -117,23 +117,23 @@ TEST_CASE("a provider may have a radio and a network of its own") {
   REQUIRE(own.outages.size() == 1);
   CHECK(own.outages[0].to == std::chrono::seconds{2});
   CHECK(s.network.channel->outages.empty());
-  CHECK(s.profiles() == "paper-sim, ideal");
-  CHECK(example::load().profiles() == "paper-sim");
+  CHECK(s.profiles() == "paper_sim, ideal");
+  CHECK(example::load().profiles() == "paper_sim");
   const auto again = example::load(to_toml(s));
   CHECK(to_toml(again) == to_toml(s));
   CHECK(again.channel_to(1)->outages.size() == 1);
 }
 
-TEST_CASE("fleets have computers, services have tasks") {
+TEST_CASE("fleets have computers, services say what a cycle asks of them") {
   const auto s = example::load(
-      example::text, {"fleet.1.computer.clock_ghz=1.5",
-                      "service.trajectory_planning.task.input_kbit=40",
+      example::text, {"fleet.1.compute.clock_ghz=1.5",
+                      "service.trajectory_planning.compute.input_kbit=40",
                       "fleet.1.appear_every=10s", "provider.mec.fails_at=5min",
                       "provider.mec.returns_at=6min"});
-  CHECK(s.fleets[0].computer.clock_ghz == 3);
-  CHECK(s.fleets[1].computer.clock_ghz == 1.5);
-  CHECK(s.services[0]->options.task.input_kbit == 40);
-  CHECK(s.services[0]->options.task.gigacycles == 0.03);
+  CHECK(s.fleets[0].compute.clock_ghz == 3);
+  CHECK(s.fleets[1].compute.clock_ghz == 1.5);
+  CHECK(s.services[0]->options.compute.input_kbit == 40);
+  CHECK(s.services[0]->options.compute.gigacycles == 0.03);
   CHECK(s.fleets[1].appear_every == std::chrono::seconds{10});
   CHECK(s.providers[0].fails_at == std::chrono::minutes{5});
   CHECK(s.providers[0].returns_at == std::chrono::minutes{6});
@@ -165,7 +165,7 @@ TEST_CASE("without policies the paper's decide") {
 
 TEST_CASE("a measured trace is read with the scenario") {
   const auto s = example::load(
-      example::with("profile = \"paper-sim\"",
+      example::with("profile = \"paper_sim\"",
                     "profile = \"trace\"\ntrace = \"delays.csv\""));
   CHECK(s.network.channel->replays);
   REQUIRE(s.network.channel->trace.size() == 3);

@@ -106,13 +106,13 @@ TEST_CASE("six vehicles drive a lap, offload once each, and stay safe") {
 }
 
 TEST_CASE("a network that stalls makes vehicles fall back, never unsafe") {
-  const auto records = drive({"duration=900s", "network.profile=cicv5g-n8"});
+  const auto records = drive({"duration=900s", "network.profile=cicv5g_n8"});
   check_safety(records);
   CHECK(std::ranges::any_of(records.episodes, &episode_record::fallback));
 }
 
 TEST_CASE("both services are judged and ended on their own") {
-  const auto records = drive({"duration=900s", "network.profile=cicv5g-n8"});
+  const auto records = drive({"duration=900s", "network.profile=cicv5g_n8"});
   std::map<service_name, int> fallbacks;
   for (const auto& e : records.episodes)
     fallbacks[e.running.kind] += e.fallback;
@@ -139,7 +139,7 @@ TEST_CASE(
 
 TEST_CASE("a vehicle's noise is its own, whoever else offloads") {
   const std::vector<std::string> common{"duration=100s",
-                                        "network.profile=cicv5g-n78"};
+                                        "network.profile=cicv5g_n78"};
   auto alone = common;
   alone.push_back("fleet.0.count=1");
   // Station 101 and its start are the same in both; nobody shares a queue.

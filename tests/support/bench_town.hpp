@@ -13,6 +13,7 @@ routes = ["block *"]
 position_m = [100.0, 50.0]
 [network]
 profile = "ideal"
+[compute]
 more_computing = "8ms"
 [[service]]
 name = "trajectory_planning"

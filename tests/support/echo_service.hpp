@@ -55,8 +55,8 @@ inline offloading::service_options echo_options() {
   options.limits = {50ms, 100ms};
   options.period = 50ms;
   options.input_period = 100ms;
-  options.run_time_mean = 5ms;
-  options.run_time_max = 10ms;
+  options.compute.run_time_mean = 5ms;
+  options.compute.run_time_max = 10ms;
   return options;
 }
 

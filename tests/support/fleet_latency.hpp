@@ -4,6 +4,7 @@
 
 #include "channel/link_direction.hpp"
 #include "channel/multi_server_queue.hpp"
+#include "channel/provider_compute.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,25 +38,26 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
     time_point created, computed;
   };
   const random_stream seed{f.seed, "fleet"};
-  std::vector<channel> channels;
+  std::vector<random_stream> draws;
   std::vector<link_direction> links;
   const auto cell = std::make_shared<multi_server_queue>(1);
+  const auto computers = compute_measured_with(f.profile->name);
   std::vector<job> jobs;
   const auto cycles = static_cast<std::uint64_t>(f.length / f.period);
   jobs.reserve(f.vehicles * cycles);
   for (std::uint32_t v = 0; v < f.vehicles; ++v) {
-    channels.emplace_back(f.profile, seed, v, 0);
-    links.emplace_back(channels.back(), direction::down, cell);
+    draws.push_back(result_draws(seed, v, 0));
+    links.emplace_back(channel{f.profile, seed, v, 0}, direction::down, cell);
     const auto phase =
         from_seconds(seed.part("phase").uniform(0, to_seconds(f.period), v));
     for (std::uint64_t c = 0; c < cycles; ++c)
       jobs.push_back({v, c, time_point{phase + c * f.period}, {}});
   }
   std::ranges::stable_sort(jobs, {}, &job::created);
-  multi_server_queue workers{static_cast<unsigned>(f.profile->workers)};
+  multi_server_queue workers{static_cast<unsigned>(computers.workers)};
   for (auto& j : jobs)
-    j.computed =
-        workers.finish(j.created, channels[j.vehicle].service_time(j.cycle));
+    j.computed = workers.finish(
+        j.created, computers.computing_time(draws[j.vehicle], j.cycle));
   std::ranges::stable_sort(jobs, {}, &job::computed);
   std::vector<std::vector<delivery>> result(f.vehicles);
   for (const auto& j : jobs)

@@ -34,10 +34,10 @@ TEST_CASE("a slow radio can eat up what offloading saves") {
   CHECK(offloaded_cost(far, {}).energy_j > on_board_cost(far, {}).energy_j);
 }
 
-TEST_CASE("computer and task list their options once, within their ranges") {
+TEST_CASE("computer and cycle list their options once, within their ranges") {
   test::option_list options;
   computer_options{}.visit_options(options);
-  task_options{}.visit_options(options);
+  cycle_options{}.visit_options(options);
   CHECK(options.refused.empty());
-  CHECK(options.names.size() == 7);
+  CHECK(options.names.size() == 11);
 }

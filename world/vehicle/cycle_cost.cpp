@@ -10,18 +10,18 @@ constexpr double giga = 1e9;
 } // namespace
 
 cycle_cost on_board_cost(const computer_options& computer,
-                         const task_options& task) {
+                         const cycle_options& cycle) {
   const auto clock_hz = computer.clock_ghz * giga;
-  return {task.gigacycles / computer.clock_ghz, computer.capacitance_js2
-                                                    * clock_hz * clock_hz
-                                                    * task.gigacycles * giga};
+  return {cycle.gigacycles / computer.clock_ghz, computer.capacitance_js2
+                                                     * clock_hz * clock_hz
+                                                     * cycle.gigacycles * giga};
 }
 
 cycle_cost offloaded_cost(const computer_options& computer,
-                          const task_options& task, double provider_ghz) {
-  const auto sending_s = 1e-3 * task.input_kbit / computer.uplink_mbps;
-  return {sending_s + task.gigacycles / provider_ghz,
-          computer.transmit_power_w * sending_s + task.overhead_j};
+                          const cycle_options& cycle, double provider_ghz) {
+  const auto sending_s = 1e-3 * cycle.input_kbit / computer.uplink_mbps;
+  return {sending_s + cycle.gigacycles / provider_ghz,
+          computer.transmit_power_w * sending_s + cycle.overhead_j};
 }
 
 } // namespace sofof

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/options/option_visitor.hpp"
+#include "base/time.hpp"
 
 namespace sofof {
 
@@ -21,13 +22,23 @@ struct computer_options {
   }
 };
 
-/// One cycle of a function.
-struct task_options {
+/// What one cycle of a function asks of who computes it.
+struct cycle_options {
+  duration run_time_mean{}; ///< On board, in virtual time, at
+                            ///< `usual_clock_ghz`.
+  duration run_time_sd{};
+  duration run_time_max{};
+  double demand = 1; ///< At a provider: computing time, as a multiple of what
+                     ///< its `provider_compute` draws.
   double gigacycles = 0.03; ///< c: 10 ms at 3 GHz.
   double input_kbit = 160;  ///< b, what a provider has to be told.
   double overhead_j = 0;    ///< Of the framework itself, when offloaded.
 
   void visit_options(option_visitor& s) {
+    s.field("run_time_mean", run_time_mean, duration{0});
+    s.field("run_time_sd", run_time_sd, duration{0});
+    s.field("run_time_max", run_time_max, duration{0});
+    s.field("demand", demand, {0, 1e3});
     s.field("gigacycles", gigacycles, {0, 1e3});
     s.field("input_kbit", input_kbit, {0, 1e6});
     s.field("overhead_j", overhead_j, {0, 1e3});
@@ -51,12 +62,12 @@ inline constexpr double usual_provider_ghz = 12;
 /// Source: Mao, Zhang & Letaief, JSAC 34(12) 2016; κ is that of public code
 /// for it (LODCO.m in hliangzhao/Edge-Computing-Codes).
 cycle_cost on_board_cost(const computer_options& computer,
-                         const task_options& task);
+                         const cycle_options& cycle);
 
 /// T = b / r + c / f of the provider, and E = p b / r + overhead; without the
 /// network's delay and without waits. Source: as before.
 cycle_cost offloaded_cost(const computer_options& computer,
-                          const task_options& task,
+                          const cycle_options& cycle,
                           double provider_ghz = usual_provider_ghz);
 
 } // namespace sofof

@@ -1,0 +1,20 @@
+// An option that has moved within a file, brought to its new place.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string_view>
+
+namespace sofof {
+
+/// Moves what stands at one dotted path of a table to another one; of a table,
+/// each of its options. Of two that say the same option, one in a file and one
+/// of `--set`, the latter counts.
+/// @param file  What the file is called.
+/// @returns where it stood, as `place_of`; empty if there was nothing, or
+/// something else is in the way, which is then refused as any wrong value.
+/// @throws input_error when both places say the same option.
+std::string move_option(toml::table& table, std::string_view from,
+                        std::string_view to, std::string_view file);
+
+} // namespace sofof
