@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace sofof {
+namespace sofof::offloading {
 
 duration distrust::add(time_point now) {
   constexpr duration first = std::chrono::seconds{60};
@@ -16,4 +16,4 @@ duration distrust::add(time_point now) {
   return pause;
 }
 
-} // namespace sofof
+} // namespace sofof::offloading

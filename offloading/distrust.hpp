@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::offloading {
 
 /// What a vehicle remembers of one provider's refused results: 60 s without a
 /// request after the first, twice as long after each further one; longer than
@@ -23,4 +23,4 @@ private:
   time_point until_ = time_point::min();
 };
 
-} // namespace sofof
+} // namespace sofof::offloading

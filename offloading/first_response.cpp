@@ -1,7 +1,7 @@
 // Several providers plan the same cycles: the first response wins.
 #include "offloading/first_response.hpp"
 
-namespace sofof {
+namespace sofof::offloading {
 
 bool first_response::use(time_point began) {
   if (answered(began)) {
@@ -12,4 +12,4 @@ bool first_response::use(time_point began) {
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::offloading

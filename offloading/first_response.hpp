@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::offloading {
 
 /// Takes of each cycle the first response only, and none of a cycle before one
 /// that has been answered: the vehicle is past it. With a hedge the second
@@ -47,4 +47,4 @@ private:
   std::uint64_t dropped_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::offloading

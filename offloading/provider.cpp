@@ -10,10 +10,25 @@
 
 namespace sofof::offloading {
 
+cycle_setup cycle_of(const offered_service& service,
+                     const session_start& start) {
+  assert(service.here);
+  assert(service.name == start.session.kind);
+  return {.running = start.session,
+          .function = service.here->make_function(start.session.station),
+          .period = service.options.period,
+          .phase = start.phase,
+          .finish = {},
+          .keeps_phase = start.keeps_phase};
+}
+
 provider::provider(provider_setup setup, provider_port& port)
     : setup_{std::move(setup)}, port_{port} {
   assert(setup_.policy && setup_.map);
   assert(setup_.computer.workers > 0);
+  assert(std::ranges::all_of(setup_.services, [](const offered_service& x) {
+    return x.here != nullptr;
+  }));
   epoch_ = from_seconds(setup_.policy->epoch_s());
 }
 
@@ -221,7 +236,7 @@ void provider::end(station_record& station, session_id session,
   port_.end(e);
   if (tell) {
     if (const auto* service = find(session.kind))
-      e.what = service->termination_message(e, now);
+      e.what = service->here->termination_message(e, now);
     port_.send(*station.requester, e);
   }
   port_.record(episode_record{session, side::provider, i->since, i->since, true,
@@ -243,14 +258,15 @@ const offered_service* provider::find(const service_name& service) const {
 
 // @returns how a service computes, without an offset.
 periodic_task provider::task_of(const offered_service& service) const {
-  assert(service.period > duration{0});
-  assert(service.demand >= 0);
+  const auto& options = service.options;
+  assert(options.period > duration{0});
+  assert(options.compute.demand >= 0);
   constexpr double deviations = 3;
   const auto& computer = setup_.computer;
   const auto longest_s = computer.mean_s + deviations * computer.deviation_s;
-  return {.wcet = from_seconds(longest_s * service.demand),
-          .period = service.period,
-          .deadline = service.max_latency};
+  return {.wcet = from_seconds(longest_s * options.compute.demand),
+          .period = options.period,
+          .deadline = options.limits.max_latency};
 }
 
 // @returns the share of the workers that a service takes.
@@ -258,8 +274,8 @@ double provider::utilisation_by(const service_name& service) const {
   const auto* found = find(service);
   if (!found)
     return 0;
-  return worker_share(setup_.computer.mean_s * found->demand, found->period,
-                      setup_.computer.workers);
+  return worker_share(setup_.computer.mean_s * found->options.compute.demand,
+                      found->options.period, setup_.computer.workers);
 }
 
 // @returns what all that runs here takes of them.

@@ -5,6 +5,7 @@
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
 #include "offloading/peer.hpp"
+#include "offloading/service_cycle.hpp"
 #include "offloading/timer_list.hpp"
 #include "policies/api/context.hpp"
 
@@ -21,20 +22,6 @@
 
 namespace sofof::offloading {
 
-/// What a provider has to know of a service that it offers.
-struct offered_service {
-  service_name name;
-  duration period{};      ///< Of a cycle, > 0.
-  duration max_latency{}; ///< Of its results, > 0.
-  double demand = 1;      ///< Computing time of a cycle, in units of
-                          ///< `provider_computer::mean_s`; ≥ 0.
-  /// What tells in the terms of the service that a session has ended; empty
-  /// where a service has no such message. Never a null function.
-  std::function<payload(const service_end& end, time_point now)>
-      termination_message =
-          [](const service_end&, time_point) { return payload{}; };
-};
-
 /// What cycles are computed by: how long one of unit demand takes.
 struct provider_computer {
   std::size_t workers = 1; ///< > 0.
@@ -50,8 +37,9 @@ struct provider_setup {
   std::vector<offered_service> services;  ///< With different names.
   std::unique_ptr<central_policy> policy; ///< Not null.
   provider_computer computer;
-  std::shared_ptr<const road_map> map; ///< For the policy; not null.
-  random_stream noise{0, ""};          ///< Of this provider.
+  /// For the policy; not null. Few ask it anything.
+  std::shared_ptr<const road_map> map = std::make_shared<const road_map>();
+  random_stream noise{0, ""}; ///< Of this provider.
 };
 
 /// A session that begins.
@@ -61,6 +49,11 @@ struct session_start {
   duration phase{};         ///< Cycles start at phase + k · period.
   bool keeps_phase = false; ///< The first one too.
 };
+
+/// @returns the cycle of a session at a provider that offers the service;
+/// `finish` is left to be filled in.
+cycle_setup cycle_of(const offered_service& service,
+                     const session_start& start);
 
 /// What a provider makes others do. Nothing of this calls the provider back.
 class provider_port {

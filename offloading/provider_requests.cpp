@@ -175,8 +175,8 @@ void provider::start(station_record& station, const session_id& session,
       setup_.noise.part(service.name.view()).part(session.station);
   auto task = task_of(service);
   task.offset = how.offset.value_or(
-      random_phase(drawn.part("remote phase"), service.period));
-  assert(task.offset >= duration{0} && task.offset < service.period);
+      random_phase(drawn.part("remote phase"), service.options.period));
+  assert(task.offset >= duration{0} && task.offset < service.options.period);
   station.sessions.push_back(
       {session, now, task, how.worker, open.what.candidates});
   port_.start({.session = session,

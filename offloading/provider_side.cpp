@@ -15,7 +15,7 @@ class provider_side::parts final : public provider_port {
 public:
   parts(provider_setup setup, provider_side_port& port) : port_{port} {
     for (const auto& service : setup.services)
-      periods_.emplace(service.name, service.period);
+      services_.emplace(service.name, service);
     provider_.emplace(std::move(setup), *this);
   }
 
@@ -160,12 +160,11 @@ private:
 
   void start(const session_start& start) override {
     assert(start.session.counter != 0);
-    auto setup = port_.make_function(start);
-    assert(setup.function && setup.finish);
-    setup.running = start.session;
-    setup.period = periods_.at(start.session.kind);
-    setup.phase = start.phase;
-    setup.keeps_phase = start.keeps_phase;
+    auto setup = cycle_of(services_.at(start.session.kind), start);
+    setup.finish = [this, session = start.session](time_point t,
+                                                   std::uint64_t cycle) {
+      return port_.finish(session, t, cycle);
+    };
     const auto [i, is_new] = sessions_.try_emplace(start.session.counter, *this,
                                                    start, std::move(setup));
     assert(is_new);
@@ -186,7 +185,7 @@ private:
   provider_side_port& port_;
   time_point now_ = time_point::min(); // of the latest call
   timer_list<timer> timers_;
-  std::map<service_name, duration> periods_;
+  std::map<service_name, offered_service> services_;
   std::map<std::uint32_t, session_parts> sessions_; // by their counters
   std::optional<provider> provider_;
 };

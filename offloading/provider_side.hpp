@@ -2,7 +2,6 @@
 #pragma once
 
 #include "offloading/provider.hpp"
-#include "offloading/service_cycle.hpp"
 #include "offloading/vehicle_side.hpp"
 
 #include <cstdint>
@@ -17,10 +16,14 @@ public:
 
   /// To be brought to a vehicle; what does not arrive is lost, no more.
   virtual void send(peer_id requester, to_vehicle message) = 0;
-  /// @returns what computes for a session that begins, and how long it takes:
-  /// `function` and `finish` of a cycle; the rest is filled in.
-  virtual cycle_setup make_function(const session_start& start) = 0;
-  virtual void record(sofof::record x) = 0;
+  /// @returns when a cycle of this session that starts now will be done, not
+  /// before `start`; by default at once, as where time is real.
+  virtual time_point finish(const session_id&, time_point start,
+                            std::uint64_t /*cycle*/) {
+    return start;
+  }
+  /// For whoever keeps records; by default nobody does.
+  virtual void record(sofof::record) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };

@@ -4,7 +4,7 @@
 
 #include "base/time.hpp"
 
-namespace sofof {
+namespace sofof::offloading {
 
 /// @returns whether a result came in time: exactly at the limit is in time,
 /// from the future is not.
@@ -35,4 +35,4 @@ private:
   time_point last_;
 };
 
-} // namespace sofof
+} // namespace sofof::offloading

@@ -16,8 +16,7 @@ requester::requester(requester_setup setup, requester_port& port,
   assert(setup_.policy && setup_.path_ahead);
   for (auto& service : setup_.services) {
     assert(!find(service.name));
-    assert(service.termination_message);
-    services_.push_back({.service = std::move(service), .since = now});
+    services_.emplace_back(std::move(service), setup_.computer, now);
   }
   announce_placement();
   epoch_ = from_seconds(setup_.policy->epoch_s());
@@ -91,12 +90,12 @@ void requester::expire(const epoch_end&, time_point now) {
   assert(epoch_ > duration{0});
   wake_at(now + epoch_, epoch_end{});
   for (const auto& x : services_) {
-    assert(x.service.needs.period > duration{0});
+    assert(x.needs.period > duration{0});
     if (!x.is_remote())
-      setup_.policy->observe(cycle_outcome{
-          now, x.service.name.view(), 0, x.service.on_board.time_s, false,
-          x.service.on_board.energy_j,
-          to_seconds(epoch_) / to_seconds(x.service.needs.period)});
+      setup_.policy->observe(
+          cycle_outcome{now, x.service.name.view(), 0, x.on_board.time_s, false,
+                        x.on_board.energy_j,
+                        to_seconds(epoch_) / to_seconds(x.needs.period)});
   }
   weigh([](const service_state&) { return true; }, std::nullopt, now);
 }
@@ -262,9 +261,8 @@ local_decision requester::ask_policy(const service_state& service,
                                      time_point now) {
   assert(!providers.empty());
   assert(service.since <= now);
-  const auto& x = service.service;
   return setup_.policy->decide({.now = now,
-                                .kind = x.name.view(),
+                                .kind = service.service.name.view(),
                                 .providers = providers,
                                 .path = path,
                                 .speed_mps = ego_.own.speed_mps,
@@ -272,8 +270,8 @@ local_decision requester::ask_policy(const service_state& service,
                                 .number = ++decisions_,
                                 .current = service.current().value_or(0),
                                 .since = service.since,
-                                .needs = x.needs,
-                                .on_board = x.on_board,
+                                .needs = service.needs,
+                                .on_board = service.on_board,
                                 .future = setup_.future.get()});
 }
 

@@ -25,9 +25,10 @@ namespace sofof::offloading {
 /// What a requester is made of.
 struct requester_setup {
   station_id station = 0;
-  std::vector<requested_service> services; ///< With different names.
-  std::unique_ptr<local_policy> policy;    ///< Not null.
-  random_stream noise{0, ""};              ///< Of this vehicle.
+  std::vector<onboard_service> services; ///< With different names.
+  std::unique_ptr<local_policy> policy;  ///< Not null.
+  computer_options computer{};           ///< The vehicle's.
+  random_stream noise{0, ""};            ///< Of this vehicle.
   /// The route ahead, m, as decisions and requests need it.
   std::function<std::vector<point>(const ego_state&)> path_ahead =
       [](const ego_state&) { return std::vector<point>{}; };

@@ -124,10 +124,9 @@ void requester::on_result(const service_result& result, time_point now) {
     link.answered(result.created, now);
   else
     link.arrived(result.created, now);
-  const auto& x = service.service;
-  setup_.policy->observe(
-      cycle_outcome{now, x.name.view(), provider, to_seconds(latency),
-                    latency > x.needs.max_latency, x.offloaded.energy_j});
+  setup_.policy->observe(cycle_outcome{
+      now, service.service.name.view(), provider, to_seconds(latency),
+      latency > service.needs.max_latency, service.offloaded.energy_j});
   port_.forward(result);
 }
 
@@ -193,7 +192,7 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
     setup_.policy->observe(
         cycle_outcome{now, session.kind.view(), session.provider,
                       std::numeric_limits<double>::infinity(), true,
-                      service.service.offloaded.energy_j});
+                      service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, now);
   end(service, session.provider, reason, true, now);
@@ -259,7 +258,7 @@ void requester::end(service_state& service, provider_id provider,
   service_end e{ended.running, reason, side::requester};
   port_.end(e);
   if (tell) {
-    e.what = service.service.termination_message(e, now, ego_.own);
+    e.what = service.service.own->termination_message(e, now, ego_.own);
     send_end(e);
   }
   log_end(service, ended, reason, now);

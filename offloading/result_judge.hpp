@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::offloading {
 
 /// What a result that came over the air is to the vehicle.
 struct judged_result {
@@ -46,4 +46,4 @@ inline std::unique_ptr<result_judge> believe_all() {
   return std::make_unique<believer>();
 }
 
-} // namespace sofof
+} // namespace sofof::offloading

@@ -47,4 +47,13 @@ payload provider_service::termination_message(const service_end&, time_point) {
   return {};
 }
 
+onboard_service in_vehicle(const service& what, const vehicle_context& where) {
+  return {what.name, what.options, what.in_vehicle(where)};
+}
+
+offered_service at_provider(const service& what,
+                            const provider_context& where) {
+  return {what.name, what.options, what.at_provider(where)};
+}
+
 } // namespace sofof::offloading

@@ -14,12 +14,6 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
-
-class broadcast_listener;
-
-} // namespace sofof
-
 namespace sofof::offloading {
 
 /// The options that every service has.
@@ -111,10 +105,6 @@ public:
   /// What tells a vehicle in the terms of the service that the provider ends a
   /// session; by default nothing.
   virtual payload termination_message(const service_end& end, time_point now);
-
-  /// @returns who is to be told what the provider hears and sees, for as long
-  /// as the service is there; null: nobody.
-  virtual broadcast_listener* listener() { return nullptr; }
 };
 
 /// A service that vehicles can leave to providers. What it needs of the world
@@ -127,5 +117,25 @@ struct service {
   std::function<std::shared_ptr<provider_service>(const provider_context&)>
       at_provider;
 };
+
+/// A service that one vehicle has.
+struct onboard_service {
+  service_name name;
+  service_options options;                    ///< Limits and period > 0.
+  std::shared_ptr<const vehicle_service> own; ///< Not null.
+};
+
+/// A service that one provider has.
+struct offered_service {
+  service_name name;
+  service_options options;                ///< Limits and period > 0.
+  std::shared_ptr<provider_service> here; ///< Not null.
+};
+
+/// @returns the service as that vehicle has it.
+onboard_service in_vehicle(const service& what, const vehicle_context& where);
+
+/// @returns the service as that provider has it.
+offered_service at_provider(const service& what, const provider_context& where);
 
 } // namespace sofof::offloading

@@ -1,6 +1,8 @@
 // A cycle is run on its grid, at activation, or at every call.
 #include "offloading/service_cycle.hpp"
 
+#include "base/random_phase.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -19,6 +21,17 @@ time_point next_on_grid(time_point t, duration phase, duration period) {
 }
 
 } // namespace
+
+cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
+                      const random_stream& noise) {
+  const auto period = service.options.period;
+  const auto drawn = noise.part(service.name.view()).part("local phase");
+  return {.running = {0, vehicle, service.name, 0},
+          .function = service.own->make_function(),
+          .period = period,
+          .phase = random_phase(drawn, period),
+          .finish = {}};
+}
 
 service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
     : setup_{std::move(setup)}, port_{port} {

@@ -1,9 +1,9 @@
 // When a service's function runs: its life cycle, its periods, its numbers.
 #pragma once
 
+#include "base/random.hpp"
 #include "messages/protocol/lifecycle.hpp"
-#include "messages/protocol/service.hpp"
-#include "offloading/service_function.hpp"
+#include "offloading/service.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -23,6 +23,12 @@ struct cycle_setup {
   /// Whether the first cycle waits for its phase too, and is not run at once.
   bool keeps_phase = false;
 };
+
+/// @returns the cycle of a vehicle's own function, with a phase that is drawn;
+/// `finish` is left to be filled in.
+/// @param noise  Of the vehicle.
+cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
+                      const random_stream& noise);
 
 /// What a cycle makes others do. Nothing of this calls the cycle back.
 class cycle_port {

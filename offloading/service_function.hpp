@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::offloading {
 
 /// What one cycle of a function gives.
 struct service_output {
@@ -30,4 +30,4 @@ public:
   virtual service_output run(time_point now, const service_input& input) = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::offloading

@@ -5,11 +5,34 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
+#include <utility>
 
 namespace sofof::offloading {
 
 bool known_provider::offers(const service_name& service) const {
   return std::ranges::find(offer.kinds, service) != offer.kinds.end();
+}
+
+namespace {
+
+/// A provider tells itself how long it computes.
+constexpr auto in_no_time = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+service_state::service_state(onboard_service what,
+                             const computer_options& computer, time_point now)
+    : service{std::move(what)}, needs{service.options.period,
+                                      service.options.limits.max_latency,
+                                      service.options.limits.max_interarrival},
+      on_board{on_board_cost(computer, service.options.compute)},
+      offloaded{offloaded_cost(computer, service.options.compute, in_no_time)},
+      since{now} {
+  assert(service.own);
+  assert(needs.period > duration{0});
+  assert(needs.max_latency > duration{0}
+         && needs.max_interarrival > duration{0});
 }
 
 requester_session* service_state::find(provider_id provider) {
@@ -76,13 +99,13 @@ std::optional<provider_id> service_state::current() const {
 }
 
 duration service_state::computing(const service_offer& offer) const {
-  return from_seconds(to_seconds(offer.computing) * service.demand);
+  return from_seconds(to_seconds(offer.computing)
+                      * service.options.compute.demand);
 }
 
 link_estimator& service_state::link_of(provider_id provider) {
   return links
-      .try_emplace(provider,
-                   link_estimator_options{.period = service.needs.period})
+      .try_emplace(provider, link_estimator_options{.period = needs.period})
       .first->second;
 }
 
@@ -99,7 +122,6 @@ bool service_state::may_ask(const known_provider& provider,
 provider_view service_state::view_of(const known_provider& provider,
                                      time_point now) {
   const auto& offer = provider.offer;
-  const auto& needs = service.needs;
   assert(needs.max_latency > duration{0}
          && needs.max_interarrival > duration{0});
   assert(provider.offered_at <= now);
@@ -115,7 +137,7 @@ provider_view service_state::view_of(const known_provider& provider,
           .link = {link.late_probability(needs.max_latency, as_of),
                    link.gap_probability(needs.max_interarrival, as_of),
                    link.latency_quantile(0.5), link.latency_quantile(0.99)},
-          .cost = service.offloaded};
+          .cost = offloaded};
 }
 
 std::vector<provider_view>
@@ -156,8 +178,7 @@ service_state::candidates(const known_providers& providers, point from,
   assert(std::ranges::is_sorted(all, {}, &provider_view::id));
   std::vector<candidate> told;
   for (const auto& view : all)
-    told.push_back({view.id, gain(view, service.on_board, service.needs),
-                    view.utilisation});
+    told.push_back({view.id, gain(view, on_board, needs), view.utilisation});
   return told;
 }
 

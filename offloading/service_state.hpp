@@ -1,15 +1,14 @@
 // One service of a vehicle: at which providers it runs, and at which it may.
 #pragma once
 
-#include "messages/protocol/service.hpp"
 #include "offloading/distrust.hpp"
 #include "offloading/peer.hpp"
+#include "offloading/service.hpp"
 #include "offloading/standby.hpp"
 #include "policies/algorithms/forecast/link_estimator.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -31,21 +30,6 @@ struct known_provider {
 
 using known_providers = std::map<provider_id, known_provider>;
 
-/// What a requester has to know of a service.
-struct requested_service {
-  service_name name;
-  service_needs needs;    ///< Each > 0.
-  double demand = 1;      ///< A provider's computing time, in units of what its
-                          ///< offers tell; ≥ 0.
-  cycle_cost on_board{};  ///< Of a cycle in the vehicle.
-  cycle_cost offloaded{}; ///< Time: of the way there alone.
-  /// What tells in the terms of the service that a session has ended; empty
-  /// where a service has no such message. Never a null function.
-  std::function<payload(const service_end& end, time_point now, const cam& own)>
-      termination_message =
-          [](const service_end&, time_point, const cam&) { return payload{}; };
-};
-
 enum class phase {
   requested, ///< The provider has not answered yet.
   starting,  ///< It has accepted; its first result has not come yet.
@@ -64,14 +48,21 @@ struct requester_session {
 
 /// What the requester remembers of one service.
 struct service_state {
-  requested_service service;
-  time_point since; ///< It has been where it is.
+  onboard_service service;
+  service_needs needs;    ///< Each > 0.
+  cycle_cost on_board{};  ///< Of a cycle in the vehicle.
+  cycle_cost offloaded{}; ///< Time: of the way there alone.
+  time_point since{};     ///< It has been where it is.
   std::vector<requester_session>
       sessions{};                    ///< The oldest first; empty: it is local.
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.
   std::optional<standby> standing_by{}; ///< One of them, if any.
   std::map<provider_id, time_point> cool_until{};
   std::map<provider_id, link_estimator> links{}; ///< By what came from there.
+
+  /// @param computer  The vehicle's.
+  service_state(onboard_service what, const computer_options& computer,
+                time_point now);
 
   /// @returns null for a provider that neither runs it nor is asked to.
   requester_session* find(provider_id provider);

@@ -33,10 +33,11 @@ implausibility told(const objection& why) {
 
 } // namespace
 
-source_selector::source_selector(selected_service service, selector_port& port)
-    : service_{std::move(service)}, port_{port}, answers_{service_.period} {
-  assert(service_.encode_input && service_.continues);
-  assert(service_.limits.max_latency > duration{0});
+source_selector::source_selector(selector_setup setup, selector_port& port)
+    : setup_{std::move(setup)}, port_{port}, answers_{options().period} {
+  assert(setup_.service.own);
+  assert(options().period > duration{0});
+  assert(options().limits.max_latency > duration{0});
 }
 
 void source_selector::pass(time_point now) {
@@ -84,7 +85,7 @@ void source_selector::on_input(service_input input, time_point now) {
 
 bool source_selector::input_due(const source& x, time_point now) const {
   assert(!x.last_sent || *x.last_sent <= now);
-  return !x.last_sent || now - *x.last_sent >= service_.input_period;
+  return !x.last_sent || now - *x.last_sent >= options().input_period;
 }
 
 /// @returns whether there was anything to send.
@@ -94,9 +95,8 @@ bool source_selector::feed(source& x, time_point now) {
   assert(!x.last_sent || *x.last_sent <= now);
   x.last_sent = now;
   const auto stands = is_standby(x);
-  auto input =
-      service_.encode_input({x.session, newest_.at, newest_.what, used_},
-                            !x.in_use || stands || x.knows_it_stands_by);
+  auto input = own().encode_input({x.session, newest_.at, newest_.what, used_},
+                                  !x.in_use || stands || x.knows_it_stands_by);
   if (input.what.empty())
     return false;
   assert(input.running == x.session);
@@ -107,16 +107,14 @@ bool source_selector::feed(source& x, time_point now) {
   return true;
 }
 
-void source_selector::on_session(const session_id& session,
-                                 std::unique_ptr<result_judge> judge,
-                                 time_point now) {
+void source_selector::on_session(const session_id& session, time_point now) {
   pass(now);
-  assert(judge);
   assert(session.counter != 0);
   assert(!find(session));
   auto& x = sources_.emplace_back();
   x.session = session;
-  x.judge = std::move(judge);
+  x.judge = own().make_judge();
+  assert(x.judge);
   feed(x, now);
 }
 
@@ -136,7 +134,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
   x->last_cycle = result.cycle;
   const auto in_limits =
       can_judge(*x, result, now)
-      && in_time(result.created, now, service_.limits.max_latency);
+      && in_time(result.created, now, options().limits.max_latency);
   if (!in_limits) {
     on_result_of(*x, result, now, false, {});
     return;
@@ -169,12 +167,12 @@ bool source_selector::can_judge(source& x, const service_result& result,
                                 time_point now) {
   assert(result.running == x.session);
   assert(result.cycle == x.last_cycle);
-  const auto can = result.doubt <= service_.limits.max_latency / 2;
+  const auto can = result.doubt <= options().limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
     port_.record(event_record{
         now, can ? event_type::clock_known : event_type::clock_in_doubt,
-        service_.station, result.running.provider, service_.name,
+        setup_.station, result.running.provider, setup_.service.name,
         result.running.counter, in_ms(result.doubt)});
   }
   return can;
@@ -248,7 +246,7 @@ void source_selector::record_cycle(const source& x,
     gap = now - *x.last_received;
   cycle_record record{result.running, result.cycle, result.created, now, gap,
                       used,           result.doubt};
-  if (used && service_.record_margins)
+  if (used && setup_.record_margins)
     for (const auto& m : margins)
       record.margins.push_back({std::string{m.name}, m.left});
   port_.record(std::move(record));
@@ -259,8 +257,8 @@ void source_selector::record_cycle(const source& x,
 bool source_selector::may_follow(const service_result& result,
                                  time_point now) const {
   return result.running == used_from_
-         || now - used_at_ > patience_periods * service_.period
-         || service_.continues(used_, result.what, now);
+         || now - used_at_ > patience_periods * options().period
+         || own().continues(used_, result.what, now);
 }
 
 void source_selector::use(const service_result& result, time_point now) {
@@ -292,7 +290,7 @@ void source_selector::await_cycle_after(time_point start) {
   began_ = start;
   ++timer_;
   if (standby_)
-    port_.wake_at(began_ + service_.period + standby_->after, timer_);
+    port_.wake_at(began_ + options().period + standby_->after, timer_);
 }
 
 /// One more cycle has begun, or should have; more of them if this process has
@@ -303,9 +301,9 @@ void source_selector::on_timer(std::uint64_t number, time_point now) {
   if (number != timer_ || !is_remote())
     return;
   assert(standby_);
-  assert(service_.period > duration{0});
+  assert(options().period > duration{0});
   const auto since = now - standby_->after - began_;
-  await_cycle_after(began_ + since / service_.period * service_.period);
+  await_cycle_after(began_ + since / options().period * options().period);
   if (!answers_.hedge_due(began_, now, standby_->after))
     return;
   for (auto& x : sources_)
@@ -319,13 +317,13 @@ void source_selector::give_up_silent(time_point now) {
   for (auto& x : sources_) {
     assert(x.calls_in_vain >= 0);
     assert(!x.last_in_time || *x.last_in_time <= now);
-    const auto silent = is_standby(x) ? x.calls_in_vain * service_.period
+    const auto silent = is_standby(x) ? x.calls_in_vain * options().period
                                       : now - x.last_in_time.value_or(now);
     if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
       continue;
     x.given_up = true;
     const auto lies =
-        x.useless && now - x.useless_at <= patience_periods * service_.period;
+        x.useless && now - x.useless_at <= patience_periods * options().period;
     const auto found = x.useless.value_or(implausibility{});
     port_.report({x.session, lies ? qos_breach::implausible : qos_breach::gap,
                   now, true, found.why, lies ? found.check : std::string{}});

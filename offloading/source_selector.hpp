@@ -5,12 +5,11 @@
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
 #include "offloading/first_response.hpp"
-#include "offloading/result_judge.hpp"
+#include "offloading/service.hpp"
 #include "offloading/standby.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,22 +18,11 @@
 
 namespace sofof::offloading {
 
-/// What a selector has to know of its service.
-struct selected_service {
+/// What a selector is made of.
+struct selector_setup {
   station_id station = 0;
-  service_name name;
-  qos_limits limits;
-  duration period{};           ///< Of a cycle, local and remote, > 0.
-  duration input_period{};     ///< At least this between two inputs on the air.
+  onboard_service service;
   bool record_margins = false; ///< With the cycles, those of used results.
-  /// What of an input crosses the air; nothing if its `what` is empty.
-  /// @param takes_over  Whether the provider is to take over from the source of
-  ///                    the result in use.
-  std::function<service_input(service_input, bool takes_over)> encode_input;
-  /// Whether a result of another provider may follow the one in use.
-  std::function<bool(const payload& in_use, const payload& offered,
-                     time_point now)>
-      continues;
 };
 
 /// What a selector makes others do. Nothing of this calls the selector back.
@@ -90,15 +78,13 @@ public:
 class source_selector {
 public:
   /// @param port  Outlives the selector.
-  source_selector(selected_service service, selector_port& port);
+  source_selector(selector_setup setup, selector_port& port);
 
   /// The client has new input.
   void on_input(service_input input, time_point now);
 
   /// A provider runs the service too. It is fed at once.
-  /// @param judge  Of its results; not null.
-  void on_session(const session_id& session,
-                  std::unique_ptr<result_judge> judge, time_point now);
+  void on_session(const session_id& session, time_point now);
 
   /// Of several providers, this one stands by; nullopt: none does.
   void on_standby(std::optional<standby> chosen, time_point now);
@@ -135,6 +121,8 @@ private:
 
   void pass(time_point now);
   bool is_consistent() const;
+  const service_options& options() const { return setup_.service.options; }
+  const vehicle_service& own() const { return *setup_.service.own; }
   source* find(const session_id& session);
   std::ptrdiff_t in_use() const;
   bool is_standby(const source& x) const;
@@ -158,7 +146,7 @@ private:
   void begin(source& x, time_point now);
   void watch(const session_id& session, time_point last);
 
-  selected_service service_;
+  selector_setup setup_;
   selector_port& port_;
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them

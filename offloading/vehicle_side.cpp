@@ -17,17 +17,10 @@ public:
   parts(vehicle_side_setup setup, vehicle_port& port, time_point now)
       : port_{port}, now_{now} {
     assert(setup.policy);
-    requester_setup asks;
-    asks.station = setup.station;
-    asks.policy = std::move(setup.policy);
-    asks.noise = setup.noise;
-    asks.path_ahead = std::move(setup.path_ahead);
-    for (auto& service : setup.services) {
-      asks.services.push_back(service.requested);
-      services_.push_back(std::make_unique<service_parts>(*this, setup.station,
-                                                          std::move(service)));
-    }
-    requester_.emplace(std::move(asks), *this, now);
+    for (const auto& service : setup.services)
+      services_.push_back(
+          std::make_unique<service_parts>(*this, setup, service));
+    requester_.emplace(std::move(setup), *this, now);
     for (const auto& service : services_)
       service->start();
   }
@@ -95,7 +88,6 @@ private:
   struct service_parts final : selector_port {
     parts& all;
     service_name name;
-    std::function<std::unique_ptr<result_judge>()> make_judge;
     source_selector selector;
     watchdog dog;
     std::uint64_t dog_timer = 0; // the one that counts
@@ -104,28 +96,20 @@ private:
     timer_list<service_result> results;                // of its cycles
     std::vector<std::pair<session_id, peer_id>> feeds; // its sessions
 
-    service_parts(parts& owner, station_id station, onboard_service service)
-        : all{owner}, name{service.requested.name}, make_judge{std::move(
-                                                        service.make_judge)},
-          selector{{station,
-                    name,
-                    {service.requested.needs.max_latency,
-                     service.requested.needs.max_interarrival},
-                    service.requested.needs.period,
-                    service.input_period,
-                    service.record_margins,
-                    std::move(service.encode_input),
-                    std::move(service.continues)},
-                   *this},
-          dog{{service.requested.needs.max_latency,
-               service.requested.needs.max_interarrival}},
-          own{{.running = {0, station, name, 0},
-               .function = std::move(service.function),
-               .period = service.requested.needs.period,
-               .phase = service.phase,
-               .finish = std::move(service.finish)},
-              wants} {
-      assert(make_judge);
+    service_parts(parts& owner, const vehicle_side_setup& setup,
+                  const onboard_service& service)
+        : all{owner}, name{service.name}, selector{{setup.station, service,
+                                                    setup.record_margins},
+                                                   *this},
+          dog{service.options.limits}, own{cycle(setup, service), wants} {}
+
+    cycle_setup cycle(const vehicle_side_setup& setup,
+                      const onboard_service& service) {
+      auto made = own_cycle(service, setup.station, setup.noise);
+      made.finish = [this](time_point start, std::uint64_t number) {
+        return all.port_.finish(name, start, number);
+      };
+      return made;
     }
 
     void start() {
@@ -141,7 +125,7 @@ private:
 
     void begin(const session_id& session, peer_id provider) {
       feeds.emplace_back(session, provider);
-      selector.on_session(session, make_judge(), all.now_);
+      selector.on_session(session, all.now_);
     }
     void end(const service_end& end) {
       selector.on_end(end, all.now_);

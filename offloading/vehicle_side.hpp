@@ -2,7 +2,6 @@
 #pragma once
 
 #include "offloading/requester.hpp"
-#include "offloading/service_function.hpp"
 #include "offloading/source_selector.hpp"
 
 #include <cstdint>
@@ -20,42 +19,9 @@ using to_provider = std::variant<service_request, service_input, service_end>;
 using to_vehicle =
     std::variant<service_offer, service_response, service_result, service_end>;
 
-/// One service of a vehicle: what is known of it, and what it runs by.
-struct onboard_service {
-  requested_service requested;
-  duration input_period{};     ///< At least this between two inputs on the air.
+/// What the offloading side of a vehicle is made of.
+struct vehicle_side_setup : requester_setup {
   bool record_margins = false; ///< Of results that are used.
-  /// `selected_service::encode_input`; by default inputs cross as they are, and
-  /// the result in use only for a provider that takes over.
-  std::function<service_input(service_input, bool takes_over)> encode_input =
-      [](service_input input, bool takes_over) {
-        if (!takes_over)
-          input.in_use = {};
-        return input;
-      };
-  /// `selected_service::continues`.
-  std::function<bool(const payload& in_use, const payload& offered,
-                     time_point now)>
-      continues =
-          [](const payload&, const payload&, time_point) { return true; };
-  /// Of the results of each session; by default they are believed.
-  std::function<std::unique_ptr<result_judge>()> make_judge = believe_all;
-
-  std::shared_ptr<service_function> function; ///< The vehicle's own; not null.
-  duration phase{}; ///< Of its cycles, in [0, period).
-  /// `cycle_setup::finish`; by default a cycle takes no time.
-  std::function<time_point(time_point start, std::uint64_t cycle)> finish =
-      [](time_point start, std::uint64_t) { return start; };
-};
-
-/// What the offloading side of a vehicle is made of: as `requester_setup`.
-struct vehicle_side_setup {
-  station_id station = 0;
-  std::vector<onboard_service> services; ///< With different names.
-  std::unique_ptr<local_policy> policy;  ///< Not null.
-  random_stream noise{0, ""};
-  std::function<std::vector<point>(const ego_state&)> path_ahead =
-      [](const ego_state&) { return std::vector<point>{}; };
 };
 
 /// What it makes others do. Nothing of this calls it back.
@@ -70,7 +36,14 @@ public:
   /// The results of a service come from providers now, or from its own function
   /// again.
   virtual void on_source(const service_name& service, bool remote) = 0;
-  virtual void record(sofof::record x) = 0;
+  /// @returns when a cycle of the vehicle's own function that starts now will
+  /// be done, not before `start`; by default at once, as where time is real.
+  virtual time_point finish(const service_name&, time_point start,
+                            std::uint64_t /*cycle*/) {
+    return start;
+  }
+  /// For whoever keeps records; by default nobody does.
+  virtual void record(sofof::record) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };

@@ -197,7 +197,7 @@ private:
   roadside_provider_actor spawn_provider(std::uint32_t number,
                                          std::uint64_t start) {
     const auto& options = s_.providers[number];
-    provider_setup setup;
+    provider_actor_setup setup;
     setup.boot = boot_of(number + 1, start);
     setup.position = options.position_m;
     setup.area = options.area();

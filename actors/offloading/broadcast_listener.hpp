@@ -4,6 +4,7 @@
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/object_list.hpp"
+#include "offloading/service.hpp"
 #include "planners/plausibility/station_doubt.hpp"
 
 #include <vector>
@@ -29,5 +30,18 @@ public:
   /// the last call, the oldest first.
   virtual std::vector<station_doubt> take_doubts() { return {}; }
 };
+
+/// A service that listens at its provider.
+class listening_service : public offloading::provider_service {
+public:
+  /// @returns who is told, for as long as the service is there; null: nobody.
+  virtual broadcast_listener* listener() = 0;
+};
+
+/// @returns who of a service is told; null for one that does not listen.
+inline broadcast_listener* listener_of(offloading::provider_service& service) {
+  auto* listens = dynamic_cast<listening_service*>(&service);
+  return listens ? listens->listener() : nullptr;
+}
 
 } // namespace sofof

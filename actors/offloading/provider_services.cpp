@@ -16,7 +16,7 @@ constexpr double doubts_at_once = 50;
 
 } // namespace
 
-provider_services::provider_services(const provider_setup& setup,
+provider_services::provider_services(const provider_actor_setup& setup,
                                      std::function<time_point()> clock)
     : id_{setup.boot}, compute_{setup.compute},
       workers_{std::make_shared<multi_server_queue>(
@@ -24,36 +24,21 @@ provider_services::provider_services(const provider_setup& setup,
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
-  for (const auto& what : setup.services)
-    services_.push_back({what, what.at_provider({provider_station(number_),
-                                                 setup.position, clock_})});
-}
-
-std::vector<offloading::offered_service> provider_services::offered() const {
-  std::vector<offloading::offered_service> all;
-  for (const auto& [what, here] : services_)
-    all.push_back(
-        {.name = what.name,
-         .period = what.options.period,
-         .max_latency = what.options.limits.max_latency,
-         .demand = what.options.compute.demand,
-         .termination_message = [here](const service_end& end, time_point t) {
-           return here->termination_message(end, t);
-         }});
-  return all;
+  for (const auto& what : setup.services) {
+    services_.push_back(
+        at_provider(what, {provider_station(number_), setup.position, clock_}));
+    if (auto* listener = listener_of(*services_.back().here))
+      listeners_.push_back(listener);
+  }
 }
 
 offloading::cycle_setup
 provider_services::make(const offloading::session_start& start) const {
-  const auto& [what, here] = *std::ranges::find(
-      services_, start.session.kind, [](const auto& x) { return x.what.name; });
-  const auto station = start.session.station;
-  return {.running = start.session,
-          .function = here->make_function(station),
-          .period = what.options.period,
-          .phase = start.phase,
-          .finish = computing_time(what.options, station),
-          .keeps_phase = start.keeps_phase};
+  const auto& service = *std::ranges::find(services_, start.session.kind,
+                                           &offloading::offered_service::name);
+  auto made = cycle_of(service, start);
+  made.finish = computing_time(service.options, start.session.station);
+  return made;
 }
 
 std::function<time_point(time_point, std::uint64_t)>
@@ -78,7 +63,7 @@ event_record provider_services::record_of(const station_doubt& x) const {
           why};
 }
 
-offloading::provider_setup rules_of(provider_setup setup,
+offloading::provider_setup rules_of(provider_actor_setup setup,
                                     const provider_services& services) {
   const auto& compute = setup.compute;
   return {.id = setup.boot,

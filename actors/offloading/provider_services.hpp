@@ -19,11 +19,13 @@ namespace sofof {
 class provider_services {
 public:
   /// @param clock  Of the provider's actor.
-  provider_services(const provider_setup& setup,
+  provider_services(const provider_actor_setup& setup,
                     std::function<time_point()> clock);
 
-  /// @returns what the rules of the provider have to know of each.
-  std::vector<offloading::offered_service> offered() const;
+  /// Each of them as it is here.
+  const std::vector<offloading::offered_service>& offered() const {
+    return services_;
+  }
 
   /// @returns the function of a session that starts, and when it runs.
   offloading::cycle_setup make(const offloading::session_start& start) const;
@@ -34,30 +36,24 @@ public:
   template <class Function>
   std::vector<event_record> tell_listeners(Function tell) {
     std::vector<event_record> records;
-    for (const auto& service : services_)
-      if (auto* listener = service.here->listener()) {
-        tell(*listener);
-        for (const auto& doubt : listener->take_doubts())
-          if (doubts_.try_spend(clock_()))
-            records.push_back(record_of(doubt));
-      }
+    for (auto* listener : listeners_) {
+      tell(*listener);
+      for (const auto& doubt : listener->take_doubts())
+        if (doubts_.try_spend(clock_()))
+          records.push_back(record_of(doubt));
+    }
     return records;
   }
 
 private:
-  /// A service, and what of it is here.
-  struct local_service {
-    offloading::service what;
-    std::shared_ptr<offloading::provider_service> here;
-  };
-
   std::function<time_point(time_point, std::uint64_t)>
   computing_time(const offloading::service_options& options,
                  station_id station) const;
   event_record record_of(const station_doubt& doubt) const;
 
   provider_id id_;
-  std::vector<local_service> services_;
+  std::vector<offloading::offered_service> services_;
+  std::vector<broadcast_listener*> listeners_; // of some of them
   provider_compute compute_;
   std::shared_ptr<multi_server_queue> workers_;
   random_stream seed_;
@@ -68,7 +64,7 @@ private:
 };
 
 /// @returns what the rules of a provider are made of.
-offloading::provider_setup rules_of(provider_setup setup,
+offloading::provider_setup rules_of(provider_actor_setup setup,
                                     const provider_services& services);
 
 } // namespace sofof

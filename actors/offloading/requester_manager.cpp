@@ -7,7 +7,6 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -19,32 +18,20 @@ struct requester_manager_state {
   static inline const char* name = "requester_manager";
 
   requester_manager_impl::stateful_pointer<requester_manager_state> self;
-  std::shared_ptr<offloading::vehicle_service> service;
   std::optional<selector_links> links;
   std::optional<offloading::source_selector> selector;
 
   void start(requester_manager_setup setup) {
-    const auto& options = setup.options;
-    service = setup.service;
     links.emplace(self, setup);
-    selector.emplace(
-        offloading::selected_service{
-            setup.station, setup.kind, options.limits, options.period,
-            options.input_period, setup.record_margins,
-            [own = service](service_input input, bool takes_over) {
-              return own->encode_input(std::move(input), takes_over);
-            },
-            [own = service](const payload& in_use, const payload& offered,
-                            time_point t) {
-              return own->continues(in_use, offered, t);
-            }},
-        *links);
+    selector.emplace(offloading::selector_setup{setup.station, setup.service,
+                                                setup.record_margins},
+                     *links);
     links->start(std::move(setup));
   }
 
   void on_session(const session_id& session, provider_manager_actor manager) {
     links->add(session, std::move(manager));
-    selector->on_session(session, service->make_judge(), now(self));
+    selector->on_session(session, now(self));
   }
 
   void on_end(const service_end& end) {

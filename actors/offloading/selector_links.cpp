@@ -14,16 +14,15 @@ namespace sofof {
 
 selector_links::selector_links(requester_manager_impl::pointer self,
                                const requester_manager_setup& setup)
-    : self_{self}, station_{setup.station}, service_{setup.kind},
+    : self_{self}, station_{setup.station}, service_{setup.service.name},
       client_{setup.client}, requester_{setup.requester}, recorder_{
                                                               setup.recorder} {}
 
 void selector_links::start(requester_manager_setup setup) {
-  setup.local.running = {0, station_, service_, 0};
   local_ = spawn_instance(self_->system(), {std::move(setup.local), self_});
   self_->link_to(local_);
-  watchdog_ =
-      spawn_qos_watchdog(self_->system(), setup.options.limits, requester_);
+  watchdog_ = spawn_qos_watchdog(self_->system(), setup.service.options.limits,
+                                 requester_);
   self_->link_to(watchdog_);
   charge_all(false);
   self_->send(local_, lifecycle_step::configure);

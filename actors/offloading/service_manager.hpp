@@ -14,10 +14,8 @@ namespace sofof {
 /// Service management in the vehicle, for one kind.
 struct requester_manager_setup {
   station_id station = 0;
-  service_name kind;
-  offloading::service_options options;
-  std::shared_ptr<offloading::vehicle_service> service; ///< Not null.
-  offloading::cycle_setup local; ///< `running` is filled in.
+  offloading::onboard_service service;
+  offloading::cycle_setup local; ///< Of the vehicle's own function.
   client_actor client;
   onboard_requester_actor requester;
   recorder_actor recorder;

@@ -27,7 +27,7 @@ struct provider_state {
   std::optional<provider_links> links;
   std::optional<offloading::provider> rules;
 
-  void start(provider_setup setup) {
+  void start(provider_actor_setup setup) {
     recorder = setup.recorder;
     decode = setup.decode;
     services.emplace(setup, clock_of(self));
@@ -72,7 +72,7 @@ struct provider_state {
 
 provider_impl::behavior_type
 provider(provider_impl::stateful_pointer<provider_state> self,
-         provider_setup setup) {
+         provider_actor_setup setup) {
   self->state.self = self;
   self->state.start(std::move(setup));
   self->set_down_handler([self](const caf::down_msg& down) {
@@ -104,7 +104,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
 } // namespace
 
 roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
-                                               provider_setup setup) {
+                                               provider_actor_setup setup) {
   return sys.spawn(provider, std::move(setup));
 }
 

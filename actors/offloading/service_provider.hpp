@@ -17,7 +17,7 @@
 namespace sofof {
 
 /// What a provider is made of.
-struct provider_setup {
+struct provider_actor_setup {
   provider_id boot = 0;
   point position; ///< m, east-north.
   polygon area;
@@ -38,6 +38,6 @@ struct provider_setup {
 /// sensors see. ITS messages that cannot be read are as if they had not come.
 /// On exit it closes what still runs (shutdown).
 roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
-                                               provider_setup setup);
+                                               provider_actor_setup setup);
 
 } // namespace sofof

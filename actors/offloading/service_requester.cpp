@@ -1,8 +1,9 @@
 // SR: mailbox, timers and monitors; the rules are in offloading/requester.
 #include "actors/offloading/service_requester.hpp"
 
+#include "actors/offloading/own_function.hpp"
 #include "actors/offloading/requester_links.hpp"
-#include "actors/offloading/service_actors.hpp"
+#include "actors/offloading/service_manager.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -24,26 +25,29 @@ struct requester_state {
   std::optional<requester_links> links;
   std::optional<offloading::requester> rules;
 
-  void start(requester_setup setup) {
+  void start(requester_actor_setup setup) {
     vehicle = setup.vehicle;
     self->monitor(vehicle);
     links.emplace(self, setup.station, setup.recorder);
-    std::vector<offloading::requested_service> services;
+    std::vector<offloading::onboard_service> services;
     for (const auto& what : setup.services)
       services.push_back(add(setup, what));
     rules.emplace(rules_of(std::move(setup), std::move(services)), *links,
                   now(self));
   }
 
-  offloading::requested_service add(const requester_setup& setup,
-                                    const client_service& what) {
-    auto own = what.service.in_vehicle({setup.station, clock_of(self)});
-    auto actors = spawn_service_actors(self->system(), setup, what, own, self);
-    if (actors.client != vehicle)
-      self->link_to(actors.client);
-    self->link_to(actors.manager);
-    links->add(what.service.name, std::move(actors.manager));
-    return requested(setup, what.service, std::move(own));
+  offloading::onboard_service add(const requester_actor_setup& setup,
+                                  const client_service& what) {
+    auto service = in_vehicle(what.service, {setup.station, clock_of(self)});
+    const auto client = what.spawn_client(self->system(), vehicle);
+    const auto manager = spawn_requester_manager(
+        self->system(), {setup.station, service, own_function(setup, service),
+                         client, self, setup.recorder, setup.record_margins});
+    if (client != vehicle) // as its own client
+      self->link_to(client);
+    self->link_to(manager);
+    links->add(service.name, manager);
+    return service;
   }
 
   void on_response(service_response& response,
@@ -65,7 +69,7 @@ struct requester_state {
 
 requester_impl::behavior_type
 requester(requester_impl::stateful_pointer<requester_state> self,
-          requester_setup setup) {
+          requester_actor_setup setup) {
   self->state.self = self;
   self->state.start(std::move(setup));
   self->set_down_handler(
@@ -108,7 +112,7 @@ requester(requester_impl::stateful_pointer<requester_state> self,
 } // namespace
 
 onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
-                                                requester_setup setup) {
+                                                requester_actor_setup setup) {
   return sys.spawn(requester, std::move(setup));
 }
 

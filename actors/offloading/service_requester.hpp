@@ -26,7 +26,7 @@ struct client_service {
 };
 
 /// What one vehicle's requester is made of.
-struct requester_setup {
+struct requester_actor_setup {
   station_id station = 0;
   /// The route ahead, m, as decisions and requests need it.
   std::function<std::vector<point>(const ego_state&)> path_ahead =
@@ -56,6 +56,6 @@ struct requester_setup {
 /// the provider is lost or ends the service, the local service is activated
 /// at the same time. On exit it closes what still runs (shutdown).
 onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
-                                                requester_setup setup);
+                                                requester_actor_setup setup);
 
 } // namespace sofof

@@ -13,12 +13,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class climate_function final : public service_function {
+class climate_function final : public offloading::service_function {
 public:
   explicit climate_function(const climate_options& options)
       : options_{options} {}
 
-  service_output run(time_point, const service_input& input) override {
+  offloading::service_output run(time_point,
+                                 const service_input& input) override {
     const auto ask = input.what.as<climate_request>();
     if (!ask)
       return {};
@@ -32,12 +33,13 @@ private:
 };
 
 /// Compares a power with what the own function would do now.
-class power_judge final : public result_judge {
+class power_judge final : public offloading::result_judge {
 public:
   explicit power_judge(const climate_options& options) : options_{options} {}
 
-  judged_result judge(const payload& result, const service_input& latest,
-                      time_point) override {
+  offloading::judged_result judge(const payload& result,
+                                  const service_input& latest,
+                                  time_point) override {
     const auto ask = latest.what.as<climate_request>();
     const auto answer = result.as<climate_power>();
     if (!ask)
@@ -64,10 +66,10 @@ public:
   explicit climate_in_vehicle(const climate_options& options)
       : options_{options} {}
 
-  std::shared_ptr<service_function> make_function() const override {
+  std::shared_ptr<offloading::service_function> make_function() const override {
     return std::make_shared<climate_function>(options_);
   }
-  std::unique_ptr<result_judge> make_judge() const override {
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
     return std::make_unique<power_judge>(options_);
   }
 
@@ -80,7 +82,8 @@ public:
   explicit climate_at_provider(const climate_options& options)
       : options_{options} {}
 
-  std::shared_ptr<service_function> make_function(station_id) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id) override {
     return std::make_shared<climate_function>(options_);
   }
 

@@ -11,6 +11,7 @@
 #include <map>
 
 using namespace sofof;
+using namespace sofof::offloading;
 using namespace std::chrono_literals;
 
 // -- the service: its input and its result are a number -----------------------
@@ -32,6 +33,22 @@ struct square_root final : service_function {
     return x ? payload::of(number{std::sqrt(x->value)}) : payload{};
   }
 };
+
+struct root_in_car final : vehicle_service {
+  std::shared_ptr<service_function> make_function() const override {
+    return std::make_shared<square_root>();
+  }
+};
+
+struct root_at_server final : provider_service {
+  std::shared_ptr<service_function> make_function(station_id) override {
+    return std::make_shared<square_root>();
+  }
+};
+
+const service_options options{.limits = {50ms, 100ms}, // latency, gap
+                              .period = 50ms,
+                              .input_period = 50ms};
 
 // -- the transport: what is sent arrives 8 ms later ---------------------------
 
@@ -56,75 +73,59 @@ struct network {
 
 // -- both ends ----------------------------------------------------------------
 
-constexpr offloading::peer_id car{1}, server{2};
+constexpr peer_id car{1}, server{2};
 
-struct roadside final : offloading::provider_side_port {
+struct roadside final : provider_side_port {
   network& net;
-  std::function<void(const offloading::to_vehicle&)> to_car;
+  std::function<void(const to_vehicle&)> to_car;
   explicit roadside(network& x) : net{x} {}
 
-  void send(offloading::peer_id, offloading::to_vehicle message) override {
+  void send(peer_id, to_vehicle message) override {
     net.carry([this, message] { to_car(message); });
   }
-  offloading::cycle_setup
-  make_function(const offloading::session_start&) override {
-    offloading::cycle_setup cycle;
-    cycle.function = std::make_shared<square_root>();
-    cycle.finish = [](time_point start, std::uint64_t) { return start + 2ms; };
-    return cycle;
-  }
-  void record(sofof::record) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     net.at(t, [this, number] { side.on_timer(number, net.now); });
   }
 
-  offloading::provider_side side{setup(), *this};
+  provider_side side{setup(), *this};
 
-  static offloading::provider_setup setup() {
-    offloading::provider_setup s;
+  static provider_setup setup() {
+    provider_setup s;
     s.id = 7;
     s.area = polygon::regular({0, 0}, 150, 24); // m
-    s.services = {{.name = "root", .period = 50ms, .max_latency = 50ms}};
+    s.services = {{"root", options, std::make_shared<root_at_server>()}};
     s.policy = make_codm("always");
-    s.map = std::make_shared<const road_map>();
     return s;
   }
 };
 
-struct vehicle final : offloading::vehicle_port {
+struct vehicle final : vehicle_port {
   network& net;
   roadside& near;
   double newest = 0;
   vehicle(network& x, roadside& y) : net{x}, near{y} {}
 
-  void send(offloading::peer_id, offloading::to_provider message) override {
+  void send(peer_id, to_provider message) override {
     net.carry([this, message] { near.side.on_message(car, message, net.now); });
   }
   void use(const service_result& result) override {
     if (const auto x = result.what.as<number>())
       newest = x->value;
   }
-  void on_source(const service_name& service, bool remote) override {
-    std::printf("%5.2f s: %s is computed %s\n", to_seconds(net.now),
-                std::string{service.view()}.c_str(),
+  void on_source(const service_name&, bool remote) override {
+    std::printf("%5.2f s: root is computed %s\n", to_seconds(net.now),
                 remote ? "by the server" : "in the car");
   }
-  void record(sofof::record) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     net.at(t, [this, number] { side.on_timer(number, net.now); });
   }
 
-  offloading::vehicle_side side{setup(), *this, net.now};
+  vehicle_side side{setup(), *this, net.now};
 
-  static offloading::vehicle_side_setup setup() {
-    offloading::onboard_service root;
-    root.requested.name = "root";
-    root.requested.needs = {50ms, 50ms, 100ms}; // period, latency, gap
-    root.input_period = 50ms;
-    root.function = std::make_shared<square_root>();
-    offloading::vehicle_side_setup s;
+  static vehicle_side_setup setup() {
+    vehicle_side_setup s;
     s.station = 101;
-    s.services.push_back(std::move(root));
+    s.services = {{"root", options, std::make_shared<root_in_car>()}};
     s.policy = make_lodm("always");
     return s;
   }
@@ -134,7 +135,7 @@ int main() {
   network net;
   roadside near{net};
   vehicle own{net, near};
-  near.to_car = [&](const offloading::to_vehicle& message) {
+  near.to_car = [&](const to_vehicle& message) {
     own.side.on_message(server, message, net.now);
   };
   for (int tick = 0; tick < 400; ++tick) { // 40 s at 15 m/s

@@ -45,16 +45,17 @@ struct contexts {
 };
 
 /// An echo that listens at a provider.
-struct listening_echo final : echo_at_provider {
+struct listening_echo final : listening_service {
   std::shared_ptr<contexts> all;
   std::shared_ptr<notebook> own = std::make_shared<notebook>();
 
   explicit listening_echo(std::shared_ptr<contexts> x) : all{std::move(x)} {
     all->notebooks.push_back(own);
   }
-  std::shared_ptr<service_function> make_function(station_id who) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id who) override {
     all->functions.push_back(who);
-    return echo_at_provider::make_function(who);
+    return std::make_shared<echo_function>();
   }
   broadcast_listener* listener() override { return own.get(); }
 };
@@ -84,7 +85,7 @@ struct listening_world : provider_world {
     settle();
   }
 
-  provider_setup knowing() {
+  provider_actor_setup knowing() {
     auto s = setup();
     s.services = {knowing_echo("one", first), echo_service("two"),
                   knowing_echo("three", third)};

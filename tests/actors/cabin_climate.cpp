@@ -18,7 +18,7 @@ struct cabin_world : virtual_world {
   probe<requester_manager_actor> manager = listen<requester_manager_actor>();
   probe<vehicle_actor> vehicle = listen<vehicle_actor>();
   client_actor cabin = own(kind->spawn_client(system(), vehicle.handle));
-  std::shared_ptr<service_function> function =
+  std::shared_ptr<offloading::service_function> function =
       kind->in({}).in_vehicle({})->make_function();
 
   /// What a question says.

@@ -50,7 +50,7 @@ struct echo_world : virtual_world {
     return std::make_shared<channel_profile>(*find_channel_profile("ideal"));
   }
   provider_actor spawn_provider() {
-    provider_setup s;
+    provider_actor_setup s;
     s.boot = 1;
     s.area = polygon::regular({0, 0}, 100, 24);
     s.map = {world, &world->map};
@@ -68,7 +68,7 @@ struct echo_world : virtual_world {
                                {}});
   }
   onboard_requester_actor spawn_requester() {
-    requester_setup s;
+    requester_actor_setup s;
     s.station = station;
     s.path_ahead = toy::path_ahead_on(world->routes.front());
     s.services = {{service}};

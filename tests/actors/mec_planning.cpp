@@ -31,7 +31,8 @@ struct informed : planning {
   plan_request ask;
 };
 
-etsi::suggested_maneuver_container suggested(const service_output& result) {
+etsi::suggested_maneuver_container
+suggested(const offloading::service_output& result) {
   const auto pdu = result.what.as<its_pdu>();
   REQUIRE(pdu);
   const auto message = message_in<etsi::mcm>(*pdu);

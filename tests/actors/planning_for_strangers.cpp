@@ -201,7 +201,7 @@ TEST_CASE("whatever a provider's planner is told, it gives a sound plan or "
     planning planner{true, granted};
     liar who{++number};
     auto plans = 0;
-    const auto take = [&](const service_output& result,
+    const auto take = [&](const offloading::service_output& result,
                           const plan_request& truth) {
       if (result.what.type().empty())
         return;
@@ -303,7 +303,7 @@ TEST_CASE("what nobody can have seen yet blinds no provider's planner") {
   dreamer.at += 10s;
   planner.hear(pdu_of(dreamer));
   planner.hear(pdu_of(dreamer, {}));
-  planner.there->listener()->on_detections({start + 10s, {}});
+  listener_of(*planner.there)->on_detections({start + 10s, {}});
   *planner.now = start + 50ms;
   planner.hear(pdu_of({102, start + 50ms, {0, 300}}, {{1, obstacle}}));
   CHECK(stands_m() < 40);

@@ -53,7 +53,8 @@ public:
     return world.streets->find(name);
   }
 
-  service_output run(const payload& what, const payload& in_use = {}) {
+  offloading::service_output run(const payload& what,
+                                 const payload& in_use = {}) {
     return function->run(*now, {running, *now, what, in_use});
   }
 
@@ -69,9 +70,9 @@ public:
   void hear(const its_pdu& message) {
     const auto heard = understand(message, *world.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
-      there->listener()->on_cam(*own, own->station);
+      listener_of(*there)->on_cam(*own, own->station);
     if (const auto* seen = std::get_if<object_list>(&heard))
-      there->listener()->on_objects(*seen, seen->from);
+      listener_of(*there)->on_objects(*seen, seen->from);
   }
 
   /// @returns the vehicle's word to who plans for it, or takes over.
@@ -85,7 +86,7 @@ public:
 
   /// @returns what the vehicle makes of a result, when that comes.
   std::shared_ptr<const trajectory>
-  understood(const service_output& result, const plan_request& of,
+  understood(const offloading::service_output& result, const plan_request& of,
              const trajectory* before = nullptr) const {
     if (auto own = result.what.as<trajectory>())
       return own;
@@ -117,7 +118,7 @@ public:
   service_world world;
   std::shared_ptr<offloading::vehicle_service> vehicle;
   std::shared_ptr<offloading::provider_service> there; ///< Perhaps null.
-  std::shared_ptr<service_function> function;
+  std::shared_ptr<offloading::service_function> function;
 };
 
 } // namespace sofof::test

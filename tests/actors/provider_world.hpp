@@ -31,8 +31,8 @@ struct provider_world : virtual_world {
 
   provider_world() { run_for(10s); } // the clock's zero is no special time
 
-  provider_setup setup() {
-    provider_setup s;
+  provider_actor_setup setup() {
+    provider_actor_setup s;
     s.boot = boot;
     s.position = {1, 2};
     s.area = polygon{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};

@@ -106,7 +106,7 @@ struct remote_world : virtual_world {
           {},
           {}};
     introduce(outbox, station, c.far);
-    requester_setup setup;
+    requester_actor_setup setup;
     setup.station = station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
     for (auto& service : services())
@@ -125,7 +125,7 @@ struct remote_world : virtual_world {
 
   /// The provider's host starts, anew.
   void boot_up() {
-    provider_setup s;
+    provider_actor_setup s;
     s.boot = ++boot;
     s.position = {1000, 0};
     s.area = polygon{{{-100, -100}, {3000, -100}, {3000, 100}, {-100, 100}}};

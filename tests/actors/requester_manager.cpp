@@ -16,11 +16,13 @@ using namespace sofof::test;
 namespace {
 
 /// Understands echoes alone, and believes as they do.
-struct echo_judge final : result_judge {
-  std::unique_ptr<result_judge> believes = echo_in_vehicle{}.make_judge();
+struct echo_judge final : offloading::result_judge {
+  std::unique_ptr<offloading::result_judge> believes =
+      echo_in_vehicle{}.make_judge();
 
-  judged_result judge(const payload& result, const service_input& latest,
-                      time_point now) override {
+  offloading::judged_result judge(const payload& result,
+                                  const service_input& latest,
+                                  time_point now) override {
     if (!result.as<echo>())
       return {};
     return believes->judge(result, latest, now);
@@ -36,7 +38,7 @@ struct quiet_echo final : echo_in_vehicle {
     return speaks ? speaks->encode_input(std::move(input), takes_over)
                   : echo_in_vehicle::encode_input(std::move(input), takes_over);
   }
-  std::unique_ptr<result_judge> make_judge() const override {
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
     return std::make_unique<echo_judge>();
   }
 };
@@ -58,9 +60,8 @@ struct managed_world : virtual_world {
   requester_manager_actor spawn() {
     requester_manager_setup setup;
     setup.station = 101;
-    setup.kind = "echo";
-    setup.options = echo_options();
-    setup.service = service;
+    setup.service = {"echo", echo_options(), service};
+    setup.local.running = {0, 101, "echo", 0};
     setup.local.function = service->make_function();
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {

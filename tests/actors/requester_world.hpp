@@ -52,8 +52,8 @@ struct requester_world : virtual_world {
     return world;
   }
 
-  requester_setup setup() const {
-    requester_setup setup;
+  requester_actor_setup setup() const {
+    requester_actor_setup setup;
     setup.station = station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
     setup.services = {{echo_service("one")}, {echo_service("two")}};

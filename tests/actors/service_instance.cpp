@@ -14,11 +14,12 @@ using namespace sofof::test;
 namespace {
 
 /// Gives back its input unless told to be silent; counts its runs.
-struct counting_function final : service_function {
+struct counting_function final : offloading::service_function {
   int runs = 0;
   bool silent = false;
 
-  service_output run(time_point, const service_input& input) override {
+  offloading::service_output run(time_point,
+                                 const service_input& input) override {
     ++runs;
     if (silent)
       return {};

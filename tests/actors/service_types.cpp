@@ -159,7 +159,8 @@ TEST_CASE("a function without proper input gives no result") {
 namespace {
 
 /// The plan in a result, if there is one.
-std::shared_ptr<const trajectory> planned(const service_output& result) {
+std::shared_ptr<const trajectory>
+planned(const offloading::service_output& result) {
   return result.what.as<trajectory>();
 }
 

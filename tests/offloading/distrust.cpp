@@ -12,12 +12,12 @@ using namespace std::chrono_literals;
 } // namespace
 
 TEST_CASE("who has never lied is believed") {
-  CHECK(!distrust{}.holds(time_point{}));
+  CHECK(!offloading::distrust{}.holds(time_point{}));
 }
 
 TEST_CASE("after a lie nothing is asked for 60 s, then for twice as long each "
           "time") {
-  distrust x;
+  offloading::distrust x;
   time_point now{100s};
   for (const duration pause : {60s, 120s, 240s, 480s}) {
     CHECK(x.add(now) == pause);
@@ -28,7 +28,7 @@ TEST_CASE("after a lie nothing is asked for 60 s, then for twice as long each "
 }
 
 TEST_CASE("a liar is asked at most four times in ten minutes") {
-  distrust x;
+  offloading::distrust x;
   int asked = 0;
   for (time_point now{}; now < time_point{600s}; now += 1s)
     if (!x.holds(now)) {
@@ -39,7 +39,7 @@ TEST_CASE("a liar is asked at most four times in ten minutes") {
 }
 
 TEST_CASE("any number of lies is counted") {
-  distrust x;
+  offloading::distrust x;
   for (int n = 0; n < 1000; ++n)
     x.add(time_point{});
   CHECK(x.holds(time_point{24h * 40}));

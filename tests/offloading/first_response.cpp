@@ -33,7 +33,7 @@ std::vector<point> plan(int points, double left_m) {
 
 TEST_CASE("of each cycle the first response is used, later ones are dropped "
           "and counted") {
-  first_response responses{100ms};
+  offloading::first_response responses{100ms};
   CHECK(responses.use(at(0ms)));
   CHECK(!responses.use(at(0ms)));
   CHECK(responses.use(at(100ms)));
@@ -44,7 +44,7 @@ TEST_CASE("of each cycle the first response is used, later ones are dropped "
 }
 
 TEST_CASE("what begins half a period after a cycle is of the next one") {
-  first_response responses{100ms};
+  offloading::first_response responses{100ms};
   CHECK(responses.use(at(1s)));
   CHECK(!responses.use(at(1049ms)));
   CHECK(responses.use(at(1050ms)));
@@ -55,7 +55,7 @@ TEST_CASE("what begins half a period after a cycle is of the next one") {
 TEST_CASE("no cycle is used twice, in whatever order responses come, and "
           "however far providers are out of step") {
   dice random{5};
-  first_response responses{100ms};
+  offloading::first_response responses{100ms};
   std::set<long> used;
   std::uint64_t heard = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -69,7 +69,7 @@ TEST_CASE("no cycle is used twice, in whatever order responses come, and "
 }
 
 TEST_CASE("a hedge is due after h, unless an answer is there") {
-  first_response responses{100ms};
+  offloading::first_response responses{100ms};
   CHECK(!responses.hedge_due(at(1s), at(1019ms), 20ms));
   CHECK(responses.hedge_due(at(1s), at(1020ms), 20ms));
   responses.use(at(1s));

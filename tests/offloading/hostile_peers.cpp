@@ -3,7 +3,7 @@
 #include "offloading/vehicle_side.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/dice.hpp"
-#include "tests/support/echo.hpp"
+#include "tests/support/echo_service.hpp"
 
 #include <doctest/doctest.h>
 
@@ -106,12 +106,6 @@ private:
   std::uint64_t cycle_ = 3;
 };
 
-struct echoing final : service_function {
-  service_output run(time_point, const service_input& input) override {
-    return input.what;
-  }
-};
-
 using timers = std::multimap<time_point, std::uint64_t>;
 
 struct deceived_vehicle final : offloading::vehicle_port {
@@ -143,14 +137,21 @@ struct deceived_vehicle final : offloading::vehicle_port {
     all.station = 101;
     all.policy = make_lodm("always");
     for (const auto* name : {"one", "two"}) {
-      offloading::onboard_service service;
-      service.requested.name = name;
-      service.requested.needs = {50ms, 50ms, 100ms};
-      service.input_period = 100ms;
-      service.function = std::make_shared<echoing>();
-      all.services.push_back(std::move(service));
+      all.services.push_back(in_vehicle(echo_service(name), {}));
     }
     return all;
+  }
+};
+
+/// Counts the functions that it makes.
+struct counting_echo final : offloading::provider_service {
+  int& made;
+  explicit counting_echo(int& counter) : made{counter} {}
+
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id) override {
+    ++made;
+    return std::make_shared<echo_function>();
   }
 };
 
@@ -159,13 +160,9 @@ struct deceived_provider final : offloading::provider_side_port {
   int ended = 0, started = 0;
 
   void send(offloading::peer_id, offloading::to_vehicle) override {}
-  offloading::cycle_setup
-  make_function(const offloading::session_start&) override {
-    ++started;
-    offloading::cycle_setup cycle;
-    cycle.function = std::make_shared<echoing>();
-    cycle.finish = [](time_point start, std::uint64_t) { return start + 2ms; };
-    return cycle;
+  time_point finish(const session_id&, time_point start,
+                    std::uint64_t) override {
+    return start + 2ms;
   }
   void record(sofof::record x) override {
     ended += std::holds_alternative<episode_record>(x);
@@ -176,15 +173,14 @@ struct deceived_provider final : offloading::provider_side_port {
 
   offloading::provider_side side{setup(), *this};
 
-  static offloading::provider_setup setup() {
+  offloading::provider_setup setup() {
     offloading::provider_setup all;
     all.id = 1;
     all.area = polygon::regular({0, 0}, 300, 24);
     for (const auto* name : {"one", "two"})
       all.services.push_back(
-          {.name = name, .period = 50ms, .max_latency = 50ms});
+          {name, echo_options(), std::make_shared<counting_echo>(started)});
     all.policy = make_codm("always");
-    all.map = std::make_shared<const road_map>();
     return all;
   }
 };

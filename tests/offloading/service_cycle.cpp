@@ -16,8 +16,9 @@ namespace {
 
 /// A cycle whose results take 5 ms, and the timers that it has set.
 struct cycle_world : offloading::cycle_port {
-  struct copier final : service_function {
-    service_output run(time_point, const service_input& input) override {
+  struct copier final : offloading::service_function {
+    offloading::service_output run(time_point,
+                                   const service_input& input) override {
       return input.what;
     }
   };

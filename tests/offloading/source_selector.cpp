@@ -19,7 +19,6 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
-using offloading::selected_service;
 using offloading::source_selector;
 using offloading::standby;
 using test::at;
@@ -33,9 +32,9 @@ payload of(std::uint64_t number) {
   return payload::of(echo{number});
 }
 
-struct numbers_judge final : result_judge {
-  judged_result judge(const payload& result, const service_input&,
-                      time_point) override {
+struct numbers_judge final : offloading::result_judge {
+  offloading::judged_result judge(const payload& result, const service_input&,
+                                  time_point) override {
     const auto number = result.as<echo>()->number;
     if (number == implausible)
       return {.what = {}, .refused = objection{"number", 1000, 999}};
@@ -44,6 +43,24 @@ struct numbers_judge final : result_judge {
     return {.what = result};
   }
 };
+
+/// Numbers that may all follow each other, and cross the air as they are.
+struct numbers final : offloading::vehicle_service {
+  std::shared_ptr<offloading::service_function> make_function() const override {
+    return nullptr; // a selector needs none
+  }
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
+    return std::make_unique<numbers_judge>();
+  }
+};
+
+offloading::selector_setup numbers_setup() {
+  offloading::service_options options;
+  options.limits = {50ms, 100ms};
+  options.period = 50ms;
+  options.input_period = 100ms;
+  return {101, {"numbers", options, std::make_shared<numbers>()}};
+}
 
 /// Writes down what a selector wants, a word or two for each call.
 struct diary final : offloading::selector_port {
@@ -102,23 +119,13 @@ struct selecting {
   const session_id own{0, 101, "numbers", 0};
   const session_id a{1, 101, "numbers", 7}, b{2, 101, "numbers", 8};
   diary port;
-  source_selector selector{
-      selected_service{
-          101,
-          "numbers",
-          {50ms, 100ms},
-          50ms,
-          100ms,
-          false,
-          [](service_input x, bool) { return x; },
-          [](const payload&, const payload&, time_point) { return true; }},
-      port};
+  source_selector selector{numbers_setup(), port};
   std::uint64_t cycle = 0;
 
   selecting() { selector.on_input({own, at(0s), of(1)}, at(0s)); }
 
   void session(const session_id& x, duration t) {
-    selector.on_session(x, std::make_unique<numbers_judge>(), at(t));
+    selector.on_session(x, at(t));
   }
   void result(const session_id& x, duration t, duration latency = 10ms,
               std::uint64_t number = 1) {

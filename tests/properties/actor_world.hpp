@@ -40,7 +40,7 @@ struct moving_client_state {
 inline moving_client::behavior_type
 drive(moving_client::stateful_pointer<moving_client_state> self,
       std::shared_ptr<client_diary> diary, std::vector<link_actor> links,
-      requester_setup* setup) {
+      requester_actor_setup* setup) {
   setup->vehicle = vehicle_actor{self};
   self->state.requester =
       spawn_service_requester(self->system(), std::move(*setup));
@@ -107,7 +107,7 @@ struct actor_world : virtual_world {
                                         *find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
-    requester_setup setup;
+    requester_actor_setup setup;
     setup.station = shuttle::station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
     setup.services = {{echo_service("one")}, {echo_service("two")}};
@@ -119,7 +119,7 @@ struct actor_world : virtual_world {
   }
 
   void add_provider(int k) {
-    provider_setup setup;
+    provider_actor_setup setup;
     setup.boot = static_cast<provider_id>(k + 1);
     setup.decode = [where = somewhere()](const its_pdu& message,
                                          time_point now) {

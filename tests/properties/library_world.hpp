@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/protocol.hpp"
-#include "base/random_phase.hpp"
 #include "channel/link_direction.hpp"
 #include "channel/multi_server_queue.hpp"
 #include "messages/protocol/octets.hpp"
@@ -174,7 +173,6 @@ private:
 };
 
 struct library_world {
-  static constexpr duration period = std::chrono::milliseconds{50};
   static constexpr offloading::peer_id vehicle_peer{1};
 
   struct provider_node final : offloading::provider_side_port {
@@ -182,6 +180,7 @@ struct library_world {
     std::size_t number;
     provider_compute computers;
     std::shared_ptr<multi_server_queue> workers;
+    random_stream draws_of_results;
     library_link link;
     bool alive = true;
     std::unique_ptr<offloading::provider_side> side;
@@ -191,6 +190,9 @@ struct library_world {
                                    w.profile->name)},
           workers{std::make_shared<multi_server_queue>(
               static_cast<unsigned>(computers.workers))},
+          draws_of_results{result_draws(random_stream{w.seed, "network"},
+                                        shuttle::station,
+                                        static_cast<std::uint32_t>(k))},
           link{w.time, draws(),
                link_faults{random_stream{w.seed, "faults"}.part(k + 1),
                            w.faults}} {
@@ -198,8 +200,7 @@ struct library_world {
       setup.id = static_cast<provider_id>(k + 1);
       setup.area = area_of_provider(static_cast<int>(k));
       for (const auto* name : {"one", "two"})
-        setup.services.push_back(
-            {.name = name, .period = period, .max_latency = period});
+        setup.services.push_back(at_provider(echo_service(name), {}));
       setup.policy = make_codm("always");
       setup.computer = {static_cast<std::size_t>(computers.workers),
                         computers.mean_s(), computers.deviation_s()};
@@ -224,18 +225,10 @@ struct library_world {
                 result ? result->cycle : link.time_number(), octets,
                 down_arrival{number, std::move(message)});
     }
-    offloading::cycle_setup
-    make_function(const offloading::session_start&) override {
-      offloading::cycle_setup cycle;
-      cycle.function = std::make_shared<echo_function>();
-      const auto draws =
-          result_draws(random_stream{world.seed, "network"}, shuttle::station,
-                       static_cast<std::uint32_t>(number));
-      cycle.finish = [draws, computers = computers,
-                      queue = workers](time_point start, std::uint64_t number) {
-        return queue->finish(start, computers.computing_time(draws, number));
-      };
-      return cycle;
+    time_point finish(const session_id&, time_point start,
+                      std::uint64_t cycle) override {
+      return workers->finish(start,
+                             computers.computing_time(draws_of_results, cycle));
     }
     void record(sofof::record x) override {
       if (const auto* episode = std::get_if<episode_record>(&x))
@@ -249,6 +242,11 @@ struct library_world {
   struct vehicle_node final : offloading::vehicle_port {
     library_world& world;
     explicit vehicle_node(library_world& w) : world{w} {}
+
+    time_point finish(const service_name&, time_point start,
+                      std::uint64_t) override {
+      return start + echo_options().compute.run_time_mean;
+    }
 
     void send(offloading::peer_id to,
               offloading::to_provider message) override {
@@ -305,29 +303,10 @@ struct library_world {
                             protocol::route_spacing_m);
     };
     for (const auto* name : {"one", "two"})
-      setup.services.push_back(echo_of(name));
+      setup.services.push_back(in_vehicle(echo_service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
                                                       time.now());
     handle(tick{});
-  }
-
-  offloading::onboard_service echo_of(const char* name) const {
-    using namespace std::chrono_literals;
-    const auto noise = random_stream{seed, "vehicle"}.part(name);
-    const computer_options computer;
-    const cycle_options task;
-    offloading::onboard_service service;
-    service.requested = {.name = name,
-                         .needs = {period, 50ms, 100ms},
-                         .on_board = on_board_cost(computer, task),
-                         .offloaded = offloaded_cost(computer, task)};
-    service.input_period = 100ms;
-    service.function = std::make_shared<echo_function>();
-    service.phase = random_phase(noise.part("local phase"), period);
-    service.finish = [](time_point start, std::uint64_t) {
-      return start + 5ms;
-    };
-    return service;
   }
 
   void handle(tick) {

@@ -58,7 +58,7 @@ struct redundancy_outcome {
 
 // What happens in the order in which it happens, cycle by cycle.
 redundancy_outcome drive_hedged(duration hedge_after) {
-  first_response responses{cycle_period};
+  offloading::first_response responses{cycle_period};
   redundancy_outcome seen;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const auto sent = time_point{cycle * cycle_period};

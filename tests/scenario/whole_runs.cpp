@@ -34,14 +34,14 @@ struct notebook final : broadcast_listener {
 
   void on_cam(const cam& c, sender_id from) override {
     ++heard;
-    real->listener()->on_cam(c, from);
+    listener_of(*real)->on_cam(c, from);
   }
   void on_objects(const object_list& told, sender_id from) override {
-    real->listener()->on_objects(told, from);
+    listener_of(*real)->on_objects(told, from);
     keep(told.objects);
   }
   void on_detections(const roadside_detections& view) override {
-    real->listener()->on_detections(view);
+    listener_of(*real)->on_detections(view);
     keep(view.objects);
   }
   void keep(const std::vector<perceived_object>& objects) {

@@ -1,6 +1,7 @@
 // A service of the project with a change, for whole runs.
 #pragma once
 
+#include "actors/offloading/broadcast_listener.hpp"
 #include "actors/services/service_type.hpp"
 
 #include <functional>
@@ -42,18 +43,19 @@ private:
 };
 
 /// As the real one at a provider; for changes.
-class real_at_provider : public offloading::provider_service {
+class real_at_provider : public listening_service {
 public:
   explicit real_at_provider(std::shared_ptr<offloading::provider_service> real)
       : real_{std::move(real)} {}
 
-  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id vehicle) override {
     return real_->make_function(vehicle);
   }
   payload termination_message(const service_end& end, time_point now) override {
     return real_->termination_message(end, now);
   }
-  broadcast_listener* listener() override { return real_->listener(); }
+  broadcast_listener* listener() override { return listener_of(*real_); }
 
 private:
   std::shared_ptr<offloading::provider_service> real_;

@@ -9,15 +9,16 @@
 
 namespace sofof::test {
 
-struct echo_function final : service_function {
-  service_output run(time_point, const service_input& input) override {
+struct echo_function final : offloading::service_function {
+  offloading::service_output run(time_point,
+                                 const service_input& input) override {
     return input.what;
   }
 };
 
 /// Gives back its input. Its numbers can be refused, useless, or a jump.
 struct echo_in_vehicle : offloading::vehicle_service {
-  std::shared_ptr<service_function> make_function() const override {
+  std::shared_ptr<offloading::service_function> make_function() const override {
     return std::make_shared<echo_function>();
   }
 
@@ -27,10 +28,10 @@ struct echo_in_vehicle : offloading::vehicle_service {
     return !said || said->number != echo::jump;
   }
 
-  std::unique_ptr<result_judge> make_judge() const override {
-    struct sceptic final : result_judge {
-      judged_result judge(const payload& result, const service_input&,
-                          time_point) override {
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
+    struct sceptic final : offloading::result_judge {
+      offloading::judged_result
+      judge(const payload& result, const service_input&, time_point) override {
         const auto said = result.as<echo>();
         if (said && said->number == echo::lie)
           return {{}, objection{"number", 2, 1}};
@@ -44,7 +45,8 @@ struct echo_in_vehicle : offloading::vehicle_service {
 };
 
 struct echo_at_provider : offloading::provider_service {
-  std::shared_ptr<service_function> make_function(station_id) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id) override {
     return std::make_shared<echo_function>();
   }
 };

@@ -273,16 +273,17 @@ struct judging_times {
 };
 
 /// Judges what another judge does, beside it, and takes the time.
-class timed_judge final : public result_judge {
+class timed_judge final : public offloading::result_judge {
 public:
-  timed_judge(std::unique_ptr<result_judge> real,
-              std::shared_ptr<service_function> own, service_world world,
-              station_id station, judging_times& figures)
+  timed_judge(std::unique_ptr<offloading::result_judge> real,
+              std::shared_ptr<offloading::service_function> own,
+              service_world world, station_id station, judging_times& figures)
       : real_{std::move(real)}, own_{std::move(own)}, world_{std::move(world)},
         station_{station}, figures_{figures} {}
 
-  judged_result judge(const payload& result, const service_input& latest,
-                      time_point now) override {
+  offloading::judged_result judge(const payload& result,
+                                  const service_input& latest,
+                                  time_point now) override {
     const auto request = latest.what.as<plan_request>();
     const auto way = request ? world_.streets->find(request->way) : nullptr;
     const auto message = result.as<its_pdu>();
@@ -325,8 +326,8 @@ private:
         .count();
   }
 
-  std::unique_ptr<result_judge> real_;
-  std::shared_ptr<service_function> own_;
+  std::unique_ptr<offloading::result_judge> real_;
+  std::shared_ptr<offloading::service_function> own_;
   service_world world_;
   station_id station_;
   judging_times& figures_;
@@ -343,7 +344,7 @@ public:
       : real_{std::move(real)}, world_{std::move(world)}, station_{station},
         figures_{figures} {}
 
-  std::shared_ptr<service_function> make_function() const override {
+  std::shared_ptr<offloading::service_function> make_function() const override {
     return real_->make_function();
   }
   service_input encode_input(service_input input,
@@ -354,7 +355,7 @@ public:
                  time_point now) const override {
     return real_->continues(in_use, offered, now);
   }
-  std::unique_ptr<result_judge> make_judge() const override {
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
     return std::make_unique<timed_judge>(real_->make_judge(),
                                          real_->make_function(), world_,
                                          station_, figures_);

@@ -60,16 +60,17 @@ struct liars {
 };
 
 /// An honest function whose results are changed on their way out.
-class lying_function final : public service_function {
+class lying_function final : public offloading::service_function {
 public:
-  lying_function(std::shared_ptr<service_function> honest, service_world world,
-                 offloading::provider_context provider, station_id vehicle,
-                 std::shared_ptr<liars> all)
+  lying_function(std::shared_ptr<offloading::service_function> honest,
+                 service_world world, offloading::provider_context provider,
+                 station_id vehicle, std::shared_ptr<liars> all)
       : honest_{std::move(honest)}, world_{std::move(world)},
         provider_{std::move(provider)}, station_{vehicle}, all_{std::move(
                                                                all)} {}
 
-  service_output run(time_point now, const service_input& input) override {
+  offloading::service_output run(time_point now,
+                                 const service_input& input) override {
     auto out = honest_->run(now, input);
     hear(input, now);
     const auto message = out.what.as<its_pdu>();
@@ -250,7 +251,7 @@ private:
     return v < 8 ? 1.0 : 0.0;
   }
 
-  std::shared_ptr<service_function> honest_;
+  std::shared_ptr<offloading::service_function> honest_;
   service_world world_;
   offloading::provider_context provider_;
   station_id station_; // of the vehicle
@@ -275,7 +276,8 @@ public:
       : real_at_provider{std::move(honest)}, world_{std::move(world)},
         provider_{std::move(provider)}, all_{std::move(all)} {}
 
-  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id vehicle) override {
     return std::make_shared<lying_function>(
         real_at_provider::make_function(vehicle), world_, provider_, vehicle,
         all_);

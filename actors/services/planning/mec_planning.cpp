@@ -17,14 +17,15 @@ namespace sofof {
 
 namespace {
 
-class mec_planning final : public service_function {
+class mec_planning final : public offloading::service_function {
 public:
   mec_planning(planning_world_ptr world, offloading::provider_context provider,
                station_id vehicle, std::shared_ptr<edge_perception> perceived)
       : world_{std::move(world)}, provider_{std::move(provider)},
         station_{vehicle}, perceived_{std::move(perceived)} {}
 
-  service_output run(time_point now, const service_input& input) override {
+  offloading::service_output run(time_point now,
+                                 const service_input& input) override {
     if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
       hear(*message, now);
       heard_ = std::move(message);
@@ -133,7 +134,8 @@ private:
 
   // -- what it is told ------------------------------------------------------
 
-  service_output said(const plan_report& report, std::uint32_t counter) {
+  offloading::service_output said(const plan_report& report,
+                                  std::uint32_t counter) {
     const suggestion what{provider_.station,
                           provider_.position,
                           station_,
@@ -166,7 +168,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<service_function>
+std::shared_ptr<offloading::service_function>
 make_mec_planning(planning_world_ptr world,
                   offloading::provider_context provider, station_id vehicle,
                   std::shared_ptr<edge_perception> perceived) {

@@ -15,7 +15,7 @@ namespace sofof {
 /// from everybody's CAMs and CPMs and from its sensors. Gives an MCM that
 /// suggests a plan, about it a `plan_report`.
 /// @param vehicle  For which it plans.
-std::shared_ptr<service_function>
+std::shared_ptr<offloading::service_function>
 make_mec_planning(planning_world_ptr world,
                   offloading::provider_context provider, station_id vehicle,
                   std::shared_ptr<edge_perception> perceived);

@@ -14,13 +14,14 @@ namespace sofof {
 
 namespace {
 
-class onboard_planning final : public service_function {
+class onboard_planning final : public offloading::service_function {
 public:
   onboard_planning(planning_world_ptr world,
                    offloading::vehicle_context vehicle)
       : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
 
-  service_output run(time_point now, const service_input& input) override {
+  offloading::service_output run(time_point now,
+                                 const service_input& input) override {
     const auto request = input.what.as<plan_request>();
     if (!request || !prepare(request->way))
       return {};
@@ -69,7 +70,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<service_function>
+std::shared_ptr<offloading::service_function>
 make_onboard_planning(planning_world_ptr world,
                       offloading::vehicle_context vehicle) {
   return std::make_shared<onboard_planning>(std::move(world),

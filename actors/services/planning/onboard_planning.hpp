@@ -9,7 +9,7 @@
 namespace sofof {
 
 /// Takes a `plan_request`; gives a `trajectory`, about it a `plan_report`.
-std::shared_ptr<service_function>
+std::shared_ptr<offloading::service_function>
 make_onboard_planning(planning_world_ptr world,
                       offloading::vehicle_context vehicle);
 

@@ -66,11 +66,11 @@ public:
                       offloading::vehicle_context vehicle)
       : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
 
-  std::shared_ptr<service_function> make_function() const override {
+  std::shared_ptr<offloading::service_function> make_function() const override {
     return make_onboard_planning(world_, vehicle_);
   }
 
-  std::unique_ptr<result_judge> make_judge() const override {
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
     return make_suggestion_judge(world_, vehicle_);
   }
 
@@ -146,7 +146,7 @@ public:
   }
 };
 
-class planning_at_provider final : public offloading::provider_service {
+class planning_at_provider final : public listening_service {
 public:
   planning_at_provider(planning_world_ptr world,
                        offloading::provider_context provider)
@@ -154,7 +154,8 @@ public:
         perceived_{std::make_shared<edge_perception>(
             provider_.clock, world_->streets->map.buildings())} {}
 
-  std::shared_ptr<service_function> make_function(station_id vehicle) override {
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id vehicle) override {
     return make_mec_planning(world_, provider_, vehicle, perceived_);
   }
 

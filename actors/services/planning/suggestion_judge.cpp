@@ -13,15 +13,16 @@ namespace sofof {
 
 namespace {
 
-class suggestion_judge final : public result_judge {
+class suggestion_judge final : public offloading::result_judge {
 public:
   suggestion_judge(planning_world_ptr world,
                    offloading::vehicle_context vehicle)
       : world_{std::move(world)}, vehicle_{std::move(vehicle)},
         judge_{world_->car} {}
 
-  judged_result judge(const payload& result, const service_input& latest,
-                      time_point now) override {
+  offloading::judged_result judge(const payload& result,
+                                  const service_input& latest,
+                                  time_point now) override {
     const auto request = latest.what.as<plan_request>();
     const auto way = request ? world_->streets->find(request->way) : nullptr;
     if (!way)
@@ -68,20 +69,21 @@ private:
     return plan && is_own ? plan : std::make_shared<const trajectory>();
   }
 
-  static judged_result not_used(const plan_verdict& verdict) {
+  static offloading::judged_result not_used(const plan_verdict& verdict) {
     return {{}, verdict.refused, verdict.useless};
   }
 
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
-  std::shared_ptr<service_function> own_; // to compare with, when needed
+  std::shared_ptr<offloading::service_function>
+      own_; // to compare with, when needed
   plan_judge judge_;
   etsi::mcm word_; // room that is used again
 };
 
 } // namespace
 
-std::unique_ptr<result_judge>
+std::unique_ptr<offloading::result_judge>
 make_suggestion_judge(planning_world_ptr world,
                       offloading::vehicle_context vehicle) {
   return std::make_unique<suggestion_judge>(std::move(world),

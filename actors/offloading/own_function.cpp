@@ -1,0 +1,41 @@
+// Run times are drawn in virtual time, and taken where time is real.
+#include "actors/offloading/own_function.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof {
+
+offloading::cycle_setup
+own_function(const requester_actor_setup& vehicle,
+             const offloading::onboard_service& service) {
+  auto own = own_cycle(service, vehicle.station, vehicle.noise);
+  if (!vehicle.virtual_time) {
+    own.finish = [](time_point start, std::uint64_t) { return start; };
+    return own;
+  }
+  const auto noise = vehicle.noise.part(service.name.view());
+  own.finish = [compute = on(vehicle.computer, service.options).compute,
+                draws = noise.part("local run time")](time_point start,
+                                                      std::uint64_t cycle) {
+    const auto drawn =
+        from_seconds(draws.normal(to_seconds(compute.run_time_mean),
+                                  to_seconds(compute.run_time_sd), cycle));
+    return start + std::clamp(drawn, duration{0}, compute.run_time_max);
+  };
+  return own;
+}
+
+offloading::requester_setup
+rules_of(requester_actor_setup vehicle,
+         std::vector<offloading::onboard_service> services) {
+  return {.station = vehicle.station,
+          .services = std::move(services),
+          .policy = std::move(vehicle.lodm),
+          .computer = vehicle.computer,
+          .noise = vehicle.noise,
+          .path_ahead = std::move(vehicle.path_ahead),
+          .future = std::move(vehicle.future)};
+}
+
+} // namespace sofof

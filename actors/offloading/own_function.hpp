@@ -1,0 +1,23 @@
+// What a requester is made of, and when its vehicle's own functions run.
+#pragma once
+
+#include "actors/offloading/service_requester.hpp"
+#include "offloading/requester.hpp"
+#include "offloading/service_cycle.hpp"
+
+#include <vector>
+
+namespace sofof {
+
+/// @returns the cycle of the vehicle's own function of a service. In virtual
+/// time it takes a drawn run time.
+offloading::cycle_setup
+own_function(const requester_actor_setup& vehicle,
+             const offloading::onboard_service& service);
+
+/// @returns what the rules of a vehicle's requester are made of.
+offloading::requester_setup
+rules_of(requester_actor_setup vehicle,
+         std::vector<offloading::onboard_service> services);
+
+} // namespace sofof
