@@ -45,13 +45,13 @@ struct host_arguments {
       to.keys_have_changed = &keys_have_changed;
       catch_hang_up();
     }
-    to.clock = test_clock_of(clock);
+    to.clock = clock_error_of(clock);
     to.protocol = protocol;
   }
 
 private:
   /// SHIFT,DRIFT: e.g. "500ms,50", the drift in ppm.
-  static clock_error test_clock_of(const std::string& text) {
+  static clock_error clock_error_of(const std::string& text) {
     if (text.empty())
       return {};
     const auto late = text.starts_with('-');

@@ -1,7 +1,7 @@
 // A scenario on several hosts: providers here, vehicles there.
 #pragma once
 
-#include "actors/runtime/time.hpp"
+#include "actors/runtime/clock_error.hpp"
 #include "messages/protocol/remote.hpp"
 #include "network/network_address.hpp"
 #include "scenario/run.hpp"

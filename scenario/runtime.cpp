@@ -2,6 +2,7 @@
 #include "scenario/runtime.hpp"
 
 #include "actors/runtime/accounting_scheduler.hpp"
+#include "actors/runtime/host_scheduler.hpp"
 #include "actors/runtime/sharing_scheduler.hpp"
 #include "actors/simulation/des_scheduler.hpp"
 #include "base/input_error.hpp"
@@ -44,18 +45,20 @@ private:
   des_scheduler& scheduler_ = dynamic_cast<des_scheduler&>(system_.scheduler());
 };
 
-/// The machine's clocks.
+/// The machine's clocks, and how far the one of the run is off.
 template <class Runtime>
 class on_the_wall : public Runtime {
 public:
+  explicit on_the_wall(const clock_error& error = {}) : error_{error} {}
+
   time_point now() const override {
-    return test_clock.shown(
+    return error_.shown(
         time_point{std::chrono::steady_clock::now().time_since_epoch()});
   }
   etsi::its_clock clock() const override { return clock_; }
   void run_until(time_point end) override {
     std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
-        test_clock.meant(end).time_since_epoch()});
+        error_.meant(end).time_since_epoch()});
   }
   void await_end(const std::vector<caf::actor>& leaving) override {
     caf::scoped_actor self{this->system()};
@@ -71,6 +74,7 @@ private:
     return std::chrono::round<milliseconds>(day - run).count();
   }
 
+  clock_error error_;
   etsi::its_clock clock_{epoch_unix_ms()};
 };
 
@@ -92,8 +96,9 @@ private:
   caf::actor_system system_{config_};
 };
 
-struct network_config : wall_clock_config {
-  network_config() {
+struct network_config : caf::actor_system_config {
+  explicit network_config(const clock_error& error) {
+    host_scheduler::install(*this, error);
     load<caf::io::middleman>();
     set("caf.middleman.heartbeat-interval",
         caf::timespan{2 * protocol::life_sign_period});
@@ -104,6 +109,9 @@ struct network_config : wall_clock_config {
 
 class connected_runtime final : public on_the_wall<network_runtime> {
 public:
+  explicit connected_runtime(const clock_error& error)
+      : on_the_wall{error}, config_{error} {}
+
   ~connected_runtime() override {
     for (const auto& acceptor : acceptors_)
       caf::anon_send_exit(acceptor, caf::exit_reason::user_shutdown);
@@ -186,8 +194,7 @@ std::unique_ptr<runtime> make_accounting_runtime() {
 
 std::unique_ptr<network_runtime> make_network_runtime(clock_error clock) {
   clock.from = time_point{std::chrono::steady_clock::now().time_since_epoch()};
-  test_clock = clock;
-  return std::make_unique<connected_runtime>();
+  return std::make_unique<connected_runtime>(clock);
 }
 
 void init_messages() {

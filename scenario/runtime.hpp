@@ -2,7 +2,7 @@
 #pragma once
 
 #include "actors/remote/connection_filter.hpp"
-#include "actors/runtime/time.hpp"
+#include "actors/runtime/clock_error.hpp"
 #include "base/time.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"

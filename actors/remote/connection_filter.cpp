@@ -3,7 +3,6 @@
 
 #include "actors/remote/frame_allowance.hpp"
 #include "actors/remote/public_messages.hpp"
-#include "actors/runtime/time.hpp"
 #include "network/flow/token_bucket.hpp"
 
 #include <caf/binary_serializer.hpp>
@@ -39,14 +38,10 @@ struct shared_setup {
       why += fmt::format("; {} more", std::exchange(left_out, 0));
     given.on_refusal(why);
     if (given.recorder)
-      caf::anon_send(given.recorder,
-                     record{event_record{test_clock.shown(at),
-                                         event_type::peer_disconnected,
-                                         0,
-                                         0,
-                                         {},
-                                         0,
-                                         std::move(why)}});
+      caf::anon_send(
+          given.recorder,
+          record{event_record{
+              at, event_type::peer_disconnected, 0, 0, {}, 0, std::move(why)}});
   }
 };
 

@@ -11,31 +11,10 @@
 
 namespace sofof {
 
-/// How far this process's clock is off: for tests of runs on several hosts,
-/// whose clocks never quite agree. Right by default; to be set before any actor
-/// is spawned.
-struct clock_error {
-  duration shift{};
-  double drift = 0; ///< Seconds a second, since `from`.
-  time_point from;
-
-  time_point shown(time_point t) const {
-    return drift == 0 ? t + shift
-                      : t + shift + from_seconds(drift * to_seconds(t - from));
-  }
-  time_point meant(time_point t) const {
-    return drift == 0 ? t - shift
-                      : t - shift
-                            - from_seconds(drift / (1 + drift)
-                                           * to_seconds(t - shift - from));
-  }
-};
-inline clock_error test_clock;
-
 /// @returns the time of the run that `self` lives in.
 template <class Self>
 time_point now(const Self* self) {
-  return test_clock.shown(time_point{self->clock().now().time_since_epoch()});
+  return time_point{self->clock().now().time_since_epoch()};
 }
 
 /// @returns the same as a function, for those that are no actors. It must not
@@ -43,7 +22,7 @@ time_point now(const Self* self) {
 template <class Self>
 std::function<time_point()> clock_of(const Self* self) {
   return [clock = &self->clock()] {
-    return test_clock.shown(time_point{clock->now().time_since_epoch()});
+    return time_point{clock->now().time_since_epoch()};
   };
 }
 
@@ -52,10 +31,9 @@ std::function<time_point()> clock_of(const Self* self) {
 /// in the message and stop expecting it.
 template <class Self, class Receiver, class... Ts>
 void send_at(Self* self, const Receiver& receiver, time_point t, Ts&&... xs) {
-  self->scheduled_send(
-      receiver,
-      caf::actor_clock::time_point{test_clock.meant(t).time_since_epoch()},
-      std::forward<Ts>(xs)...);
+  self->scheduled_send(receiver,
+                       caf::actor_clock::time_point{t.time_since_epoch()},
+                       std::forward<Ts>(xs)...);
 }
 
 /// Delivers a message after `d`.
