@@ -13,8 +13,8 @@ namespace sofof::offloading {
 cycle_setup cycle_of(const offered_service& service,
                      const session_start& start) {
   assert(service.here);
-  assert(service.name == start.session.kind);
-  return {.running = start.session,
+  assert(service.name == start.session.service);
+  return {.session = start.session,
           .function = service.here->make_function(start.session.station),
           .period = service.options.period,
           .phase = start.phase,
@@ -36,14 +36,14 @@ const provider::provider_session*
 provider::station_record::find(const service_name& service) const {
   const auto i =
       std::ranges::find(sessions, service, [](const provider_session& x) {
-        return x.running.kind;
+        return x.session.service;
       });
   return i == sessions.end() ? nullptr : &*i;
 }
 
 bool provider::station_record::is_consistent() const {
   const auto is_only_one = [this](const provider_session& x) {
-    return find(x.running.kind) == &x && x.running.counter != 0;
+    return find(x.session.service) == &x && x.session.counter != 0;
   };
   return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
 }
@@ -146,7 +146,7 @@ void provider::leave(station_record& station, end_reason reason,
                      time_point now) {
   assert(station.requester);
   while (!station.sessions.empty())
-    end(station, station.sessions.front().running, reason, true, now);
+    end(station, station.sessions.front().session, reason, true, now);
   const auto requester = *std::exchange(station.requester, std::nullopt);
   if (!serves(requester))
     port_.leave(requester);
@@ -166,7 +166,7 @@ void provider::offer(station_record& station, time_point now) {
   assert(now >= station.next_offer);
   service_offer offered{.provider = setup_.id,
                         .position = setup_.position,
-                        .kinds = {},
+                        .services = {},
                         .utilisation = utilisation(),
                         .workers =
                             static_cast<std::uint32_t>(setup_.computer.workers),
@@ -174,10 +174,10 @@ void provider::offer(station_record& station, time_point now) {
                         .created = now};
   for (const auto& service : setup_.services)
     if (!station.find(service.name))
-      offered.kinds.push_back(service.name);
-  assert(offered.kinds.size() + station.sessions.size()
+      offered.services.push_back(service.name);
+  assert(offered.services.size() + station.sessions.size()
          == setup_.services.size());
-  if (offered.kinds.empty())
+  if (offered.services.empty())
     return;
   station.next_offer = now + protocol::offer_period;
   port_.send(*station.requester, offered);
@@ -210,9 +210,9 @@ void provider::on_end(const service_end& e, time_point now) {
   pass(now);
   if (e.from != side::requester)
     return;
-  const auto i = stations_.find(e.running.station);
+  const auto i = stations_.find(e.session.station);
   if (i != stations_.end())
-    end(i->second, e.running, e.reason, false, now);
+    end(i->second, e.session, e.reason, false, now);
 }
 
 void provider::on_function_lost(const session_id& session, end_reason why,
@@ -227,7 +227,7 @@ void provider::on_function_lost(const session_id& session, end_reason why,
 void provider::end(station_record& station, session_id session,
                    end_reason reason, bool tell, time_point now) {
   const auto i =
-      std::ranges::find(station.sessions, session, &provider_session::running);
+      std::ranges::find(station.sessions, session, &provider_session::session);
   if (i == station.sessions.end())
     return;
   assert(station.requester);
@@ -235,13 +235,13 @@ void provider::end(station_record& station, session_id session,
   service_end e{session, reason, side::provider};
   port_.end(e);
   if (tell) {
-    if (const auto* service = find(session.kind))
+    if (const auto* service = find(session.service))
       e.what = service->here->termination_message(e, now);
     port_.send(*station.requester, e);
   }
   port_.record(episode_record{session, side::provider, i->since, i->since, true,
                               now, reason, false});
-  setup_.policy->observe(episode_outcome{session.kind.view(), setup_.id,
+  setup_.policy->observe(episode_outcome{session.service.view(), setup_.id,
                                          to_seconds(now - i->since),
                                          name_of(reason), session.station});
   station.sessions.erase(i);
@@ -283,7 +283,7 @@ double provider::utilisation() const {
   double all = 0;
   for (const auto& [id, station] : stations_)
     for (const auto& session : station.sessions)
-      all += utilisation_by(session.running.kind);
+      all += utilisation_by(session.session.service);
   return all;
 }
 

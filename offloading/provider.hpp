@@ -148,7 +148,7 @@ private:
   using timer = std::variant<station_check, epoch_end>;
 
   struct provider_session {
-    session_id running;
+    session_id session;
     time_point since;
     periodic_task task;
     std::size_t worker = 0;

@@ -43,7 +43,7 @@ void provider::drop_waiting(station_id station) {
 void provider::refuse(const service_request& request, peer_id from,
                       std::string_view why) {
   service_response response{setup_.id, request.station, request.number, {}};
-  for (const auto& name : request.kinds)
+  for (const auto& name : request.services)
     response.verdicts.push_back(
         {{setup_.id, request.station, name, 0}, false, std::string{why}});
   port_.send(from, response);
@@ -81,9 +81,9 @@ provider::question provider::question_of(const open_request& open,
                                          time_point now) {
   const auto& request = open.what;
   question all;
-  for (std::size_t k = 0; k < request.kinds.size(); ++k) {
-    const auto& name = request.kinds[k];
-    const auto before = std::span{request.kinds}.first(k);
+  for (std::size_t k = 0; k < request.services.size(); ++k) {
+    const auto& name = request.services[k];
+    const auto before = std::span{request.services}.first(k);
     const auto station = stations_.find(request.station);
     const auto* service = find(name);
     if (station == stations_.end()) {
@@ -95,7 +95,7 @@ provider::question provider::question_of(const open_request& open,
     } else {
       // A station that asks again does not run it: its service_end was lost.
       if (const auto* session = station->second.find(name))
-        end(station->second, session->running, end_reason::no_data, true, now);
+        end(station->second, session->session, end_reason::no_data, true, now);
       all.verdicts.emplace_back();
       all.places.push_back(k);
       all.asked.push_back({request.station, name.view(), request.route,
@@ -103,7 +103,7 @@ provider::question provider::question_of(const open_request& open,
                            task_of(*service), request.candidates});
     }
   }
-  assert(all.verdicts.size() == request.kinds.size());
+  assert(all.verdicts.size() == request.services.size());
   assert(all.asked.size() == all.places.size());
   return all;
 }
@@ -116,9 +116,10 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
   std::vector<session_id> running;
   for (const auto& [id, station] : stations_)
     for (const auto& x : station.sessions) {
-      sessions.push_back({id, x.running.kind.view(), x.since, x.task, x.worker,
-                          utilisation_by(x.running.kind), x.candidates});
-      running.push_back(x.running);
+      sessions.push_back({id, x.session.service.view(), x.since, x.task,
+                          x.worker, utilisation_by(x.session.service),
+                          x.candidates});
+      running.push_back(x.session);
     }
   assert(running.size() == sessions.size());
   auto decided = setup_.policy->decide({.now = now,
@@ -146,21 +147,21 @@ void provider::respond(const open_request& open,
                        const std::vector<central_decision>& decisions,
                        time_point now) {
   const auto& request = open.what;
-  assert(decisions.size() == request.kinds.size());
+  assert(decisions.size() == request.services.size());
   service_response response{setup_.id, request.station, request.number, {}};
-  for (std::size_t k = 0; k < request.kinds.size(); ++k) {
+  for (std::size_t k = 0; k < request.services.size(); ++k) {
     const auto& decision = decisions[k];
-    verdict v{{setup_.id, request.station, request.kinds[k], 0},
+    verdict v{{setup_.id, request.station, request.services[k], 0},
               decision.accept,
               std::string{decision.why},
               decision.instead};
     if (v.accepted) {
-      v.running.counter = ++last_session_;
-      start(stations_.at(request.station), v.running, open, decision, now);
+      v.session.counter = ++last_session_;
+      start(stations_.at(request.station), v.session, open, decision, now);
     }
     response.verdicts.push_back(std::move(v));
   }
-  assert(response.verdicts.size() == request.kinds.size());
+  assert(response.verdicts.size() == request.services.size());
   port_.send(open.from, response);
 }
 
@@ -168,9 +169,9 @@ void provider::start(station_record& station, const session_id& session,
                      const open_request& open, const central_decision& how,
                      time_point now) {
   assert(session.counter != 0);
-  assert(!station.find(session.kind));
-  assert(find(session.kind));
-  const auto& service = *find(session.kind);
+  assert(!station.find(session.service));
+  assert(find(session.service));
+  const auto& service = *find(session.service);
   const auto drawn =
       setup_.noise.part(service.name.view()).part(session.station);
   auto task = task_of(service);

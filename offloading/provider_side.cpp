@@ -136,7 +136,7 @@ private:
   void handle(peer_id, const service_end& end) { provider_->on_end(end, now_); }
   // Only the requester of a session feeds it.
   void handle(peer_id from, service_input&& input) {
-    auto* to = find(input.running);
+    auto* to = find(input.session);
     if (!to || to->requester != from)
       return;
     to->cycle.on_input(std::move(input), now_);
@@ -160,7 +160,7 @@ private:
 
   void start(const session_start& start) override {
     assert(start.session.counter != 0);
-    auto setup = cycle_of(services_.at(start.session.kind), start);
+    auto setup = cycle_of(services_.at(start.session.service), start);
     setup.finish = [this, session = start.session](time_point t,
                                                    std::uint64_t cycle) {
       return port_.finish(session, t, cycle);
@@ -172,8 +172,8 @@ private:
     i->second.wake_at(now_ + protocol::start_timeout, timer_of::first_input, 0);
   }
   void end(const service_end& end) override {
-    assert(find(end.running));
-    sessions_.erase(end.running.counter);
+    assert(find(end.session));
+    sessions_.erase(end.session.counter);
   }
 
   void record(sofof::record x) override { port_.record(std::move(x)); }

@@ -48,9 +48,9 @@ service_state* requester::find(const service_name& service) {
 }
 
 requester::found_session requester::find(const session_id& session) {
-  auto* service = find(session.kind);
+  auto* service = find(session.service);
   auto* found = service ? service->find(session.provider) : nullptr;
-  if (!found || found->at == phase::requested || found->running != session)
+  if (!found || found->at == phase::requested || found->session != session)
     return {};
   return {service, found};
 }
@@ -262,7 +262,7 @@ local_decision requester::ask_policy(const service_state& service,
   assert(!providers.empty());
   assert(service.since <= now);
   return setup_.policy->decide({.now = now,
-                                .kind = service.service.name.view(),
+                                .service = service.service.name.view(),
                                 .providers = providers,
                                 .path = path,
                                 .speed_mps = ego_.own.speed_mps,
@@ -297,7 +297,7 @@ void requester::request(provider_id id, std::vector<service_name> wanted,
   const auto number = ++last_request_;
   provider.open_request = number;
   for (const auto& name : wanted) {
-    std::erase(provider.offer.kinds, name);
+    std::erase(provider.offer.services, name);
     auto* service = find(name);
     assert(!service->find(id));
     service->sessions.push_back({.provider = id});

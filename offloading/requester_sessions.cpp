@@ -40,9 +40,9 @@ void requester::on_response(const service_response& response, time_point now) {
            && session.station == setup_.station && session.counter != 0;
   };
   for (const auto& v : response.verdicts) {
-    if (v.accepted && !is_sound(v.running))
+    if (v.accepted && !is_sound(v.session))
       break;
-    auto* service = find(v.running.kind);
+    auto* service = find(v.session.service);
     auto* session = service ? service->find(response.provider) : nullptr;
     const auto open = expected && session && session->at == phase::requested;
     if (open && v.accepted)
@@ -50,8 +50,8 @@ void requester::on_response(const service_response& response, time_point now) {
     else if (open)
       refuse(*service, response.provider, v.why,
              v.instead != 0 ? std::optional{v.instead} : std::nullopt, now);
-    else if (v.accepted && !find(v.running)) // not just a duplicate
-      send_end({v.running, end_reason::no_data, side::requester});
+    else if (v.accepted && !find(v.session)) // not just a duplicate
+      send_end({v.session, end_reason::no_data, side::requester});
   }
   if (expected)
     refuse_requested(response.provider, "not answered", now);
@@ -69,14 +69,14 @@ void requester::refuse_requested(provider_id provider, std::string_view why,
 void requester::accept(service_state& service, requester_session& session,
                        const verdict& v, time_point now) {
   assert(session.at == phase::requested);
-  assert(v.running.provider == session.provider);
-  assert(v.running.counter != 0); // that is the vehicle's own function
+  assert(v.session.provider == session.provider);
+  assert(v.session.counter != 0); // that is the vehicle's own function
   session.at = phase::starting;
-  session.running = v.running;
+  session.session = v.session;
   session.accepted = now;
-  log_verdict(service, session.provider, v.running.counter, v.why, true, now);
-  port_.begin(v.running);
-  wake_at(now + protocol::start_timeout, start_timeout{v.running});
+  log_verdict(service, session.provider, v.session.counter, v.why, true, now);
+  port_.begin(v.session);
+  wake_at(now + protocol::start_timeout, start_timeout{v.session});
 }
 
 // @param instead  The provider that it would have asked. The vehicle decides
@@ -109,15 +109,15 @@ void requester::refuse(service_state& service, provider_id provider,
 
 void requester::on_result(const service_result& result, time_point now) {
   pass(now);
-  const auto found = find(result.running);
+  const auto found = find(result.session);
   if (!found) {
-    complain(result.running, now);
+    complain(result.session, now);
     return;
   }
   assert(found.session->at != phase::requested);
   assert(found.session->accepted <= now);
   auto& service = *found.service;
-  const auto provider = result.running.provider;
+  const auto provider = result.session.provider;
   const auto latency = now - result.created;
   auto& link = service.link_of(provider);
   if (service.is_standby(provider))
@@ -172,14 +172,15 @@ void requester::on_first_data(const session_id& session, time_point now) {
 
 void requester::on_violation(const qos_violation& violation, time_point now) {
   pass(now);
-  const auto& session = violation.running;
+  const auto& session = violation.session;
   assert(session.counter != 0);
   const auto reason = reason_of(violation.breach);
   if (violation.breach == qos_breach::implausible) {
     // Also if the session has ended in the same instant.
     port_.record(event_record{now, event_type::implausible, setup_.station,
-                              session.provider, session.kind, session.counter,
-                              violation.why, false, violation.check});
+                              session.provider, session.service,
+                              session.counter, violation.why, false,
+                              violation.check});
     distrust_peer_of(session.provider, now);
   }
   const auto found = find(session);
@@ -190,7 +191,7 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   auto& service = *found.service;
   if (violation.breach != qos_breach::latency)
     setup_.policy->observe(
-        cycle_outcome{now, session.kind.view(), session.provider,
+        cycle_outcome{now, session.service.view(), session.provider,
                       std::numeric_limits<double>::infinity(), true,
                       service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
@@ -202,8 +203,8 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
 
 void requester::on_end(const service_end& e, time_point now) {
   pass(now);
-  if (const auto found = find(e.running); found && e.from == side::provider)
-    end(*found.service, e.running.provider, e.reason, false, now);
+  if (const auto found = find(e.session); found && e.from == side::provider)
+    end(*found.service, e.session.provider, e.reason, false, now);
 }
 
 void requester::shut_down(time_point now) {
@@ -253,9 +254,9 @@ void requester::end(service_state& service, provider_id provider,
   assert(service.find(provider));
   const auto ended = *service.find(provider);
   assert(ended.at != phase::requested);
-  assert(ended.running.provider == provider);
+  assert(ended.session.provider == provider);
   service.drop(provider);
-  service_end e{ended.running, reason, side::requester};
+  service_end e{ended.session, reason, side::requester};
   port_.end(e);
   if (tell) {
     e.what = service.service.own->termination_message(e, now, ego_.own);
@@ -277,18 +278,18 @@ void requester::log_end(service_state& service, const requester_session& ended,
   assert(!service.find(ended.provider));
   const auto was_remote = ended.at == phase::remote;
   const auto comes_home = was_remote && !service.is_remote();
-  port_.record(episode_record{ended.running, side::requester, ended.accepted,
+  port_.record(episode_record{ended.session, side::requester, ended.accepted,
                               was_remote ? ended.first_data : ended.accepted,
                               was_remote, now, reason,
                               is_fallback(reason) && comes_home});
   if (comes_home) {
     service.since = now;
-    log_switch(ended.running, false, now);
+    log_switch(ended.session, false, now);
   } else if (was_remote) {
-    log(event_type::left, ended.running, name_of(reason), now);
+    log(event_type::left, ended.session, name_of(reason), now);
     auto& other = *service.find(service.current().value());
     if (!ended.joined && std::exchange(other.joined, false))
-      log_switch(other.running, true, now);
+      log_switch(other.session, true, now);
   }
 }
 
@@ -304,7 +305,7 @@ void requester::learn_from(const service_state& service,
 }
 
 void requester::send_end(const service_end& e) {
-  const auto i = providers_.find(e.running.provider);
+  const auto i = providers_.find(e.session.provider);
   if (i != providers_.end())
     port_.send(i->second.peer, e);
 }
@@ -323,14 +324,14 @@ void requester::log_verdict(const service_state& service, provider_id provider,
 void requester::log_switch(const session_id& session, bool remote,
                            time_point now) {
   port_.record(event_record{now, event_type::switched, setup_.station,
-                            session.provider, session.kind, session.counter,
+                            session.provider, session.service, session.counter,
                             remote ? "remote" : "local", remote});
 }
 
 void requester::log(event_type what, const session_id& session,
                     std::string_view detail, time_point now) {
   port_.record(event_record{now, what, setup_.station, session.provider,
-                            session.kind, session.counter,
+                            session.service, session.counter,
                             std::string{detail}});
 }
 

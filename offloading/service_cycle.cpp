@@ -26,7 +26,7 @@ cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
                       const random_stream& noise) {
   const auto period = service.options.period;
   const auto drawn = noise.part(service.name.view()).part("local phase");
-  return {.running = {0, vehicle, service.name, 0},
+  return {.session = {0, vehicle, service.name, 0},
           .function = service.own->make_function(),
           .period = period,
           .phase = random_phase(drawn, period),
@@ -53,7 +53,7 @@ void service_cycle::on_step(lifecycle_step step, time_point now) {
 
 void service_cycle::on_input(service_input input, time_point now) {
   newest_ = std::move(input);
-  if (newest_.on_call)
+  if (newest_.standby)
     stop_timer();
   if (state_ == lifecycle_state::active && !has_timer_)
     begin(now);
@@ -71,7 +71,7 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
 void service_cycle::begin(time_point now) {
   assert(state_ == lifecycle_state::active);
   assert(!has_timer_);
-  if (newest_.on_call) {
+  if (newest_.standby) {
     run(now);
     return;
   }
@@ -103,7 +103,7 @@ void service_cycle::run(time_point now) {
   const auto cycle = take_number(now);
   const auto done = setup_.finish(now, cycle);
   assert(done >= now);
-  port_.deliver_at(done, {setup_.running, cycle, now, std::move(output.what),
+  port_.deliver_at(done, {setup_.session, cycle, now, std::move(output.what),
                           std::move(output.about)});
 }
 
@@ -115,13 +115,13 @@ std::uint64_t service_cycle::grid_number(time_point t) const {
 // A call off the grid may run one cycle more than the grid has by then.
 std::uint64_t service_cycle::next_number(time_point t) const {
   return std::max(grid_number(t),
-                  newest_.on_call ? after_any_ : after_off_grid_);
+                  newest_.standby ? after_any_ : after_off_grid_);
 }
 
 std::uint64_t service_cycle::take_number(time_point t) {
   const auto cycle = next_number(t);
   after_any_ = cycle + 1;
-  if (newest_.on_call || cycle > grid_number(t))
+  if (newest_.standby || cycle > grid_number(t))
     after_off_grid_ = after_any_;
   return cycle;
 }

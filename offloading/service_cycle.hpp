@@ -13,7 +13,7 @@ namespace sofof::offloading {
 
 /// What runs, and when.
 struct cycle_setup {
-  session_id running;                         ///< Stamped on every result.
+  session_id session;                         ///< Stamped on every result.
   std::shared_ptr<service_function> function; ///< Not null.
   duration period{};                          ///< > 0.
   duration phase{}; ///< Cycles start at phase + k · period; in [0, period).

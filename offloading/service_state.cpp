@@ -11,7 +11,7 @@
 namespace sofof::offloading {
 
 bool known_provider::offers(const service_name& service) const {
-  return std::ranges::find(offer.kinds, service) != offer.kinds.end();
+  return std::ranges::find(offer.services, service) != offer.services.end();
 }
 
 namespace {
@@ -78,9 +78,9 @@ bool service_state::is_remote() const {
 
 bool service_state::is_consistent() const {
   const auto is_sound = [this](const requester_session& x) {
-    const auto runs = x.running.provider == x.provider
-                      && x.running.kind == service.name
-                      && x.running.counter != 0;
+    const auto runs = x.session.provider == x.provider
+                      && x.session.service == service.name
+                      && x.session.counter != 0;
     return (x.at == phase::requested || runs) && find(x.provider) == &x
            && (x.at != phase::remote || x.accepted <= x.first_data);
   };

@@ -40,7 +40,7 @@ enum class phase {
 struct requester_session {
   provider_id provider = 0;
   phase at = phase::requested;
-  session_id running{}; ///< From acceptance on.
+  session_id session{}; ///< From acceptance on.
   time_point accepted{};
   time_point first_data{};
   bool joined = false; ///< Another provider ran the service already.

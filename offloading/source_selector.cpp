@@ -99,10 +99,10 @@ bool source_selector::feed(source& x, time_point now) {
                                   !x.in_use || stands || x.knows_it_stands_by);
   if (input.what.empty())
     return false;
-  assert(input.running == x.session);
+  assert(input.session == x.session);
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
-  input.on_call = x.knows_it_stands_by = stands;
+  input.standby = x.knows_it_stands_by = stands;
   port_.feed_remote(std::move(input));
   return true;
 }
@@ -123,12 +123,12 @@ void source_selector::on_session(const session_id& session, time_point now) {
 void source_selector::on_result(const service_result& result, time_point now) {
   pass(now);
   assert(is_consistent());
-  if (result.running.counter == 0) {
+  if (result.session.counter == 0) {
     if (!is_remote())
       use(result, now);
     return;
   }
-  auto* x = find(result.running);
+  auto* x = find(result.session);
   if (!x || !(result.cycle > x->last_cycle))
     return;
   x->last_cycle = result.cycle;
@@ -143,7 +143,7 @@ void source_selector::on_result(const service_result& result, time_point now) {
       result.what, {x->session, newest_.at, newest_.what, used_}, now);
   assert(!(judged.refused && judged.useless));
   if (judged.refused || judged.useless)
-    port_.record(cycle_record{result.running,
+    port_.record(cycle_record{result.session,
                               result.cycle,
                               result.created,
                               now,
@@ -151,12 +151,12 @@ void source_selector::on_result(const service_result& result, time_point now) {
                               false,
                               result.doubt});
   if (judged.refused)
-    refuse(result.running, *judged.refused, now);
+    refuse(result.session, *judged.refused, now);
   else if (judged.useless)
     leave_out(*x, *judged.useless, now);
   else if (!judged.what.empty())
     on_result_of(*x,
-                 {result.running, result.cycle, result.created,
+                 {result.session, result.cycle, result.created,
                   std::move(judged.what), result.about, result.doubt},
                  now, true, judged.margins);
 }
@@ -165,15 +165,15 @@ void source_selector::on_result(const service_result& result, time_point now) {
 /// are then as good as none.
 bool source_selector::can_judge(source& x, const service_result& result,
                                 time_point now) {
-  assert(result.running == x.session);
+  assert(result.session == x.session);
   assert(result.cycle == x.last_cycle);
   const auto can = result.doubt <= options().limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
     port_.record(event_record{
         now, can ? event_type::clock_known : event_type::clock_in_doubt,
-        setup_.station, result.running.provider, setup_.service.name,
-        result.running.counter, in_ms(result.doubt)});
+        setup_.station, result.session.provider, setup_.service.name,
+        result.session.counter, in_ms(result.doubt)});
   }
   return can;
 }
@@ -198,7 +198,7 @@ void source_selector::leave_out(source& x, const objection& why,
 void source_selector::on_result_of(source& x, const service_result& result,
                                    time_point now, bool in_limits,
                                    std::span<const margin> margins) {
-  assert(result.running == x.session);
+  assert(result.session == x.session);
   assert(!in_limits || !x.in_doubt);
   assert(in_limits || margins.empty());
   if (in_limits && !is_standby(x) && result.created > began_)
@@ -244,7 +244,7 @@ void source_selector::record_cycle(const source& x,
   std::optional<duration> gap; // only while in use every period
   if (x.last_received)
     gap = now - *x.last_received;
-  cycle_record record{result.running, result.cycle, result.created, now, gap,
+  cycle_record record{result.session, result.cycle, result.created, now, gap,
                       used,           result.doubt};
   if (used && setup_.record_margins)
     for (const auto& m : margins)
@@ -256,14 +256,14 @@ void source_selector::record_cycle(const source& x,
 /// goes on.
 bool source_selector::may_follow(const service_result& result,
                                  time_point now) const {
-  return result.running == used_from_
+  return result.session == used_from_
          || now - used_at_ > patience_periods * options().period
          || own().continues(used_, result.what, now);
 }
 
 void source_selector::use(const service_result& result, time_point now) {
   used_ = result.what;
-  used_from_ = result.running;
+  used_from_ = result.session;
   used_at_ = now;
   port_.use(result);
 }
@@ -353,12 +353,12 @@ void source_selector::watch(const session_id& session, time_point last) {
 
 void source_selector::on_end(const service_end& end, time_point now) {
   pass(now);
-  const auto* ended = find(end.running);
+  const auto* ended = find(end.session);
   if (!ended)
     return;
   const auto was_in_use = ended->in_use;
   sources_.erase(sources_.begin() + (ended - sources_.data()));
-  assert(!find(end.running));
+  assert(!find(end.session));
   if (!was_in_use)
     return;
   if (!is_remote()) {
@@ -370,7 +370,7 @@ void source_selector::on_end(const service_end& end, time_point now) {
     return;
   }
   announce_roles(now);
-  if (watched_ == end.running) {
+  if (watched_ == end.session) {
     const auto next = std::ranges::find_if(sources_, [this](const source& x) {
       return x.in_use && !is_standby(x);
     });

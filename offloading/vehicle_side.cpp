@@ -130,7 +130,7 @@ private:
     void end(const service_end& end) {
       selector.on_end(end, all.now_);
       std::erase_if(feeds,
-                    [&](const auto& fed) { return fed.first == end.running; });
+                    [&](const auto& fed) { return fed.first == end.session; });
     }
 
     // -- what the selector wants ----------------------------------------------
@@ -139,7 +139,7 @@ private:
       own.on_input(input, all.now_);
     }
     void feed_remote(service_input input) override {
-      const auto to = std::ranges::find(feeds, input.running,
+      const auto to = std::ranges::find(feeds, input.session,
                                         &std::pair<session_id, peer_id>::first);
       assert(to != feeds.end());
       all.port_.send(to->second, std::move(input));
@@ -175,7 +175,7 @@ private:
       dog.on_useless(session, found);
     }
     void watch_end(const service_end& end) override {
-      if (dog.disarm(end.running))
+      if (dog.disarm(end.session))
         ++dog_timer;
     }
 
@@ -282,12 +282,14 @@ private:
     port_.send(provider, end);
   }
   void begin(const session_id& session) override {
-    at(session.kind).begin(session, answering_);
+    at(session.service).begin(session, answering_);
   }
   void forward(const service_result& result) override {
-    at(result.running.kind).selector.on_result(result, now_);
+    at(result.session.service).selector.on_result(result, now_);
   }
-  void end(const service_end& end) override { at(end.running.kind).end(end); }
+  void end(const service_end& end) override {
+    at(end.session.service).end(end);
+  }
   void set_standby(const service_name& service,
                    const std::optional<standby>& chosen) override {
     at(service).selector.on_standby(chosen, now_);

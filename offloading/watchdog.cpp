@@ -24,9 +24,9 @@ bool watchdog::disarm(const session_id& session) {
 
 std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
                                                   time_point now) {
-  assert(result.running.counter != 0);
+  assert(result.session.counter != 0);
   assert(result.received <= now);
-  if (watched_ != result.running)
+  if (watched_ != result.session)
     return std::nullopt;
   gaps_.arrived(result.received);
   useless_.reset();

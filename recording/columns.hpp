@@ -19,7 +19,7 @@ struct episode_row {
   const episode_record& x;
   row_context in;
 
-  const session_id& id() const { return x.running; }
+  const session_id& id() const { return x.session; }
   bool by_requester() const { return x.of == side::requester; }
   decimal if_data(duration d) const {
     return by_requester() && x.got_data ? seconds(d) : decimal{};
@@ -30,7 +30,7 @@ struct cycle_row {
   const cycle_record& x;
   row_context in;
 
-  const session_id& id() const { return x.running; }
+  const session_id& id() const { return x.session; }
 };
 
 struct margin_row {
@@ -38,7 +38,7 @@ struct margin_row {
   const cycle_record::margin& of;
   row_context in;
 
-  const session_id& id() const { return x.running; }
+  const session_id& id() const { return x.session; }
 };
 
 struct track_row {
@@ -76,7 +76,7 @@ inline constexpr auto provider_id = [](const auto& r) {
   return r.id().provider;
 };
 inline constexpr auto service = [](const auto& r) {
-  return r.id().kind.view();
+  return r.id().service.view();
 };
 inline constexpr auto counter = [](const auto& r) { return r.id().counter; };
 inline constexpr auto cycle = [](const auto& r) { return r.x.cycle; };

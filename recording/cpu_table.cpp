@@ -85,11 +85,11 @@ std::optional<cpu_figures> figures_of(const cpu_table& table,
   std::uint64_t wakes = 0;
   std::set<station_id> stations;
   for (const auto& line : table.lines) {
-    const auto& [station, kind, remote] = line.account;
+    const auto& [station, name, remote] = line.account;
     if (station == 0)
       continue;
     if (line.actor == function) {
-      if (kind.view() == service)
+      if (name.view() == service)
         (remote ? inactive : active).add(line);
       continue;
     }

@@ -66,8 +66,8 @@ bool safety_metrics::ok() const {
 metrics::metrics(const run_info& run)
     : headline_{run.headline_kind}, names_{run.provider_names},
       costs_{run.energy}, obstacles_{run.obstacles} {
-  for (const auto& kind : run.kinds)
-    of(service_name{kind});
+  for (const auto& name : run.services)
+    of(service_name{name});
 }
 
 void metrics::on_record(const record& x) {
@@ -83,7 +83,7 @@ void metrics::add(const event_record& x) {
       ++together_.safety.near_misses;
       break;
     case event_type::implausible:
-      ++of(x.kind)
+      ++of(x.service)
             .implausible[std::string{name_of(x.provider, names_)}][x.check];
       break;
     case event_type::switched:
@@ -95,7 +95,7 @@ void metrics::add(const event_record& x) {
 }
 
 void metrics::source_changed(const event_record& x) {
-  const user who{x.kind, x.station};
+  const user who{x.service, x.station};
   const auto open = open_.find(who);
   if (!x.remote) {
     left_[who] = {x.provider, x.at};
@@ -103,7 +103,7 @@ void metrics::source_changed(const event_record& x) {
       open_.erase(open);
     return;
   }
-  auto& service = of(x.kind);
+  auto& service = of(x.service);
   const auto straight = open != open_.end();
   service.hand_overs += straight ? 1U : 0U;
   const auto left = left_.find(who);
@@ -111,19 +111,19 @@ void metrics::source_changed(const event_record& x) {
       && (!straight || left->second.provider == x.provider))
     ++service.ping_pongs;
   if (straight)
-    left_[who] = {open->second.running.provider, x.at};
-  open_[who] = {{x.provider, x.station, x.kind, x.counter},
+    left_[who] = {open->second.session.provider, x.at};
+  open_[who] = {{x.provider, x.station, x.service, x.counter},
                 x.at,
                 straight ? open->second.remote_since : x.at};
 }
 
 void metrics::add(const decision_record& x) {
-  auto& service = of(x.kind);
+  auto& service = of(x.service);
   ++(x.accepted ? service.accepted : service.rejected);
 }
 
 void metrics::add(const cycle_record& x) {
-  auto& service = of(x.running.kind);
+  auto& service = of(x.session.service);
   service.latency.add(x.received - x.created);
   service.results_used += x.used;
   for (const auto& margin : x.margins) {
@@ -134,9 +134,9 @@ void metrics::add(const cycle_record& x) {
   }
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
-  if (x.running.kind != headline_)
+  if (x.session.service != headline_)
     return;
-  auto& counts = cycles_[x.running.station];
+  auto& counts = cycles_[x.session.station];
   ++counts.sent;
   if (counts.sent > 1 && x.cycle <= counts.newest)
     return; // another provider has computed it too
@@ -145,7 +145,7 @@ void metrics::add(const cycle_record& x) {
 }
 
 void metrics::add(const episode_record& x) {
-  auto& service = of(x.running.kind);
+  auto& service = of(x.session.service);
   if (x.of == side::provider) {
     service.served_s.add(to_seconds(x.ended - x.accepted));
     ++service.served_until[static_cast<std::size_t>(x.reason)];
@@ -160,12 +160,12 @@ void metrics::add(const episode_record& x) {
   ++service.episodes;
   service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
-  const auto open = open_.find({x.running.kind, x.running.station});
-  if (open != open_.end() && open->second.running != x.running)
+  const auto open = open_.find({x.session.service, x.session.station});
+  if (open != open_.end() && open->second.session != x.session)
     return;
   const auto since =
       open == open_.end() ? x.first_data : open->second.remote_since;
-  service.remote_s[x.running.station] += to_seconds(x.ended - since);
+  service.remote_s[x.session.station] += to_seconds(x.ended - since);
   if (open != open_.end())
     open_.erase(open);
 }
@@ -223,7 +223,7 @@ void metrics::finish(time_point end) {
 
 const service_metrics& metrics::headline() const {
   const auto found =
-      std::ranges::find(services_, headline_, &service_metrics::kind);
+      std::ranges::find(services_, headline_, &service_metrics::service);
   return found != services_.end() ? *found : nothing_happened;
 }
 
@@ -263,12 +263,13 @@ std::size_t metrics::offloaded_now() const {
       }));
 }
 
-service_metrics& metrics::of(const service_name& kind) {
-  const auto found = std::ranges::find(services_, kind, &service_metrics::kind);
+service_metrics& metrics::of(const service_name& name) {
+  const auto found =
+      std::ranges::find(services_, name, &service_metrics::service);
   if (found != services_.end())
     return *found;
   auto& added = services_.emplace_back();
-  added.kind = kind;
+  added.service = name;
   return added;
 }
 

@@ -32,7 +32,7 @@ using refusal_counts =
 
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
-  service_name kind;
+  service_name service;
   // Pairs of a request and a service that it names; the answer counts.
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0; ///< No answer in time is a rejection too.
@@ -147,7 +147,7 @@ struct air_metrics {
 /// All figures of a run. Meanings: docs/results.md.
 class metrics {
 public:
-  /// @param run  Its kinds are listed even when nothing happens to them;
+  /// @param run  Its services are listed even when nothing happens to them;
   ///             others follow in the order of their first record.
   explicit metrics(const run_info& run);
 
@@ -178,7 +178,7 @@ public:
 
 private:
   struct open_episode {
-    session_id running;
+    session_id session;
     time_point since;
     time_point remote_since; ///< Perhaps at other providers before.
   };
@@ -208,7 +208,7 @@ private:
   template <class Other>
   void add(const Other&) {}
 
-  service_metrics& of(const service_name& kind);
+  service_metrics& of(const service_name& name);
   void source_changed(const event_record& x);
 
   service_name headline_;

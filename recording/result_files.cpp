@@ -63,7 +63,7 @@ void result_files::write(const event_record& x) {
     line.member("station", x.station);
     line.member("provider", name_of(x.provider));
     line.member("provider_id", x.provider);
-    line.member("service", x.kind.view());
+    line.member("service", x.service.view());
     line.member("counter", x.counter);
     line.member("detail", x.detail);
   }
@@ -72,7 +72,7 @@ void result_files::write(const event_record& x) {
 }
 
 void result_files::write(const cycle_record& x) {
-  const auto in = context_of(x.running);
+  const auto in = context_of(x.session);
   if (margins_)
     for (const auto& margin : x.margins)
       margins_->write({x, margin, in});
@@ -81,7 +81,7 @@ void result_files::write(const cycle_record& x) {
 }
 
 void result_files::write(const episode_record& x) {
-  episodes_.write({x, context_of(x.running)});
+  episodes_.write({x, context_of(x.session)});
 }
 
 void result_files::write(const track_record& x) {
@@ -145,14 +145,14 @@ void result_files::write_vehicles(const metrics& all) const {
 void result_files::write_distributions(const metrics& all) const {
   csv_file<distribution_row> file{folder_ / "distributions.csv",
                                   columns::of_distributions};
-  const auto rows = [&file](const service_name& kind, std::string_view figure,
+  const auto rows = [&file](const service_name& name, std::string_view figure,
                             const distribution& x) {
     for (const auto& bin : x.bins(distribution_width))
-      file.write({kind, figure, bin});
+      file.write({name, figure, bin});
   };
   for (const auto& service : all.services()) {
-    rows(service.kind, "latency", service.latency);
-    rows(service.kind, "interarrival", service.interarrival);
+    rows(service.service, "latency", service.latency);
+    rows(service.service, "interarrival", service.interarrival);
   }
   file.close();
 }

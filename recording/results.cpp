@@ -23,7 +23,7 @@ std::optional<event_record> event_of(const collision_record& x) {
 }
 
 std::optional<event_record> event_of(const plan_switch_record& x) {
-  const auto& id = x.running;
+  const auto& id = x.session;
   std::string detail = x.remote ? "remote" : "local";
   const auto figure = [&detail](std::string_view name, double value) {
     detail += name;
@@ -34,7 +34,7 @@ std::optional<event_record> event_of(const plan_switch_record& x) {
   figure(" v_mps=", x.jump.speed_mps);
   figure(" a_mps2=", x.jump.accel_mps2);
   return event_record{
-      x.at,       event_type::plan_switch, id.station, id.provider, id.kind,
+      x.at,       event_type::plan_switch, id.station, id.provider, id.service,
       id.counter, std::move(detail)};
 }
 

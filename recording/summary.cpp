@@ -125,7 +125,7 @@ std::string summary_json(const metrics& m, const run_info& run,
     {
       auto services = top.object("services");
       for (const auto& service : m.services()) {
-        auto object = services.object(service.kind.view());
+        auto object = services.object(service.service.view());
         const service_in_run x{service, run, end};
         write(object, service_figures(), x);
         endings(object, service.ended_by);

@@ -78,7 +78,7 @@ public:
   /// A heading, and the names of the services.
   void names(std::string_view heading) {
     add({std::string{heading}, true, {}},
-        [](const auto& x) { return x.kind.view(); });
+        [](const auto& x) { return x.service.view(); });
   }
 
   /// @param of  Gives a service's figure, as a number or as text.

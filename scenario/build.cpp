@@ -139,7 +139,7 @@ public:
         where_{std::make_shared<const georeference>(
             geo_frame{s.world->map.origin()}, clock)},
         decode_{[where = where_](const its_pdu& message, time_point now) {
-          return understand(message, *where, now);
+          return decode(message, *where, now);
         }} {
     const service_world known{
         s.world, where_, {}, s.traffic.grants_crossings()};

@@ -84,7 +84,7 @@ struct air {
     std::string radio;
   };
   random_stream noise;
-  std::vector<service_type_ptr> kinds;
+  std::vector<service_type_ptr> services;
   std::map<provider_id, provider> providers;
 };
 
@@ -93,31 +93,31 @@ public:
   drawn_channel_oracle(std::shared_ptr<const air> all, station_id station)
       : all_{std::move(all)}, station_{station} {}
 
-  foreseen_results look(provider_id provider, std::string_view kind,
+  foreseen_results look(provider_id provider, std::string_view service,
                         time_point from, time_point until) const override {
     const auto there = all_->providers.find(provider);
     const auto wanted = std::ranges::find(
-        all_->kinds, kind, [](const auto& k) { return k->name(); });
-    if (there == all_->providers.end() || wanted == all_->kinds.end())
+        all_->services, service, [](const auto& k) { return k->name(); });
+    if (there == all_->providers.end() || wanted == all_->services.end())
       return {from, 0};
     return of(provider, there->second, **wanted).look(from, until);
   }
 
 private:
   results_to_come& of(provider_id id, const air::provider& provider,
-                      const service_type& kind) const {
-    const std::pair key{id, std::string{kind.name()}};
+                      const service_type& type) const {
+    const std::pair key{id, std::string{type.name()}};
     if (const auto known = results_.find(key); known != results_.end())
       return known->second;
-    const auto own = all_->noise.part(kind.name()).part(station_);
+    const auto own = all_->noise.part(type.name()).part(station_);
     return results_
         .try_emplace(
             key,
             channel{provider.channel, all_->noise, station_, provider.place,
                     provider.radio},
             result_draws(all_->noise, station_, provider.place, provider.radio),
-            provider.compute, kind.options,
-            random_phase(own.part("remote phase"), kind.options.period))
+            provider.compute, type.options,
+            random_phase(own.part("remote phase"), type.options.period))
         .first->second;
   }
 

@@ -78,12 +78,12 @@ void check_obstacles(const scenario& all, const toml_file& source) {
 
 void check_services(const scenario& all, const toml_file& source) {
   std::vector<std::string_view> names;
-  for (const auto& kind : all.services) {
-    if (std::ranges::find(names, kind->name()) != names.end())
+  for (const auto& type : all.services) {
+    if (std::ranges::find(names, type->name()) != names.end())
       source.refuse(
           fmt::format("service.{}.name", names.size()),
-          fmt::format("there are two services \"{}\".", kind->name()));
-    names.push_back(kind->name());
+          fmt::format("there are two services \"{}\".", type->name()));
+    names.push_back(type->name());
   }
   // Nobody else tells a vehicle where to drive.
   if (!planning_service(all))

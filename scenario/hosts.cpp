@@ -36,7 +36,7 @@ constexpr std::size_t most_unknown_stations = 256;
 /// What actors say to people; the console's thread asks for it.
 class news_board {
 public:
-  void tell(std::string line) {
+  void log(std::string line) {
     const std::lock_guard lock{mutex_};
     lines_.push_back(printable(std::move(line)));
   }
@@ -75,7 +75,7 @@ news_of(std::shared_ptr<news_board> board, const host_options& what,
   return [board = std::move(board), keys = std::move(keys),
           changed = what.keys_have_changed] {
     if (keys && changed && changed->exchange(false))
-      board->tell(keys->read_again());
+      board->log(keys->read_again());
     return board->take();
   };
 }
@@ -89,9 +89,9 @@ std::uint64_t fingerprint_of_world(const scenario& s) {
     streets.grid_params = s.grid_params;
     text = to_toml(streets);
   }
-  for (const auto& kind : s.services) {
+  for (const auto& type : s.services) {
     text += '\n';
-    text += kind->name();
+    text += type->name();
   }
   return fingerprint(text);
 }
@@ -216,8 +216,8 @@ acceptor_setup acceptor_of(const scenario& s, std::size_t place,
                 : believe(hello);
   };
   setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
-    board->tell(describe(peer_identity{{all.begin(), all.end()}, {}})
-                + (is_here ? " connected" : " disconnected"));
+    board->log(describe(peer_identity{{all.begin(), all.end()}, {}})
+               + (is_here ? " connected" : " disconnected"));
   };
   return setup;
 }
@@ -262,7 +262,7 @@ connection_to(const scenario& s, std::size_t place, const drive_options& what,
   setup.prove = [](peer_hello&, const std::string&) {};
   setup.on_connected = [board] { board->connected(); };
   setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
-  setup.on_news = [board](const std::string& news) { board->tell(news); };
+  setup.on_news = [board](const std::string& news) { board->log(news); };
   return setup;
 }
 
@@ -306,14 +306,14 @@ run_outcome provide(const scenario& s, const provide_options& what,
       };
     filter.stations = most_unknown_stations;
     filter.recorder = setup.recorder;
-    filter.on_refusal = [board](const std::string& why) { board->tell(why); };
+    filter.on_refusal = [board](const std::string& why) { board->log(why); };
     time->filter(std::move(filter));
     const auto acceptor = spawn_acceptor(time->system(), std::move(setup));
     watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
                   "the acceptor");
     const auto at =
         listener.open(*time, acceptor, [board](const std::string& why) {
-          board->tell("refused: " + why);
+          board->log("refused: " + why);
         });
     console << fmt::format("provider {} listens on {}{}", name,
                            print_address(at),
@@ -344,7 +344,7 @@ run_outcome drive(const scenario& s, const drive_options& what,
   options.whose = "cars";
   filter_setup filter;
   filter.stations = stations.size();
-  filter.on_refusal = [board](const std::string& why) { board->tell(why); };
+  filter.on_refusal = [board](const std::string& why) { board->log(why); };
   time->filter(std::move(filter));
   for (const auto& to : what.providers) {
     const auto place = find_provider(s, to.name, "--provider NAME=HOST:PORT");

@@ -39,10 +39,10 @@ constexpr double flush_every_real_s = 0.5;
 constexpr duration settling = 1s;
 
 /// What a cycle of a service costs with this computer.
-cycle_energy energy_of(const scenario& s, std::string_view kind,
+cycle_energy energy_of(const scenario& s, std::string_view service,
                        const computer_options& computer) {
   for (const auto& k : s.services)
-    if (k->name() == kind)
+    if (k->name() == service)
       return {on_board_cost(computer, k->options.compute).energy_j,
               offloaded_cost(computer, k->options.compute).energy_j};
   return {};
@@ -76,8 +76,8 @@ run_info describe(const scenario& s, const run_options& options,
   info.obstacles = static_cast<std::uint32_t>(s.obstacles.size());
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     info.provider_names.emplace(k + 1, s.providers[k].name);
-  for (const auto& kind : s.services)
-    info.kinds.emplace_back(kind->name());
+  for (const auto& type : s.services)
+    info.services.emplace_back(type->name());
   info.pcap = options.pcap;
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;

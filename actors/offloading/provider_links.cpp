@@ -45,7 +45,7 @@ void provider_links::send(offloading::peer_id to,
   std::vector<provider_manager_actor> started;
   for (const auto& v : response.verdicts)
     if (v.accepted)
-      started.push_back(managers_.at(v.running));
+      started.push_back(managers_.at(v.session));
   self_->send(requesters_.at(to), response, std::move(started));
 }
 
@@ -72,7 +72,7 @@ void provider_links::start(const offloading::session_start& start) {
 }
 
 void provider_links::end(const service_end& end) {
-  const auto manager = managers_.extract(end.running);
+  const auto manager = managers_.extract(end.session);
   assert(!manager.empty());
   self_->demonitor(manager.mapped());
   self_->send(manager.mapped(), end);

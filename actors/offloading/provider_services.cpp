@@ -34,7 +34,7 @@ provider_services::provider_services(const provider_actor_setup& setup,
 
 offloading::cycle_setup
 provider_services::make(const offloading::session_start& start) const {
-  const auto& service = *std::ranges::find(services_, start.session.kind,
+  const auto& service = *std::ranges::find(services_, start.session.service,
                                            &offloading::offered_service::name);
   auto made = cycle_of(service, start);
   made.finish = computing_time(service.options, start.session.station);

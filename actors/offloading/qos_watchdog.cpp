@@ -76,7 +76,7 @@ watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
         self->state.rules->on_useless(session,
                                       {std::move(why), std::move(check)});
       },
-      [self](const service_end& end) { self->state.disarm(end.running); },
+      [self](const service_end& end) { self->state.disarm(end.session); },
       [self](tick_atom, std::uint64_t epoch) { self->state.on_timer(epoch); },
   };
 }

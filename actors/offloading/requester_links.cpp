@@ -33,7 +33,7 @@ void requester_links::take_up(
     if (v->accepted && manager == given.end())
       break;
     if (v->accepted)
-      accepted_.emplace(v->running, *manager++);
+      accepted_.emplace(v->session, *manager++);
   }
   response.verdicts.erase(v, response.verdicts.end());
 }
@@ -49,15 +49,15 @@ void requester_links::send(offloading::peer_id to, const service_end& end) {
 }
 
 void requester_links::begin(const session_id& session) {
-  self_->send(managers_.at(session.kind), session, accepted_.at(session));
+  self_->send(managers_.at(session.service), session, accepted_.at(session));
 }
 
 void requester_links::forward(const service_result& result) {
-  self_->send(managers_.at(result.running.kind), result);
+  self_->send(managers_.at(result.session.service), result);
 }
 
 void requester_links::end(const service_end& end) {
-  self_->send(managers_.at(end.running.kind), end);
+  self_->send(managers_.at(end.session.service), end);
 }
 
 void requester_links::set_standby(

@@ -36,7 +36,7 @@ struct requester_manager_state {
 
   void on_end(const service_end& end) {
     selector->on_end(end, now(self));
-    links->forget(end.running);
+    links->forget(end.session);
   }
 };
 

@@ -48,7 +48,7 @@ void selector_links::feed_local(const service_input& input) {
 
 void selector_links::feed_remote(service_input input) {
   note_on_air(self_, recorder_, input.what);
-  const auto& manager = managers_.at(input.running);
+  const auto& manager = managers_.at(input.session);
   self_->send(manager, std::move(input));
 }
 

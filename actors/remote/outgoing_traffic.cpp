@@ -49,7 +49,7 @@ outgoing_traffic::offer(station_id station, const its_pdu& x, time_point now) {
 
 std::optional<outgoing_traffic::message>
 outgoing_traffic::offer(const service_input& input, time_point now) {
-  return offer(stream_of(input.running, stream_id::what::input), input, now);
+  return offer(stream_of(input.session, stream_id::what::input), input, now);
 }
 
 std::optional<outgoing_traffic::message>

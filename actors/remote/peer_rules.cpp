@@ -15,7 +15,7 @@ constexpr double pings_s = 200;
 constexpr double burst_s = 2;
 
 constexpr std::size_t longest_route = 1000;
-constexpr std::size_t most_kinds = 64;
+constexpr std::size_t most_services = 64;
 
 /// @returns a full bucket.
 token_bucket two_seconds_of(double per_second) {
@@ -55,13 +55,13 @@ std::string_view peer_rules::objection_to(station_id station,
 
 std::string_view peer_rules::objection_to(const service_input& input,
                                           time_point now) {
-  return objection_to_rate(input.running.station, now);
+  return objection_to_rate(input.session.station, now);
 }
 
 std::string_view peer_rules::objection_to(const service_request& request) {
   const auto is_small =
       request.route.size() <= longest_route
-      && request.kinds.size() <= most_kinds
+      && request.services.size() <= most_services
       && request.candidates.size() <= protocol::most_candidates;
   return is_small ? "" : "asks for too much";
 }

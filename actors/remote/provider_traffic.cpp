@@ -39,7 +39,7 @@ void provider_connection_state::on_request(const service_request& request) {
 }
 
 void provider_connection_state::on_requester_end(const service_end& e) {
-  forget(e.running);
+  forget(e.session);
   if (peer)
     send_to_provider(e);
 }
@@ -82,22 +82,22 @@ void provider_connection_state::on_response(const service_response& response) {
   const auto most =
       outgoing_traffic::streams_per_station * setup->stations.size();
   for (const auto& v : response.verdicts)
-    if (v.accepted && v.running.station == response.station
+    if (v.accepted && v.session.station == response.station
         && running.size() < most)
-      running.insert(v.running);
+      running.insert(v.session);
   // Of the link type: how many managers there are is told by the verdicts.
   self->send(vehicle->second, response, std::vector<provider_manager_actor>{});
 }
 
 void provider_connection_state::on_result(const service_result& result) {
   if (const auto here = on_our_clock(result, *life, now(self)))
-    send_to_vehicle(here->running.station, *here);
-  send_to_provider(stream_of(result.running, stream_id::what::result));
+    send_to_vehicle(here->session.station, *here);
+  send_to_provider(stream_of(result.session, stream_id::what::result));
 }
 
 void provider_connection_state::on_provider_end(const service_end& e) {
-  forget(e.running);
-  send_to_vehicle(e.running.station, e);
+  forget(e.session);
+  send_to_vehicle(e.session.station, e);
 }
 
 } // namespace sofof

@@ -40,10 +40,10 @@ void vehicle_connection_state::on_its_message(station_id station,
 }
 
 void vehicle_connection_state::on_input(const service_input& input) {
-  if (!is_heard(input.running.station))
+  if (!is_heard(input.session.station))
     return;
   pass_on(input);
-  send_to_peer(stream_of(input.running, stream_id::what::input));
+  send_to_peer(stream_of(input.session, stream_id::what::input));
 }
 
 void vehicle_connection_state::pass_on(station_id station,
@@ -60,9 +60,9 @@ void vehicle_connection_state::pass_on(station_id station,
 
 void vehicle_connection_state::pass_on(const service_input& input) {
   const auto t = now(self);
-  if (is_dropped(input.running.station, rules->objection_to(input, t)))
+  if (is_dropped(input.session.station, rules->objection_to(input, t)))
     return;
-  const auto manager = managers.find(input.running);
+  const auto manager = managers.find(input.session);
   if (manager == managers.end())
     return;
   if (auto here = on_our_clock(input, *life, t))
@@ -76,9 +76,9 @@ void vehicle_connection_state::on_request(const service_request& request) {
 }
 
 void vehicle_connection_state::on_requester_end(const service_end& e) {
-  if (!is_heard(e.running.station))
+  if (!is_heard(e.session.station))
     return;
-  forget(e.running);
+  forget(e.session);
   self->send(setup.provider, e);
 }
 
@@ -122,18 +122,18 @@ void vehicle_connection_state::on_response(
   auto manager = given.begin();
   for (const auto& v : response.verdicts)
     if (v.accepted && manager != given.end())
-      managers.insert_or_assign(v.running, *manager++);
+      managers.insert_or_assign(v.session, *manager++);
   send_to_peer(response);
 }
 
 void vehicle_connection_state::on_result(const service_result& result) {
-  const auto stream = stream_of(result.running, stream_id::what::result);
+  const auto stream = stream_of(result.session, stream_id::what::result);
   if (const auto next = results->offer(stream, result, now(self)))
     send_to_peer(*next);
 }
 
 void vehicle_connection_state::on_provider_end(const service_end& e) {
-  forget(e.running);
+  forget(e.session);
   send_to_peer(e);
 }
 

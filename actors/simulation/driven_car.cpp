@@ -115,7 +115,7 @@ std::optional<plan_switch_record> driven_car::use(const received_plan& next,
       || next.plan->end() < now)
     return std::nullopt; // of another time
   auto jump =
-      figures_->on_plan(*plan_, *next.plan, next.report, from.running, now);
+      figures_->on_plan(*plan_, *next.plan, next.report, from.session, now);
   plan_ = next.plan;
   plan_created_ = from.created;
   return jump;

@@ -249,11 +249,11 @@ provider_capacity capacity_of(const scenario& s,
                               const provider_compute& compute) {
   const auto workers = static_cast<std::size_t>(compute.workers);
   provider_capacity capacity{static_cast<double>(workers), {}};
-  for (const auto& kind : s.services)
+  for (const auto& type : s.services)
     capacity.utilisation_by.emplace(
-        kind->name(),
-        worker_share(compute.mean_s() * kind->options.compute.demand,
-                     kind->options.period, workers));
+        type->name(),
+        worker_share(compute.mean_s() * type->options.compute.demand,
+                     type->options.period, workers));
   return capacity;
 }
 
@@ -267,9 +267,9 @@ baseline baseline_of(const scenario& s) {
   baseline by;
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     by.providers.push_back(capacity_of(s, s.compute_of(k)));
-  for (const auto& kind : s.services) {
-    const auto& options = kind->options;
-    if (kind->name() != study::planning)
+  for (const auto& type : s.services) {
+    const auto& options = type->options;
+    if (type->name() != study::planning)
       continue;
     by.limit_s = to_seconds(options.limits.max_latency);
     by.period_s = to_seconds(options.period);

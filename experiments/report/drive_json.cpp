@@ -77,7 +77,7 @@ json vehicles_json(std::span<const track_line> lines) {
 
 /// A time in which a service of a vehicle ran at a provider.
 struct offloading {
-  offloading_name of;
+  session_key of;
   double from_s = 0;
   double until_s = 0;
 };

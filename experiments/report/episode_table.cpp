@@ -22,9 +22,9 @@ struct episode_results {
   double longest_gap_ms = 0;
 };
 
-std::map<offloading_name, episode_results>
+std::map<session_key, episode_results>
 results_by_episode(const recorded_run& run) {
-  std::map<offloading_name, episode_results> all;
+  std::map<session_key, episode_results> all;
   if (!run.cycles)
     return all;
   for (const auto& line : *run.cycles) {

@@ -56,9 +56,9 @@ std::set<double> limits_ms(std::span<const recorded_run> runs,
                            std::string_view service, const quantity& what) {
   std::set<double> all;
   for (const auto& run : runs)
-    for (const auto& kind : run.what.services)
-      if (kind->name() == service)
-        all.insert(to_seconds(kind->options.limits.*what.limit) * 1000);
+    for (const auto& type : run.what.services)
+      if (type->name() == service)
+        all.insert(to_seconds(type->options.limits.*what.limit) * 1000);
   return all;
 }
 

@@ -21,7 +21,7 @@ using nlohmann::json;
 using columns = std::string_view[];
 
 /// Reads the five columns that name an offloading, from `first` on.
-offloading_name name_at(const csv_reader& row, std::size_t first) {
+session_key name_at(const csv_reader& row, std::size_t first) {
   return {.provider = row.text(first),
           .service = row.text(first + 1),
           .provider_id = row.whole(first + 2),

@@ -11,20 +11,19 @@
 namespace sofof::report {
 
 /// Which offloading, in all files.
-struct offloading_name {
+struct session_key {
   std::string provider;
   std::string service;
   std::uint64_t provider_id = 0;
   std::uint64_t station = 0;
   std::uint64_t counter = 0;
 
-  friend auto operator<=>(const offloading_name&,
-                          const offloading_name&) = default;
+  friend auto operator<=>(const session_key&, const session_key&) = default;
 };
 
 /// Of episodes.csv.
 struct episode_line {
-  offloading_name of;
+  session_key of;
   bool by_requester = false; ///< Else the provider has closed it.
   double accepted_s = 0;
   std::optional<double> first_data_s;
@@ -36,7 +35,7 @@ struct episode_line {
 
 /// Of cycles.csv.
 struct cycle_line {
-  offloading_name of;
+  session_key of;
   double received_s = 0;
   double latency_ms = 0;
   std::optional<double> interarrival_ms;
@@ -56,7 +55,7 @@ struct track_line {
 struct event_line {
   double t_s = 0;
   std::string what;
-  offloading_name of;
+  session_key of;
   std::string detail;
 };
 

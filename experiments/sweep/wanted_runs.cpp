@@ -21,9 +21,9 @@ double cost_of(const scenario& s) {
   constexpr double setup = 1000;
   auto cycles = setup;
   const auto vehicles = static_cast<double>(place_vehicles(s).size());
-  for (const auto& kind : s.services)
+  for (const auto& type : s.services)
     cycles +=
-        vehicles * to_seconds(s.length) / to_seconds(kind->options.period);
+        vehicles * to_seconds(s.length) / to_seconds(type->options.period);
   return cycles;
 }
 

@@ -53,12 +53,12 @@ void visit_fields(auto& v, roadside_detections& x) {
 
 /// Which source the results of a service come from, from now on.
 struct source_change {
-  service_name kind;
+  service_name service;
   bool remote = false;
 };
 
 void visit_fields(auto& v, source_change& x) {
-  v("kind", x.kind);
+  v("service", x.service);
   v("remote", x.remote);
 }
 

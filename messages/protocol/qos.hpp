@@ -20,13 +20,13 @@ void visit_fields(auto& v, qos_limits& x) {
 
 /// A remote result came in.
 struct arrival {
-  session_id running;
+  session_id session;
   time_point created; ///< Start of the cycle that made the result.
   time_point received;
 };
 
 void visit_fields(auto& v, arrival& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("created", x.created);
   v("received", x.received);
 }
@@ -45,7 +45,7 @@ struct implausibility {
 
 /// A running service broke its limits.
 struct qos_violation {
-  session_id running;
+  session_id session;
   qos_breach breach = qos_breach::gap;
   time_point at;
   /// Another provider runs the service as it should, or the manager has left
@@ -56,7 +56,7 @@ struct qos_violation {
 };
 
 void visit_fields(auto& v, qos_violation& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("breach", x.breach);
   v("at", x.at);
   v("others_hold", x.others_hold);

@@ -21,7 +21,7 @@ struct event_record {
   event_type what{};
   station_id station = 0;
   provider_id provider = 0;
-  service_name kind; ///< Empty when it concerns no single service.
+  service_name service; ///< Empty when it concerns no single service.
   std::uint32_t counter = 0;
   std::string detail;  ///< Why, or how, for people.
   bool remote = false; ///< Of a switch: to a provider.
@@ -32,7 +32,7 @@ struct event_record {
 struct decision_record {
   time_point at;
   station_id station = 0;
-  service_name kind;
+  service_name service;
   bool accepted = false;
 };
 
@@ -44,7 +44,7 @@ struct cycle_record {
     double left = 0;
   };
 
-  session_id running;
+  session_id session;
   std::uint64_t cycle = 0;
   time_point created;
   time_point received;
@@ -56,7 +56,7 @@ struct cycle_record {
 
 /// One side has closed a running service.
 struct episode_record {
-  session_id running;
+  session_id session;
   side of = side::requester;
   time_point accepted;   ///< When the service was accepted.
   time_point first_data; ///< Requester: the switch to remote; else accepted.
@@ -94,7 +94,7 @@ struct drive_record {
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
-  session_id running;  ///< Its remote side, the new or the former one.
+  session_id session;  ///< Its remote side, the new or the former one.
   bool remote = false; ///< Where the new plan comes from.
   plan_jump jump;
 };

@@ -21,7 +21,7 @@ namespace sofof {
 struct session_id {
   provider_id provider = 0;
   station_id station = 0;
-  service_name kind;
+  service_name service;
   std::uint32_t counter = 0; ///< Rising per provider; 0: the local service.
   friend auto operator<=>(const session_id&, const session_id&) = default;
 };
@@ -29,7 +29,7 @@ struct session_id {
 void visit_fields(auto& v, session_id& x) {
   v("provider", x.provider);
   v("station", x.station);
-  v("kind", x.kind);
+  v("service", x.service);
   v("counter", x.counter);
 }
 
@@ -62,7 +62,7 @@ void visit_fields(auto& v, cam& x) {
 struct service_offer {
   provider_id provider = 0;
   point position; ///< Of the provider, m, east-north.
-  std::vector<service_name> kinds;
+  std::vector<service_name> services;
   /// What runs there needs this share of its workers, ≥ 0; above 1 it falls
   /// behind.
   double utilisation = 0;
@@ -75,7 +75,7 @@ struct service_offer {
 void visit_fields(auto& v, service_offer& x) {
   v("provider", x.provider);
   v("position", x.position);
-  v("kinds", x.kinds);
+  v("services", x.services);
   v("utilisation", x.utilisation);
   v("workers", x.workers);
   v("computing", x.computing);
@@ -87,10 +87,10 @@ struct service_request {
   provider_id provider = 0;
   station_id station = 0;
   std::uint32_t number = 0; ///< Rising per requester.
-  std::vector<service_name> kinds;
+  std::vector<service_name> services;
   std::vector<point> route; ///< Planned waypoints from the vehicle on, m.
   double speed_mps = 0;
-  /// Whom it could ask, and what it would win; for the first of the kinds.
+  /// Whom it could ask, and what it would win; for the first of the services.
   std::vector<candidate> candidates{};
 };
 
@@ -98,7 +98,7 @@ void visit_fields(auto& v, service_request& x) {
   v("provider", x.provider);
   v("station", x.station);
   v("number", x.number);
-  v("kinds", x.kinds);
+  v("services", x.services);
   v("route", x.route);
   v("speed_mps", x.speed_mps);
   v("candidates", x.candidates);
@@ -106,14 +106,14 @@ void visit_fields(auto& v, service_request& x) {
 
 /// What a provider says to one requested service.
 struct verdict {
-  session_id running; ///< Counter 0 when refused.
+  session_id session; ///< Counter 0 when refused.
   bool accepted = false;
   std::string why;         ///< Short; for records.
   provider_id instead = 0; ///< If refused: who should be asked; 0: nobody.
 };
 
 void visit_fields(auto& v, verdict& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("accepted", x.accepted);
   v("why", x.why);
   v("instead", x.instead);
@@ -137,26 +137,26 @@ void visit_fields(auto& v, service_response& x) {
 /// What a running service works on next; newer input replaces older. Whoever is
 /// on call gives one result at once, and the next one when it is called again.
 struct service_input {
-  session_id running;
+  session_id session;
   time_point at;
   payload what;
   /// The result in use, for a source that takes over from another one, which
   /// shall go on from there; else empty.
   payload in_use{};
-  bool on_call = false; ///< Else a result comes in every period.
+  bool standby = false; ///< Else a result comes in every period.
 };
 
 void visit_fields(auto& v, service_input& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("at", x.at);
   v("what", x.what);
   v("in_use", x.in_use);
-  v("on_call", x.on_call);
+  v("standby", x.standby);
 }
 
 /// What one cycle of a running service gave.
 struct service_result {
-  session_id running;
+  session_id session;
   std::uint64_t cycle = 0;
   time_point created; ///< Start of the cycle (t_creation).
   payload what;
@@ -166,7 +166,7 @@ struct service_result {
 };
 
 void visit_fields(auto& v, service_result& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("cycle", x.cycle);
   v("created", x.created);
   v("what", x.what);
@@ -210,14 +210,14 @@ constexpr side last_of(side) {
 
 /// One side has ended a running service; saying it twice does no harm.
 struct service_end {
-  session_id running;
+  session_id session;
   end_reason reason = end_reason::shutdown;
   side from = side::requester;
   payload what{}; ///< The same in the service's own terms, if it has any.
 };
 
 void visit_fields(auto& v, service_end& x) {
-  v("running", x.running);
+  v("session", x.session);
   v("reason", x.reason);
   v("from", x.from);
   v("what", x.what);

@@ -19,11 +19,10 @@ broadcast word_of(std::optional<Word> word) {
 
 } // namespace
 
-broadcast understand(const its_pdu& message, const georeference& where,
-                     time_point now) {
+broadcast decode(const its_pdu& message, const georeference& where,
+                 time_point now) {
   if (message.ahead != duration{})
-    return understand(its_pdu{message.octets}, where.ahead_by(message.ahead),
-                      now);
+    return decode(its_pdu{message.octets}, where.ahead_by(message.ahead), now);
   const auto octets = message.view();
   if (etsi::cam in; etsi::decode(octets, in))
     return word_of(read_cam(in, {}, where, now));

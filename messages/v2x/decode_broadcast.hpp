@@ -16,7 +16,7 @@ using broadcast = std::variant<std::monostate, cam, object_list>;
 /// @param now  See read_cam, read_cpm.
 /// @returns nothing for what cannot be decoded, does not tell what it has to,
 /// or is of another kind.
-broadcast understand(const its_pdu& message, const georeference& where,
-                     time_point now);
+broadcast decode(const its_pdu& message, const georeference& where,
+                 time_point now);
 
 } // namespace sofof

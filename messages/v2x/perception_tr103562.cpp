@@ -99,9 +99,9 @@ void look_through(const tr::sensor_information& told, viewpoint& eye) {
   eye.field_of_view_deg = 0.2 * to;
 }
 
-std::optional<timed_object> understand(const tr::perceived_object& told,
-                                       const sender_frame& from,
-                                       time_point generated) {
+std::optional<timed_object> decode(const tr::perceived_object& told,
+                                   const sender_frame& from,
+                                   time_point generated) {
   if (!told.planar_dimension_1 || !told.planar_dimension_2 || !told.yaw)
     return std::nullopt;
   const auto vx = etsi::velocity_mps.to_si(told.x_speed.value);
@@ -186,7 +186,7 @@ std::optional<object_list> read_cpm(const tr::cpm& message,
   std::vector<timed_object> objects;
   if (body.objects)
     for (const auto& told : *body.objects)
-      if (const auto x = understand(told, from, generated))
+      if (const auto x = decode(told, from, generated))
         objects.push_back(*x);
   auto seen = brought_together(message.header.station, generated, objects);
   seen.perceived = body.number_of_objects;

@@ -106,9 +106,8 @@ void look_through(const ts::sensor_information& told, viewpoint& eye) {
   eye.field_of_view_deg = 0.2 * view->horizontal_end;
 }
 
-std::optional<timed_object> understand(const ts::perceived_object& told,
-                                       const frame& from,
-                                       time_point reference) {
+std::optional<timed_object> decode(const ts::perceived_object& told,
+                                   const frame& from, time_point reference) {
   const auto* velocity =
       told.velocity
           ? std::get_if<etsi::cartesian_velocity>(&told.velocity->value)
@@ -200,7 +199,7 @@ std::optional<object_list> read_cpm(const ts::cpm& message,
             std::get_if<ts::perceived_object_container>(&container.value)) {
       perceived += seen->number_of_objects.value;
       for (const auto& told : seen->objects)
-        if (const auto x = understand(told, from, reference))
+        if (const auto x = decode(told, from, reference))
           objects.push_back(*x);
     } else if (const auto* sender =
                    std::get_if<ts::originating_vehicle>(&container.value)) {

@@ -26,7 +26,7 @@ violation crossed_bounds(workspace<Problem>& w) noexcept {
     }
     if (most > worst.scaled * r.tolerance)
       for (int k = 0; k < w.padded; ++k)
-        worst.see(r.lo[k] - r.hi[k], r.tolerance, index, k);
+        worst.keep_worse(r.lo[k] - r.hi[k], r.tolerance, index, k);
   });
   assert(worst.knot <= w.n); // neutral knots have no bounds
   return worst;
@@ -112,7 +112,7 @@ void measure_violation(const workspace<Problem>& w,
     report.violation = std::max(report.violation, most);
     if (most > report.worst.scaled * r.tolerance)
       for (int k = 0; k < m; ++k)
-        report.worst.see(out(k), r.tolerance, index, k);
+        report.worst.keep_worse(out(k), r.tolerance, index, k);
   });
   assert(report.violation >= report.worst.amount);
 }

@@ -46,7 +46,7 @@ struct violation {
   int knot = -1;
 
   /// Keeps the worse one, measured in tolerances.
-  void see(double beyond, double tolerance, int at_row, int at_knot) {
+  void keep_worse(double beyond, double tolerance, int at_row, int at_knot) {
     if (beyond > scaled * tolerance)
       *this = {beyond, beyond / tolerance, at_row, at_knot};
   }

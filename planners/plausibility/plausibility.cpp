@@ -54,8 +54,8 @@ oriented_box shrunk(oriented_box x) {
 plausibility::plausibility(std::span<const building> houses)
     : houses_{houses} {}
 
-bool plausibility::hear(station_id who, sender_id from,
-                        const timed_body& self) {
+bool plausibility::on_report(station_id who, sender_id from,
+                             const timed_body& self) {
   if (stations_.size() >= most_stations && !stations_.contains(who))
     return true;
   auto& x = stations_[who];

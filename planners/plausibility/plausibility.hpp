@@ -48,7 +48,7 @@ public:
 
   /// A station tells where it is.
   /// @returns whether that is to be believed.
-  bool hear(station_id who, sender_id from, const timed_body& self);
+  bool on_report(station_id who, sender_id from, const timed_body& self);
 
   /// A vehicle tells of bodies that it sees: takes out those that jump.
   /// @param ids     Their numbers.

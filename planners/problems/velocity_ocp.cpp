@@ -136,11 +136,13 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
     most[k + 1] = std::min(speed.hi[k + 1], most[k] + h * (upper + up) / 2);
     lower = down, upper = up;
     assert(least >= 0 && v >= ocp::crawl_mps);
-    worst.see(least - speed.hi[k + 1], speed.tolerance, speed_row, k + 1);
+    worst.keep_worse(least - speed.hi[k + 1], speed.tolerance, speed_row,
+                     k + 1);
     const double next = ocp::speed_of(least);
     if (early) {
       slowest = std::min(slowest + 2 * h / (v + next), time.hi[k + 1]);
-      worst.see(time.lo[k + 1] - slowest, time.tolerance, time_row, k + 1);
+      worst.keep_worse(time.lo[k + 1] - slowest, time.tolerance, time_row,
+                       k + 1);
     }
     v = next;
     if (least == 0 && !w_.rows.timed)
@@ -156,7 +158,7 @@ velocity_ocp::hopeless(const velocity_problem& p) const noexcept {
     const double next = ocp::speed_of(most[k + 1]);
     fastest = std::max(fastest + 2 * h / (v + next), time.lo[k + 1]);
     v = next;
-    worst.see(fastest - time.hi[k + 1], time.tolerance, time_row, k + 1);
+    worst.keep_worse(fastest - time.hi[k + 1], time.tolerance, time_row, k + 1);
   }
   return worst;
 }

@@ -35,7 +35,7 @@ ego_estimator::ego_estimator(route_ptr way, double s_m)
   assert(way_ && std::isfinite(first_s_m_));
 }
 
-void ego_estimator::hear(const reported_state& told) {
+void ego_estimator::on_report(const reported_state& told) {
   if (!is_sound(told) || (told_ && told.at <= told_->at))
     return;
   const auto guess_m = told_ ? at(told.at)->s_m : first_s_m_;

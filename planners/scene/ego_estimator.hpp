@@ -44,7 +44,7 @@ public:
   /// Takes what the vehicle told; if it is older than what is known, or no
   /// numbers, nothing. Who is more than 5 m beside the route is not on it, and
   /// nowhere until it is heard there again.
-  void hear(const reported_state& told);
+  void on_report(const reported_state& told);
 
   /// Takes the plan that the vehicle follows from its start on.
   /// @param plan  Not empty; later than the plan before, else nothing.

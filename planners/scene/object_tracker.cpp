@@ -88,8 +88,8 @@ void object_tracker::update(time_point at,
   assert(std::ranges::is_sorted(tracks_, {}, &track::id));
 }
 
-void object_tracker::hear(time_point at, station_id who,
-                          const perceived_object& self) {
+void object_tracker::on_report(time_point at, station_id who,
+                               const perceived_object& self) {
   if (!pass_time(at) || !is_sound(self))
     return;
   sightings_.assign(1, make_sighting(at, self));

@@ -61,7 +61,7 @@ public:
 
   /// Tells what a connected vehicle says of itself (a CAM); from now on its
   /// track bears its name.
-  void hear(time_point at, station_id who, const perceived_object& self);
+  void on_report(time_point at, station_id who, const perceived_object& self);
 
   /// @returns all tracks in order of `id`, at the time of the newest sighting;
   /// for any later time see `predict`. Valid until the next update.

@@ -63,14 +63,14 @@ public:
 
   /// @returns what is foreseen of results that are created from `from` on and
   /// before `until`.
-  virtual foreseen_results look(provider_id provider, std::string_view kind,
+  virtual foreseen_results look(provider_id provider, std::string_view service,
                                 time_point from, time_point until) const = 0;
 };
 
 /// What a requester weighs: one of its services, and where it may run.
 struct local_context {
   time_point now;
-  std::string_view kind;
+  std::string_view service;
   /// First where it runs, then those that may be asked now: who offers it just
   /// now, then the others by id.
   std::span<const provider_view> providers;
@@ -131,7 +131,7 @@ constexpr local_decision at_place(const local_context& context,
 /// One service that a vehicle asks for.
 struct request_view {
   station_id station = 0;
-  std::string_view kind;
+  std::string_view service;
   std::span<const point> route; ///< Planned, m, at least 1.
   double speed_mps = 0;
   double utilisation = 0; ///< What it would add to that of the provider.
@@ -146,7 +146,7 @@ struct request_view {
 /// One service of one station that runs now.
 struct session_view {
   station_id station = 0;
-  std::string_view kind;
+  std::string_view service;
   time_point since;
   periodic_task task;     ///< With the offset that was assigned, or drawn.
   std::size_t worker = 0; ///< As `central_decision` has it.

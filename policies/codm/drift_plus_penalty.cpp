@@ -44,7 +44,8 @@ public:
   }
 
   void observe(const episode_outcome& outcome) override {
-    const auto i = services_.find({outcome.station, std::string{outcome.kind}});
+    const auto i =
+        services_.find({outcome.station, std::string{outcome.service}});
     if (i == services_.end())
       return;
     auto& service = i->second;
@@ -82,7 +83,7 @@ private:
   template <class View>
   double price(const View& view, time_point now) {
     auto [i, is_new] =
-        services_.try_emplace({view.station, std::string{view.kind}});
+        services_.try_emplace({view.station, std::string{view.service}});
     auto& service = i->second;
     service.period = view.task.period;
     if (!is_new)

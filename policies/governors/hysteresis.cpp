@@ -32,9 +32,9 @@ private:
 
 local_decision hysteresis_governor::govern(const local_context& context,
                                            const local_decision& wanted) {
-  auto i = services_.find(context.kind);
+  auto i = services_.find(context.service);
   if (i == services_.end())
-    i = services_.emplace(context.kind, hysteresis{options_}).first;
+    i = services_.emplace(context.service, hysteresis{options_}).first;
   auto& service = i->second;
   service.is_at(context.current, context.since);
   if (wanted.release) {

@@ -39,7 +39,7 @@ private:
 bool predictive_gate_governor::open(const local_context& context,
                                     const provider_view& provider) {
   auto& gate =
-      gates_.try_emplace({std::string{context.kind}, provider.id}, on_, off_)
+      gates_.try_emplace({std::string{context.service}, provider.id}, on_, off_)
           .first->second;
   return gate.update(provider.link.late);
 }

@@ -26,12 +26,12 @@ public:
     for (const auto& provider : context.providers)
       if (provider.id != context.current)
         add(provider);
-    const auto place = places_[of(context.kind).core.choose(choices_)];
+    const auto place = places_[of(context.service).core.choose(choices_)];
     return at_place(context, place, "the least price");
   }
 
   void observe(const cycle_outcome& outcome) override {
-    auto& service = of(outcome.kind);
+    auto& service = of(outcome.service);
     service.untold += outcome.cycles;
     for (; service.untold >= 1; --service.untold)
       service.core.observe({outcome.missed, outcome.energy_j});
@@ -55,13 +55,13 @@ private:
     double untold = 0; // part of a cycle
   };
 
-  service& of(std::string_view kind) {
-    auto i = services_.find(kind);
+  service& of(std::string_view name) {
+    auto i = services_.find(name);
     if (i == services_.end()) {
       auto options = options_;
       if (energy_budget_j_ > 0)
         options.energy_budget_j = energy_budget_j_;
-      i = services_.emplace(kind, service{drift_plus_penalty{options}}).first;
+      i = services_.emplace(name, service{drift_plus_penalty{options}}).first;
     }
     return i->second;
   }

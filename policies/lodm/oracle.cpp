@@ -63,7 +63,7 @@ private:
                        const provider_view& provider) const {
     const auto end = context.now + horizon_;
     const auto coming =
-        context.future->look(provider.id, context.kind, context.now, end);
+        context.future->look(provider.id, context.service, context.now, end);
     auto sure = provider;
     sure.link.late = 0;
     sure.link.median = from_seconds(coming.latency_s);

@@ -29,7 +29,7 @@ std::vector<bool> accepted(const std::vector<verdict>& verdicts) {
   std::vector<bool> all;
   for (const auto& v : verdicts) {
     all.push_back(v.accepted);
-    CHECK(v.accepted == (v.running.counter != 0));
+    CHECK(v.accepted == (v.session.counter != 0));
   }
   return all;
 }
@@ -48,7 +48,7 @@ TEST_CASE_FIXTURE(patient_world, "requests of an epoch are decided together, "
   CHECK(responses().empty());
   run_for(1ns);
   REQUIRE(codm->asked.size() == 1);
-  CHECK(codm->asked.front().kinds
+  CHECK(codm->asked.front().services
         == std::vector<std::string>{"one", "two", "one"});
   REQUIRE(responses().size() == 1);
   CHECK(requester->times<service_response>().front() == now());
@@ -79,7 +79,7 @@ TEST_CASE_FIXTURE(patient_world, "who asks twice within an epoch has given up "
   run_for(150ms);
   REQUIRE(responses().size() == 1);
   CHECK(responses().front().number == last_number);
-  CHECK(codm->asked.front().kinds == std::vector<std::string>{"one", "two"});
+  CHECK(codm->asked.front().services == std::vector<std::string>{"one", "two"});
   CHECK(managers().size() == 2);
   CHECK(accepted(verdicts()) == yes_or_no{true, true});
   run_for(250ms);
@@ -96,7 +96,7 @@ TEST_CASE_FIXTURE(patient_world, "who has left before the epoch is over is "
   hear(outside);
   run_for(150ms);
   CHECK(accepted(verdicts()) == yes_or_no{false});
-  CHECK(codm->asked.front().kinds == std::vector<std::string>{"one"});
+  CHECK(codm->asked.front().services == std::vector<std::string>{"one"});
   CHECK(accepted(neighbour->all<service_response>().front().verdicts)
         == yes_or_no{true});
 }
@@ -151,7 +151,7 @@ TEST_CASE_FIXTURE(provider_world, "what a choice behind a filter leaves "
   };
   ask_on_the_road({one, two});
   REQUIRE(codm->asked.size() == 1);
-  CHECK(codm->asked.front().kinds.size() == 2);
+  CHECK(codm->asked.front().services.size() == 2);
   CHECK(accepted(verdicts()) == yes_or_no{true, false});
   CHECK(verdicts().back().why == "not decided");
   codm->at_most = 0;
@@ -173,18 +173,18 @@ TEST_CASE_FIXTURE(provider_world, "a service that the CODM revokes ends, and "
   tell(provider, service_request{boot, 102, 1, {two}, {inside}, 10},
        neighbour.handle);
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == before.front().running);
+  CHECK(ends().front().session == before.front().session);
   CHECK(ends().front().reason == end_reason::revoked);
   CHECK(ends().front().from == side::provider);
   REQUIRE(episodes().size() == 1);
-  CHECK(episodes().front().running == before.front().running);
+  CHECK(episodes().front().session == before.front().session);
   CHECK(episodes().front().reason == end_reason::revoked);
   CHECK(is_gone(of_one));
   CHECK(!is_gone(of_two));
   CHECK(neighbour->all<service_response>().front().verdicts.front().accepted);
   codm->revoked = {};
   stay(1s);
-  CHECK(offers().back().kinds == std::vector{one});
+  CHECK(offers().back().services == std::vector{one});
 }
 
 TEST_CASE_FIXTURE(provider_world, "sessions that the CODM does not mention go "

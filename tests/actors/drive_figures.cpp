@@ -145,18 +145,18 @@ TEST_CASE_FIXTURE(driver, "only plans from another source are a switch") {
   const auto there = take(remote);
   REQUIRE(there.has_value());
   CHECK(there->remote);
-  CHECK(there->running == remote);
+  CHECK(there->session == remote);
   CHECK_FALSE(take(remote).has_value());
   auto next = remote;
   next.provider = 8;
   const auto onward = take(next);
   REQUIRE(onward.has_value());
   CHECK(onward->remote);
-  CHECK(onward->running == next);
+  CHECK(onward->session == next);
   const auto back = take(local);
   REQUIRE(back.has_value());
   CHECK_FALSE(back->remote);
-  CHECK(back->running == next);
+  CHECK(back->session == next);
 }
 
 TEST_CASE_FIXTURE(driver, "after a safe stop there is nothing to switch from") {

@@ -92,7 +92,7 @@ struct echo_world : virtual_world {
     const auto all = vehicle->all<service_result>();
     return static_cast<std::size_t>(
         std::ranges::count_if(all, [&](const service_result& r) {
-          return (r.running.counter != 0) == remote;
+          return (r.session.counter != 0) == remote;
         }));
   }
 };
@@ -125,14 +125,14 @@ TEST_CASE_FIXTURE(echo_world, "inside the area an unheard-of service runs at "
   CHECK(results(false) > local + 90);
   const auto changes = vehicle->all<source_change>();
   REQUIRE(changes.size() == 2);
-  CHECK(changes[0].kind == service_name{"never_heard_of"});
+  CHECK(changes[0].service == service_name{"never_heard_of"});
   CHECK(changes[0].remote);
   CHECK(!changes[1].remote);
   const auto episodes = recorder->all<episode_record>();
   REQUIRE(episodes.size() == 2); // one for each side
   for (const auto& e : episodes) {
     CHECK(e.reason == end_reason::left_area);
-    CHECK(e.running == episodes.front().running);
+    CHECK(e.session == episodes.front().session);
   }
   CHECK(episodes[0].of != episodes[1].of);
 }

@@ -17,7 +17,7 @@ TEST_CASE_FIXTURE(provider_world,
   hear(outside);
   REQUIRE(ends().size() == 2);
   for (std::size_t k = 0; k < 2; ++k) {
-    CHECK(ends()[k].running == running[k].running);
+    CHECK(ends()[k].session == running[k].session);
     CHECK(ends()[k].reason == end_reason::left_area);
     CHECK(ends()[k].from == side::provider);
     CHECK(is_gone(ran_by[k]));
@@ -142,21 +142,21 @@ TEST_CASE_FIXTURE(provider_world, "the requester ends its service: it is "
                                   "closed with that reason, once") {
   hear(inside);
   start({one, two});
-  const auto running = verdicts().front().running;
+  const auto running = verdicts().front().session;
   const auto manager = managers().front();
   const service_end end{running, end_reason::qos_latency, side::requester};
   for (int k = 0; k < 3; ++k)
     tell(provider, end);
   CHECK(is_gone(manager));
   REQUIRE(episodes().size() == 1);
-  CHECK(episodes().front().running == running);
+  CHECK(episodes().front().session == running);
   CHECK(episodes().front().reason == end_reason::qos_latency);
   CHECK(ends().empty()); // the requester knows
   run_for(10ms);
   requester->clear();
   run_for(100ms);
   for (const auto& r : requester->all<service_result>())
-    CHECK(r.running.kind == two);
+    CHECK(r.session.service == two);
   CHECK(requester->count<service_result>() > 0);
 }
 
@@ -165,9 +165,9 @@ TEST_CASE_FIXTURE(provider_world,
                   "concern the present one") {
   hear(inside);
   ask(make_request({one}));
-  const auto older = verdicts().front().running;
+  const auto older = verdicts().front().session;
   start({one}); // ends the older one
-  const auto present = verdicts().front().running;
+  const auto present = verdicts().front().session;
   REQUIRE(episodes().size() == 1);
   for (const auto& r : {older,
                         {boot + 1, station, one, present.counter},
@@ -191,7 +191,7 @@ TEST_CASE_FIXTURE(provider_world,
   REQUIRE(episodes().size() == 2);
   for (const auto& e : episodes()) {
     CHECK(e.reason == end_reason::peer_lost);
-    CHECK(e.running.station == station);
+    CHECK(e.session.station == station);
   }
   for (const auto& m : ran_by)
     CHECK(is_gone(m));
@@ -205,15 +205,15 @@ TEST_CASE_FIXTURE(provider_world, "when a manager is lost its service is "
   start({one, two});
   kill(managers().front());
   REQUIRE(episodes().size() == 1);
-  CHECK(episodes().front().running == verdicts().front().running);
+  CHECK(episodes().front().session == verdicts().front().session);
   CHECK(episodes().front().reason == end_reason::peer_lost);
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == verdicts().front().running);
+  CHECK(ends().front().session == verdicts().front().session);
   requester->clear();
   run_for(100ms);
   CHECK(requester->count<service_result>() > 0);
   for (const auto& r : requester->all<service_result>())
-    CHECK(r.running.kind == two);
+    CHECK(r.session.service == two);
   hear(outside);
   CHECK(episodes().size() == 2);
 }
@@ -258,7 +258,8 @@ TEST_CASE_FIXTURE(provider_world, "a station that comes back with a new "
   REQUIRE(closed.size() == 1);
   CHECK(closed.front().reason == end_reason::peer_lost);
   REQUIRE(neighbour->count<service_offer>() == 1); // at once
-  CHECK(neighbour->all<service_offer>().front().kinds == std::vector{one, two});
+  CHECK(neighbour->all<service_offer>().front().services
+        == std::vector{one, two});
   // The old one's end is nobody's business any more.
   kill(requester.handle);
   run_for(1s);
@@ -322,7 +323,7 @@ TEST_CASE_FIXTURE(polite_world, "a provider that ends a service says so in its "
 
 TEST_CASE_FIXTURE(polite_world, "a provider says nothing when the requester "
                                 "has ended the service") {
-  tell(provider, service_end{verdicts().front().running, end_reason::qos_gap,
+  tell(provider, service_end{verdicts().front().session, end_reason::qos_gap,
                              side::requester});
   CHECK(episodes().size() == 1);
   CHECK(recorder->count<air_record>() == 0);

@@ -16,7 +16,7 @@ TEST_CASE_FIXTURE(requester_world,
   run_for(1ns);
   const auto t = now();
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   CHECK(ends().front().reason == end_reason::qos_gap);
   CHECK(ends().front().from == side::requester);
   CHECK(provider->times<service_end>().front() == t);
@@ -25,7 +25,7 @@ TEST_CASE_FIXTURE(requester_world,
   run_for(10ms);
   const auto results = local_results();
   CHECK(std::ranges::any_of(results, [&](const service_result& r) {
-    return r.running.kind == one && r.created == t;
+    return r.session.service == one && r.created == t;
   }));
 }
 
@@ -35,7 +35,7 @@ TEST_CASE_FIXTURE(requester_world, "a violation closes the episode, once") {
   run_for(10s);
   REQUIRE(episodes().size() == 1);
   const auto e = episodes().front();
-  CHECK(e.running == at_here(one, 7));
+  CHECK(e.session == at_here(one, 7));
   CHECK(e.of == side::requester);
   CHECK(e.got_data);
   CHECK(e.first_data == began);
@@ -74,10 +74,10 @@ TEST_CASE_FIXTURE(requester_world,
   start_remote({one});
   run_for(100ms + 1ns);
   offer({one, two});
-  CHECK(last_request().kinds == std::vector{two});
+  CHECK(last_request().services == std::vector{two});
   offer_from(other, elsewhere, {one});
   REQUIRE(other->count<service_request>() == 1);
-  CHECK(other->all<service_request>().front().kinds == std::vector{one});
+  CHECK(other->all<service_request>().front().services == std::vector{one});
 }
 
 TEST_CASE_FIXTURE(requester_world,
@@ -100,7 +100,7 @@ TEST_CASE_FIXTURE(requester_world, "services fall back one by one") {
   CHECK(!is_remote(one));
   CHECK(is_remote(two));
   REQUIRE(episodes().size() == 1);
-  CHECK(episodes().front().running == at_here(one, 7));
+  CHECK(episodes().front().session == at_here(one, 7));
   run_for(100ms);
   CHECK(!is_remote(two));
   CHECK(episodes().size() == 2);
@@ -120,7 +120,7 @@ TEST_CASE_FIXTURE(requester_world, "when the provider ends a service the local "
   run_for(10ms);
   const auto results = local_results();
   CHECK(std::ranges::any_of(results, [&](const service_result& r) {
-    return r.running.kind == one && r.created == t;
+    return r.session.service == one && r.created == t;
   }));
 }
 
@@ -202,7 +202,7 @@ TEST_CASE_FIXTURE(requester_world,
   }
   CHECK(ends().size() == 5);
   for (const auto& e : ends()) {
-    CHECK(e.running == at_here(two, 99));
+    CHECK(e.session == at_here(two, 99));
     CHECK(e.from == side::requester);
   }
   CHECK(is_remote(one));
@@ -214,7 +214,7 @@ TEST_CASE_FIXTURE(requester_world, "results of an older counter are answered "
   vehicle->clear();
   result(at_here(one, 6), 2);
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 6));
+  CHECK(ends().front().session == at_here(one, 6));
   CHECK(vehicle->count<service_result>() == 0);
 }
 
@@ -226,7 +226,7 @@ TEST_CASE_FIXTURE(requester_world,
   run_for(300ms);
   result(at_here(one, 7), 8);
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   CHECK(episodes().size() == 1);
 }
 
@@ -332,7 +332,7 @@ TEST_CASE_FIXTURE(requester_world, "two providers can run one service each") {
   start_remote({one});
   offer_from(other, elsewhere, {one, two});
   const auto request = other->all<service_request>().front();
-  CHECK(request.kinds == std::vector{two});
+  CHECK(request.services == std::vector{two});
   answer(request, {{two, 7}}); // counters are per provider
   result({elsewhere, station, two, 7}, 1);
   CHECK(is_remote(one));
@@ -476,7 +476,7 @@ TEST_CASE_FIXTURE(requester_world,
       std::ranges::find(events, event_type::implausible, &event_record::what);
   REQUIRE(found != events.end());
   CHECK(found->provider == here);
-  CHECK(found->kind == one);
+  CHECK(found->service == one);
   CHECK(found->detail == "number value=2.000 limit=1.000");
 }
 

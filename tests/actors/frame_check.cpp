@@ -116,7 +116,7 @@ TEST_CASE("what vehicles say to a provider is admitted") {
   service_request request{11, 101, 1, {"a", "b"}, {}, 5};
   request.route.resize(1000);
   request.candidates.resize(64);
-  request.kinds.resize(64, service_name{"a_name_that_is_rather_long"});
+  request.services.resize(64, service_name{"a_name_that_is_rather_long"});
   CHECK(at.judge(direct, message_of(request), told) == "");
   CHECK(at.judge(direct, message_of(service_input{running, {}, {}}), told)
         == "");

@@ -70,7 +70,7 @@ TEST_CASE_FIXTURE(remote_service_world,
   vehicle->clear();
   go_over();
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   CHECK(ends().front().reason == end_reason::handed_over);
   CHECK(vehicle->count<source_change>() == 0);
   REQUIRE(episodes().size() == 1);

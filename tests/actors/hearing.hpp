@@ -120,7 +120,7 @@ struct hearing_provider : vehicle_connection_world {
     return !is_gone(endpoint)
            && std::ranges::all_of(asked, is_own, &service_request::station)
            && std::ranges::all_of(ended, is_own, [](const service_end& end) {
-                return end.running.station;
+                return end.session.station;
               });
   }
 };

@@ -46,13 +46,14 @@ struct hedged_world : requester_world {
   /// Results of the service that the client got.
   std::vector<service_result> used() const {
     auto all = vehicle->all<service_result>();
-    std::erase_if(all, [this](const auto& r) { return r.running.kind != one; });
+    std::erase_if(all,
+                  [this](const auto& r) { return r.session.service != one; });
     return all;
   }
   std::size_t calls() const {
     std::size_t n = 0;
     for (const auto& input : second->all<service_input>())
-      n += input.on_call;
+      n += input.standby;
     return n;
   }
 };
@@ -102,12 +103,12 @@ TEST_CASE_FIXTURE(hedged_world, "the answer to a call is used, that of the "
   vehicle->clear();
   result(at_other(), 2, 5ms);
   REQUIRE(used().size() == 1);
-  CHECK(used().front().running == at_other());
+  CHECK(used().front().session == at_other());
   result(at_here(one, 7), ++cycle, 25ms);
   CHECK(used().size() == 1);
   answer_next(); // the next cycle is the first's again
   REQUIRE(used().size() == 2);
-  CHECK(used().back().running == at_here(one, 7));
+  CHECK(used().back().session == at_here(one, 7));
 }
 
 TEST_CASE_FIXTURE(hedged_world, "while the first is silent each cycle is "
@@ -128,7 +129,7 @@ TEST_CASE_FIXTURE(hedged_world, "while the first is silent each cycle is "
   CHECK(is_remote(one));
   CHECK(calls() == 5);
   REQUIRE(second->count<service_input>() == 6);
-  CHECK(!second->all<service_input>().back().on_call);
+  CHECK(!second->all<service_input>().back().standby);
 }
 
 TEST_CASE_FIXTURE(hedged_world, "when nobody answers, called or not, the "
@@ -210,7 +211,7 @@ TEST_CASE_FIXTURE(hedged_world, "whoever takes over alone is told the plan in "
        service_end{at_here(one, 7), end_reason::left_area, side::provider});
   REQUIRE(second->count<service_input>() == 1);
   const auto input = second->all<service_input>().front();
-  CHECK(!input.on_call);
+  CHECK(!input.standby);
   REQUIRE(input.in_use.as<echo>());
   CHECK(input.in_use.as<echo>()->number == cycle);
 }
@@ -236,16 +237,16 @@ TEST_CASE("whoever came first and shall be on call is told so") {
   w.answer(w.last_request(), {{w.one, 7}});
   w.result(there, 1);
   REQUIRE(second->count<service_input>() == 1);
-  CHECK(!second->all<service_input>().back().on_call); // it is alone
+  CHECK(!second->all<service_input>().back().standby); // it is alone
   w.result(w.at_here(w.one, 7), 1);
   REQUIRE(second->count<service_input>() == 2);
-  CHECK(second->all<service_input>().back().on_call);
+  CHECK(second->all<service_input>().back().standby);
   // It has not heard that, and goes on.
   w.run_for(100ms);
   w.result(w.at_here(w.one, 7), 2);
   w.result(there, 3);
   CHECK(second->count<service_input>() == 3);
-  CHECK(second->all<service_input>().back().on_call);
+  CHECK(second->all<service_input>().back().standby);
 }
 
 TEST_CASE_FIXTURE(hedged_world, "a policy may have all cycles planned again") {
@@ -256,5 +257,5 @@ TEST_CASE_FIXTURE(hedged_world, "a policy may have all cycles planned again") {
   lodm->wanted = {"one"};
   offer_from(provider, here, {one, two});
   REQUIRE(second->count<service_input>() == 1);
-  CHECK(!second->all<service_input>().front().on_call);
+  CHECK(!second->all<service_input>().front().standby);
 }

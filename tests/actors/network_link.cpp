@@ -137,7 +137,7 @@ TEST_CASE_FIXTURE(linked_world,
   run_for(1s);
   REQUIRE(first->count<service_input>() == 1);
   REQUIRE(second->count<service_input>() == 1);
-  CHECK(first->all<service_input>().front().running == one);
+  CHECK(first->all<service_input>().front().session == one);
   CHECK(second->all<service_input>().front().what.as<echo>()->number == 2);
   CHECK(first->times<service_input>().front() == sent + 20ms);
 }
@@ -172,8 +172,8 @@ TEST_CASE_FIXTURE(linked_world, "a service_end goes to the other side") {
   run_for(1s);
   REQUIRE(far->count<service_end>() == 1);
   REQUIRE(near->count<service_end>() == 1);
-  CHECK(far->all<service_end>().front().running == one);
-  CHECK(near->all<service_end>().front().running == two);
+  CHECK(far->all<service_end>().front().session == one);
+  CHECK(near->all<service_end>().front().session == two);
   CHECK(far->times<service_end>().front() == sent + 20ms);
   CHECK(near->times<service_end>().front() == sent + 20ms);
 }
@@ -186,7 +186,7 @@ TEST_CASE_FIXTURE(linked_world, "a result arrives after the delay, unchanged") {
   REQUIRE(near->count<service_result>() == 1);
   CHECK(near->times<service_result>().front() == sent + 20ms);
   const auto r = near->all<service_result>().front();
-  CHECK(r.running == one);
+  CHECK(r.session == one);
   CHECK(r.created == sent);
   CHECK(r.what.as<echo>()->number == 5);
 }

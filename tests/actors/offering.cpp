@@ -24,7 +24,7 @@ TEST_CASE_FIXTURE(provider_world,
   const auto offer = offers().front();
   CHECK(offer.provider == boot);
   CHECK(offer.position == point{1, 2});
-  CHECK(offer.kinds == std::vector{one, two});
+  CHECK(offer.services == std::vector{one, two});
 }
 
 TEST_CASE_FIXTURE(provider_world, "a station is inside as long as its rear "
@@ -66,7 +66,7 @@ TEST_CASE_FIXTURE(provider_world,
   start({two});
   stay(1s);
   REQUIRE(offers().size() == 2);
-  CHECK(offers().back().kinds == std::vector{one});
+  CHECK(offers().back().services == std::vector{one});
   start({one});
   stay(3s);
   CHECK(offers().size() == 2);
@@ -77,11 +77,11 @@ TEST_CASE_FIXTURE(provider_world, "what has ended is offered again") {
   start({one, two});
   stay(5s);
   CHECK(offers().size() == 1);
-  tell(provider, service_end{verdicts().front().running, end_reason::qos_gap,
+  tell(provider, service_end{verdicts().front().session, end_reason::qos_gap,
                              side::requester});
   stay(1s);
   REQUIRE(offers().size() == 2);
-  CHECK(offers().back().kinds == std::vector{one});
+  CHECK(offers().back().services == std::vector{one});
 }
 
 TEST_CASE_FIXTURE(provider_world, "a CPM of who has sent no CAM yet brings no "
@@ -171,7 +171,7 @@ TEST_CASE_FIXTURE(provider_world, "the CODM judges a request as it came") {
   const auto& asked = codm->asked.front();
   CHECK(asked.now == now());
   CHECK(asked.station == station);
-  CHECK(asked.kinds == std::vector<std::string>{"two", "one"});
+  CHECK(asked.services == std::vector<std::string>{"two", "one"});
   CHECK(asked.route == request.route);
   CHECK(asked.speed_mps == 12.5);
   CHECK(asked.sessions.empty());
@@ -240,12 +240,12 @@ TEST_CASE_FIXTURE(provider_world, "a request is answered at once, a verdict "
   CHECK(r.station == station);
   CHECK(r.number == last_number);
   REQUIRE(r.verdicts.size() == 2);
-  CHECK(r.verdicts[0].running == session_id{boot, station, one, 0});
+  CHECK(r.verdicts[0].session == session_id{boot, station, one, 0});
   CHECK(!r.verdicts[0].accepted);
   CHECK(r.verdicts[0].why == "as told");
   CHECK(r.verdicts[1].accepted);
-  CHECK(r.verdicts[1].running.kind == two);
-  CHECK(r.verdicts[1].running.counter > 0);
+  CHECK(r.verdicts[1].session.service == two);
+  CHECK(r.verdicts[1].session.counter > 0);
   CHECK(managers().size() == 1);
 }
 
@@ -259,7 +259,7 @@ TEST_CASE_FIXTURE(provider_world,
   run_for(10ms);
   REQUIRE(requester->count<service_result>() > 0);
   const auto result = requester->all<service_result>().front();
-  CHECK(result.running == verdicts().front().running);
+  CHECK(result.session == verdicts().front().session);
   CHECK(result.what.as<echo>()->number == 5);
 }
 
@@ -270,7 +270,7 @@ TEST_CASE_FIXTURE(provider_world, "an unknown service is refused, whatever the "
   ask(make_request({"unheard_of", one}));
   REQUIRE(verdicts().size() == 2);
   CHECK(!verdicts()[0].accepted);
-  CHECK(verdicts()[0].running.counter == 0);
+  CHECK(verdicts()[0].session.counter == 0);
   CHECK(verdicts()[1].accepted);
   CHECK(managers().size() == 1);
 }
@@ -289,10 +289,10 @@ TEST_CASE_FIXTURE(provider_world,
   hear(inside);
   ask(make_request({one}));
   const auto third = verdicts().front();
-  CHECK(first[0].running.counter == 1);
-  CHECK(first[1].running.counter == 2);
-  CHECK(second.running.counter == 3);
-  CHECK(third.running.counter == 4);
+  CHECK(first[0].session.counter == 1);
+  CHECK(first[1].session.counter == 2);
+  CHECK(second.session.counter == 3);
+  CHECK(third.session.counter == 4);
 }
 
 TEST_CASE_FIXTURE(provider_world, "the duplicate of a request is ignored") {
@@ -313,7 +313,7 @@ TEST_CASE_FIXTURE(provider_world,
   ask(make_request({two}));
   ask(older);
   REQUIRE(responses().size() == 1);
-  CHECK(verdicts().front().running.kind == two);
+  CHECK(verdicts().front().session.service == two);
 }
 
 TEST_CASE_FIXTURE(provider_world, "a station nobody has seen is refused") {
@@ -323,7 +323,7 @@ TEST_CASE_FIXTURE(provider_world, "a station nobody has seen is refused") {
   REQUIRE(verdicts().size() == 2);
   for (const auto& v : verdicts()) {
     CHECK(!v.accepted);
-    CHECK(v.running.counter == 0);
+    CHECK(v.session.counter == 0);
   }
   CHECK(managers().empty());
   CHECK(codm->asked.empty());
@@ -351,15 +351,15 @@ TEST_CASE_FIXTURE(provider_world, "who asks for what runs has missed its end: "
                                   "it is closed and started anew") {
   hear(inside);
   start({one});
-  const auto before = verdicts().front().running;
+  const auto before = verdicts().front().session;
   const auto manager = managers().front();
   run_for(1s);
   ask(make_request({one}));
   REQUIRE(episodes().size() == 1);
-  CHECK(episodes().front().running == before);
+  CHECK(episodes().front().session == before);
   CHECK(is_gone(manager));
   CHECK(verdicts().front().accepted);
-  CHECK(verdicts().front().running.counter > before.counter);
+  CHECK(verdicts().front().session.counter > before.counter);
 }
 
 TEST_CASE_FIXTURE(provider_world, "a request for nothing is answered so") {
@@ -374,7 +374,7 @@ TEST_CASE_FIXTURE(provider_world, "the CODM is asked about offered services "
   hear(inside);
   ask(make_request({"unheard_of", one, one, two, "unheard_of"}));
   REQUIRE(codm->asked.size() == 1);
-  CHECK(codm->asked.front().kinds == std::vector<std::string>{"one", "two"});
+  CHECK(codm->asked.front().services == std::vector<std::string>{"one", "two"});
   std::vector<std::string> why;
   for (const auto& v : verdicts())
     why.push_back(v.why);

@@ -79,7 +79,7 @@ TEST_CASE_FIXTURE(
     "most") {
   service_request request;
   request.route.resize(1000);
-  request.kinds.resize(64);
+  request.services.resize(64);
   request.candidates.resize(protocol::most_candidates);
   CHECK(peer_rules::objection_to(request).empty());
   const auto is_too_much = [](const service_request& x) {
@@ -89,7 +89,7 @@ TEST_CASE_FIXTURE(
   larger.route.resize(1001);
   CHECK(is_too_much(larger));
   larger = request;
-  larger.kinds.resize(65);
+  larger.services.resize(65);
   CHECK(is_too_much(larger));
   larger = request;
   larger.candidates.resize(protocol::most_candidates + 1);

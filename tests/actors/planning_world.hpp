@@ -68,7 +68,7 @@ public:
 
   /// A message that everybody hears comes in.
   void hear(const its_pdu& message) {
-    const auto heard = understand(message, *world.where, *now);
+    const auto heard = decode(message, *world.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
       listener_of(*there)->on_cam(*own, own->station);
     if (const auto* seen = std::get_if<object_list>(&heard))

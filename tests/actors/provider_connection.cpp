@@ -264,11 +264,11 @@ TEST_CASE_FIXTURE(provider_connection_world,
   }
   REQUIRE(requester->count<service_end>() == 1);
   const auto e = requester->all<service_end>().front();
-  CHECK(e.running == one);
+  CHECK(e.session == one);
   CHECK(e.reason == end_reason::peer_lost);
   CHECK(e.from == side::provider);
   REQUIRE(other->count<service_end>() == 1);
-  CHECK(other->all<service_end>().front().running == two);
+  CHECK(other->all<service_end>().front().session == two);
   REQUIRE(notes("provider_lost") == 1);
   CHECK(recorder->all<event_record>().back().provider == boot);
 }

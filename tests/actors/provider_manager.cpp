@@ -21,7 +21,7 @@ struct provider_manager_world : virtual_world {
 
   provider_manager_actor spawn() {
     offloading::cycle_setup setup;
-    setup.running = running;
+    setup.session = running;
     setup.function = std::make_shared<echo_function>();
     setup.period = 50ms;
     setup.phase = 20ms;
@@ -73,7 +73,7 @@ TEST_CASE_FIXTURE(provider_manager_world,
   CHECK(results[2].created == time_point{170ms});
   CHECK(results[0].cycle < results[1].cycle);
   for (const auto& r : results)
-    CHECK(r.running == running);
+    CHECK(r.session == running);
   CHECK(requester->times<service_result>().front() == time_point{103ms});
 }
 

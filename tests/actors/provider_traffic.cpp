@@ -144,7 +144,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   REQUIRE(ends.size() == 100);
   for (std::uint32_t k = 0; k < 100; ++k) {
     CHECK(requests[k].number == k + 1);
-    CHECK(ends[k].running.counter == k + 1);
+    CHECK(ends[k].session.counter == k + 1);
   }
 }
 

@@ -39,7 +39,7 @@ TEST_CASE_FIXTURE(
   REQUIRE(requester->count<qos_violation>() == 1);
   const auto violation = requester->all<qos_violation>().front();
   CHECK(violation.breach == qos_breach::gap);
-  CHECK(violation.running == running);
+  CHECK(violation.session == running);
   CHECK(violation.at == time_point{100ms + 1ns});
 }
 

@@ -27,8 +27,8 @@ TEST_CASE_FIXTURE(remote_world, "a vehicle is offered services by a provider "
   const auto results = remote_results(car);
   CHECK(results.size() - before == 40); // two kinds at 20 Hz
   for (const auto& r : results) {
-    CHECK(r.running.provider == first_boot);
-    CHECK(r.running.station == 101);
+    CHECK(r.session.provider == first_boot);
+    CHECK(r.session.station == 101);
     CHECK(r.created <= now());
     CHECK(r.doubt <= 1ms); // both clocks are one
   }
@@ -56,8 +56,8 @@ TEST_CASE_FIXTURE(fleet_world, "to the provider each station behind a "
   std::set<session_id> running;
   for (const auto& c : cars) {
     for (const auto& r : remote_results(c)) {
-      CHECK(r.running.station == c.station);
-      running.insert(r.running);
+      CHECK(r.session.station == c.station);
+      running.insert(r.session);
     }
   }
   CHECK(running.size() == 6);
@@ -68,7 +68,7 @@ TEST_CASE_FIXTURE(fleet_world, "to the provider each station behind a "
   drive(3s);
   CHECK(all_remote());
   for (const auto& e : episodes(there))
-    CHECK(e.running.station == 101);
+    CHECK(e.session.station == 101);
 }
 
 TEST_CASE_FIXTURE(fleet_world, "when the provider dies, all that ran ends at "
@@ -102,7 +102,7 @@ TEST_CASE_FIXTURE(fleet_world, "when the provider is back, under a new boot "
   drive(3s);
   CHECK(all_remote());
   for (const auto& c : cars)
-    CHECK(remote_results(c).back().running.provider == first_boot + 1);
+    CHECK(remote_results(c).back().session.provider == first_boot + 1);
   CHECK(refusals.empty());
 }
 

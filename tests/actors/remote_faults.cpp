@@ -60,7 +60,7 @@ struct troubled_world : remote_world {
   }
   service_end some_end(side from) {
     auto x = nonsense<service_end>();
-    x.running = some_service();
+    x.session = some_service();
     x.from = from;
     return x;
   }
@@ -70,7 +70,7 @@ struct troubled_world : remote_world {
     x.station = some_station();
     x.number = static_cast<std::uint32_t>(random.below(60));
     for (auto& v : x.verdicts)
-      v.running = some_service();
+      v.session = some_service();
     return x;
   }
 
@@ -83,7 +83,7 @@ struct troubled_world : remote_world {
     auto request = nonsense<service_request>();
     request.station = some_station();
     auto input = nonsense<service_input>();
-    input.running = some_service();
+    input.session = some_service();
     if (once_in(2))
       input.what = payload::of(some_pdu());
     const auto say = [&](const auto&... xs) { tell_as(from, endpoint, xs...); };
@@ -109,9 +109,9 @@ struct troubled_world : remote_world {
       return;
     auto offer = nonsense<service_offer>();
     if (once_in(2))
-      offer.kinds = {one, two};
+      offer.services = {one, two};
     auto result = nonsense<service_result>();
-    result.running = some_service();
+    result.session = some_service();
     const auto say = [&](const auto&... xs) { tell_as(from, outbox, xs...); };
     switch (random.below(7)) {
       case 0:
@@ -201,11 +201,11 @@ struct troubled_world : remote_world {
       for (const auto& e : c.vehicle->entries()) {
         if (e.what.match_elements<source_change>()) {
           const auto& change = e.what.get_as<source_change>(0);
-          broken += remote[change.kind] == change.remote;
-          remote[change.kind] = change.remote;
+          broken += remote[change.service] == change.remote;
+          remote[change.service] = change.remote;
         } else if (e.what.match_elements<service_result>()) {
-          const auto& r = e.what.get_as<service_result>(0).running;
-          broken += remote[r.kind] != (r.counter != 0);
+          const auto& r = e.what.get_as<service_result>(0).session;
+          broken += remote[r.service] != (r.counter != 0);
         }
       }
       CHECK(broken == 0);
@@ -216,7 +216,7 @@ struct troubled_world : remote_world {
     std::map<std::pair<station_id, service_name>, time_point> ended;
     std::size_t overlaps = 0;
     for (const auto& e : episodes(at)) {
-      auto& last = ended[{e.running.station, e.running.kind}];
+      auto& last = ended[{e.session.station, e.session.service}];
       overlaps += e.accepted < last;
       last = e.ended;
     }

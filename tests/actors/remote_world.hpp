@@ -185,7 +185,7 @@ struct remote_world : virtual_world {
   static bool is_remote(const car& c, const service_name& kind) {
     bool remote = false;
     for (const auto& change : c.vehicle->all<source_change>())
-      if (change.kind == kind)
+      if (change.service == kind)
         remote = change.remote;
     return remote;
   }
@@ -202,7 +202,7 @@ struct remote_world : virtual_world {
   static std::vector<service_result> remote_results(const car& c) {
     std::vector<service_result> found;
     for (const auto& r : c.vehicle->all<service_result>())
-      if (r.running.counter != 0)
+      if (r.session.counter != 0)
         found.push_back(r);
     return found;
   }

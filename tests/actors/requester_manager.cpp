@@ -61,7 +61,7 @@ struct managed_world : virtual_world {
     requester_manager_setup setup;
     setup.station = 101;
     setup.service = {"echo", echo_options(), service};
-    setup.local.running = {0, 101, "echo", 0};
+    setup.local.session = {0, 101, "echo", 0};
     setup.local.function = service->make_function();
     setup.local.period = 50ms;
     setup.local.finish = [](time_point start, std::uint64_t) {
@@ -113,7 +113,7 @@ struct managed_world : virtual_world {
   std::size_t results(bool remote) const {
     std::size_t n = 0;
     for (const auto& r : client->all<service_result>())
-      n += (r.running.counter != 0) == remote;
+      n += (r.session.counter != 0) == remote;
     return n;
   }
 };
@@ -132,7 +132,7 @@ TEST_CASE_FIXTURE(managed_world, "at first the local service is used") {
   CHECK(results(false) == 19); // that of 1 s is under way
   CHECK(!source());
   for (const auto& r : client->all<service_result>()) {
-    CHECK(r.running == session_id{0, 101, "echo", 0});
+    CHECK(r.session == session_id{0, 101, "echo", 0});
     CHECK(r.what.as<echo>()->number == 1);
   }
 }
@@ -155,7 +155,7 @@ TEST_CASE_FIXTURE(managed_world,
   accept(running);
   REQUIRE(there->count<service_input>() == 1);
   const auto input = there->all<service_input>().front();
-  CHECK(input.running == running);
+  CHECK(input.session == running);
   CHECK(input.at == time_point{});
   CHECK(input.what.as<echo>()->number == 2);
 }
@@ -179,10 +179,10 @@ TEST_CASE_FIXTURE(managed_world, "with the first remote result the source "
   REQUIRE(client->entries().size() == 2);
   REQUIRE(client->count<source_change>() == 1);
   CHECK(client->entries()[0].what.type_at(0) == caf::type_id_v<source_change>);
-  CHECK(client->all<source_change>().front().kind == service_name{"echo"});
+  CHECK(client->all<source_change>().front().service == service_name{"echo"});
   CHECK(source() == true);
   REQUIRE(client->count<service_result>() == 1);
-  CHECK(client->all<service_result>().front().running == running);
+  CHECK(client->all<service_result>().front().session == running);
   for (const auto& e : client->entries())
     CHECK(e.at == now());
 }
@@ -229,7 +229,7 @@ TEST_CASE_FIXTURE(managed_world,
   CHECK(requester->count<qos_violation>() == 0);
   run_for(1ns);
   REQUIRE(requester->count<qos_violation>() == 1);
-  CHECK(requester->all<qos_violation>().front().running == running);
+  CHECK(requester->all<qos_violation>().front().session == running);
 }
 
 TEST_CASE_FIXTURE(managed_world,
@@ -351,7 +351,7 @@ TEST_CASE_FIXTURE(managed_world,
   REQUIRE(client->count<service_result>() == 1);
   const auto first = client->all<service_result>().front();
   CHECK(first.created == ended);
-  CHECK(first.running.counter == 0);
+  CHECK(first.session.counter == 0);
   CHECK(first.what.as<echo>()->number == 42);
 }
 
@@ -488,7 +488,7 @@ TEST_CASE_FIXTURE(managed_world, "every received result is recorded, with the "
   CHECK(records[1].received == time_point{1070ms});
   CHECK(records[1].created == time_point{1050ms});
   CHECK(records[1].cycle == 2);
-  CHECK(records[1].running == running);
+  CHECK(records[1].session == running);
   CHECK(records[1].used);
   CHECK(records[2].interarrival == 30ms);
   CHECK(!records[2].used);
@@ -544,7 +544,7 @@ TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
   CHECK(doubt.at == now());
   CHECK(doubt.station == 101);
   CHECK(doubt.provider == 1);
-  CHECK(doubt.kind == service_name{"echo"});
+  CHECK(doubt.service == service_name{"echo"});
   CHECK(doubt.counter == 7);
   CHECK(doubt.detail == "30.0 ms");
   for (int k = 0; k < 5; ++k)
@@ -570,7 +570,7 @@ TEST_CASE_FIXTURE(managed_world,
   CHECK(source() == false);
   REQUIRE(requester->count<qos_violation>() == 1);
   const auto violation = requester->all<qos_violation>().front();
-  CHECK(violation.running == running);
+  CHECK(violation.session == running);
   CHECK(violation.breach == qos_breach::implausible);
   CHECK(violation.at == t);
   CHECK(violation.why == "number value=2.000 limit=1.000");
@@ -627,7 +627,7 @@ TEST_CASE_FIXTURE(managed_world,
   }
   REQUIRE(requester->count<qos_violation>() == 1);
   const auto violation = requester->all<qos_violation>().front();
-  CHECK(violation.running == running);
+  CHECK(violation.session == running);
   CHECK(violation.breach == qos_breach::implausible);
   CHECK(violation.check == "use");
 }

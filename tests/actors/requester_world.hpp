@@ -142,14 +142,14 @@ struct requester_world : virtual_world {
   bool is_remote(const service_name& kind) const {
     bool remote = false;
     for (const auto& change : vehicle->all<source_change>())
-      if (change.kind == kind)
+      if (change.service == kind)
         remote = change.remote;
     return remote;
   }
   std::vector<service_result> local_results() const {
     std::vector<service_result> found;
     for (const auto& r : vehicle->all<service_result>())
-      if (r.running.counter == 0)
+      if (r.session.counter == 0)
         found.push_back(r);
     return found;
   }

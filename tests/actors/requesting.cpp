@@ -15,7 +15,7 @@ TEST_CASE_FIXTURE(requester_world, "a wanted offer is answered by one request "
   const auto request = last_request();
   CHECK(request.provider == here);
   CHECK(request.station == station);
-  CHECK(request.kinds == std::vector{one, two});
+  CHECK(request.services == std::vector{one, two});
   CHECK(provider->seconds<requester_actor>().front()
         == requester_actor{requester});
 }
@@ -36,20 +36,20 @@ TEST_CASE_FIXTURE(requester_world,
   drive_to(250, 12);
   offer({one, "unheard_of", two});
   REQUIRE(lodm->asked.size() == 2);
-  CHECK(lodm->asked[0].kind == "one");
-  CHECK(lodm->asked[1].kind == "two");
+  CHECK(lodm->asked[0].service == "one");
+  CHECK(lodm->asked[1].service == "two");
   CHECK(lodm->asked[0].now == now());
   CHECK(lodm->asked[0].provider_at == point{500, 20});
   CHECK(lodm->asked[0].speed_mps == 12);
   REQUIRE(!lodm->asked[0].path.empty());
   CHECK(distance_m(lodm->asked[0].path.front(), {250, 0}) < 0.1);
-  CHECK(last_request().kinds == std::vector{one, two});
+  CHECK(last_request().services == std::vector{one, two});
 }
 
 TEST_CASE_FIXTURE(requester_world, "what the LODM does not want stays local") {
   lodm->wanted = {"two"};
   offer({one, two});
-  CHECK(last_request().kinds == std::vector{two});
+  CHECK(last_request().services == std::vector{two});
   lodm->wanted = {};
   run_for(2s);
   offer({one, two});
@@ -88,7 +88,7 @@ TEST_CASE_FIXTURE(requester_world,
   lodm->wanted = {"one", "two"};
   offer_from(other, elsewhere, {one, two});
   REQUIRE(other->count<service_request>() == 1);
-  CHECK(other->all<service_request>().front().kinds == std::vector{two});
+  CHECK(other->all<service_request>().front().services == std::vector{two});
   CHECK(other->all<service_request>().front().provider == elsewhere);
 }
 
@@ -148,7 +148,7 @@ TEST_CASE_FIXTURE(requester_world,
                   "for once") {
   offer({one, one, two, one});
   REQUIRE(requests() == 1);
-  CHECK(last_request().kinds == std::vector{one, two});
+  CHECK(last_request().services == std::vector{one, two});
 }
 
 TEST_CASE_FIXTURE(requester_world, "nobody speaks for another provider") {
@@ -199,7 +199,7 @@ TEST_CASE_FIXTURE(requester_world,
   REQUIRE(decisions().size() == 1);
   CHECK(!decisions().front().accepted);
   CHECK(decisions().front().station == station);
-  CHECK(decisions().front().kind == one);
+  CHECK(decisions().front().service == one);
   CHECK(episodes().empty());
   CHECK(ends().empty());
   offer({one});
@@ -212,7 +212,7 @@ TEST_CASE_FIXTURE(requester_world, "an accepted service is fed at once, and "
   REQUIRE(decisions().size() == 1);
   CHECK(decisions().front().accepted);
   REQUIRE(manager->count<service_input>() == 1);
-  CHECK(manager->all<service_input>().front().running == at_here(one, 7));
+  CHECK(manager->all<service_input>().front().session == at_here(one, 7));
   CHECK(!is_remote(one));
   run_for(500ms);
   CHECK(local_results().size() == 20); // both kinds, 20 Hz
@@ -235,15 +235,15 @@ TEST_CASE_FIXTURE(requester_world, "services asked for together are accepted "
   answer(last_request(), {{one, 0}, {two, 7}});
   const auto d = decisions();
   REQUIRE(d.size() == 2);
-  CHECK(d[0].kind == one);
+  CHECK(d[0].service == one);
   CHECK(!d[0].accepted);
-  CHECK(d[1].kind == two);
+  CHECK(d[1].service == two);
   CHECK(d[1].accepted);
   result(at_here(two, 7), 1);
   CHECK(is_remote(two));
   CHECK(!is_remote(one));
   REQUIRE(manager->count<service_input>() == 1);
-  CHECK(manager->all<service_input>().front().running == at_here(two, 7));
+  CHECK(manager->all<service_input>().front().session == at_here(two, 7));
 }
 
 TEST_CASE_FIXTURE(requester_world,
@@ -279,7 +279,7 @@ TEST_CASE_FIXTURE(requester_world,
   offer({one});
   answer(last_request(), {{one, 7}, {two, 8}});
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(two, 8));
+  CHECK(ends().front().session == at_here(two, 8));
   CHECK(ends().front().from == side::requester);
 }
 
@@ -326,7 +326,7 @@ TEST_CASE_FIXTURE(requester_world,
   run_for(500ms);
   answer(last_request(), {{one, 7}});
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   CHECK(ends().front().from == side::requester);
   CHECK(decisions().size() == 1);
   result(at_here(one, 7), 1);
@@ -344,7 +344,7 @@ TEST_CASE_FIXTURE(requester_world, "a late response does not answer the "
   REQUIRE(requests() == 2);
   answer(first, {{one, 7}});
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   answer(last_request(), {{one, 8}});
   CHECK(decisions().back().accepted);
   CHECK(ends().size() == 1);
@@ -383,11 +383,11 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(ends().empty());
   run_for(1ns);
   REQUIRE(ends().size() == 1);
-  CHECK(ends().front().running == at_here(one, 7));
+  CHECK(ends().front().session == at_here(one, 7));
   CHECK(ends().front().reason == end_reason::no_data);
   REQUIRE(episodes().size() == 1);
   const auto e = episodes().front();
-  CHECK(e.running == at_here(one, 7));
+  CHECK(e.session == at_here(one, 7));
   CHECK(e.of == side::requester);
   CHECK(e.reason == end_reason::no_data);
   CHECK(!e.got_data);
@@ -510,7 +510,7 @@ void refuse_and_name(requester_world& world, const service_request& request,
                      provider_id instead) {
   service_response response{
       request.provider, world.station, request.number, {}};
-  for (const auto& kind : request.kinds)
+  for (const auto& kind : request.services)
     response.verdicts.push_back(
         {{request.provider, world.station, kind, 0}, false, "full", instead});
   world.tell(world.requester, response, std::vector<provider_manager_actor>{});
@@ -534,7 +534,7 @@ TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is asked at "
   CHECK(other->times<service_request>().front() == now());
   const auto second = other->all<service_request>().front();
   CHECK(second.provider == elsewhere);
-  CHECK(second.kinds == std::vector{one});
+  CHECK(second.services == std::vector{one});
   // They could send it back and forth.
   refuse_and_name(*this, second, here);
   CHECK(requests() == 1);
@@ -584,10 +584,10 @@ TEST_CASE_FIXTURE(requester_world, "what a provider revokes goes on in the "
   CHECK(ends().empty()); // it knows
   vehicle->clear();
   run_for(100ms);
-  CHECK(
-      std::ranges::count_if(
-          local_results(), [&](const auto& r) { return r.running.kind == one; })
-      >= 1);
+  CHECK(std::ranges::count_if(
+            local_results(),
+            [&](const auto& r) { return r.session.service == one; })
+        >= 1);
   offer({one}); // within a second of the fallback
   CHECK(requests() == 1);
 }

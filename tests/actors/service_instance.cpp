@@ -123,7 +123,7 @@ TEST_CASE_FIXTURE(instance_world, "a result comes when its cycle is done") {
   run_for(1ns);
   REQUIRE(results->count<service_result>() == 1);
   const auto result = results->all<service_result>().front();
-  CHECK(result.running == running);
+  CHECK(result.session == running);
   CHECK(result.created == time_point{100ms});
   REQUIRE(result.what.as<echo>());
   CHECK(result.what.as<echo>()->number == 1);

@@ -16,7 +16,7 @@ namespace sofof::test {
 struct lodm_script {
   struct question {
     time_point now;
-    std::string kind;
+    std::string service;
     point provider_at;
     std::vector<point> path;
     double speed_mps = 0;
@@ -43,14 +43,14 @@ public:
 
   local_decision decide(const local_context& c) override {
     script_->asked.push_back({c.now,
-                              std::string{c.kind},
+                              std::string{c.service},
                               c.providers.front().at,
                               {c.path.begin(), c.path.end()},
                               c.speed_mps,
                               {c.providers.begin(), c.providers.end()},
                               c.current,
                               c.since});
-    if (!script_->wanted.contains(c.kind))
+    if (!script_->wanted.contains(c.service))
       return {0, "as told"};
     return {script_->preferred ? script_->preferred : c.providers.front().id,
             "as told",
@@ -61,15 +61,15 @@ public:
   }
   void observe(const cycle_outcome& x) override {
     script_->cycles.push_back(x);
-    script_->cycles.back().kind = {};
+    script_->cycles.back().service = {};
   }
   void observe(const refusal_outcome& x) override {
     script_->refusals.push_back(x);
-    script_->refusals.back().kind = script_->refusals.back().why = {};
+    script_->refusals.back().service = script_->refusals.back().why = {};
   }
   void observe(const episode_outcome& x) override {
     script_->episodes.push_back(x);
-    script_->episodes.back().kind = {};
+    script_->episodes.back().service = {};
   }
   double epoch_s() const override { return script_->epoch_s; }
   std::string_view name() const override { return "spy"; }
@@ -86,7 +86,7 @@ struct codm_script {
   struct question {
     time_point now;
     station_id station = 0;
-    std::vector<std::string> kinds;
+    std::vector<std::string> services;
     std::vector<point> route;
     double speed_mps = 0;
     /// Station and kind of what runs.
@@ -123,7 +123,7 @@ public:
                             first.speed_mps,
                             {}};
     for (const auto& request : c.requests)
-      q.kinds.emplace_back(request.kind);
+      q.services.emplace_back(request.service);
     script_->sessions.assign(c.sessions.begin(), c.sessions.end());
     script_->candidates.assign(first.candidates.begin(),
                                first.candidates.end());
@@ -132,17 +132,17 @@ public:
       script_->served.assign(told.begin(), told.end());
     }
     for (const auto& s : c.sessions)
-      q.sessions.emplace_back(s.station, s.kind);
+      q.sessions.emplace_back(s.station, s.service);
     script_->asked.push_back(std::move(q));
     std::vector<central_decision> all;
     for (const auto& request : c.requests) {
-      const auto yes = script_->accepted.contains(request.kind);
+      const auto yes = script_->accepted.contains(request.service);
       all.push_back({yes, "as told", script_->worker, script_->offset,
                      yes ? 0 : script_->instead});
     }
     if (!script_->revoked.empty())
       for (const auto& s : c.sessions)
-        all.push_back({!script_->revoked.contains(s.kind), "as told"});
+        all.push_back({!script_->revoked.contains(s.service), "as told"});
     if (script_->at_most && all.size() > *script_->at_most)
       all.resize(*script_->at_most);
     return all;

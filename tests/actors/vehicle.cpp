@@ -287,7 +287,7 @@ TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
   const auto local = source;
   const session_id remote{7, station, "trajectory_planning", 3};
   drive(5s);
-  tell(car, source_change{source.kind, true});
+  tell(car, source_change{source.service, true});
   CHECK(recorder->count<plan_switch_record>() == 0); // no plan has come yet
 
   auto next = plan();
@@ -303,7 +303,7 @@ TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
   REQUIRE(recorder->count<plan_switch_record>() == 1);
   const auto to = recorder->all<plan_switch_record>().front();
   CHECK(to.at == now());
-  CHECK(to.running == remote);
+  CHECK(to.session == remote);
   CHECK(to.remote);
   CHECK(to.jump.d_m == doctest::Approx(0.3).epsilon(0.05));
   CHECK(to.jump.curvature_1pm == doctest::Approx(0.002));
@@ -314,7 +314,7 @@ TEST_CASE_FIXTURE(driving_world, "with the first plan from elsewhere the jump "
   give(next, now());
   REQUIRE(recorder->count<plan_switch_record>() == 2);
   const auto back = recorder->all<plan_switch_record>().back();
-  CHECK(back.running == remote);
+  CHECK(back.session == remote);
   CHECK(!back.remote);
   CHECK(back.jump.d_m == 0);
 }

@@ -34,11 +34,11 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
         == caf::actor_cast<caf::strong_actor_ptr>(endpoint));
   accept(one);
   REQUIRE(peer->count<service_response>() == 1);
-  CHECK(peer->all<service_response>().front().verdicts.front().running == one);
+  CHECK(peer->all<service_response>().front().verdicts.front().session == one);
   tell_as(provider.handle, voice(),
           service_end{one, end_reason::left_area, side::provider});
   REQUIRE(peer->count<service_end>() == 1);
-  CHECK(peer->all<service_end>().front().running == one);
+  CHECK(peer->all<service_end>().front().session == one);
 }
 
 TEST_CASE_FIXTURE(vehicle_connection_world,
@@ -52,7 +52,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   SUBCASE("the vehicle ends it") {
     say(service_end{one, end_reason::qos_gap, side::requester});
     REQUIRE(provider->count<service_end>() == 1);
-    CHECK(provider->all<service_end>().front().running == one);
+    CHECK(provider->all<service_end>().front().session == one);
   }
   SUBCASE("the provider ends it") {
     tell_as(provider.handle, voice(),
@@ -171,7 +171,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   CHECK(provider->count<service_request>() == 1);
   CHECK(was_ignored("asks for too much"));
   auto many = request_of(station);
-  many.kinds.assign(65, "one");
+  many.services.assign(65, "one");
   say(many);
   CHECK(provider->count<service_request>() == 1);
 }

@@ -45,7 +45,7 @@ using echo_actor = caf::typed_actor<caf::result<service_result>(service_input)>;
 
 echo_actor::behavior_type echo() {
   return {[](const service_input& x) {
-    return service_result{x.running, 0, x.at, x.what};
+    return service_result{x.session, 0, x.at, x.what};
   }};
 }
 
@@ -81,7 +81,7 @@ manager(provider_manager_actor::pointer self,
   return {
       [=](const service_result&) {},
       [=](const service_input& x) {
-        self->send(requester, service_result{x.running, 0, x.at, x.what});
+        self->send(requester, service_result{x.session, 0, x.at, x.what});
       },
       [=](const service_end&) { self->quit(); },
   };

@@ -44,7 +44,7 @@ public:
           response.number = asked;
         for (auto k = some(4); k > 0; --k) {
           response.verdicts.push_back({session(), often(), "why", some(3)});
-          said_.push_back(response.verdicts.back().running);
+          said_.push_back(response.verdicts.back().session);
         }
         return response;
       }
@@ -119,7 +119,7 @@ struct deceived_vehicle final : offloading::vehicle_port {
       asked = request->number;
   }
   void use(const service_result& result) override {
-    CHECK(remote[result.running.kind] == (result.running.counter != 0));
+    CHECK(remote[result.session.service] == (result.session.counter != 0));
     ++uses;
   }
   void on_source(const service_name& service, bool is_remote) override {

@@ -31,7 +31,7 @@ TEST_CASE("an input crosses the air as it is, the result in use only to who "
   const service_input input{some_session, at(1s), payload::of(echo{1}),
                             payload::of(echo{2})};
   const auto told = taciturn{}.encode_input(input, true);
-  CHECK(told.running == some_session);
+  CHECK(told.session == some_session);
   CHECK(told.what.as<echo>()->number == 1);
   REQUIRE(told.in_use.as<echo>());
   CHECK(told.in_use.as<echo>()->number == 2);
@@ -91,7 +91,7 @@ TEST_CASE("the phase of an own function is drawn within its period, by its "
   const random_stream noise{1, "vehicle"};
   const auto one = own_cycle(in_vehicle(echo_service("one"), {}), 101, noise);
   const auto two = own_cycle(in_vehicle(echo_service("two"), {}), 101, noise);
-  CHECK(one.running == session_id{0, 101, "one", 0});
+  CHECK(one.session == session_id{0, 101, "one", 0});
   CHECK(one.period == 50ms);
   CHECK(one.phase >= 0ms);
   CHECK(one.phase < 50ms);

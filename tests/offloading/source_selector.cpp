@@ -73,10 +73,10 @@ struct diary final : offloading::selector_port {
 
   void feed_local(const service_input&) override {}
   void feed_remote(service_input x) override {
-    write("feed " + name(x.running) + (x.on_call ? ", stand by" : ""));
+    write("feed " + name(x.session) + (x.standby ? ", stand by" : ""));
   }
   void use(const service_result& x) override {
-    write("use " + name(x.running));
+    write("use " + name(x.session));
   }
   void go_remote() override { write("own function rests"); }
   void go_local(service_input x) override {
@@ -92,7 +92,7 @@ struct diary final : offloading::selector_port {
   void report(qos_violation x) override {
     write(
         (x.breach == qos_breach::implausible ? "implausible: " : "violation: ")
-        + name(x.running));
+        + name(x.session));
   }
   void watch(const session_id& x, time_point) override {
     write("watch " + name(x));

@@ -41,7 +41,7 @@ TEST_CASE_FIXTURE(armed_watchdog, "a gap is found one nanosecond past its "
   CHECK_FALSE(dog.on_deadline(at(1100ms)));
   const auto found = dog.on_deadline(at(1100ms + 1ns));
   REQUIRE(found);
-  CHECK(found->running == session);
+  CHECK(found->session == session);
   CHECK(found->breach == qos_breach::gap);
   CHECK(found->at == at(1100ms + 1ns));
   CHECK_FALSE(dog.deadline());

@@ -52,7 +52,7 @@ TEST_CASE("without a plan a vehicle goes on at constant acceleration") {
   ego_estimator me{straight_street(), 90};
   auto told = told_east(departure, 100, 10, 0.3);
   told.accel_mps2 = 2;
-  me.hear(told);
+  me.on_report(told);
   const auto x = me.at(departure + 1s);
   REQUIRE(x);
   CHECK(x->at == departure + 1s);
@@ -66,7 +66,7 @@ TEST_CASE("a vehicle that brakes comes to rest, and does not back up") {
   ego_estimator me{straight_street(), 100};
   auto told = told_east(departure, 100, 2);
   told.accel_mps2 = -4;
-  me.hear(told);
+  me.on_report(told);
   for (const auto age : {500ms, 1000ms, 1100ms}) {
     const auto x = *me.at(departure + age);
     CHECK(x.s_m == Approx(100.5));
@@ -80,7 +80,8 @@ TEST_CASE("a vehicle in a bend goes on along the bend, as bent as it was") {
   const auto s_m = 280.0; // before the first corner
   const auto here = way->path().at(s_m);
   ego_estimator me{way, s_m};
-  me.hear({departure, here.at, here.heading_rad, 10, 0, here.curvature_1pm});
+  me.on_report(
+      {departure, here.at, here.heading_rad, 10, 0, here.curvature_1pm});
   const auto x = *me.at(departure + 1500ms); // in it
   CHECK(x.s_m == Approx(295));
   CHECK(std::abs(x.d_m) < 1e-3);
@@ -99,10 +100,10 @@ TEST_CASE("on a closed route laps count on") {
   };
   ego_estimator me{way, s_m - 5};
   auto [place, heading] = at(s_m);
-  me.hear({departure, place, heading, 10, 0, 0});
+  me.on_report({departure, place, heading, 10, 0, 0});
   CHECK(me.at(departure)->s_m == Approx(s_m));
   std::tie(place, heading) = at(s_m + 10);
-  me.hear({departure + 1s, place, heading, 10, 0, 0});
+  me.on_report({departure + 1s, place, heading, 10, 0, 0});
   CHECK(me.at(departure + 1s)->s_m == Approx(s_m + 10));
   CHECK(std::abs(me.at(departure + 1s)->heading_error_rad) < 1e-6);
 }
@@ -114,7 +115,7 @@ TEST_CASE("a vehicle is off its plan now what it was off when it told") {
   auto told = told_east(departure, 100.4, 10.3, 0.15);
   told.heading_rad = 0.01;
   told.accel_mps2 = 3; // a kick that the plan knows nothing of
-  me.hear(told);
+  me.on_report(told);
   const auto x = *me.at(departure + 1s);
   CHECK(x.s_m == Approx(109.4));
   CHECK(x.d_m == Approx(0.15));
@@ -128,7 +129,7 @@ TEST_CASE("a plan that was followed is gone on from though the vehicle told "
   ego_estimator me{straight_street(), 100};
   const auto plan = plan_east(departure, 100, 10, -3);
   me.follow(plan);
-  me.hear(told_east(departure, 100.4, 10));
+  me.on_report(told_east(departure, 100.4, 10));
   const auto now = departure + 1100ms;
   const auto from = joined(*straight_street(), now, *me.at(now), &plan);
   CHECK(from.s_m == Approx(plan.at(now).s_m));
@@ -140,18 +141,19 @@ TEST_CASE("a plan that is not followed is not gone on from") {
   const auto plan = plan_east(departure, 100, 10);
   me.follow(plan);
   const auto now = departure + 500ms;
-  me.hear(told_east(departure, 102, 10)); // 2 m ahead: on, as planned
+  me.on_report(told_east(departure, 102, 10)); // 2 m ahead: on, as planned
   CHECK(joined(*straight_street(), now, *me.at(now), &plan).s_m == Approx(107));
-  me.hear(told_east(departure + 100ms, 100, 0)); // has not set off
+  me.on_report(told_east(departure + 100ms, 100, 0)); // has not set off
   CHECK(joined(*straight_street(), now, *me.at(now), &plan).s_m == Approx(100));
   CHECK(joined(*straight_street(), now, *me.at(now), &plan).speed_mps == 0);
-  me.hear(told_east(departure + 200ms, 120, 10)); // something else altogether
+  me.on_report(
+      told_east(departure + 200ms, 120, 10)); // something else altogether
   CHECK(me.at(now)->s_m == Approx(123));
 }
 
 TEST_CASE("plans that follow each other are one motion") {
   ego_estimator me{straight_street(), 100};
-  me.hear(told_east(departure, 100.2, 10));
+  me.on_report(told_east(departure, 100.2, 10));
   lane_motion planned{100, 10, 0}, then;
   auto now = departure;
   for (auto i = 0; i < 20; ++i, now += 50ms) { // each brakes harder
@@ -165,7 +167,7 @@ TEST_CASE("plans that follow each other are one motion") {
   CHECK(me.at(now)->s_m == Approx(planned.s_m + 0.2));
   CHECK(me.at(now)->speed_mps == Approx(planned.speed_mps));
   // What is told of an earlier time is held against the plan of that time.
-  me.hear(told_east(now - 500ms, then.s_m - 0.3, then.speed_mps + 0.1));
+  me.on_report(told_east(now - 500ms, then.s_m - 0.3, then.speed_mps + 0.1));
   CHECK(me.at(now)->s_m == Approx(planned.s_m - 0.3));
   CHECK(me.at(now)->speed_mps == Approx(planned.speed_mps + 0.1));
 }
@@ -177,7 +179,7 @@ TEST_CASE("what was told between two plans is held against both") {
   const auto then = first.at(departure + 200ms);
   me.follow(plan_east(departure + 200ms, then.s_m, then.speed_mps, 0));
   const auto mid = first.at(departure + 70ms);
-  me.hear(told_east(departure + 70ms, mid.s_m, mid.speed_mps));
+  me.on_report(told_east(departure + 70ms, mid.s_m, mid.speed_mps));
   CHECK(std::abs(me.at(departure + 200ms)->s_m - then.s_m) < 1e-9);
   CHECK(std::abs(me.at(departure + 200ms)->speed_mps - then.speed_mps) < 1e-9);
 }
@@ -185,7 +187,7 @@ TEST_CASE("what was told between two plans is held against both") {
 TEST_CASE("a plan that begins at the vehicle leaves nothing to be off") {
   ego_estimator me{straight_street(), 100};
   me.follow(plan_east(departure, 100, 10));
-  me.hear(told_east(departure, 103, 10.5, 0.4));
+  me.on_report(told_east(departure, 103, 10.5, 0.4));
   auto now = departure + 100ms;
   const auto from = *me.at(now);
   CHECK(from.s_m == Approx(104));
@@ -202,7 +204,7 @@ TEST_CASE("a plan that begins at the vehicle leaves nothing to be off") {
 
 TEST_CASE("what was told before all plans is carried on without them") {
   ego_estimator me{straight_street(), 100};
-  me.hear(told_east(departure, 100, 10));
+  me.on_report(told_east(departure, 100, 10));
   me.follow(plan_east(departure + 500ms, 104, 9, -5));
   CHECK(me.at(departure + 1s)->s_m == Approx(110));
 }
@@ -210,7 +212,7 @@ TEST_CASE("what was told before all plans is carried on without them") {
 TEST_CASE("a plan that has ended, or has not begun, says nothing") {
   ego_estimator me{straight_street(), 130};
   me.follow(plan_east(departure, 100, 10, -1));
-  me.hear(told_east(departure + 5900ms, 140, 4));
+  me.on_report(told_east(departure + 5900ms, 140, 4));
   CHECK(me.at(departure + 6900ms)->speed_mps == Approx(4));
   CHECK(me.at(departure - 100ms)->speed_mps == Approx(4));
 }
@@ -218,15 +220,15 @@ TEST_CASE("a plan that has ended, or has not begun, says nothing") {
 TEST_CASE("after a gap without plans the earlier ones are forgotten") {
   ego_estimator me{straight_street(), 140};
   me.follow(plan_east(departure, 100, 10));
-  me.hear(told_east(departure + 5s, 150, 10));
+  me.on_report(told_east(departure + 5s, 150, 10));
   me.follow(plan_east(departure + 6500ms, 165, 10, -5));
   CHECK(me.at(departure + 7s)->speed_mps == Approx(10));
 }
 
 TEST_CASE("old news and old plans change nothing") {
   ego_estimator me{straight_street(), 100};
-  me.hear(told_east(departure, 100, 10));
-  me.hear(told_east(departure - 100ms, 50, 3));
+  me.on_report(told_east(departure, 100, 10));
+  me.on_report(told_east(departure - 100ms, 50, 3));
   CHECK(me.at(departure)->s_m == Approx(100));
   me.follow(plan_east(departure, 100, 10, 1));
   me.follow(plan_east(departure - 1s, 300, 3));
@@ -239,20 +241,20 @@ TEST_CASE("more plans than are remembered leave the newest ones known") {
   for (auto i = 0; i < 100; ++i)
     me.follow(plan_east(departure + i * 50ms, 100 + 0.5 * i, 10));
   const auto now = departure + 99 * 50ms;
-  me.hear(told_east(now - 1500ms, 100 + 49.5 - 15 + 0.25, 10.1));
+  me.on_report(told_east(now - 1500ms, 100 + 49.5 - 15 + 0.25, 10.1));
   CHECK(me.at(now)->s_m == Approx(149.75));
   CHECK(me.at(now)->speed_mps == Approx(10.1));
 }
 
 TEST_CASE("who is not on its route is nowhere until it is back") {
   ego_estimator me{straight_street(), 100};
-  me.hear(told_east(departure, 100, 10));
-  me.hear(told_east(departure + 500ms, 105, 10, 5.1));
+  me.on_report(told_east(departure, 100, 10));
+  me.on_report(told_east(departure + 500ms, 105, 10, 5.1));
   CHECK_FALSE(me.at(departure + 1s));
-  me.hear(told_east(departure + 1s, 110, 10, 4.9));
+  me.on_report(told_east(departure + 1s, 110, 10, 4.9));
   REQUIRE(me.at(departure + 1s));
   CHECK(me.at(departure + 1s)->d_m == Approx(4.9));
-  me.hear(told_east(departure + 2s, 300, 10)); // it cannot have got there
+  me.on_report(told_east(departure + 2s, 300, 10)); // it cannot have got there
   CHECK_FALSE(me.at(departure + 2s));
 }
 
@@ -267,7 +269,7 @@ TEST_CASE("what is not a number is not heard") {
                        &told.heading_rad,  &told.speed_mps,
                        &told.accel_mps2,   &told.curvature_1pm};
       *fields[i] = wrong;
-      me.hear(told);
+      me.on_report(told);
       CHECK_FALSE(me.at(departure));
     }
   }
@@ -275,7 +277,7 @@ TEST_CASE("what is not a number is not heard") {
 
 TEST_CASE("nonsense in numbers makes an input that a car can have") {
   ego_estimator me{straight_street(), 100};
-  me.hear({departure, {100, -4}, 1e300, 1e300, -1e300, 1e300});
+  me.on_report({departure, {100, -4}, 1e300, 1e300, -1e300, 1e300});
   const auto x = *me.at(departure + 1s);
   CHECK(std::isfinite(x.s_m));
   CHECK(std::abs(x.d_m) <= 5);
@@ -306,7 +308,7 @@ TEST_CASE("a car that is planned for from afar drives as well as at home") {
               car.accel_mps2,
               std::tan(car.steer_rad) / ability.wheelbase_m};
     if (told && (i == 0 || i % 100 == 4))
-      me.hear(*told);
+      me.on_report(*told);
     if (i % 5 == 0) {
       const auto x = *me.at(now);
       const auto here = way->path().project(car.at, s_m, 5);

@@ -314,7 +314,7 @@ TEST_CASE("ancient sightings are dropped") {
   see(model, first_sight, perceived_car({}, 10));
   see(model, first_sight - 600ms, perceived_car({50, 0}, 10));
   CHECK(model.tracks().size() == 1);
-  model.hear(first_sight - 600ms, 5, perceived_car({80, 0}));
+  model.on_report(first_sight - 600ms, 5, perceived_car({80, 0}));
   CHECK(model.tracks().size() == 1);
 }
 
@@ -453,24 +453,24 @@ TEST_CASE("a vehicle that is heard gives its track its name") {
   object_tracker model;
   const std::vector seen{perceived_car({}, 10), perceived_car({8, 0}, 10)};
   model.update(first_sight, seen);
-  model.hear(first_sight + 20ms, 77, perceived_car({8.2, 0}, 10));
+  model.on_report(first_sight + 20ms, 77, perceived_car({8.2, 0}, 10));
   REQUIRE(model.tracks().size() == 2);
   CHECK_FALSE(model.tracks()[0].station);
   CHECK(model.tracks()[1].station == 77U);
-  model.hear(first_sight + 40ms, 78,
-             perceived_car({-20, 0}, 10)); // nobody has seen it
+  model.on_report(first_sight + 40ms, 78,
+                  perceived_car({-20, 0}, 10)); // nobody has seen it
   REQUIRE(model.tracks().size() == 3);
   CHECK(model.tracks()[2].station == 78U);
 }
 
 TEST_CASE("a name is nobody else's") {
   object_tracker model;
-  model.hear(first_sight, 1, perceived_car({}, 10));
-  model.hear(first_sight, 2,
-             perceived_car({0.5, 0}, 10)); // the inscribed circles overlap
+  model.on_report(first_sight, 1, perceived_car({}, 10));
+  model.on_report(first_sight, 2,
+                  perceived_car({0.5, 0}, 10)); // the inscribed circles overlap
   CHECK(model.tracks().size() == 2);
-  model.hear(first_sight + 100ms, 1,
-             perceived_car({60, 0}, 10)); // was mistaken for another
+  model.on_report(first_sight + 100ms, 1,
+                  perceived_car({60, 0}, 10)); // was mistaken for another
   REQUIRE(model.tracks().size() == 3);
   CHECK_FALSE(model.tracks()[0].station);
   CHECK(model.tracks()[1].station == 2U);
@@ -493,7 +493,7 @@ TEST_CASE("what no body can be is left out") {
   wrong[9].heading_rad = nan;
   model.update(first_sight, wrong);
   for (const auto& o : wrong)
-    model.hear(first_sight, 1, o);
+    model.on_report(first_sight, 1, o);
   CHECK(model.tracks().empty());
 }
 

@@ -94,7 +94,7 @@ TEST_CASE("following bodies takes nothing from the heap") {
   const auto before = test::allocations;
   for (time_point t{1s}; t < time_point{3s}; t += 100ms) {
     model.update(t, queue);
-    model.hear(t, 3, queue[2]);
+    model.on_report(t, 3, queue[2]);
     model.update(t - 200ms, queue);
   }
   CHECK(test::allocations == before);

@@ -149,9 +149,9 @@ TEST_CASE_FIXTURE(follower, "a bandit that is restored goes on alike, a clone "
     add(3);
     latency_s = {{1, 0.04}, {2, 0.03}, {3, 0.02}};
     drive(*lodm, 100);
-    seen.kind = "other";
+    seen.service = "other";
     drive(*lodm, 10);
-    seen.kind = "any";
+    seen.service = "any";
     const auto text = lodm->snapshot();
     const auto restored = make_lodm(name);
     CHECK(!restored->restore(text));

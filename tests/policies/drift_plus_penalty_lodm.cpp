@@ -46,9 +46,9 @@ TEST_CASE_FIXTURE(roadside, "each service has debts of its own") {
   add(1).link.late = 0.02;
   runs_at(1);
   lodm->observe(cycle(true));
-  seen.kind = "other";
+  seen.service = "other";
   CHECK(ask(*lodm).source == 1);
-  seen.kind = "any";
+  seen.service = "any";
   CHECK(ask(*lodm).release);
 }
 

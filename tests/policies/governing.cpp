@@ -120,7 +120,7 @@ TEST_CASE_FIXTURE(roadside,
   providers[0].link.late = 0.01;
   CHECK(ask(*other).source == 0);
   CHECK(ask(*lodm).source == 1);
-  seen.kind = "other";
+  seen.service = "other";
   CHECK(ask(*lodm).source == 0);
 }
 

@@ -55,7 +55,7 @@ struct scene {
     told.push_back(std::move(candidates));
     request_view r;
     r.station = 101;
-    r.kind = "any";
+    r.service = "any";
     r.utilisation = share;
     r.task.period = period;
     r.task.deadline = 50ms;
@@ -67,7 +67,7 @@ struct scene {
     told.push_back(std::move(candidates));
     session_view s;
     s.station = 102;
-    s.kind = "any";
+    s.service = "any";
     s.utilisation = share;
     s.task.period = 100ms;
     s.task.deadline = 50ms;

@@ -52,7 +52,7 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
   return {
       [diary](const service_result& result) { diary->on_result(result); },
       [diary](const source_change& change) {
-        diary->on_source(change.kind, change.remote);
+        diary->on_source(change.service, change.remote);
       },
       [self](const requester_manager_actor& manager) {
         self->state.managers.push_back(manager);
@@ -123,7 +123,7 @@ struct actor_world : virtual_world {
     setup.boot = static_cast<provider_id>(k + 1);
     setup.decode = [where = somewhere()](const its_pdu& message,
                                          time_point now) {
-      return understand(message, *where, now);
+      return decode(message, *where, now);
     };
     setup.area = area_of_provider(k);
     setup.map = {world, &world->map};

@@ -27,10 +27,10 @@ struct ledger {
 
   void add(const episode_record& r) {
     ++(r.of == side::requester ? closed_by_requester
-                               : closed_by_provider)[r.running];
+                               : closed_by_provider)[r.session];
     reasons.insert(r.reason);
     if (r.of == side::provider)
-      provider_side[r.running] = r.ended - r.accepted;
+      provider_side[r.session] = r.ended - r.accepted;
     if (r.of == side::requester)
       remote_episodes += r.got_data;
   }
@@ -59,8 +59,8 @@ struct client_diary {
   }
 
   void on_result(const service_result& result) {
-    auto& e = services[result.running.kind];
-    if (e.remote != (result.running.counter != 0))
+    auto& e = services[result.session.service];
+    if (e.remote != (result.session.counter != 0))
       broken.push_back("a result came from the source that is not in use");
     if (result.created < e.newest_of_source)
       broken.push_back("a source's results came out of order");

@@ -134,17 +134,17 @@ public:
     if (const auto* response = std::get_if<service_response>(&message))
       for (const auto& v : response->verdicts)
         if (v.accepted)
-          sessions_.push_back(v.running);
+          sessions_.push_back(v.session);
     if (const auto* end = std::get_if<service_end>(&message))
-      std::erase(sessions_, end->running);
+      std::erase(sessions_, end->session);
   }
   /// @returns whether it is carried: not the input of a session that has ended.
   bool look_at(const offloading::to_provider& message) {
     if (const auto* end = std::get_if<service_end>(&message))
-      std::erase(sessions_, end->running);
+      std::erase(sessions_, end->session);
     const auto* input = std::get_if<service_input>(&message);
     return !input
-           || std::ranges::find(sessions_, input->running) != sessions_.end();
+           || std::ranges::find(sessions_, input->session) != sessions_.end();
   }
   std::uint64_t time_number() const {
     return static_cast<std::uint64_t>(time_.now().time_since_epoch().count());

@@ -337,7 +337,7 @@ TEST_CASE("every switch of plans counts with its jumps") {
 
 TEST_CASE("a run without the headline's service has empty headlines") {
   auto info = run();
-  info.kinds = {"environment"};
+  info.services = {"environment"};
   metrics m{info};
   m.on_record(decision(true, "environment"));
   CHECK(m.headline().requests() == 0);

@@ -84,7 +84,7 @@ TEST_CASE("the columns of a block end together within 80 columns") {
 
 TEST_CASE("columns never touch, however wide a figure is") {
   auto info = run();
-  info.kinds = {"one", "two", "three"};
+  info.services = {"one", "two", "three"};
   metrics m{info};
   for (const auto* kind : {"one", "two", "three"})
     for (const auto latency : {1ms, 1'234'567ms})
@@ -128,13 +128,13 @@ TEST_CASE("the table counts what was on the air, and what a capture holds") {
 
 TEST_CASE("many services stand below each other") {
   auto info = run();
-  info.kinds = {planning, "environment", "cooperative_intersection", "parking",
-                "a_name_of_as_many_characters_as"};
+  info.services = {planning, "environment", "cooperative_intersection",
+                   "parking", "a_name_of_as_many_characters_as"};
   metrics m{info};
   play(m);
   m.finish(at(100s));
   const auto text = table(m, info, {100, 2, false}, "out", false);
-  for (const auto& kind : info.kinds)
+  for (const auto& kind : info.services)
     CHECK(contains(text, kind));
   for (const auto width : widths(text))
     CHECK(width <= 80);

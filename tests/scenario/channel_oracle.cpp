@@ -64,7 +64,7 @@ TEST_CASE("what is foreseen of a channel is what comes in a run") {
     const auto records = play(s);
     std::size_t in_time = 0, off_grid = 0;
     for (const auto& cycle : records.cycles) {
-      const auto seen = future->look(cycle.running.provider, planning,
+      const auto seen = future->look(cycle.session.provider, planning,
                                      cycle.created, cycle.created + 1ns);
       if (!seen.late && seen.latency_s == 0) {
         ++off_grid; // the first of an offloading is run at once

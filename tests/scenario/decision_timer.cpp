@@ -41,7 +41,7 @@ private:
 };
 
 local_context nothing_offered() {
-  return {.now = time_point{}, .kind = "any", .providers = {}, .path = {}};
+  return {.now = time_point{}, .service = "any", .providers = {}, .path = {}};
 }
 
 } // namespace

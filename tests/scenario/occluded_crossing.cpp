@@ -143,7 +143,7 @@ TEST_CASE("the ego is offloaded at once, the unconnected other never") {
   const auto records = play(load_crossing({"duration=3s"}));
   REQUIRE(records.episodes.size() == 2); // one for each side
   for (const auto& e : records.episodes) {
-    CHECK(e.running.station == ego);
+    CHECK(e.session.station == ego);
     CHECK(e.got_data);
     CHECK(e.first_data < time_point{500ms});
   }

@@ -78,8 +78,8 @@ std::map<std::uint64_t, duration> latencies(const memory_sink& records,
                                             station_id station) {
   std::map<std::uint64_t, duration> result;
   for (const auto& c : records.cycles)
-    if (c.running.station == station
-        && c.running.kind == service_name{"trajectory_planning"})
+    if (c.session.station == station
+        && c.session.service == service_name{"trajectory_planning"})
       result[c.cycle] = c.received - c.created;
   return result;
 }
@@ -101,7 +101,7 @@ TEST_CASE("six vehicles drive a lap, offload once each, and stay safe") {
   std::set<station_id> remote;
   for (const auto& e : records.episodes)
     if (e.of == side::requester && e.got_data)
-      remote.insert(e.running.station);
+      remote.insert(e.session.station);
   CHECK(remote.size() == 6);
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("both services are judged and ended on their own") {
   const auto records = drive({"duration=900s", "network.profile=cicv5g_n8"});
   std::map<service_name, int> fallbacks;
   for (const auto& e : records.episodes)
-    fallbacks[e.running.kind] += e.fallback;
+    fallbacks[e.session.service] += e.fallback;
   CHECK(fallbacks["trajectory_planning"] > 0);
   CHECK(fallbacks["cabin_climate"] == 0); // 2 s and 5 s outlast every stall
 }
@@ -179,7 +179,7 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
   for (const auto& e : records.episodes) {
     if (e.of != side::requester)
       continue;
-    boots.insert(e.running.provider);
+    boots.insert(e.session.provider);
     if (e.reason != end_reason::peer_lost)
       continue;
     ++lost;
@@ -191,7 +191,7 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
   for (const auto& c : records.cycles) {
     const auto t = c.received.time_since_epoch();
     CHECK((t <= 60s || t >= 90s));
-    CHECK((c.running.provider == boot_of(1, 0)) == (t <= 60s));
+    CHECK((c.session.provider == boot_of(1, 0)) == (t <= 60s));
   }
 }
 

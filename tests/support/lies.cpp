@@ -197,7 +197,7 @@ figures measure(const scenario& s, const memory_sink& lied,
 
   std::map<station_id, std::size_t> requests;
   for (const auto& e : lied.events) {
-    if (e.what == event_type::request && e.kind == service_name{planning})
+    if (e.what == event_type::request && e.service == service_name{planning})
       out.requests = std::max(out.requests, ++requests[e.station]);
     if (e.what != event_type::implausible)
       continue;
@@ -206,11 +206,11 @@ figures measure(const scenario& s, const memory_sink& lied,
     const auto was_remote =
         std::ranges::any_of(lied.episodes, [&](const episode_record& x) {
           return x.of == side::requester && x.got_data
-                 && x.running.station == e.station && x.ended == e.at;
+                 && x.session.station == e.station && x.ended == e.at;
         });
     const auto own = std::ranges::find_if(
         lied.plan_switches, [&](const plan_switch_record& x) {
-          return x.running.station == e.station && !x.remote && x.at >= e.at;
+          return x.session.station == e.station && !x.remote && x.at >= e.at;
         });
     const auto back = own != lied.plan_switches.end();
     const auto ends_before = lied.tracks.back().at - e.at < 150ms;

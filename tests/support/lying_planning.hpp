@@ -95,7 +95,7 @@ public:
         provider_.station,
         provider_.position,
         station_,
-        {static_cast<std::uint16_t>(input.running.counter), ++update_}};
+        {static_cast<std::uint16_t>(input.session.counter), ++update_}};
     if (!make_suggestion(what, told, *world_.where, room_, word_))
       return {};
     return {payload::of(encoded(word_)), out.about};

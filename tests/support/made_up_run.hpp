@@ -29,7 +29,7 @@ inline run_info run() {
   info.seed = 7;
   info.vehicles = 2;
   info.provider_names = {{provider, "mec"}};
-  info.kinds = {planning, "environment"};
+  info.services = {planning, "environment"};
   info.start = start;
   info.energy = {{101, {0.5, 0.125}}, {102, {0.25, 0.125}}};
   return info;
@@ -41,9 +41,14 @@ inline session_id running(station_id station = 101, std::uint32_t counter = 1,
 }
 
 inline event_record switched(const session_id& id, bool remote, duration when) {
-  return {
-      at(when),   event_type::switched,        id.station, id.provider, id.kind,
-      id.counter, remote ? "remote" : "local", remote};
+  return {at(when),
+          event_type::switched,
+          id.station,
+          id.provider,
+          id.service,
+          id.counter,
+          remote ? "remote" : "local",
+          remote};
 }
 
 inline decision_record decision(bool accepted, service_name kind = planning) {

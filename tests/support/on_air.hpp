@@ -27,7 +27,7 @@ inline georeference_ptr in_ulm() {
 /// @returns what reads the CAMs and CPMs of the vehicles there.
 inline auto decode_in_ulm() {
   return [where = in_ulm()](const its_pdu& message, time_point now) {
-    return understand(message, *where, now);
+    return decode(message, *where, now);
   };
 }
 

@@ -25,7 +25,7 @@ struct roadside {
     using namespace std::chrono_literals;
     for (int k = 0; k <= 100; ++k)
       path.push_back({5.0 * k, 0});
-    seen.kind = "any";
+    seen.service = "any";
     seen.speed_mps = 10;
     seen.noise = random_stream{1, "vehicle"};
     seen.needs = {50ms, 50ms, 100ms};
@@ -63,7 +63,7 @@ struct roadside {
 
   /// @returns what a cycle was like that was planned where it runs now.
   cycle_outcome cycle(bool missed = false, double times = 1) const {
-    cycle_outcome one{seen.now, seen.kind, seen.current};
+    cycle_outcome one{seen.now, seen.service, seen.current};
     const auto here =
         std::ranges::find(providers, seen.current, &provider_view::id);
     const auto is_remote = here != providers.end();

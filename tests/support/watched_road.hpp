@@ -67,8 +67,8 @@ public:
 
   /// A station tells where a body is, between two steps.
   void hear(station_id who, sender_id sender, const perceived_object& what) {
-    if (doubts.hear(who, sender, {now, what}))
-      model.hear(now, who, what);
+    if (doubts.on_report(who, sender, {now, what}))
+      model.on_report(now, who, what);
   }
 
   /// @returns whether who plans for `station` believes in a body there.

@@ -36,8 +36,8 @@ void edge_perception::on_cam(const cam& c, sender_id from) {
   if (protocol::is_of_future(c.at, now))
     return;
   const std::lock_guard lock{mutex_};
-  if (doubts_.hear(c.station, from, {c.at, body_of(c)}))
-    model_.hear(c.at, c.station, body_of(c));
+  if (doubts_.on_report(c.station, from, {c.at, body_of(c)}))
+    model_.on_report(c.at, c.station, body_of(c));
   forget_silent(now);
   if (told_.size() >= most_stations && !told_.contains(c.station))
     return;

@@ -27,14 +27,14 @@ public:
   offloading::service_output run(time_point now,
                                  const service_input& input) override {
     if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
-      hear(*message, now);
+      on_report(*message, now);
       heard_ = std::move(message);
     }
     if (!cycle_)
       return {};
     if (const auto own = perceived_->told_by(station_))
-      ego_->hear({own->at, own->position, own->heading_rad, own->speed_mps,
-                  own->accel_mps2, own->curvature_1pm});
+      ego_->on_report({own->at, own->position, own->heading_rad, own->speed_mps,
+                       own->accel_mps2, own->curvature_1pm});
     auto from = ego_->at(now);
     if (!from)
       return {};
@@ -42,13 +42,13 @@ public:
     perceived_->tracks(tracks_, station_);
     const auto report = cycle_->run(now, made_possible(*from), tracks_);
     ego_->follow(cycle_->plan());
-    return said(report, input.running.counter);
+    return said(report, input.session.counter);
   }
 
 private:
   // -- what the vehicle says ------------------------------------------------
 
-  void hear(const its_pdu& message, time_point now) {
+  void on_report(const its_pdu& message, time_point now) {
     if (!etsi::decode(message.view(), word_)
         || word_.header.station != station_)
       return;
@@ -121,8 +121,8 @@ private:
       return;
     ego_.emplace(cycle_->way(), from_m);
     const auto& first = plan.points.front(); // there it is, whatever CAMs said
-    ego_->hear({plan.start, first.at, first.heading_rad, first.speed_mps,
-                first.accel_mps2, first.curvature_1pm});
+    ego_->on_report({plan.start, first.at, first.heading_rad, first.speed_mps,
+                     first.accel_mps2, first.curvature_1pm});
     follow(plan);
   }
 

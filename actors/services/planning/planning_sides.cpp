@@ -88,7 +88,7 @@ public:
     const auto plan = takes_over ? input.in_use.as<trajectory>() : nullptr;
     word.plan = plan.get();
     if (!takes_over)
-      word.answer.emplace(name_of_maneuver(input.running),
+      word.answer.emplace(name_of_maneuver(input.session),
                           etsi::maneuver_response::accept);
     auto message = encoded(make_word(word, world_->car, *world_->where));
     if (message.octets.empty())
@@ -119,7 +119,7 @@ public:
   payload termination_message(const service_end& end, time_point,
                               const cam& own) const override {
     mcm_uplink word{own, {}, nullptr, {}};
-    word.answer.emplace(name_of_maneuver(end.running),
+    word.answer.emplace(name_of_maneuver(end.session),
                         etsi::maneuver_response::reject);
     return payload::of(encoded(make_word(word, world_->car, *world_->where)));
   }
@@ -161,7 +161,7 @@ public:
 
   payload termination_message(const service_end& end, time_point now) override {
     const suggestion what{provider_.station, provider_.position,
-                          end.running.station, name_of_maneuver(end.running)};
+                          end.session.station, name_of_maneuver(end.session)};
     return payload::of(encoded(
         make_termination(what, now, status_of(end.reason), *world_->where)));
   }

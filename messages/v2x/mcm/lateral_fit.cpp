@@ -54,7 +54,7 @@ bool lateral_fit::fit(const path& line, std::span<const sight> sights,
 
   for (const auto freedom : {usual_freedom, great_freedom}) {
     offset_.begin(steps_, step_m_);
-    see(sights);
+    add(sights);
     expect_little(freedom);
     if (before != nullptr)
       expect(*before);
@@ -67,7 +67,7 @@ bool lateral_fit::fit(const path& line, std::span<const sight> sights,
   return true;
 }
 
-void lateral_fit::see(std::span<const sight> sights) {
+void lateral_fit::add(std::span<const sight> sights) {
   for (const auto& x : sights) {
     const auto along_m = x.at.s_m - start_m_;
     offset_.observe_value(along_m, x.at.d_m, weight(sigma_offset_m));

@@ -49,7 +49,7 @@ private:
   using column = std::array<double, most_knots>;
   using reachable = std::array<double, most_knots + 2 * most_reach>;
 
-  void see(std::span<const sight> sights);
+  void add(std::span<const sight> sights);
   reachable sharpest_about() const;
   void expect_little(double freedom);
   void expect(const joint& before);

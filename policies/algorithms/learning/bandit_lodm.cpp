@@ -27,20 +27,20 @@ bandit_lodm& bandit_lodm::operator=(const bandit_lodm& other) {
   trial_ = other.trial_;
   epoch_s_ = other.epoch_s_;
   services_.clear();
-  for (const auto& [kind, tried] : other.services_)
-    services_.emplace(kind, service{tried.learner->clone(), {}});
+  for (const auto& [name, tried] : other.services_)
+    services_.emplace(name, service{tried.learner->clone(), {}});
   return *this;
 }
 
-bandit_lodm::service& bandit_lodm::of(std::string_view kind) {
-  auto i = services_.find(kind);
+bandit_lodm::service& bandit_lodm::of(std::string_view name) {
+  auto i = services_.find(name);
   if (i == services_.end())
-    i = services_.emplace(kind, service{make_bandit(), {}}).first;
+    i = services_.emplace(name, service{make_bandit(), {}}).first;
   return i->second;
 }
 
-bandit_trial* bandit_lodm::running(std::string_view kind, provider_id place) {
-  auto& now = of(kind).now;
+bandit_trial* bandit_lodm::running(std::string_view name, provider_id place) {
+  auto& now = of(name).now;
   return now.is_open() && now.place() == place ? &now : nullptr;
 }
 
@@ -52,7 +52,7 @@ void bandit_lodm::conclude(service& tried, time_point now) const {
 }
 
 local_decision bandit_lodm::decide(const local_context& context) {
-  auto& tried = of(context.kind);
+  auto& tried = of(context.service);
   if (tried.now.is_open() && !tried.now.lasted(trial_, context.now)
       && is_offered(context, tried.now.place()))
     return at_place(context, tried.now.place(), "on trial");
@@ -65,7 +65,7 @@ local_decision bandit_lodm::decide(const local_context& context) {
 }
 
 void bandit_lodm::observe(const cycle_outcome& outcome) {
-  auto& tried = of(outcome.kind);
+  auto& tried = of(outcome.service);
   if (!tried.now.is_open())
     return;
   if (const auto value = tried.learner->value(outcome, tried.now.place()))
@@ -73,19 +73,19 @@ void bandit_lodm::observe(const cycle_outcome& outcome) {
 }
 
 void bandit_lodm::observe(const refusal_outcome& outcome) {
-  auto* now = running(outcome.kind, outcome.provider);
+  auto* now = running(outcome.service, outcome.provider);
   if (!now)
     return;
-  of(outcome.kind).learner->learn(outcome.provider, std::nullopt);
+  of(outcome.service).learner->learn(outcome.provider, std::nullopt);
   now->close();
 }
 
 void bandit_lodm::observe(const episode_outcome& outcome) {
-  auto* now = running(outcome.kind, outcome.provider);
+  auto* now = running(outcome.service, outcome.provider);
   if (!now)
     return;
   if (now->mean())
-    of(outcome.kind).learner->learn(outcome.provider, now->mean());
+    of(outcome.service).learner->learn(outcome.provider, now->mean());
   now->close();
 }
 
@@ -93,9 +93,9 @@ std::string bandit_lodm::snapshot() const {
   state_writer out{text_kind, text_version};
   out.word("services").count(services_.size());
   std::string parts;
-  for (const auto& [kind, tried] : services_) {
+  for (const auto& [name, tried] : services_) {
     const auto part = tried.learner->snapshot();
-    out.line().word(kind).word("bytes").count(part.size());
+    out.line().word(name).word("bytes").count(part.size());
     parts += part;
   }
   return out.text() + parts;
@@ -106,21 +106,21 @@ std::optional<std::string> bandit_lodm::restore(std::string_view text) {
   in.expect("services");
   std::vector<std::pair<std::string, std::size_t>> parts;
   for (auto left = in.count(); left > 0 && !in.failed(); --left) {
-    const auto kind = in.word();
+    const auto name = in.word();
     in.expect("bytes");
-    parts.emplace_back(kind, in.count());
+    parts.emplace_back(name, in.count());
   }
   auto rest = in.after_end();
   if (in.failed())
     return in.fault();
   rest.remove_prefix(std::min<std::size_t>(rest.size(), 1)); // the line's end
   services read;
-  for (const auto& [kind, bytes] : parts) {
+  for (const auto& [name, bytes] : parts) {
     service tried{make_bandit(), {}};
     if (const auto fault = tried.learner->restore(rest.substr(0, bytes)))
-      return kind + ": " + *fault;
+      return name + ": " + *fault;
     rest.remove_prefix(std::min(rest.size(), bytes));
-    read.emplace(kind, std::move(tried));
+    read.emplace(name, std::move(tried));
   }
   if (!rest.empty())
     return "expected nothing more after the last service.";

@@ -62,8 +62,8 @@ private:
   };
   using services = std::map<std::string, service, std::less<>>;
 
-  service& of(std::string_view kind);
-  bandit_trial* running(std::string_view kind, provider_id place);
+  service& of(std::string_view name);
+  bandit_trial* running(std::string_view name, provider_id place);
   void conclude(service& tried, time_point now) const;
 
   duration trial_ = std::chrono::seconds{2};

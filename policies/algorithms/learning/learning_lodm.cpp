@@ -46,10 +46,10 @@ void learning_lodm::renew_mind() {
     throw std::logic_error{"a snapshot that came with the program: " + *fault};
 }
 
-learning_lodm::service& learning_lodm::of(std::string_view kind) {
-  auto i = services_.find(kind);
+learning_lodm::service& learning_lodm::of(std::string_view name) {
+  auto i = services_.find(name);
   if (i == services_.end())
-    i = services_.emplace(kind, service{}).first;
+    i = services_.emplace(name, service{}).first;
   return i->second;
 }
 
@@ -76,7 +76,7 @@ learning_lodm::best_way_out(const local_context& context) {
 
 local_decision learning_lodm::decide(const local_context& context) {
   const std::lock_guard lock{shared_->busy};
-  auto& seen = of(context.kind);
+  auto& seen = of(context.service);
   seen.reference_j = context.on_board.energy_j;
   if (seen.open) {
     const auto lasted = context.now - seen.open->begin;
@@ -127,7 +127,7 @@ void learning_lodm::conclude(service& seen,
 void learning_lodm::observe(const cycle_outcome& outcome) {
   if (!options_.learning)
     return;
-  auto& seen = of(outcome.kind);
+  auto& seen = of(outcome.service);
   if (!seen.open)
     return;
   auto cost = outcome.missed ? options_.violation_weight : 0;
@@ -143,7 +143,7 @@ void learning_lodm::observe(const episode_outcome& outcome) {
   constexpr std::array<std::string_view, 2> wanted{"released", "handed_over"};
   constexpr std::array<std::string_view, 2> over{"left_area", "shutdown"};
   const std::lock_guard lock{shared_->busy};
-  auto& seen = of(outcome.kind);
+  auto& seen = of(outcome.service);
   if (std::ranges::find(over, outcome.end_reason) != over.end())
     conclude(seen, std::nullopt);
   else if (seen.open

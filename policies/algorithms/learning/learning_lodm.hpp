@@ -88,7 +88,7 @@ private:
   };
 
   void renew_mind();
-  service& of(std::string_view kind);
+  service& of(std::string_view name);
   mind_state look(const local_context& context, const provider_view& provider,
                   bool is_remote) const;
   std::optional<way_out> best_way_out(const local_context& context);
