@@ -1,6 +1,7 @@
 // Templates of the paper's evaluation: figures and placeholders belong
 // together.
 #include "experiments/dehler2025/report_text.hpp"
+
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"
 
