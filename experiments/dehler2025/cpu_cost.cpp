@@ -1,5 +1,6 @@
 // The paper's table of computing time, and what it means.
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ cpu_shares with_their_planner(cpu_shares ours, const cpu_shares& theirs) {
   return ours;
 }
 
-report::table shares(const paper_runs& e) {
+report::table shares(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "Computing time in the vehicle, percent of one core";
   t.columns = {"who, at what rate",    "planner active",
@@ -45,18 +46,16 @@ report::table shares(const paper_runs& e) {
   t.rows.push_back(
       row("our SOFOF, a planner of the paper's cost, 100 Hz",
           with_their_planner(e.cpu_100_hz.figures.shares, paper::cpu_100_hz)));
-  t.note = fmt::format(
-      "The last column is the share of the time from which on a vehicle "
-      "computes less than without offloading; with one c_SR for all times, "
-      "as the paper has it, c_SR / (c_TPLa − c_TPLd). The paper prints {} % "
-      "and {} %; its own table gives {} and {}.",
-      paper::printed_share_20_hz, paper::printed_share_100_hz,
-      percent(break_even_share(paper::cpu_20_hz)),
-      percent(break_even_share(paper::cpu_100_hz)));
+  t.note = text.fill(
+      "break_even",
+      {{"printed_20_hz", fmt::format("{}", paper::printed_share_20_hz)},
+       {"printed_100_hz", fmt::format("{}", paper::printed_share_100_hz)},
+       {"own_20_hz", percent(break_even_share(paper::cpu_20_hz))},
+       {"own_100_hz", percent(break_even_share(paper::cpu_100_hz))}});
   return t;
 }
 
-report::table balance(const paper_runs& e) {
+report::table balance(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "With and without offloading, for the share of time of these runs";
   t.columns = {"at what rate", "vehicles",  "t_d / t_total",
@@ -71,13 +70,11 @@ report::table balance(const paper_runs& e) {
   };
   add("20 Hz", e.cpu_20_hz.figures);
   add("100 Hz", e.cpu_100_hz.figures);
-  t.note =
-      "One run for each rate, so without an interval. What measuring takes "
-      "is in the requester's share.";
+  t.note = text.fill("balance");
   return t;
 }
 
-report::table energy(const paper_runs& e) {
+report::table energy(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "What that is in energy, J/km";
   t.columns = {"at what rate", "never offloaded", "a third of the time",
@@ -94,46 +91,41 @@ report::table energy(const paper_runs& e) {
   };
   add("20 Hz", e.cpu_20_hz);
   add("100 Hz", e.cpu_100_hz);
-  t.note = fmt::format(
-      "At the mean speeds of the runs, {:.1f} and {:.1f} m/s, with {:.2f} W "
-      "for a busy core beyond an idle one: docs/results.md says whose figure "
-      "that is.",
-      e.cpu_20_hz.speed_mps, e.cpu_100_hz.speed_mps,
-      core_power{}.more_when_busy_w());
+  t.note = text.fill(
+      "energy",
+      {{"speed_20_hz", fmt::format("{:.1f}", e.cpu_20_hz.speed_mps)},
+       {"speed_100_hz", fmt::format("{:.1f}", e.cpu_100_hz.speed_mps)},
+       {"core_w", fmt::format("{:.2f}", core_power{}.more_when_busy_w())}});
   return t;
 }
 
-std::string verdict(const cpu_figures& c, const char* rate) {
+std::string verdict(const cpu_figures& c, const char* rate,
+                    const report_text& text) {
   const auto share = break_even_share(c.shares);
   if (share && *share < 1)
-    return fmt::format("At {} offloading pays from {} of the time on.", rate,
-                       percent(share));
-  return fmt::format("At {} offloading does not pay in computing time: our "
-                     "planner takes {:.2f} % of a core, the requester "
-                     "{:.3f} % while it is used.",
-                     rate, c.shares.active, c.shares.requester_remote);
+    return text.fill("pays", {{"rate", rate}, {"share", percent(share)}});
+  return text.fill(
+      "does_not_pay",
+      {{"rate", rate},
+       {"planner", fmt::format("{:.2f}", c.shares.active)},
+       {"requester", fmt::format("{:.3f}", c.shares.requester_remote)}});
 }
 
 } // namespace
 
 report::section cpu_cost(const paper_runs& e) {
+  const auto text = report_text::of("cpu_cost");
   report::section s{"Computing time", {}};
   s.blocks.emplace_back(paragraph{
-      "Wall-clock runs of 20 s at 20 Hz and at 100 Hz, with vehicles in the "
-      "area for a part of the time. Each actor's computing time is read from "
-      "its thread's clock around every turn. The planner's share includes "
-      "its environment model; the requester's is that of SOFOF in the "
-      "vehicle: offers, requests, the check of every result, decoding it and "
-      "handing it on."});
-  s.blocks.emplace_back(shares(e));
-  s.blocks.emplace_back(balance(e));
-  s.blocks.emplace_back(energy(e));
-  s.blocks.emplace_back(paragraph{
-      verdict(e.cpu_20_hz.figures, "20 Hz") + ' '
-      + verdict(e.cpu_100_hz.figures, "100 Hz")
-      + " The paper's planners are processes of ROS 2 that go on listening "
-        "when they are deactivated; ours is an actor that keeps its newest "
-        "input."});
+      text.fill("measurement",
+                {{"length_s", fmt::format("{:.0f}", e.cpu_20_hz.length_s)}})});
+  s.blocks.emplace_back(shares(e, text));
+  s.blocks.emplace_back(balance(e, text));
+  s.blocks.emplace_back(energy(e, text));
+  s.blocks.emplace_back(
+      paragraph{verdict(e.cpu_20_hz.figures, "20 Hz", text) + ' '
+                + verdict(e.cpu_100_hz.figures, "100 Hz", text) + ' '
+                + text.fill("planners")});
   return s;
 }
 

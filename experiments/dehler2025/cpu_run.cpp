@@ -77,7 +77,8 @@ measured_cpu read_cpu_run(const fs::path& folder) {
         "no vehicle in {} was both local and offloaded.", folder.string())};
   const auto drove = read_run({}, folder);
   return {*figures,
-          drove.figure("driving.distance_m") / drove.figure("safety.driven_s")};
+          drove.figure("driving.distance_m") / drove.figure("safety.driven_s"),
+          drove.figure("virtual_s")};
 }
 
 } // namespace sofof::study

@@ -1,9 +1,12 @@
 // The paper's delay plot: latency against the number of vehicles.
 #include "experiments/dehler2025/histogram.hpp"
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace sofof::study {
 
@@ -15,7 +18,11 @@ using report::paragraph;
 
 constexpr int most_vehicles = 6;
 
-report::figure means(const paper_runs& e) {
+spread latency_of(const paper_runs& e, int vehicles) {
+  return pooled(those(e.delay_plot, 0, std::to_string(vehicles)), "latency_ms");
+}
+
+report::figure means(const paper_runs& e, const report_text& text) {
   figure f;
   f.title = "Latency of trajectories";
   f.x_label = "vehicles";
@@ -23,8 +30,7 @@ report::figure means(const paper_runs& e) {
   curve ours;
   ours.name = "mean ± standard deviation";
   for (int n = 1; n <= most_vehicles; ++n) {
-    const auto x =
-        pooled(those(e.delay_plot, 0, std::to_string(n)), "latency_ms");
+    const auto x = latency_of(e, n);
     ours.x.push_back(n);
     ours.y.push_back(x.mean);
     ours.low.push_back(x.mean - x.deviation);
@@ -40,7 +46,7 @@ report::figure means(const paper_runs& e) {
   theirs.drawn = curve::style::points;
   theirs.dashed = true;
   f.curves.push_back(std::move(theirs));
-  f.caption = "The band is one standard deviation of all latencies together.";
+  f.caption = text.fill("band");
   return f;
 }
 
@@ -89,15 +95,41 @@ figure distribution_of(const paper_runs& e, const char* what, const char* title,
   return f;
 }
 
+/// How far ours are from the paper's, to which the channel is fitted.
+std::string about_the_fit(const spread& one, const report_text& text) {
+  constexpr double little_percent = 5;
+  const auto off_by = [](double ours, double theirs) {
+    return 100 * std::abs(ours / theirs - 1);
+  };
+  const auto mean = off_by(one.mean, paper::latency_mean_ms);
+  const auto deviation = off_by(one.deviation, paper::latency_deviation_ms);
+  if (mean < little_percent && deviation < little_percent)
+    return text.fill("little_added");
+  return text.fill("much_added",
+                   {{"mean_off", fmt::format("{:.0f}", mean)},
+                    {"deviation_off", fmt::format("{:.0f}", deviation)}});
+}
+
+std::string about_growth(const spread& one, const spread& six,
+                         const report_text& text) {
+  if (six.mean > one.mean)
+    return text.fill("grows");
+  return text.fill("does_not_grow",
+                   {{"one_ms", fmt::format("{:.2f}", one.mean)},
+                    {"six_ms", fmt::format("{:.2f}", six.mean)}});
+}
+
 } // namespace
 
 report::section delay_plot(const paper_runs& e) {
+  const auto text = report_text::of("delay_plot");
   report::section s{"Latency", {}};
-  s.blocks.emplace_back(paragraph{
-      "The paper's delay plot has mean and standard deviation of the latency "
-      "against the number of vehicles: both grow, 10.54 ± 9.83 ms for one, and "
-      "nearly all are below 50 ms."});
-  s.blocks.emplace_back(means(e));
+  s.blocks.emplace_back(paragraph{text.fill(
+      "the_paper",
+      {{"latency_ms", fmt::format("{:.2f} ± {:.2f}", paper::latency_mean_ms,
+                                  paper::latency_deviation_ms)},
+       {"l_max_ms", fmt::format("{}", paper::max_latency_ms)}})});
+  s.blocks.emplace_back(means(e, text));
   s.blocks.emplace_back(numbers(e));
   s.blocks.emplace_back(distribution_of(e, "latency",
                                         "How latencies are distributed",
@@ -105,12 +137,9 @@ report::section delay_plot(const paper_runs& e) {
   s.blocks.emplace_back(distribution_of(
       e, "interarrival", "How gaps between results are distributed",
       paper::max_interarrival_ms, "Δt_max"));
-  s.blocks.emplace_back(paragraph{
-      "The channel `paper_sim` is fitted to the paper's mean and deviation for "
-      "one vehicle, so that these only tell that the way of the data adds "
-      "little of its own. The growth with the number of vehicles is not "
-      "fitted: results wait for the one worker at the edge server, which takes "
-      "30 % of each latency."});
+  const auto one = latency_of(e, 1), six = latency_of(e, most_vehicles);
+  s.blocks.emplace_back(
+      paragraph{about_the_fit(one, text) + ' ' + about_growth(one, six, text)});
   return s;
 }
 

@@ -1,12 +1,15 @@
 // The paper's latency plot: offloading time against the longest gap.
-#include "base/options/units.hpp"
 #include "experiments/dehler2025/area_time.hpp"
+#include "experiments/dehler2025/curve_claims.hpp"
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace sofof::study {
@@ -15,10 +18,6 @@ namespace {
 
 using report::curve;
 using report::paragraph;
-
-double ms_of(const std::string& duration_text) {
-  return to_milliseconds(parse_duration(duration_text).value());
-}
 
 curve curve_of(std::span<const measured_run> runs, const std::string& vehicles,
                const std::string& name) {
@@ -39,7 +38,26 @@ std::string name_of(const std::string& vehicles) {
   return vehicles == "1" ? "1 vehicle" : vehicles + " vehicles";
 }
 
-report::figure offloading_times(const paper_runs& e) {
+/// How many runs a point has, and how long they are.
+struct effort {
+  std::uint64_t runs = 0;
+  std::uint64_t minutes = 0;
+};
+
+effort effort_of(const paper_runs& e) {
+  const auto point = those(e.latency_plot, "1", longest_limit);
+  if (point.empty())
+    return {};
+  constexpr double minute_s = 60;
+  return {point.size(), static_cast<std::uint64_t>(std::lround(
+                            point.front()->figure("virtual_s") / minute_s))};
+}
+
+std::string length_of(const effort& x) {
+  return fmt::format("{} minute{}", x.minutes, x.minutes == 1 ? "" : "s");
+}
+
+report::figure offloading_times(const paper_runs& e, const report_text& text) {
   report::figure f;
   f.title = "Offloading time against the longest allowed gap";
   f.x_label = "Δt_max, ms";
@@ -51,9 +69,9 @@ report::figure offloading_times(const paper_runs& e) {
   saturation.dashed = true;
   f.curves.push_back(std::move(saturation));
   f.marks.emplace_back(paper::max_interarrival_ms, "the paper's choice");
-  f.caption =
-      "Means over all episodes of ten runs of 3 minutes each; bands are "
-      "95 % bootstrap intervals over runs.";
+  const auto effort = effort_of(e);
+  f.caption = text.fill("curves", {{"runs", counted(effort.runs, "run")},
+                                   {"length", length_of(effort)}});
   return f;
 }
 
@@ -76,13 +94,13 @@ report::table all_means(const paper_runs& e) {
   return t;
 }
 
-report::table saturation(const paper_runs& e) {
+report::table saturation(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "Where the curves saturate";
   t.columns = {"vehicles", "time in the area, s", "t_off at 150 ms, s",
                "share of that time", "early ends per pass"};
   for (const auto& n : labels_of(e.latency_plot, 0)) {
-    const auto runs = those(e.latency_plot, n, "150ms");
+    const auto runs = those(e.latency_plot, n, longest_limit);
     const auto t_off = mean_t_off(runs);
     const auto stay = mean_time_in_area_s(those(e.in_area, 0, n));
     double early = 0, episodes = 0;
@@ -98,13 +116,11 @@ report::table saturation(const paper_runs& e) {
          episodes > early ? fmt::format("{:.2f}", early / (episodes - early))
                           : "–"});
   }
-  t.note = "The time in the area is that of vehicles that plan for themselves. "
-           "An episode that ends early is followed by another one in the same "
-           "pass, a second later.";
+  t.note = text.fill("stays");
   return t;
 }
 
-report::figure other_reading(const paper_runs& e) {
+report::figure other_reading(const paper_runs& e, const report_text& text) {
   report::figure f;
   f.title = "The other reading: a narrow latency with rare stalls";
   f.x_label = "Δt_max, ms";
@@ -114,7 +130,7 @@ report::figure other_reading(const paper_runs& e) {
     f.curves.push_back(curve_of(e.latency_plot, n, name_of(n) + ", paper_sim"));
     f.curves.back().dashed = true;
   }
-  f.caption = "Solid: with stalls, planned by `lane_follow`.";
+  f.caption = text.fill("stalls_curves");
   return f;
 }
 
@@ -137,76 +153,112 @@ early_ends_per_hour(std::span<const measured_run* const> runs) {
   return bootstrap(groups, random_stream{seed, "early_ends_per_hour"});
 }
 
-paragraph what_the_paper_says() {
-  return {"The paper's latency plot has the mean offloading time per accepted "
-          "request, for one to six vehicles on two round trips through "
-          "Ulm-Lehr, 30 minutes for each point. It describes the curves: they "
-          "rise with Δt_max, saturate near 70 s, the time in the area, rise "
-          "more slowly with more vehicles, and that of six stays below the "
-          "others."};
+std::string plus_minus(double mean, double deviation, int digits) {
+  return fmt::format("{:.{}f} ± {:.{}f}", mean, digits, deviation, digits);
 }
 
-paragraph about_the_ends(const interval& one, const interval& six) {
-  return {fmt::format(
-      "One vehicle saturates at {} s, six at {} s, {:.0f} % below. Results are "
-      "50 ms apart, give or take the difference of two latencies: with a "
-      "shorter limit the first or second gap is too long. Times may be longer "
-      "than that in the area, because the edge server learns from CAMs, some a "
-      "second, that a vehicle has left; and convoys hold each other up, so "
-      "that more vehicles take longer to pass.",
-      with_interval(one), with_interval(six), 100 * (1 - six.mean / one.mean))};
+/// @returns whether six vehicles that plan for themselves need longer than one.
+bool pass_longer(const paper_runs& e) {
+  const auto one = mean_time_in_area_s(those(e.in_area, 0, "1"));
+  const auto six = mean_time_in_area_s(those(e.in_area, 0, "6"));
+  return one && six && *six > *one;
 }
 
-paragraph about_more_vehicles(const paper_runs& e) {
-  return {fmt::format(
-      "Results of all vehicles wait for one worker at the edge server. What "
-      "ends offloadings of many vehicles early is a latency above 50 ms, not a "
-      "gap, so that all curves rise at the same Δt_max and differ in height. "
-      "How often results meet depends on the phases of the planning cycles, "
-      "which each run draws once: that is why each point is ten runs of 3 "
-      "minutes instead of one of 30. The experiment (`apart.toml`, planned by "
-      "`lane_follow`): six vehicles that are in the area together end {} "
-      "offloadings early per hour of it, the same six spread over the round "
-      "trip, about two in the area at a time, {}.",
-      with_interval(early_ends_per_hour(those(e.apart, 0, "convoy"))),
-      with_interval(early_ends_per_hour(those(e.apart, 0, "equal"))))};
+paragraph about_the_ends(const paper_runs& e, const report_text& text,
+                         const interval& one, const interval& six) {
+  const auto below = 100 * (1 - six.mean / one.mean);
+  return {text.fill(
+      "ends",
+      {{"one_s", with_interval(one)},
+       {"six_s", with_interval(six)},
+       {"difference",
+        text.fill(below >= 0 ? "below" : "above",
+                  {{"percent", fmt::format("{:.0f}", std::abs(below))}})},
+       {"convoys",
+        text.fill(pass_longer(e) ? "longer_passes" : "no_longer_passes")}})};
 }
 
-paragraph about_stalls(const paper_runs& e) {
-  const auto latency = pooled(those(e.stalls, "1", "150ms"), "latency_ms");
+paragraph about_more_vehicles(const paper_runs& e, const report_text& text,
+                              const curve_claims& claims) {
+  const auto l_max = fmt::format("{}", paper::max_latency_ms);
+  auto all = text.fill("one_worker") + ' ';
+  if (claims.late_results_only())
+    all += text.fill("late_results", {{"l_max_ms", l_max}});
+  else
+    all += text.fill(
+        "other_causes",
+        {{"l_max_ms", l_max},
+         {"late", std::to_string(claims.late)},
+         {"early", std::to_string(claims.early)},
+         {"rises_ms", fmt::format("{}", fmt::join(claims.rises_ms, ", "))}});
+  const auto effort = effort_of(e);
+  if (effort.runs > 1)
+    all +=
+        ' '
+        + text.fill("phases",
+                    {{"runs", counted(effort.runs, "run")},
+                     {"length", length_of(effort)},
+                     {"total", std::to_string(effort.runs * effort.minutes)}});
+  return {all + ' '
+          + text.fill("apart", {{"convoy", with_interval(early_ends_per_hour(
+                                               those(e.apart, 0, "convoy")))},
+                                {"equal", with_interval(early_ends_per_hour(
+                                              those(e.apart, 0, "equal")))}})};
+}
+
+/// @returns what the sentence about the paper's description ends with.
+std::string agreement(const report_text& text, const curve_claims& claims) {
+  std::vector<std::string> missing;
+  if (!claims.rise_late)
+    missing.push_back(text.fill("late_rise"));
+  if (!claims.saturates)
+    missing.push_back(text.fill("saturation"));
+  if (!claims.six_lowest)
+    missing.push_back(text.fill("six_lowest"));
+  return missing.empty()
+             ? text.fill("agrees")
+             : text.fill(
+                 "differs",
+                 {{"missing", fmt::format("{}", fmt::join(missing, ", no "))}});
+}
+
+paragraph about_stalls(const paper_runs& e, const report_text& text,
+                       const curve_claims& claims) {
+  const auto latency =
+      pooled(those(e.stalls, "1", longest_limit), "latency_ms");
   const auto early = [](std::span<const measured_run> runs, const char* n) {
-    return with_interval(early_ends_per_hour(those(runs, n, "150ms")));
+    return with_interval(early_ends_per_hour(those(runs, n, longest_limit)));
   };
-  return {fmt::format(
-      "Mean and spread of 10.54 ± 9.83 ms can come from a wide distribution "
-      "without outliers (`paper_sim`) or from a narrow one with rare stalls "
-      "(`paper_sim_stalls`, one in 74 s), as measured 5G networks have them. "
-      "What a stall holds back ends the offloading and is no latency of it: "
-      "results that arrive have {:.1f} ± {:.1f} ms then. One vehicle with "
-      "stalls ends {} offloadings early per hour of it, six of them {}; "
-      "without stalls {} and {}, all at 150 ms. The paper describes a late "
-      "rise, saturation near the time in the area, and six below the others: "
-      "so are the curves of `paper_sim`.",
-      latency.mean, latency.deviation, early(e.stalls, "1"),
-      early(e.stalls, "6"), early(e.latency_plot, "1"),
-      early(e.latency_plot, "6"))};
+  return {text.fill(
+      "stalls", {{"latency_ms", plus_minus(paper::latency_mean_ms,
+                                           paper::latency_deviation_ms, 2)},
+                 {"arrived_ms", plus_minus(latency.mean, latency.deviation, 1)},
+                 {"one_stalls", early(e.stalls, "1")},
+                 {"six_stalls", early(e.stalls, "6")},
+                 {"one", early(e.latency_plot, "1")},
+                 {"six", early(e.latency_plot, "6")},
+                 {"agreement", agreement(text, claims)}})};
 }
 
 } // namespace
 
 report::section latency_plot(const paper_runs& e) {
+  const auto text = report_text::of("latency_plot");
+  const auto claims = claims_of(e);
   report::section s{"Offloading time", {}};
-  s.blocks.emplace_back(what_the_paper_says());
-  s.blocks.emplace_back(offloading_times(e));
+  s.blocks.emplace_back(paragraph{
+      text.fill("the_paper",
+                {{"saturation_s", fmt::format("{}", paper::saturation_s)}})});
+  s.blocks.emplace_back(offloading_times(e, text));
   s.blocks.emplace_back(all_means(e));
-  s.blocks.emplace_back(saturation(e));
-  const auto one = mean_t_off(those(e.latency_plot, "1", "150ms"));
-  const auto six = mean_t_off(those(e.latency_plot, "6", "150ms"));
+  s.blocks.emplace_back(saturation(e, text));
+  const auto one = mean_t_off(those(e.latency_plot, "1", longest_limit));
+  const auto six = mean_t_off(those(e.latency_plot, "6", longest_limit));
   if (one && six)
-    s.blocks.emplace_back(about_the_ends(*one, *six));
-  s.blocks.emplace_back(about_more_vehicles(e));
-  s.blocks.emplace_back(other_reading(e));
-  s.blocks.emplace_back(about_stalls(e));
+    s.blocks.emplace_back(about_the_ends(e, text, *one, *six));
+  s.blocks.emplace_back(about_more_vehicles(e, text, claims));
+  s.blocks.emplace_back(other_reading(e, text));
+  s.blocks.emplace_back(about_stalls(e, text, claims));
   return s;
 }
 

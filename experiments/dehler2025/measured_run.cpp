@@ -35,6 +35,7 @@ measured_run read_run(const sweep_point& point,
       continue;
     run.t_off_s.push_back(*episode.t_off_s);
     run.ended_early += episode.fallback ? 1U : 0U;
+    run.ended_late += episode.reason == "qos_latency" ? 1U : 0U;
   }
   return run;
 }

@@ -30,6 +30,7 @@ struct measured_run {
   std::uint64_t ended_early = 0; ///< Episodes that ended by a violation.
   /// How long providers, by their places, have run each service for vehicles.
   std::map<std::pair<provider_id, std::string>, double> served_s{};
+  std::uint64_t ended_late = 0; ///< Of `ended_early`, those for a latency.
 
   /// @throws input_error for one that the summary does not have.
   double figure(const std::string& name) const;

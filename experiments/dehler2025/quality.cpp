@@ -1,11 +1,13 @@
 // Offloaded against local driving, seed by seed.
 #include "experiments/dehler2025/deviation.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace sofof::study {
 
@@ -67,7 +69,7 @@ report::table driving(const paper_runs& e) {
   return t;
 }
 
-report::table switches(const paper_runs& e) {
+report::table switches(const paper_runs& e, const report_text& text) {
   const auto runs = those(e.quality, 0, "location");
   report::table t;
   t.title = "Where the source of the plan changes";
@@ -86,11 +88,11 @@ report::table switches(const paper_runs& e) {
   row("curvature, 1/m", "kappa_1pm");
   row("speed, m/s", "v_mps");
   row("acceleration, m/s²", "a_mps2");
-  t.note = fmt::format("{:.0f} changes: to the edge server, and back.", count);
+  t.note = text.fill("changes", {{"count", fmt::format("{:.0f}", count)}});
   return t;
 }
 
-report::table deviations(const paper_runs& e) {
+report::table deviations(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "How far the offloaded drive is from the local one";
   t.columns = {"seed", "path, rms, m", "path, largest, m", "speed, rms, m/s",
@@ -108,25 +110,24 @@ report::table deviations(const paper_runs& e) {
                       fmt::format("{:.3f}", d.speed_rms_mps),
                       fmt::format("{:.3f}", d.speed_max_mps)});
   }
-  t.note =
-      "At the same places of the way, where the first drive was offloaded. "
-      "Vehicles of the two drives meet others at other times.";
+  t.note = text.fill("places");
   return t;
 }
 
 } // namespace
 
 report::section quality(const paper_runs& e) {
-  report::section s{"Quality of the offloaded result", {}};
-  s.blocks.emplace_back(paragraph{
-      "The paper leaves this to future work: does the result of the edge "
-      "server drive as well as that of the vehicle? The same six vehicles on "
-      "the same seeds, offloaded where they can be, and never. "
-      "docs/results.md says what the figures measure."});
-  s.blocks.emplace_back(driving(e));
-  s.blocks.emplace_back(switches(e));
-  s.blocks.emplace_back(deviations(e));
+  const auto text = report_text::of("quality");
   const auto offloaded = those(e.quality, 0, "location");
+  const auto vehicles =
+      offloaded.empty() ? 0 : offloaded.front()->figure("vehicles");
+  report::section s{"Quality of the offloaded result", {}};
+  s.blocks.emplace_back(paragraph{text.fill(
+      "question", {{"vehicles", counted(static_cast<std::uint64_t>(vehicles),
+                                        "vehicle")}})});
+  s.blocks.emplace_back(driving(e));
+  s.blocks.emplace_back(switches(e, text));
+  s.blocks.emplace_back(deviations(e, text));
   if (!offloaded.empty())
     s.blocks.emplace_back(report::drive{offloaded.front()->folder});
   return s;

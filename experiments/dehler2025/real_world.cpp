@@ -1,6 +1,7 @@
 // The paper's real drives, emulated.
 #include "experiments/dehler2025/histogram.hpp"
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 #include "experiments/report/run_files.hpp"
 
@@ -78,7 +79,7 @@ report::table comparison(const paper_runs& e) {
 }
 
 /// When each drive of the first seed was offloaded.
-figure timelines(const paper_runs& e) {
+figure timelines(const paper_runs& e, const report_text& text) {
   constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
   figure f;
   f.title = "The drives of seed 1";
@@ -115,7 +116,7 @@ figure timelines(const paper_runs& e) {
   }
   if (!early.empty())
     f.curves.push_back(std::move(ends));
-  f.caption = "A line while the edge server plans.";
+  f.caption = text.fill("lines");
   return f;
 }
 
@@ -136,36 +137,36 @@ figure distribution_of(const histogram& latencies) {
   return f;
 }
 
-std::string about_the_tail(const paper_runs& e, const histogram& latencies) {
+std::string about_the_tail(const paper_runs& e, const histogram& latencies,
+                           const report_text& text) {
   const auto late = latencies.share_above(paper::max_latency_ms);
-  auto text = std::string{"How many drives end early hangs on a tail that mean "
-                          "and deviation do not tell"};
+  std::string here;
   if (late > 0)
-    text += fmt::format(": one result in {:.0f} takes longer than 50 ms here, "
-                        "and a drive has {:.0f}",
-                        1 / late,
-                        static_cast<double>(latencies.count())
-                            / static_cast<double>(e.real_world.size()));
-  return text
-         + ". The paper's count of two is to be held against the spread "
-           "over 20 seeds.";
+    here = text.fill(
+        "late_results",
+        {{"one_in", fmt::format("{:.0f}", 1 / late)},
+         {"l_max_ms", fmt::format("{}", paper::max_latency_ms)},
+         {"results",
+          fmt::format("{:.0f}",
+                      static_cast<double>(latencies.count())
+                          / static_cast<double>(e.real_world.size()))}});
+  return text.fill("tail", {{"here", here},
+                            {"paper_early", in_words(paper::real_early_ends)},
+                            {"seeds", counted(early_ends(e).size(), "seed")}});
 }
 
 } // namespace
 
 report::section real_world(const paper_runs& e) {
+  const auto text = report_text::of("real_world");
   report::section s{"Real drives", {}};
-  s.blocks.emplace_back(paragraph{
-      "The paper drove 15 times on three routes over the pilot crossing, "
-      "about 220 m of each in the area, planned 100 times a second over 5G. "
-      "We have no car there: this is an emulation with the channel "
-      "`paper_5g`, whose mean and deviation are fitted to the paper's, on "
-      "the same routes, for 20 seeds."});
+  s.blocks.emplace_back(paragraph{text.fill(
+      "emulation", {{"seeds", counted(early_ends(e).size(), "seed")}})});
   s.blocks.emplace_back(comparison(e));
-  s.blocks.emplace_back(timelines(e));
+  s.blocks.emplace_back(timelines(e, text));
   const auto all = latencies(e);
   s.blocks.emplace_back(distribution_of(all));
-  s.blocks.emplace_back(paragraph{about_the_tail(e, all)});
+  s.blocks.emplace_back(paragraph{about_the_tail(e, all, text)});
   return s;
 }
 

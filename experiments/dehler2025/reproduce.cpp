@@ -4,6 +4,7 @@
 #include "base/files/output_file.hpp"
 #include "base/stopwatch.hpp"
 #include "experiments/dehler2025/cpu_run.hpp"
+#include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 #include "experiments/dehler2025/sweep_results.hpp"
 #include "experiments/report/html.hpp"
@@ -144,12 +145,8 @@ bool reproduce(const reproduction_options& options,
     const auto e = reproduction{options, interrupted, console}.gather();
     report::document all;
     all.title = "The paper's evaluation, reproduced";
-    all.subtitle = fmt::format(
-        "R. Dehler, M. Buchholz, IEEE RA-L 10(5), 2025, doi "
-        "10.1109/LRA.2025.3555939, by SOFOF {}. `sofof reproduce` makes this "
-        "again; docs/results.md says what figures count, docs/channels.md what "
-        "the channels are.",
-        options.version);
+    all.subtitle = report_text::of("report").fill(
+        "subtitle", {{"version", options.version}});
     all.sections = {latency_plot(e), delay_plot(e), real_world(e), cpu_cost(e),
                     quality(e)};
     write_file(options.runs.out / "reproduction.md", report::markdown(all));

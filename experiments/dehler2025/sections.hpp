@@ -15,6 +15,7 @@ namespace sofof::study {
 struct measured_cpu {
   cpu_figures figures;
   double speed_mps = 0; ///< Mean of its vehicles.
+  double length_s = 0;
 };
 
 /// The runs of all sweeps in config/paper.

@@ -81,6 +81,7 @@ TEST_CASE("episodes that the run's end cut off, or others', do not count") {
   const auto run = read_run({{"1"}, 3, {}}, dir.path());
   CHECK(run.t_off_s == std::vector<double>{10, 3});
   CHECK(run.ended_early == 1);
+  CHECK(run.ended_late == 1);
   CHECK(run.served_s.size() == 1);
   CHECK(run.served_s.at({1, "trajectory_planning"}) == 11);
   CHECK(run.figure("latency_ms.mean") == 2);

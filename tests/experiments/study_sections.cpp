@@ -4,6 +4,7 @@
 #include "experiments/dehler2025/describe_sweep.hpp"
 #include "experiments/dehler2025/deviation.hpp"
 #include "experiments/dehler2025/sections.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -15,6 +16,7 @@
 
 namespace sofof::study {
 
+using test::contains;
 using test::near;
 using test::scratch;
 
@@ -60,6 +62,51 @@ name = "trajectory_planning"
 constexpr std::string_view episodes_header =
     "side,station,provider,provider_id,service,counter,accepted_s,"
     "first_data_s,ended_s,t_off_s,reason,fallback\n";
+
+/// @returns all paragraphs of a section.
+std::string words_of(const report::section& s) {
+  std::string all;
+  for (const auto& block : s.blocks)
+    if (const auto* found = std::get_if<report::paragraph>(&block))
+      all += found->text + '\n';
+  return all;
+}
+
+/// Two curves over two limits with these heights, in an area that takes 51 s,
+/// and three early ends of six vehicles.
+paper_runs two_curves(const scratch& dir, double one_s, double six_s,
+                      std::uint64_t ended_late) {
+  paper_runs e;
+  for (const auto& [n, height_s] : {std::pair{"1", one_s}, {"6", six_s}})
+    for (const auto* gap : {"80ms", "150ms"}) {
+      auto& run = e.latency_plot.emplace_back();
+      run.point.labels = {n, gap};
+      run.figures = {
+          {"virtual_s", 180}, {"vehicles", 1}, {"offloaded_share", 1}};
+      run.t_off_s = {gap == std::string_view{"80ms"} ? 1 : height_s};
+    }
+  e.latency_plot.back().ended_early = 3;
+  e.latency_plot.back().ended_late = ended_late;
+  e.in_area.push_back(driven(dir / "in_area", 0, 10, "local"));
+  return e;
+}
+
+/// Runs of one and of six vehicles with these mean latencies.
+paper_runs two_latencies(const scratch& dir, double one_ms, double six_ms) {
+  write(dir / "distributions.csv", "service,figure,up_to_ms,count\n"
+                                   "trajectory_planning,latency,60.000,1\n"
+                                   "trajectory_planning,latency,10.000,3\n");
+  paper_runs e;
+  for (const auto& [n, mean_ms] : {std::pair{"1", one_ms}, {"6", six_ms}}) {
+    auto& run = e.delay_plot.emplace_back();
+    run.point.labels = {n};
+    run.folder = dir.path();
+    run.figures = {{"latency_ms.count", 4},      {"latency_ms.mean", mean_ms},
+                   {"latency_ms.std", 9.8},      {"interarrival_ms.count", 4},
+                   {"interarrival_ms.mean", 50}, {"interarrival_ms.std", 1}};
+  }
+  return e;
+}
 
 /// A folder of a sweep over two gaps, two seeds each.
 void make_sweep(const std::filesystem::path& folder) {
@@ -112,7 +159,11 @@ TEST_CASE("computing time is shown beside the paper's, which does not add up") {
   e.cpu_20_hz.speed_mps = 10;
   e.cpu_100_hz.figures = {{0.2, 0, 0.02, 0.3}, 0.07, 6, 60, 40, 0.001};
   e.cpu_100_hz.speed_mps = 10;
+  e.cpu_20_hz.length_s = 20;
   const auto s = cpu_cost(e);
+  CHECK(contains(words_of(s), "Wall-clock runs of 20 s"));
+  CHECK(contains(words_of(s), "At 20 Hz offloading pays from 20.00 %"));
+  CHECK(contains(words_of(s), "At 100 Hz offloading does not pay"));
   const auto& shares = the<report::table>(s, "Computing time");
   REQUIRE(shares.rows.size() == 6);
   CHECK(shares.rows[0].back() == "8.73 %");
@@ -126,6 +177,69 @@ TEST_CASE("computing time is shown beside the paper's, which does not add up") {
                                     "0.001"});
   const auto& energy = the<report::table>(s, "What that is in energy");
   CHECK(energy.rows[0][1] == "0.552"); // 0.2 % of 2.76 W for 100 s
+}
+
+TEST_CASE("curves like the paper's are said to be so") {
+  const scratch dir;
+  const auto words = words_of(latency_plot(two_curves(dir, 50, 40, 3)));
+  CAPTURE(words);
+  for (const auto* part :
+       {"near 70 s, the time in the area",
+        "six at 40.0 (40.0–40.0) s, 20 % below",
+        "is a latency above 50 ms, not a gap, so that all curves rise",
+        "six below the others: so are the curves of `paper_sim`."})
+    CHECK(contains(words, part));
+  CHECK_FALSE(contains(words, "expected to end"));
+}
+
+TEST_CASE("curves unlike the paper's are not said to be like them") {
+  const scratch dir;
+  const auto words = words_of(latency_plot(two_curves(dir, 40, 50, 1)));
+  CAPTURE(words);
+  for (const auto* part :
+       {"six at 50.0 (50.0–50.0) s, 25 % above",
+        "was expected to end offloadings of many vehicles early",
+        "1 of 3 early ends of six vehicles are of that kind",
+        "half of their height at 150 ms",
+        "have no saturation near that time, no six below the others."})
+    CHECK(contains(words, part));
+  CHECK_FALSE(contains(words, "so are the curves"));
+  CHECK_FALSE(contains(words, "more vehicles take longer to pass"));
+}
+
+TEST_CASE("curves that rise early, or apart, are not said to rise late") {
+  const scratch dir;
+  auto e = two_curves(dir, 50, 40, 3);
+  e.latency_plot.front().point.labels[1] = "20ms";
+  e.latency_plot.front().t_off_s = {30};
+  const auto words = words_of(latency_plot(e));
+  CAPTURE(words);
+  CHECK(contains(words, "half of their height at 20, 150 ms"));
+  CHECK(contains(words, "the curves of `paper_sim` have no late rise."));
+}
+
+TEST_CASE("a fit is said to add little, and latency to grow, if they do") {
+  const scratch dir;
+  const auto as_was = words_of(delay_plot(two_latencies(dir, 10.6, 11.5)));
+  CHECK(contains(as_was, "10.54 ± 9.83 ms for one"));
+  CHECK(contains(as_was,
+                 "the way of the data adds little of its own. The growth"));
+  const auto other = words_of(delay_plot(two_latencies(dir, 15, 14)));
+  CHECK(contains(other, "ours differ by 42 % and 0 %"));
+  CHECK(contains(other, "six vehicles have 14.00 ms, one has 15.00 ms"));
+}
+
+TEST_CASE("drives are told with their seeds, and a tail if there is one") {
+  const scratch dir;
+  paper_runs e = two_latencies(dir, 10, 10);
+  write(dir / "episodes.csv", episodes_header);
+  e.real_world.push_back(e.delay_plot.front());
+  e.real_world.front().point.seed = 1;
+  const auto words = words_of(real_world(e));
+  CAPTURE(words);
+  CHECK(contains(words, "on the same routes, for one seed."));
+  CHECK(contains(words, "do not tell: one result in 4 takes longer than 50 ms "
+                        "here, and a drive has 4. The paper's count of two"));
 }
 
 TEST_CASE("a folder of sweeps is shown with curves over what was varied") {

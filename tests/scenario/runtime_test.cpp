@@ -1,7 +1,8 @@
 // The clocks of runtimes that talk to others: each has its own, which may be
 // off.
-#include "actors/runtime/time.hpp"
 #include "scenario/runtime.hpp"
+
+#include "actors/runtime/time.hpp"
 
 #include <caf/io/middleman.hpp>
 #include <caf/scoped_actor.hpp>
