@@ -156,7 +156,7 @@ its_pdu noise(liar& who) {
   for (auto& octet : x.octets)
     octet = static_cast<std::byte>(who.any_index(256));
   if (x.octets.size() > 2 && who.lies(0.9)) {
-    const auto kind = kinds[who.any_index(services.size())];
+    const auto kind = kinds[who.any_index(kinds.size())];
     x.octets[0] = static_cast<std::byte>(kind[0]);
     x.octets[1] = static_cast<std::byte>(kind[1]);
   }
