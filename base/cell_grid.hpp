@@ -5,6 +5,7 @@
 #include "base/geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,9 @@ public:
   using item = std::uint32_t;
 
   /// @param cell_m  Edge of a cell, m, > 0.
-  explicit cell_grid(double cell_m = 10) : cell_m_{cell_m} {}
+  explicit cell_grid(double cell_m = 10) : cell_m_{cell_m} {
+    assert(cell_m > 0);
+  }
 
   /// Files `it` under every cell that the segment's bounding box, grown by
   /// `margin_m`, touches. One item may be filed many times.

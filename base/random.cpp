@@ -3,6 +3,7 @@
 
 #include "base/fingerprint.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -109,6 +110,7 @@ double random_stream::exponential(double mean, std::uint64_t counter,
 
 double random_stream::lognormal(double mean, double sd, std::uint64_t counter,
                                 std::uint32_t lane) const {
+  assert(mean > 0);
   const auto spread = sd / mean;
   const auto variance = std::log1p(spread * spread);
   return std::exp(normal(std::log(mean) - 0.5 * variance, std::sqrt(variance),
@@ -117,6 +119,7 @@ double random_stream::lognormal(double mean, double sd, std::uint64_t counter,
 
 double random_stream::beta(double a, double b, std::uint64_t counter,
                            std::uint32_t lane) const {
+  assert(a >= 0.05 && b >= 0.05);
   words w{key_, counter, lane};
   const auto x = w.gamma(a);
   return x / (x + w.gamma(b));

@@ -2,6 +2,7 @@
 #include "base/statistics.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -41,6 +42,7 @@ void distribution::add(duration d) {
 }
 
 std::optional<double> distribution::quantile_ms(double p) const {
+  assert(p > 0 && p <= 1);
   if (ms_.count() == 0)
     return std::nullopt;
   const auto wanted = p * static_cast<double>(ms_.count());
@@ -55,6 +57,7 @@ std::optional<double> distribution::quantile_ms(double p) const {
 }
 
 std::vector<distribution::bin> distribution::bins(duration width) const {
+  assert(width > duration{0} && width % resolution_ == duration{0});
   const auto fine = static_cast<std::size_t>(width / resolution_);
   std::vector<bin> coarse;
   std::uint64_t within = 0;

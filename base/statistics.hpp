@@ -3,6 +3,7 @@
 
 #include "base/time.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -45,7 +46,9 @@ public:
   /// @param widest  Beyond it a quantile is only known to be the maximum or
   ///                less.
   distribution(duration step, duration widest)
-      : resolution_{step}, span_{widest} {}
+      : resolution_{step}, span_{widest} {
+    assert(step > duration{0});
+  }
 
   void add(duration d);
 

@@ -1,6 +1,7 @@
 // Distributions of durations, drawn by number.
 #include "channel/delay_distribution.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -15,6 +16,7 @@ delay_distribution delay_distribution::exponential(duration mean) {
 
 delay_distribution delay_distribution::lognormal(duration shift, duration mean,
                                                  duration sd) {
+  assert(mean > duration{0});
   const auto spread = to_seconds(sd) / to_seconds(mean);
   const auto variance = std::log1p(spread * spread);
   return {shape::lognormal, shift, std::log(to_seconds(mean)) - variance / 2,
@@ -24,6 +26,7 @@ delay_distribution delay_distribution::lognormal(duration shift, duration mean,
 delay_distribution delay_distribution::lognormal_about(duration shift,
                                                        duration scale,
                                                        double sigma) {
+  assert(scale > duration{0});
   return {shape::lognormal, shift, std::log(to_seconds(scale)), sigma};
 }
 

@@ -1,11 +1,17 @@
 // Faults for tests: messages that get lost, come twice, or out of order.
 #include "channel/link_faults.hpp"
 
+#include <cassert>
+
 namespace sofof {
 
 link_faults::link_faults(random_stream stream,
                          const link_fault_options& options)
-    : stream_{stream}, options_{options} {}
+    : stream_{stream}, options_{options} {
+  assert(options.loss >= 0 && options.loss <= 1);
+  assert(options.duplicate >= 0 && options.duplicate <= 1);
+  assert(options.reorder >= 0 && options.reorder <= 1);
+}
 
 link_faults::fate link_faults::of(std::uint64_t number) const {
   enum lane : std::uint32_t { loss, duplicate, reorder, extra, copy };

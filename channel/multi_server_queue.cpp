@@ -2,6 +2,7 @@
 #include "channel/multi_server_queue.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace sofof {
@@ -13,6 +14,7 @@ multi_server_queue::multi_server_queue(unsigned workers)
 }
 
 time_point multi_server_queue::finish(time_point now, duration work) {
+  assert(work >= duration{0});
   const std::lock_guard lock{mutex_};
   last_arrival_ = std::max(last_arrival_, now);
   const auto first_free = std::ranges::min_element(free_at_);

@@ -1,11 +1,14 @@
 // Times at which a channel is interrupted.
 #include "channel/outage_process.hpp"
 
+#include <cassert>
+
 namespace sofof {
 
 outage_process::outage_process(random_stream stream, delay_distribution quiet,
                                delay_distribution length)
     : stream_{stream}, quiet_{quiet}, length_{length}, end_{} {
+  assert(quiet.mean_s() > 0);
   advance();
 }
 

@@ -3,6 +3,7 @@
 
 #include "channel/draw_lanes.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -12,6 +13,9 @@ using namespace std::chrono_literals;
 duration provider_compute::computing_time(const random_stream& draws,
                                           std::uint64_t cycle,
                                           double demand) const {
+  assert(demand >= 0);
+  assert(joint_share >= 0 && joint_share <= 1);
+  assert(more_computing >= duration{0});
   const auto one =
       more_computing
       + from_seconds(alone.draw_s(draws, cycle, computing_lane)

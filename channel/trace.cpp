@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -102,6 +103,7 @@ double replay_length_s(std::span<const trace_sample> samples) {
 }
 
 double replayed_delay_s(std::span<const trace_sample> samples, double at_s) {
+  assert(!samples.empty());
   const auto length_s = replay_length_s(samples);
   const auto t = length_s > 0 ? std::fmod(at_s, length_s) : 0;
   const auto after =

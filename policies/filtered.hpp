@@ -4,6 +4,7 @@
 #include "policies/api/filter.hpp"
 #include "policies/api/policy.hpp"
 
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,9 @@ class filtered_policy : public Policy {
 public:
   filtered_policy(std::unique_ptr<Filter> filter,
                   std::unique_ptr<Policy> choice)
-      : filter_{std::move(filter)}, choice_{std::move(choice)} {}
+      : filter_{std::move(filter)}, choice_{std::move(choice)} {
+    assert(filter_ && choice_);
+  }
 
   void observe(const cycle_outcome& outcome) override {
     choice_->observe(outcome);

@@ -4,10 +4,14 @@
 #include "base/options/option_helpers.hpp"
 #include "policies/registry.hpp"
 
+#include <cassert>
+
 namespace sofof {
 
 governed_lodm::governed_lodm(std::unique_ptr<local_policy> whole)
-    : whole_{std::move(whole)} {}
+    : whole_{std::move(whole)} {
+  assert(whole_);
+}
 
 local_decision governed_lodm::decide(const local_context& context) {
   auto decision = whole_->decide(context);

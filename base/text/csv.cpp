@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -20,6 +21,7 @@ constexpr auto powers_of_ten = [] {
 } // namespace
 
 decimal rounded(std::optional<double> x, int places) {
+  assert(places >= 0 && places < static_cast<int>(powers_of_ten.size()));
   constexpr auto limit = 9.2e18; // below the largest integer of 64 bits
   const auto scaled =
       x.value_or(NAN) * powers_of_ten[static_cast<std::size_t>(places)];
@@ -29,6 +31,7 @@ decimal rounded(std::optional<double> x, int places) {
 }
 
 void append(std::string& out, decimal x) {
+  assert(x.places >= 0 && x.places <= 18);
   if (!x.digits)
     return;
   constexpr std::size_t room = 24; // sign, 19 digits, point

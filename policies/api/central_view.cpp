@@ -4,6 +4,7 @@
 #include "base/protocol.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -29,6 +30,7 @@ std::optional<double> told_gain(std::span<const candidate> told,
 
 double local_gain(std::span<const candidate> told, provider_id self,
                   double utilisation, double price) {
+  assert(utilisation >= 0 && price >= 0);
   const auto least = price + little / (1 + utilisation);
   return std::max(told_gain(told, self).value_or(least), least);
 }

@@ -3,6 +3,7 @@
 
 #include "base/time.hpp"
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 
@@ -25,6 +26,7 @@ double utilisation(std::span<const periodic_task> tasks);
 /// @returns the share of all workers' time that a running service takes.
 inline double worker_share(double computing_s, duration period,
                            std::size_t workers) {
+  assert(computing_s >= 0 && period > duration{0} && workers > 0);
   return computing_s / to_seconds(period) / static_cast<double>(workers);
 }
 

@@ -4,6 +4,7 @@
 #include "base/spline.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -103,6 +104,7 @@ double path::next_to(const view& seen, double s_m) {
 }
 
 path_offset path::project(point p, double s_guess_m, double window_m) const {
+  assert(!table_.empty());
   auto laps_m = 0.0;
   if (closed_) {
     if (!(0 <= s_guess_m && s_guess_m < length_m_))

@@ -4,6 +4,7 @@
 #include "base/geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -132,6 +133,7 @@ struct path::hermite {
 };
 
 inline path::place path::locate(double s_m) const {
+  assert(!table_.empty());
   auto laps = 0.0;
   if (closed_ && !(0 <= s_m && s_m < length_m_))
     laps = std::floor(s_m / length_m_);

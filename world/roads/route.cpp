@@ -2,6 +2,7 @@
 #include "world/roads/route.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -40,6 +41,9 @@ struct chain {
 route::route(std::string name, std::span<const lane> lanes,
              std::vector<std::size_t> sequence, bool closed)
     : name_{std::move(name)}, sequence_{std::move(sequence)} {
+  assert(!sequence_.empty());
+  assert(std::ranges::all_of(sequence_,
+                             [&](std::size_t i) { return i < lanes.size(); }));
   const chain all{lanes, sequence_, closed};
   path_ = sofof::path{all.points, closed};
   for (const auto first : all.firsts)

@@ -5,6 +5,7 @@
 #include "world/roads/lane.hpp"
 #include "world/roads/path.hpp"
 
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -41,7 +42,10 @@ public:
 
   /// Arc length where the i-th lane of the sequence begins, m; i may equal
   /// the number of lanes (then the length).
-  double start_of_m(std::size_t i) const { return starts_m_[i]; }
+  double start_of_m(std::size_t i) const {
+    assert(i <= sequence_.size());
+    return starts_m_[i];
+  }
 
   place at_lane(double s_m) const;
   double limit_mps(double s_m) const;

@@ -2,6 +2,7 @@
 #include "world/roads/route_finder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -90,6 +91,7 @@ search(const path& line, std::span<const point> waypoints, double tolerance_m) {
 
 std::optional<found_route> find_route(std::span<const route_ptr> routes,
                                       std::span<const point> waypoints) {
+  assert(std::ranges::find(routes, nullptr) == routes.end());
   if (!is_way(waypoints))
     return std::nullopt;
   for (const auto near_m : {exact_m, tolerance_m})

@@ -2,6 +2,7 @@
 #include "world/traffic/spawn_clearance.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -19,6 +20,7 @@ double way_to_stop_m(double speed_mps) {
 
 bool is_free(const oriented_box& place, double speed_mps,
              std::span<const road_body> others) {
+  assert(speed_mps >= 0);
   return std::ranges::all_of(others, [&](const road_body& other) {
     const auto faster_mps = std::max(speed_mps, other.speed_mps);
     return distance_m(place.centre, other.box.centre)

@@ -2,6 +2,7 @@
 #include "world/vehicle/cabin.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -14,6 +15,7 @@ constexpr double probe_w = 1000;
 
 cabin_state step(const cabin_state& x, double power_w, double outside_c,
                  const cabin_params& cabin, double dt_s) {
+  assert(dt_s > 0);
   // Implicit Euler: both balances hold at the step's end. The mass's,
   // mass' = mass + share (air' - mass), is put into the air's.
   const auto between = cabin.air_to_mass_wpk;
@@ -33,6 +35,7 @@ cabin_state step(const cabin_state& x, double power_w, double outside_c,
 double climate_power_w(const cabin_state& x, double outside_c,
                        double set_point_c, double horizon_s,
                        const cabin_params& cabin) {
+  assert(horizon_s > 0);
   // The model is linear: air(power) = air(0) + gain · power at every moment;
   // the power with the least squares of air - set point is wanted.
   const auto steps = std::max(1.0, std::ceil(horizon_s / prediction_step_s));

@@ -2,6 +2,7 @@
 #include "world/vehicle/comfort.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -31,6 +32,7 @@ double felt_jerk(double before_mps, double after_mps, double change_mps2,
 }
 
 motion_extremes extremes_of(const trajectory& plan) {
+  assert(plan.points.size() >= 2);
   motion_extremes most;
   const auto step_s = plan.points[1].t_s;
   const auto* before = &plan.points.front();
@@ -46,6 +48,7 @@ motion_extremes extremes_of(const trajectory& plan) {
 
 plan_jump jump_between(const trajectory& old, const trajectory& next,
                        time_point t) {
+  assert(!old.empty() && !next.empty());
   const auto from = old.at(t);
   const auto to = next.at(t);
   const point tangent{std::cos(from.heading_rad), std::sin(from.heading_rad)};

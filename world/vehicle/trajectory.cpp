@@ -2,6 +2,7 @@
 #include "world/vehicle/trajectory.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -82,6 +83,7 @@ bool trajectory::is_sound() const {
 }
 
 trajectory_point trajectory::at(double t_s) const {
+  assert(!empty());
   if (t_s <= 0 || points.size() == 1)
     return points.front();
   if (t_s >= points.back().t_s)

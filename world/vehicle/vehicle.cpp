@@ -2,6 +2,7 @@
 #include "world/vehicle/vehicle.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -23,6 +24,7 @@ constexpr double holding_brake_mps2 = 0.5;
 
 vehicle_state step(const vehicle_state& x, const vehicle_command& u,
                    const vehicle_params& car, double dt_s) {
+  assert(dt_s > 0 && dt_s <= 0.05);
   const auto wheel =
       std::clamp(u.steer_rad, -car.max_steer_rad, car.max_steer_rad);
   const auto drive =
@@ -52,6 +54,7 @@ vehicle_state step(const vehicle_state& x, const vehicle_command& u,
 
 vehicle_command follow(const vehicle_state& x, const trajectory& plan,
                        time_point now, const vehicle_params& car) {
+  assert(!plan.empty());
   const auto here = plan.at(now);
   const auto wheel_then = plan.at(now + from_seconds(car.steer_lag_s));
   const auto drive_then = plan.at(now + from_seconds(car.drive_lag_s));

@@ -5,6 +5,7 @@
 #include "policies/algorithms/assignment/lagrangian_bound.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace sofof::assignment {
@@ -167,6 +168,7 @@ void search::visit(int depth, double reached) {
 } // namespace
 
 proved_solution branch_and_bound(const problem& p, std::int64_t node_limit) {
+  assert(node_limit >= 0);
   const auto s = stakes_of(p);
   auto best = greedy_regret(p);
   const auto reached = best.value - s.all_local;

@@ -2,6 +2,7 @@
 #include "policies/algorithms/assignment/cbc.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <coin/Cbc_C_Interface.h>
 #include <csignal>
@@ -132,6 +133,7 @@ private:
 } // namespace
 
 std::optional<solution> cbc(const problem& p, std::int64_t node_limit) {
+  assert(node_limit >= 0);
   check(p);
   auto choices = program{p}.solve(node_limit);
   if (!choices || !feasible(p, *choices))

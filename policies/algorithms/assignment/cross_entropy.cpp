@@ -3,6 +3,7 @@
 #include "policies/algorithms/assignment/cross_entropy.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -53,6 +54,10 @@ sampled_optimum cross_entropy(std::span<const int> category_counts,
                               const sample_score& score,
                               const cross_entropy_options& options,
                               const random_stream& random) {
+  assert(options.samples >= 1 && options.iterations >= 0);
+  assert(options.elite > 0 && options.elite <= 1);
+  assert(options.smoothing > 0 && options.smoothing <= 1);
+  assert(std::ranges::all_of(category_counts, [](int n) { return n >= 1; }));
   distribution probabilities;
   for (const auto count : category_counts)
     probabilities.emplace_back(count, 1.0 / count);

@@ -2,11 +2,13 @@
 #include "policies/algorithms/forecast/continuity.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
 bool continues(std::span<const point> in_use, std::span<const point> offered,
                duration step, const continuity_options& options) {
+  assert(step > duration{0});
   // The last point at the end of the span or, off the grid, after it.
   const auto steps = (options.span + step - duration{1}) / step;
   const auto count = static_cast<std::size_t>(steps) + 1;

@@ -2,6 +2,7 @@
 #include "policies/algorithms/forecast/link_estimator.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -19,7 +20,9 @@ duration forecast(double seconds) {
 
 link_estimator::link_estimator(const link_estimator_options& options)
     : options_{options}, log_latency_{options.alpha}, gap_s_{options.alpha},
-      answer_gap_s_{options.alpha} {}
+      answer_gap_s_{options.alpha} {
+  assert(options.least_count >= 2 && options.most_missed >= 1);
+}
 
 void link_estimator::arrived(time_point created, time_point received) {
   if (last_ && received < *last_)
@@ -71,12 +74,14 @@ double link_estimator::gap_probability(duration limit, time_point now) const {
 }
 
 std::optional<duration> link_estimator::latency_quantile(double p) const {
+  assert(p > 0 && p < 1);
   if (!known())
     return std::nullopt;
   return forecast(std::exp(log_latency_.quantile(p)));
 }
 
 std::optional<duration> link_estimator::gap_quantile(double p) const {
+  assert(p > 0 && p < 1);
   if (!known() || gap_s_.count() == 0)
     return std::nullopt;
   return forecast(gap_s_.quantile(p));

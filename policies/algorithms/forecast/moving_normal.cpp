@@ -4,11 +4,13 @@
 #include "policies/algorithms/forecast/normal_law.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
 
 void moving_normal::add(double x, double times) {
+  assert(times >= 1);
   if (!std::isfinite(x))
     return;
   ++count_;
@@ -26,6 +28,7 @@ double moving_normal::probability_above(double limit) const {
 }
 
 double moving_normal::quantile(double p) const {
+  assert(p > 0 && p < 1);
   if (variance_ <= 0)
     return mean_;
   return mean_ + normal_quantile(p) * std::sqrt(variance_);

@@ -1,6 +1,7 @@
 // A normal law that follows a stream of numbers.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 
 namespace sofof {
@@ -16,7 +17,9 @@ namespace sofof {
 class moving_normal {
 public:
   /// @param alpha  Weight of the newest number, in (0, 1].
-  explicit moving_normal(double alpha) : alpha_{alpha} {}
+  explicit moving_normal(double alpha) : alpha_{alpha} {
+    assert(alpha > 0 && alpha <= 1);
+  }
 
   /// Learns from a number; one that is not finite is ignored.
   /// @param times  As how many equal ones in a row it counts, ≥ 1: then a is

@@ -1,6 +1,8 @@
 // Lets offloading through only where the forecast is good.
 #pragma once
 
+#include <cassert>
+
 namespace sofof {
 
 /// A gate on the forecast probability of a violation, closed at first, with
@@ -11,7 +13,9 @@ class predictive_gate {
 public:
   /// @param on   Opens at this probability or less, in [0, 1].
   /// @param off  Closes above this probability, in [on, 1].
-  predictive_gate(double on, double off) : on_{on}, off_{off} {}
+  predictive_gate(double on, double off) : on_{on}, off_{off} {
+    assert(0 <= on && on <= off && off <= 1);
+  }
 
   /// @param p  Of a violation, in [0, 1]; what is no number closes.
   /// @returns whether the gate is open from now on.

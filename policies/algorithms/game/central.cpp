@@ -4,6 +4,7 @@
 #include "policies/api/central_view.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof::game {
 
@@ -16,6 +17,7 @@ constexpr double most_shared = 10;
 } // namespace
 
 player player_of(double gain, double computing_s, duration limit) {
+  assert(std::abs(gain) <= 100 && computing_s >= 0);
   const auto limit_s = std::max(to_seconds(limit), 1e-3);
   const auto shared = std::clamp(cost_weights{}.time * computing_s / limit_s,
                                  least_shared, most_shared);
@@ -32,6 +34,7 @@ player player_of(double gain, double computing_s, duration limit) {
 
 central_game game_of(const central_context& context, double price,
                      std::shared_ptr<const channel_model> model) {
+  assert(model);
   const auto workers = std::max<std::size_t>(context.workers, 1);
   std::vector<player> players;
   profile now;

@@ -4,6 +4,8 @@
 
 #include "policies/algorithms/game/player.hpp"
 
+#include <cassert>
+
 namespace sofof::game {
 
 /// A channel makes a player slower the more weight it receives from the
@@ -35,7 +37,9 @@ public:
   /// @param bandwidth_hz  w, of each channel, > 0.
   /// @param noise_w       ϖ₀, background noise on each channel, > 0.
   interference(double bandwidth_hz, double noise_w)
-      : bandwidth_hz_{bandwidth_hz}, noise_w_{noise_w} {}
+      : bandwidth_hz_{bandwidth_hz}, noise_w_{noise_w} {
+    assert(bandwidth_hz > 0 && noise_w > 0);
+  }
 
   double weight(const player& p) const override { return p.received_power_w; }
   double rate_bps(const player& p, double received) const override;

@@ -2,6 +2,7 @@
 #include "policies/algorithms/game/offloading_game.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace sofof::game {
@@ -11,6 +12,7 @@ offloading_game::offloading_game(std::vector<player> players,
                                  std::shared_ptr<const channel_model> model)
     : players_{std::move(players)}, channels_{channels}, model_{
                                                              std::move(model)} {
+  assert(channels_ >= 1 && model_);
   for (const auto& p : players_) {
     weights_.push_back(model_->weight(p));
     local_costs_.push_back(local_cost(p));

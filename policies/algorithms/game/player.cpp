@@ -1,6 +1,7 @@
 // What the two ways to compute a task cost.
 #include "policies/algorithms/game/player.hpp"
 
+#include <cassert>
 #include <limits>
 
 namespace sofof::game {
@@ -21,11 +22,13 @@ double fixed_cost(const player& p) {
 } // namespace
 
 double local_cost(const player& p) {
+  assert(p.cycles > 0 && p.local_clock_hz > 0);
   return p.time_weight * p.cycles / p.local_clock_hz
          + p.energy_weight * p.energy_per_cycle_j * p.cycles;
 }
 
 double offloading_cost(const player& p, double rate_bps) {
+  assert(p.bits > 0 && p.cloud_clock_hz > 0 && rate_bps >= 0);
   return sending_cost_per_s(p) * p.bits / rate_bps + fixed_cost(p);
 }
 

@@ -1,6 +1,7 @@
 // Steps down a slope, each weight at its own pace.
 #include "policies/algorithms/learning/adam.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -14,6 +15,7 @@ constexpr double least_divisor = 1e-8;
 } // namespace
 
 void adam::step(Eigen::VectorXd& weights, const Eigen::VectorXd& gradient) {
+  assert(gradient.size() == weights.size());
   mean_decay_ *= mean_factor;
   square_decay_ *= square_factor;
   mean_ += (1 - mean_factor) * (gradient - mean_);

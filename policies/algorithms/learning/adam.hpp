@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <cassert>
+
 namespace sofof {
 
 /// Adam with the constants of its paper: means of gradients and of their
@@ -13,7 +15,9 @@ public:
   /// @param rate  Longest usual step of a weight, > 0.
   adam(Eigen::Index weights, double rate = 1e-3)
       : rate_{rate}, mean_{Eigen::VectorXd::Zero(weights)},
-        square_{Eigen::VectorXd::Zero(weights)} {}
+        square_{Eigen::VectorXd::Zero(weights)} {
+    assert(rate > 0);
+  }
 
   /// @param gradient  As long as the weights.
   void step(Eigen::VectorXd& weights, const Eigen::VectorXd& gradient);

@@ -4,6 +4,7 @@
 #include "policies/algorithms/learning/state_text.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,6 +20,7 @@ constexpr std::uint64_t alto_version = 1;
 
 std::optional<provider_id> alto::choose(double task_bits,
                                         std::span<const provider_id> present) {
+  assert(task_bits > 0);
   ++tasks_;
   std::optional<std::pair<double, provider_id>> best;
   for (const auto provider : present) {
@@ -48,6 +50,7 @@ double alto::promise(const record& known, double task_bits) const {
 }
 
 void alto::learn(provider_id provider, double task_bits, double delay_s) {
+  assert(task_bits > 0);
   const auto found = known_.find(provider);
   if (found == known_.end())
     return;

@@ -3,6 +3,7 @@
 
 #include "base/ids.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -41,7 +42,10 @@ struct alto_options {
 /// Source: Sun, Guo, Song, Zhou, Jiang, Liu & Niu 2019 (ALTO).
 class alto {
 public:
-  explicit alto(const alto_options& options) : options_{options} {}
+  explicit alto(const alto_options& options) : options_{options} {
+    assert(options.beta >= 0 && options.worst_delay_s_per_bit > 0);
+    assert(0 <= options.small_bits && options.small_bits < options.large_bits);
+  }
 
   /// Counts a task.
   /// @param task_bits  Size of its input, > 0.

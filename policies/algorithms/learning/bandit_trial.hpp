@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 
+#include <cassert>
 #include <optional>
 
 namespace sofof {
@@ -25,6 +26,7 @@ public:
 
   /// @param value  Of each of so many cycles; finite.
   void add(double value, double cycles) {
+    assert(std::isfinite(value));
     sum_ += value * cycles;
     cycles_ += cycles;
   }

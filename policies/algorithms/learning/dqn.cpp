@@ -5,6 +5,7 @@
 #include "policies/algorithms/learning/td_loss.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -37,7 +38,12 @@ dqn::dqn(const dqn_options& options, const random_stream& draws)
       memory_{size(options.shape.features), options.memory},
       states_{options.shape.features, static_cast<Index>(options.batch)},
       next_states_{states_}, places_(options.batch), actions_(options.batch),
-      targets_(options.batch) {}
+      targets_(options.batch) {
+  assert(options.shape.actions <= static_cast<Index>(action_set{}.size()));
+  assert(options.discount >= 0 && options.discount <= 1);
+  assert(options.batch >= 1 && options.memory >= options.batch);
+  assert(options.target_copy_every >= 1);
+}
 
 std::optional<std::size_t> dqn::choose(std::span<const double> state,
                                        action_set allowed) {
@@ -52,6 +58,7 @@ std::optional<std::size_t> dqn::best(std::span<const double> state,
 }
 
 std::span<const double> dqn::values(std::span<const double> state) {
+  assert(state.size() == size(options_.shape.features));
   const Eigen::Map<const Eigen::MatrixXd> features{state.data(),
                                                    options_.shape.features, 1};
   network_.forward(features, single_);

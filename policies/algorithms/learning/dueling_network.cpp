@@ -1,6 +1,7 @@
 // A small neural network that values actions.
 #include "policies/algorithms/learning/dueling_network.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -62,6 +63,7 @@ dueling_network::dueling_network(const network_shape& shape,
 
 void dueling_network::forward(const Eigen::Ref<const MatrixXd>& states,
                               network_pass& pass) const {
+  assert(states.rows() == shape_.features);
   const const_layers all{weights_, shape_};
   pass.first.noalias() = all.first * states;
   pass.first.colwise() += all.first_offset;
@@ -89,6 +91,7 @@ void dueling_network::forward(const Eigen::Ref<const MatrixXd>& states,
 void dueling_network::backward(const Eigen::Ref<const MatrixXd>& states,
                                network_pass& pass, const MatrixXd& slopes,
                                VectorXd& gradient) const {
+  assert(slopes.rows() == shape_.actions && slopes.cols() == states.cols());
   gradient.resize(weights_.size());
   const const_layers all{weights_, shape_};
   mutable_layers by{gradient, shape_};

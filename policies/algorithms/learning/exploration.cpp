@@ -2,6 +2,7 @@
 #include "policies/algorithms/learning/exploration.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -13,6 +14,8 @@ constexpr std::uint32_t which_lane = 1;
 } // namespace
 
 double exploration::share(std::uint64_t decisions_taken) const {
+  assert(first >= 0 && first <= 1 && last >= 0 && last <= 1);
+  assert(decisions > 0);
   const auto passed =
       static_cast<double>(decisions_taken) / static_cast<double>(decisions);
   return first + (last - first) * std::min(1.0, passed);
@@ -20,6 +23,7 @@ double exploration::share(std::uint64_t decisions_taken) const {
 
 std::optional<std::size_t> best_action(std::span<const double> values,
                                        action_set allowed) {
+  assert(values.size() <= allowed.size());
   std::optional<std::size_t> best;
   for (std::size_t action = 0; action < values.size(); ++action)
     if (allowed[action] && (!best || values[action] > values[*best]))

@@ -3,6 +3,7 @@
 
 #include "policies/algorithms/learning/state_text.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -21,7 +22,12 @@ q_learning::q_learning(const q_learning_options& options,
                        const random_stream& draws)
     : options_{options}, draws_{draws},
       values_(options.states * options.actions),
-      samples_(options.states * options.actions) {}
+      samples_(options.states * options.actions) {
+  assert(options.actions <= action_set{}.size());
+  assert(options.discount >= 0 && options.discount <= 1);
+  assert(!options.learning_rate
+         || (*options.learning_rate >= 0 && *options.learning_rate <= 1));
+}
 
 std::optional<std::size_t> q_learning::choose(std::size_t state,
                                               action_set allowed) {
@@ -35,6 +41,7 @@ std::optional<std::size_t> q_learning::best(std::size_t state,
 }
 
 void q_learning::learn(const q_sample& sample) {
+  assert(sample.state < options_.states && sample.action < options_.actions);
   auto target = sample.reward;
   if (sample.next)
     if (const auto action = best(*sample.next, sample.next_allowed))
@@ -47,6 +54,7 @@ void q_learning::learn(const q_sample& sample) {
 }
 
 std::span<const double> q_learning::values(std::size_t state) const {
+  assert(state < options_.states);
   return std::span{values_}.subspan(cell(state, 0), options_.actions);
 }
 

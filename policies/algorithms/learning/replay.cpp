@@ -2,10 +2,13 @@
 #include "policies/algorithms/learning/replay.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
 void replay::add(const experience& lived) {
+  assert(lived.state.size() == features_);
+  assert(lived.next.empty() || lived.next.size() == features_);
   const auto place = added_++ % capacity_;
   if (place == entries_.size()) {
     entries_.emplace_back();
@@ -19,6 +22,7 @@ void replay::add(const experience& lived) {
 }
 
 experience replay::operator[](std::size_t place) const {
+  assert(place < size());
   const auto& kept = entries_[place];
   const auto states = std::span{states_}.subspan(2 * features_ * place);
   return {states.first(features_), kept.action, kept.reward,

@@ -3,6 +3,7 @@
 
 #include "policies/algorithms/learning/action_set.hpp"
 
+#include <cassert>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,9 @@ public:
   /// @param features  Of a state, ≥ 1.
   /// @param capacity  In experiences, ≥ 1; memory is taken as they come.
   replay(std::size_t features, std::size_t capacity)
-      : features_{features}, capacity_{capacity} {}
+      : features_{features}, capacity_{capacity} {
+    assert(features >= 1 && capacity >= 1);
+  }
 
   void add(const experience& lived);
 

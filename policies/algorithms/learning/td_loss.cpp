@@ -2,6 +2,7 @@
 #include "policies/algorithms/learning/td_loss.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -9,6 +10,8 @@ namespace sofof {
 double td_loss(const Eigen::MatrixXd& values,
                std::span<const std::size_t> actions,
                std::span<const double> targets, Eigen::MatrixXd& slopes) {
+  assert(std::ssize(actions) == values.cols());
+  assert(std::ssize(targets) == values.cols());
   slopes.setZero(values.rows(), values.cols());
   const auto batch = static_cast<double>(values.cols());
   double loss = 0;

@@ -3,6 +3,7 @@
 
 #include "policies/algorithms/learning/state_text.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -34,6 +35,7 @@ std::optional<std::size_t> ucb1::choose(action_set allowed) const {
 }
 
 void ucb1::learn(std::size_t arm, double reward) {
+  assert(arm < arms_.size());
   arms_[arm].total += reward;
   ++arms_[arm].pulls;
   ++pulls_;

@@ -3,6 +3,7 @@
 
 #include "policies/algorithms/learning/action_set.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +25,9 @@ namespace sofof {
 class ucb1 {
 public:
   /// @param arms  At most 32.
-  explicit ucb1(std::size_t arms) : arms_(arms) {}
+  explicit ucb1(std::size_t arms) : arms_(arms) {
+    assert(arms <= action_set{}.size());
+  }
 
   /// @returns an arm without pulls, of these the first; else the arm that is
   /// worth most; nullopt when none is allowed.

@@ -2,11 +2,13 @@
 #include "policies/algorithms/lyapunov/drift_plus_penalty.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
 std::size_t
 drift_plus_penalty::choose(std::span<const planning_option> choices) const {
+  assert(!choices.empty());
   std::size_t best = 0;
   auto least = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < choices.size(); ++a) {
@@ -20,6 +22,7 @@ drift_plus_penalty::choose(std::span<const planning_option> choices) const {
 }
 
 void drift_plus_penalty::observe(const planned_cycle& cycle) {
+  assert(cycle.served >= 0 && cycle.arrived >= 0);
   const auto violation = cycle.missed ? 1.0 : 0.0;
   violation_debt_ =
       std::max(violation_debt_ + violation - options_.violation_budget, 0.0);

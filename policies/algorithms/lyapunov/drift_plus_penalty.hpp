@@ -1,6 +1,7 @@
 // Least energy with a budget of violations, without knowing any law of chance.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -46,7 +47,10 @@ struct planned_cycle {
 class drift_plus_penalty {
 public:
   explicit drift_plus_penalty(const drift_plus_penalty_options& options = {})
-      : options_{options} {}
+      : options_{options} {
+    assert(options.energy_weight >= 0);
+    assert(options.violation_budget >= 0 && options.violation_budget <= 1);
+  }
 
   /// @param choices  At least 1.
   /// @returns the place of the best one; the first of equals, and the first at

@@ -1,6 +1,7 @@
 // Whether one core can keep all deadlines, earliest deadline first.
 #include "policies/algorithms/scheduling/edf.hpp"
 
+#include <cassert>
 #include <optional>
 
 namespace sofof {
@@ -42,8 +43,10 @@ duration demand(std::span<const periodic_task> tasks, duration t) {
 
 double utilisation(std::span<const periodic_task> tasks) {
   double sum = 0;
-  for (const auto& task : tasks)
+  for (const auto& task : tasks) {
+    assert(task.wcet >= duration{0} && task.period > duration{0});
     sum += to_seconds(task.wcet) / to_seconds(task.period);
+  }
   return sum;
 }
 

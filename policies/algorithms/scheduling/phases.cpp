@@ -4,6 +4,7 @@
 #include "policies/algorithms/scheduling/edf.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <queue>
 #include <vector>
@@ -24,6 +25,7 @@ struct job {
 std::optional<duration> hyperperiod(std::span<const periodic_task> tasks) {
   duration multiple{1};
   for (const auto& task : tasks) {
+    assert(task.period > duration{0});
     if (task.period > longest_hyperperiod)
       return std::nullopt;
     multiple = duration{std::lcm(multiple.count(), task.period.count())};
@@ -101,8 +103,10 @@ std::optional<duration> longest_wait(std::span<const periodic_task> tasks) {
   if (!multiple || !fits_by_utilisation(tasks))
     return std::nullopt;
   duration last_start{0};
-  for (const auto& task : tasks)
+  for (const auto& task : tasks) {
+    assert(task.offset >= duration{0} && task.jitter >= duration{0});
     last_start = std::max(last_start, task.offset + task.jitter);
+  }
   return play(jobs_until(tasks, last_start + 2 * *multiple));
 }
 

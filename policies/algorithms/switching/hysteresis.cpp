@@ -1,9 +1,12 @@
 // Keeps a scorer from switching to and fro.
 #include "policies/algorithms/switching/hysteresis.hpp"
 
+#include <cassert>
+
 namespace sofof {
 
 provider_id hysteresis::next(const wish& wanted, time_point now) {
+  assert(!better_since_ || now >= *better_since_);
   if (wanted.must_fall_back) {
     better_since_.reset();
     if (source_ != local)
