@@ -1,6 +1,8 @@
 // Whether offloading pays in computing time, and what that is in energy.
 #include "recording/cpu_balance.hpp"
 
+#include <cassert>
+
 namespace sofof {
 
 namespace {
@@ -15,6 +17,7 @@ double share_without_offloading(const cpu_shares& c) {
 }
 
 double share_with_offloading(const cpu_shares& c, double offloaded) {
+  assert(offloaded >= 0 && offloaded <= 1);
   return (1 - offloaded) * (c.active + c.requester)
          + offloaded * (c.inactive + c.requester_remote);
 }

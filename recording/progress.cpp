@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -31,6 +32,7 @@ std::string line(double virtual_s, double total_s, std::size_t offloaded_now,
 
 void progress::update(double virtual_s, double total_s,
                       std::size_t offloaded_now, double wall_s) {
+  assert(total_s > 0);
   show([&] { return line(virtual_s, total_s, offloaded_now, wall_s); }, wall_s);
 }
 

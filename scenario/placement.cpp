@@ -2,6 +2,7 @@
 #include "scenario/placement.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -55,10 +56,12 @@ std::vector<route_ptr> find_routes(const streets& world,
 }
 
 std::vector<placed_vehicle> place_vehicles(const scenario& all) {
+  assert(all.world);
   std::vector<placed_vehicle> placed;
   for (std::size_t f = 0; f < all.fleets.size(); ++f) {
     const auto& fleet = all.fleets[f];
     const auto ways = ways_of(fleet, *all.world);
+    assert(!ways.empty());
     const auto way_of = [&](std::int64_t i) -> const route_ptr& {
       return ways[static_cast<std::size_t>(i) % ways.size()];
     };

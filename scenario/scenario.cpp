@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <numbers>
 
@@ -139,11 +140,13 @@ void policy_options::visit_options(option_visitor& s) {
 
 const std::shared_ptr<const channel_profile>&
 scenario::channel_to(std::size_t place) const {
+  assert(place < providers.size());
   const auto& own = providers[place].network;
   return own ? own->channel : network.channel;
 }
 
 provider_compute scenario::compute_of(std::size_t place) const {
+  assert(place < providers.size());
   const auto& own = providers[place].compute;
   return (own ? *own : compute).computers();
 }

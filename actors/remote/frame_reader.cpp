@@ -2,10 +2,12 @@
 #include "actors/remote/frame_reader.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
 std::optional<std::uint16_t> frame_reader::number(std::size_t octets) {
+  assert(octets == 1 || octets == 2);
   if (left_.size() < octets)
     return std::nullopt;
   std::uint16_t value = 0;

@@ -7,6 +7,7 @@
 #include <caf/monitorable_actor.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <iostream>
 
 namespace sofof {
@@ -45,6 +46,7 @@ caf::disposable des_clock::schedule_periodically(time_point first,
 }
 
 void des_clock::fire_next() {
+  assert(!empty());
   std::pop_heap(heap_.begin(), heap_.end(), later);
   auto next = std::move(heap_.back());
   heap_.pop_back();

@@ -10,6 +10,7 @@
 #include <caf/resumable.hpp>
 #include <caf/scheduler/abstract_coordinator.hpp>
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -28,7 +29,10 @@ public:
   bool empty() const { return heap_.empty(); }
 
   /// @returns the time of the next entry. Precondition: not empty.
-  time_point next() const { return heap_.front().at; }
+  time_point next() const {
+    assert(!empty());
+    return heap_.front().at;
+  }
 
   /// Runs the next entry and moves the time to it; a cancelled one does not
   /// move time. Precondition: not empty.

@@ -7,6 +7,7 @@
 #include "planners/trajectory/safe_stop.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -51,6 +52,7 @@ void driven_car::appear(time_point now) {
 // -- moving -----------------------------------------------------------------
 
 driven_car::due driven_car::move() {
+  assert(has_appeared());
   const auto next = at_ + protocol::control_period;
   if (plan_->end() - next < reserve)
     stop_safely(next);
@@ -109,6 +111,7 @@ void driven_car::stop_safely(time_point from) {
 std::optional<plan_switch_record> driven_car::use(const received_plan& next,
                                                   const service_result& from,
                                                   time_point now) {
+  assert(has_appeared() && next.plan);
   if (from.created < plan_created_ || !next.plan->is_sound())
     return std::nullopt;
   if (from.created > now || next.plan->start > now + air_time_step
@@ -122,6 +125,7 @@ std::optional<plan_switch_record> driven_car::use(const received_plan& next,
 }
 
 planning_input driven_car::plan_from(time_point now) const {
+  assert(has_appeared());
   const auto p = plan_->at(now);
   if (distance_m(p.at, car_.at) > followed_m
       || std::abs(p.speed_mps - car_.speed_mps) > followed_mps)

@@ -8,6 +8,7 @@
 #include "world/roads/road_map.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -73,7 +74,10 @@ public:
   void count_off_road();
   /// @returns the figures since the last call.
   safety_record flush_safety();
-  drive_record flush_figures() { return figures_->flush(); }
+  drive_record flush_figures() {
+    assert(has_appeared());
+    return figures_->flush();
+  }
 
 private:
   planning_input measured() const;

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <numeric>
 #include <ostream>
@@ -183,6 +184,8 @@ private:
 } // namespace
 
 std::vector<sweep_plan> plans_of(const bench_options& options) {
+  assert(!options.scenarios.empty() && !options.entrants.empty());
+  assert(options.seeds >= 1);
   refuse_policies(options.set);
   const auto names = names_of(options.scenarios);
   std::vector<sweep_plan> plans;

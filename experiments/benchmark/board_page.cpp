@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -219,6 +220,7 @@ report::section about(std::span<const entrant> entrants) {
 
 std::vector<std::size_t> pareto_front(std::span<const double> x,
                                       std::span<const double> y) {
+  assert(x.size() == y.size());
   std::vector<std::size_t> order(x.size()), front;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) {
@@ -237,6 +239,7 @@ report::document board_page(std::span<const leaderboard> boards,
                             std::span<const decision_cost> costs,
                             std::span<const entrant> entrants,
                             std::string subtitle) {
+  assert(!boards.empty());
   report::document all;
   all.title = "Who offloads best";
   all.subtitle = std::move(subtitle);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <memory>
 #include <ostream>
@@ -121,6 +122,7 @@ private:
 
 bool train(const training_options& options,
            const std::atomic<bool>& interrupted, std::ostream& console) {
+  assert(!options.scenarios.empty() && options.seeds >= 1);
   return school_days{options, interrupted, console}.carry_out();
 }
 

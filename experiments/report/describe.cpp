@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <string>
 
 namespace sofof::report {
@@ -156,6 +157,7 @@ std::vector<section> compare_runs(const fs::path& first,
 }
 
 document describe(std::span<const fs::path> folders, std::string_view version) {
+  assert(!folders.empty());
   const auto runs = open_runs(folders);
   document all;
   for (const auto& run : runs) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -215,6 +216,7 @@ void solve_list(const instances<Instance>& list, const problem_file& file,
 
 void solve_problems(const std::filesystem::path& file,
                     const solve_options& options, std::ostream& screen) {
+  assert(options.repeat >= 1);
   const auto problems = load_problems(file);
   std::visit(
       [&](const auto& list) { solve_list(list, problems, options, screen); },

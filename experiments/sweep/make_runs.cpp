@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -142,6 +143,7 @@ private:
 std::size_t make_runs(std::vector<wanted_run> runs, const run_store& store,
                       const making& how, const std::atomic<bool>& interrupted,
                       std::ostream& console) {
+  assert(how.jobs >= 1);
   return runs_at_work{std::move(runs), store, how, interrupted, console}
       .make_all();
 }

@@ -2,6 +2,7 @@
 #include "experiments/sweep/shard.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <functional>
 #include <queue>
@@ -25,6 +26,7 @@ std::optional<shard> parse_shard(std::string_view text) {
 
 std::vector<std::size_t> share_out(std::span<const wanted_run> runs,
                                    std::size_t shards) {
+  assert(shards >= 1);
   double measured = 0;
   std::vector<std::size_t> others;
   std::vector<std::size_t> shard_of(runs.size(), measuring_shard);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <ostream>
 #include <set>
@@ -35,6 +36,7 @@ shard_outcome make_shard(std::span<const sweep_plan> plans,
                          const sweep_options& options, const shard& which,
                          const std::atomic<bool>& interrupted,
                          std::ostream& console) {
+  assert(which.number >= 1 && which.number <= which.of);
   auto all = runs_wanted_by_all(plans, options.program, interrupted);
   const auto shard_of = share_out(all.runs, which.of);
   std::vector<wanted_run> own;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,6 +32,7 @@ public:
 
   /// @param width  At most 64; `value` has no higher bits.
   void put(std::uint64_t value, unsigned width) {
+    assert(width <= word);
     const auto holds = holds_ + width;
     if (holds < word) {
       held_ = held_ << width | value;
@@ -134,6 +136,7 @@ public:
   /// Inline always: most widths are constants.
   /// @param width  At most 64.
   [[gnu::always_inline]] std::uint64_t get(unsigned width) {
+    assert(width <= 64);
     if (width > at_once)
       return get_long(width);
     if (width > end_ - at_) {
@@ -159,7 +162,10 @@ public:
   std::size_t left() const { return end_ - at_; }
 
   /// Reads on elsewhere. Precondition: not beyond the end.
-  void go_to(std::size_t bit) { at_ = bit; }
+  void go_to(std::size_t bit) {
+    assert(bit <= end_);
+    at_ = bit;
+  }
   /// Moves the end. @returns where it was.
   std::size_t end_at(std::size_t bit) { return std::exchange(end_, bit); }
 

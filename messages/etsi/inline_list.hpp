@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -36,12 +37,16 @@ public:
 
   /// New values are as they are made. Precondition: size <= capacity().
   void resize(std::size_t size) {
+    assert(size <= capacity());
     for (auto i = size_; i < size; ++i)
       std::construct_at(begin() + i);
     size_ = size;
   }
   /// Precondition: size() < capacity().
-  void push_back(const T& x) { std::construct_at(begin() + size_++, x); }
+  void push_back(const T& x) {
+    assert(size() < capacity());
+    std::construct_at(begin() + size_++, x);
+  }
 
   T& operator[](std::size_t i) { return begin()[i]; }
   const T& operator[](std::size_t i) const { return begin()[i]; }

@@ -6,6 +6,7 @@
 #include "messages/etsi/uper_writer.hpp"
 
 #include <array>
+#include <cassert>
 #include <span>
 
 namespace sofof::etsi {
@@ -29,6 +30,7 @@ message_key key_in(const T& message) {
 }
 /// Precondition: 2 octets.
 inline message_key key_in(std::span<const std::byte> in) {
+  assert(in.size() >= std::tuple_size_v<message_key>);
   return {std::to_integer<std::uint8_t>(in[0]),
           std::to_integer<std::uint8_t>(in[1])};
 }

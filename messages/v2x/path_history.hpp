@@ -5,6 +5,7 @@
 #include "base/time.hpp"
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 
 namespace sofof {
@@ -39,6 +40,7 @@ public:
 
   /// @param i  < size(); 0 is the newest.
   const place& operator[](std::size_t i) const {
+    assert(i < size());
     return kept_[(newest_ + capacity - i) % capacity];
   }
 

@@ -4,6 +4,7 @@
 #include "base/time.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -14,7 +15,9 @@ public:
   /// @param per_second  Tokens that come each second, ≥ 0.
   /// @param burst       Tokens that the bucket holds, ≥ 0.
   token_bucket(double per_second, double burst)
-      : per_second_{per_second}, burst_{burst}, tokens_{burst} {}
+      : per_second_{per_second}, burst_{burst}, tokens_{burst} {
+    assert(per_second >= 0 && burst >= 0);
+  }
 
   /// Spends `n` ≥ 0 tokens if there are as many, else none. While time is
   /// behind the latest that was seen, no tokens come.

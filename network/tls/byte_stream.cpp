@@ -3,6 +3,7 @@
 
 #include "network/tls/tls.hpp"
 
+#include <cassert>
 #include <cerrno>
 #include <openssl/ssl.h>
 #include <sys/socket.h>
@@ -21,6 +22,7 @@ byte_stream::~byte_stream() {
 }
 
 byte_stream::outcome byte_stream::read(std::span<std::byte> to) {
+  assert(!to.empty());
   if (!tls_)
     return plain_outcome(recv(fd(), to.data(), to.size(), MSG_DONTWAIT));
   std::size_t moved = 0;
@@ -30,6 +32,7 @@ byte_stream::outcome byte_stream::read(std::span<std::byte> to) {
 }
 
 byte_stream::outcome byte_stream::write(std::span<const std::byte> from) {
+  assert(!from.empty());
   if (!tls_) {
     const auto moved =
         send(fd(), from.data(), from.size(), MSG_DONTWAIT | MSG_NOSIGNAL);

@@ -5,6 +5,7 @@
 #include "planners/scene/scene_interpreter.hpp"
 #include "planners/scene/track.hpp"
 
+#include <cassert>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -29,7 +30,10 @@ public:
 
   /// Another source has planned, and its plan is in use.
   /// @param other  Sound.
-  void take_over(const trajectory& other) { plan_ = other; }
+  void take_over(const trajectory& other) {
+    assert(!other.empty());
+    plan_ = other;
+  }
 
   /// Plans from here, given what is known of the others. `from.others` is
   /// filled in, but for what it says of stopping.

@@ -5,6 +5,7 @@
 #include "base/geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -42,6 +43,7 @@ constexpr double weight(double sigma) {
 
 bool lateral_fit::fit(const path& line, std::span<const sight> sights,
                       const joint* before) {
+  assert(!sights.empty());
   line_ = &line;
   start_m_ = sights.front().at.s_m;
   const auto length_m = std::max(sights.back().at.s_m - start_m_, shortest_m);

@@ -2,6 +2,7 @@
 #include "messages/v2x/mcm/longitudinal_fit.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof {
@@ -34,6 +35,8 @@ constexpr double slack = 0.02; // of a step: times are whole milliseconds
 
 bool longitudinal_fit::fit(std::span<const moment> moments,
                            const motion* before, std::size_t steps) {
+  assert(moments.size() >= 2);
+  assert(steps >= 1 && steps <= most_steps);
   moments_ = moments;
   steps_ = steps;
   step_s_ = moments.back().t_s / static_cast<double>(steps);

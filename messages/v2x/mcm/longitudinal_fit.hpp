@@ -4,6 +4,7 @@
 #include "messages/v2x/mcm/p_spline.hpp"
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <span>
 
@@ -40,7 +41,10 @@ public:
   std::size_t steps() const { return steps_; }
 
   /// @param knot  0..steps.
-  const motion& operator[](std::size_t knot) const { return knots_[knot]; }
+  const motion& operator[](std::size_t knot) const {
+    assert(knot <= steps_);
+    return knots_[knot];
+  }
 
 private:
   bool rests_from(std::size_t i) const;

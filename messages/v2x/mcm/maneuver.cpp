@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -216,6 +217,7 @@ maneuver_fault to_trajectory(std::span<const maneuver_waypoint> waypoints,
                              const maneuver_frame& frame, const route& way,
                              double s_guess_m, const trajectory* before,
                              trajectory& out) {
+  assert(before != &out);
   const auto n = waypoints.size();
   if (n < 2 || n > most_waypoints)
     return maneuver_fault::wrong_count;
@@ -240,6 +242,7 @@ maneuver_fault to_trajectory(const planned_points& planned,
                              const maneuver_frame& frame, const route& way,
                              double s_guess_m, const trajectory* before,
                              trajectory& out) {
+  assert(before != &out);
   const auto n = planned.points.size();
   if (n < 2 || n > most_waypoints)
     return maneuver_fault::wrong_count;

@@ -2,10 +2,12 @@
 #include "messages/v2x/mcm/p_spline.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
 void p_spline::begin(std::size_t steps, double step) {
+  assert(step > 0);
   steps_ = std::clamp(steps, std::size_t{1}, most_steps);
   per_step_ = 1 / step;
   for (auto& diagonal : diagonals_)
@@ -29,6 +31,7 @@ void p_spline::observe_each(const std::array<double, N>& row,
 }
 
 void p_spline::expect_no_bends(std::span<const double> weights) {
+  assert(weights.size() == steps_ + 1);
   const auto c = per_step_ * per_step_;
   observe_each(std::array{c, -2 * c, c}, weights);
 }
@@ -44,11 +47,13 @@ std::array<double, 5> kink_row(double per_step) {
 } // namespace
 
 void p_spline::expect_no_kinks(std::span<const double> weights) {
+  assert(weights.size() + 1 == steps_);
   observe_each(kink_row(per_step_), weights);
 }
 
 void p_spline::expect_kinks(std::span<const double> weights,
                             std::span<const double> kinks) {
+  assert(kinks.size() >= weights.size());
   expect_no_kinks(weights);
   const auto row = kink_row(per_step_);
   for (std::size_t i = 0; i < row.size(); ++i)
