@@ -50,7 +50,7 @@ using requester_manager_actor = result_actor::extend<
     // A provider runs the service too: feed it there, and use the results from
     // the first one on.
     reacts_to<session_id, provider_manager_actor>,
-    // Of several, this provider is on call: it is fed when nobody has answered
+    // Of several, this provider stands by: it is fed when nobody has answered
     // a cycle for so long. 0: no provider is.
     reacts_to<provider_id, duration>,
     // The running service has ended: the local service plans at once.

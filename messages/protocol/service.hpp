@@ -134,8 +134,8 @@ void visit_fields(auto& v, service_response& x) {
   v("verdicts", x.verdicts);
 }
 
-/// What a running service works on next; newer input replaces older. Whoever is
-/// on call gives one result at once, and the next one when it is called again.
+/// What a running service works on next; newer input replaces older. A standby
+/// gives one result at once, and the next one at the next such input.
 struct service_input {
   session_id session;
   time_point at;
