@@ -103,14 +103,14 @@ struct link_state {
     auto manager = given.begin();
     for (const auto& v : response.verdicts)
       if (v.accepted && manager != given.end())
-        managers.emplace_back(v.running, *manager++);
+        managers.emplace_back(v.session, *manager++);
     const std::vector<provider_manager_actor> me(
         given.size(), provider_manager_actor{link_actor{self}});
     down(response, me);
   }
 
   void on_input(const service_input& input) {
-    auto i = std::ranges::find(managers, input.running,
+    auto i = std::ranges::find(managers, input.session,
                                &decltype(managers)::value_type::first);
     if (i != managers.end())
       up(i->second, input);
@@ -123,7 +123,7 @@ struct link_state {
 
   void on_end(const service_end& end) {
     std::erase_if(managers,
-                  [&](const auto& m) { return m.first == end.running; });
+                  [&](const auto& m) { return m.first == end.session; });
     if (end.from == side::provider)
       down(end);
     else

@@ -1,4 +1,5 @@
 // Tests of a CODM behind a filter: whose decision is whose.
+#include "policies/filtered.hpp"
 #include "tests/policies/scene.hpp"
 
 using namespace sofof;
