@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <string>
 #include <utility>
 
 namespace sofof {

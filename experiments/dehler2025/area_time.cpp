@@ -2,6 +2,7 @@
 #include "experiments/dehler2025/area_time.hpp"
 
 #include "base/geometry.hpp"
+#include "base/options/toml_file.hpp"
 #include "experiments/report/run_files.hpp"
 #include "scenario/load.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 
 /// How long each stay of a run was, added up.
 group stays_in_area(const measured_run& run) {
-  const auto what = load_scenario(run.folder / "config.toml");
+  const auto config = run.folder / "config.toml";
+  const auto what = parse_scenario(require_text(config), config);
   const auto area = what.providers.at(0).area();
   struct whereabouts {
     bool inside = false;

@@ -42,8 +42,9 @@ recorded_run open_run(const fs::path& folder) {
   recorded_run run;
   run.folder = folder;
   run.label = name_of(folder);
-  run.what = load_scenario(config);
-  run.config_toml = read_text(config).value_or("");
+  // What a run has written is not to be changed: notes on it are not told.
+  run.config_toml = require_text(config);
+  run.what = parse_scenario(run.config_toml, config);
   run.episodes = read_episodes(folder);
   run.cycles = read_cycles(folder);
   if (auto summary = read_summary(folder)) {

@@ -151,6 +151,6 @@ TEST_CASE("an option at its old and at its new place is refused") {
   const auto text = example::with("[network]", "[compute]\nworkers = 2\n"
                                                "[network]\nworkers = 3");
   const auto error = example::error_of(text);
-  CHECK(error.find("example.toml:39:11: network.workers") != error.npos);
+  CHECK(error.find("example.toml:37:11: network.workers") != error.npos);
   CHECK(error.find("compute.workers") != error.npos);
 }
