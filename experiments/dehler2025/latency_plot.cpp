@@ -178,6 +178,14 @@ paragraph about_the_ends(const paper_runs& e, const report_text& text,
         text.fill(pass_longer(e) ? "longer_passes" : "no_longer_passes")}})};
 }
 
+std::string rises(const report_text& text, const curve_claims& claims) {
+  if (claims.rises_ms.empty())
+    return text.fill("no_heights");
+  return text.fill(
+      "rises",
+      {{"rises_ms", fmt::format("{}", fmt::join(claims.rises_ms, ", "))}});
+}
+
 paragraph about_more_vehicles(const paper_runs& e, const report_text& text,
                               const curve_claims& claims) {
   const auto l_max = fmt::format("{}", paper::max_latency_ms);
@@ -185,12 +193,10 @@ paragraph about_more_vehicles(const paper_runs& e, const report_text& text,
   if (claims.late_results_only())
     all += text.fill("late_results", {{"l_max_ms", l_max}});
   else
-    all += text.fill(
-        "other_causes",
-        {{"l_max_ms", l_max},
-         {"late", std::to_string(claims.late)},
-         {"early", std::to_string(claims.early)},
-         {"rises_ms", fmt::format("{}", fmt::join(claims.rises_ms, ", "))}});
+    all += text.fill("other_causes", {{"l_max_ms", l_max},
+                                      {"late", std::to_string(claims.late)},
+                                      {"early", std::to_string(claims.early)},
+                                      {"rises", rises(text, claims)}});
   const auto effort = effort_of(e);
   if (effort.runs > 1)
     all +=
@@ -208,6 +214,8 @@ paragraph about_more_vehicles(const paper_runs& e, const report_text& text,
 
 /// @returns what the sentence about the paper's description ends with.
 std::string agreement(const report_text& text, const curve_claims& claims) {
+  if (claims.rises_ms.empty())
+    return text.fill("unknown");
   std::vector<std::string> missing;
   if (!claims.rise_late)
     missing.push_back(text.fill("late_rise"));

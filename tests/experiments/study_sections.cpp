@@ -218,6 +218,20 @@ TEST_CASE("curves that rise early, or apart, are not said to rise late") {
   CHECK(contains(words, "the curves of `paper_sim` have no late rise."));
 }
 
+TEST_CASE("nothing is said of curves without heights") {
+  const scratch dir;
+  auto e = two_curves(dir, 50, 40, 0);
+  for (auto& run : e.latency_plot) {
+    run.t_off_s.clear();
+    run.ended_early = 0;
+  }
+  const auto words = words_of(latency_plot(e));
+  CAPTURE(words);
+  CHECK(contains(words, "here 0 of 0 early ends of six vehicles are of that "
+                        "kind, and no curve has a point at its longest limit"));
+  CHECK(contains(words, "these runs have no such curves of `paper-sim`."));
+}
+
 TEST_CASE("a fit is said to add little, and latency to grow, if they do") {
   const scratch dir;
   const auto as_was = words_of(delay_plot(two_latencies(dir, 10.6, 11.5)));
