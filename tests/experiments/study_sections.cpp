@@ -229,7 +229,7 @@ TEST_CASE("nothing is said of curves without heights") {
   CAPTURE(words);
   CHECK(contains(words, "here 0 of 0 early ends of six vehicles are of that "
                         "kind, and no curve has a point at its longest limit"));
-  CHECK(contains(words, "these runs have no such curves of `paper-sim`."));
+  CHECK(contains(words, "these runs have no such curves of `paper_sim`."));
 }
 
 TEST_CASE("a fit is said to add little, and latency to grow, if they do") {
