@@ -19,7 +19,8 @@ inline constexpr duration request_timeout = 500ms;
 inline constexpr duration start_timeout = 1s;
 /// After a fallback, per provider and service, before the next request.
 inline constexpr duration cool_down = 1s;
-/// A station whose latest CAM is older has gone.
+/// A station has gone of which neither a CAM nor another broadcast message has
+/// come for longer.
 /// Source: Dehler & Buchholz 2025, CAM check.
 inline constexpr duration cam_timeout = 2s;
 /// Between two looks of a vehicle at whether a CAM or a CPM is due

@@ -92,7 +92,8 @@ public:
 /// * Every protocol::offer_period a station is offered what does not run for
 ///   it.
 /// * Requests are answered at once, or together at the end of the policy's
-///   epoch; each named service gets its verdict.
+///   epoch; each named service gets its verdict (provider_requests.cpp). With
+///   its verdicts the policy may take running sessions back: these are revoked.
 /// * A new requester of a station knows nothing of what ran for the one before:
 ///   that ends.
 /// * Each session is closed once; the requester is told, unless it was the one
@@ -110,7 +111,8 @@ public:
   /// @param from  Where its requester is reached.
   void on_cam(const cam& c, peer_id from, time_point now);
 
-  /// A station has sent something else: it lives.
+  /// A known station has sent something else than a CAM that all may hear (a
+  /// CPM): it is not silent. Inputs do not count.
   void on_sign_of_life(station_id station, peer_id from, time_point now);
 
   /// A request with a number that is not above the last one is ignored.

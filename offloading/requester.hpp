@@ -44,7 +44,7 @@ public:
   virtual void send(peer_id provider, const service_request& request) = 0;
   virtual void send(peer_id provider, const service_end& end) = 0;
 
-  /// The source selector of `session.kind` has one more session to feed.
+  /// The source selector of `session.service` has one more session to feed.
   virtual void begin(const session_id& session) = 0;
   /// A result of one of its sessions has come.
   virtual void forward(const service_result& result) = 0;
@@ -77,7 +77,11 @@ public:
 /// * Each session is closed once; its provider is told, unless it was the one
 ///   to say so or is lost.
 /// * A provider with an implausible result is not asked for a while, for no
-///   service (distrust); one that has failed not for protocol::cool_down.
+///   service (distrust.hpp). One whose session gave results and then ended by
+///   a fault is not asked for that service for protocol::cool_down: which ends
+///   count, and when it may be asked again, is said in service_state.cpp.
+/// * Results of a session that is not known are dropped; its provider is told
+///   so every protocol::unknown_result_period at most.
 ///
 /// Source: Dehler & Buchholz 2025, service requester.
 /// No clock and no I/O: every call says what time it is, never less than

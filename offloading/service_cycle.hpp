@@ -47,6 +47,10 @@ public:
 ///   input it waits.
 /// * While it stands by it runs one cycle for each input, at once, but at most
 ///   one more than the grid has by then.
+/// * A cycle that takes longer than a period does not delay the next one in
+///   virtual time (`finish` says when each is done, a wait for a worker
+///   included); where time is real, it does, and what the grid had meanwhile
+///   is left out. Inputs are never queued.
 /// * Cycles are numbered by the grid, so that their noise does not depend on
 ///   when the service was started; after two in one period they are one ahead.
 ///

@@ -32,7 +32,7 @@ public:
 
   /// The vehicle's own function has new input, whether it is active or not.
   virtual void feed_local(const service_input& input) = 0;
-  /// A provider has new input; `input.running` is the session.
+  /// A provider has new input; `input.session` is the session.
   virtual void feed_remote(service_input input) = 0;
   /// The client gets a result.
   virtual void use(const service_result& result) = 0;

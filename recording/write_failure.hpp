@@ -1,11 +1,13 @@
-// What becomes of a run whose results cannot be written.
+// What becomes of a run whose results cannot be written: decision 42.
 #pragma once
 
 namespace sofof {
 
 enum class write_failure {
-  ends_the_run,
-  ends_the_files, ///< The run goes on without them, and has failed in the end.
+  ends_the_run, ///< With an error: one process that simulates.
+  /// The run goes on without them, and has failed in the end: hosts of a
+  /// distributed run, whose cars drive (scenario/hosts.cpp).
+  ends_the_files,
 };
 
 } // namespace sofof

@@ -17,7 +17,9 @@ namespace sofof {
 /// they may have been held up.
 ///
 /// An objection says why something is not heard, as words about the peer;
-/// empty: it is.
+/// empty: it is. What is objected to is dropped and recorded (`peer_ignored`,
+/// once a second at most); the connection stays. It is cut only by what cannot
+/// be read, or by far more frames (frame_allowance.hpp).
 class peer_rules {
 public:
   explicit peer_rules(const std::set<station_id>& stations);

@@ -1,4 +1,5 @@
-// An option that has moved within a file, brought to its new place.
+// An option that has moved within a file, brought to its new place: what is
+// behind `option_visitor::moved`, which a list of options calls.
 #pragma once
 
 #include <toml++/toml.h>

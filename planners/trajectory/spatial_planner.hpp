@@ -29,7 +29,8 @@ struct spatial_params {
 
 /// Path–velocity decomposition over arc length; both parts by the
 /// augmented-Lagrangian iLQR of planners/ocp. A plan that fails is replaced by
-/// the one before as long as that is safe, then by braking.
+/// the one before as long as that is safe, then by braking; if numbers are not
+/// finite, by the safe stop (docs/planner.md, "What is published").
 /// Source: docs/planner.md.
 class spatial_planner final : public trajectory_planner {
 public:

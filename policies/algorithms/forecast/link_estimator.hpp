@@ -20,10 +20,11 @@ struct link_estimator_options {
 };
 
 /// Follows the messages of one provider: results, and while there are none its
-/// answers to CAMs. Latency as lognormal, the period between results as normal,
-/// both with fading weights. What it does not know it calls certain to go
-/// wrong: before `least_count` messages, and when the link has been silent for
-/// `stale_periods` mean periods of what came last, every probability is 1.
+/// offers, which answer CAMs. Latency as lognormal, the period between results
+/// as normal, both with fading weights. What it does not know it calls certain
+/// to go wrong: before `least_count` messages, and when the link has been
+/// silent for `stale_periods` mean periods of what came last, every probability
+/// is 1.
 ///
 /// It sees only what arrives: loss shows as gaps, and as latency never. A rare
 /// outlier that nothing announces is beyond any forecast from the past.
