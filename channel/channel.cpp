@@ -46,7 +46,7 @@ random_stream radio_of(const random_stream& vehicle, std::string_view name) {
 channel::channel(std::shared_ptr<const channel_profile> profile,
                  random_stream seed, station_id station, std::uint32_t provider,
                  std::string_view radio)
-    : of_radio_{radio_of(seed.part("channel").part(station), radio)},
+    : of_radio_{radio_of(seed.part("channel").part(station.value()), radio)},
       drift_{of_radio_.part("drift").part(provider)}, // stalls by radio
       up_{split("up", provider)}, // the rest by provider, too
       down_{split("down", provider)}, profile_{std::move(profile)} {

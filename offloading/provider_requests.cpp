@@ -172,7 +172,7 @@ void provider::start(station_record& station, const session_id& session,
   assert(find(session.kind));
   const auto& service = *find(session.kind);
   const auto drawn =
-      setup_.noise.part(service.name.view()).part(session.station);
+      setup_.noise.part(service.name.view()).part(session.station.value());
   auto task = task_of(service);
   task.offset = how.offset.value_or(
       random_phase(drawn.part("remote phase"), service.options.period));

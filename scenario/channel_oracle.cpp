@@ -106,7 +106,7 @@ private:
     const std::pair key{id, std::string{kind.name()}};
     if (const auto known = results_.find(key); known != results_.end())
       return known->second;
-    const auto own = all_->noise.part(kind.name()).part(station_);
+    const auto own = all_->noise.part(kind.name()).part(station_.value());
     return results_
         .try_emplace(
             key,

@@ -50,7 +50,7 @@ bool share_one(const std::set<station_id>& a, const std::set<station_id>& b) {
 
 /// @returns a number for the owner of a certificate: not 0, and no station's.
 sender_id sender_of(const std::string& name) {
-  constexpr auto no_station = sender_id{1} << 63;
+  constexpr auto no_station = sender_id::rep{1} << 63;
   return std::hash<std::string>{}(name) | no_station;
 }
 

@@ -106,7 +106,7 @@ struct road_state {
         continue; // stands on the road
       auto view = users->perceive(user.id);
       view.objects =
-          visible.seen_by({setup.sensors, setup.noise.part(user.id),
+          visible.seen_by({setup.sensors, setup.noise.part(user.id.value()),
                            user.box.centre, user.box.heading_rad, user.id},
                           t);
       self->send(vehicle->second, std::move(view));
@@ -156,7 +156,7 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
              const vehicle_actor& vehicle) {
         self->state.waiting.try_emplace(report.station, report, vehicle);
       },
-      [self](station_id station) { self->state.forget(station); },
+      [self](station_id::rep station) { self->state.forget(station); },
       [self](tick_atom) { self->state.tick(); },
   };
 }

@@ -20,7 +20,7 @@ void vehicle_links::report(const driven_car& car) {
 }
 
 void vehicle_links::leave_road() {
-  self_->send(setup_.road, setup_.car.station);
+  self_->send(setup_.road, setup_.car.station.value());
 }
 
 void vehicle_links::broadcast(const std::optional<its_pdu>& message, point from,

@@ -1,6 +1,7 @@
 // Plain bytes for what services exchange: little-endian, no padding.
 #pragma once
 
+#include "base/strong_id.hpp"
 #include "base/time.hpp"
 
 #include <bit>
@@ -171,5 +172,13 @@ private:
   std::span<const std::byte> in_;
   bool ok_ = true;
 };
+
+/// An id travels as its number.
+template <class Tag, class Rep>
+void archive(auto& bytes, strong_id<Tag, Rep>& x) {
+  auto value = x.value();
+  bytes(value);
+  x = value;
+}
 
 } // namespace sofof

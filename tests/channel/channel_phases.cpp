@@ -56,7 +56,7 @@ struct shares {
 
 shares late_results(const channel_profile& p, std::uint64_t count) {
   std::vector<bool> late;
-  for (station_id v = 1; v <= 40; ++v) {
+  for (station_id::rep v = 1; v <= 40; ++v) {
     const auto one = phase_channel(p, v);
     for (std::uint64_t n = 0; n < count; ++n)
       late.push_back(one.service_time(n) + one.downlink_delay(n, cycle(n))
