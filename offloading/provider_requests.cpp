@@ -98,9 +98,13 @@ provider::question provider::question_of(const open_request& open,
         end(station->second, session->running, end_reason::no_data, true, now);
       all.verdicts.emplace_back();
       all.places.push_back(k);
-      all.asked.push_back({request.station, name.view(), request.route,
-                           request.speed_mps, utilisation_by(name),
-                           task_of(*service), request.candidates});
+      all.asked.push_back({.station = request.station,
+                           .kind = name.view(),
+                           .route = request.route,
+                           .speed_mps = request.speed_mps,
+                           .utilisation = utilisation_by(name),
+                           .task = task_of(*service),
+                           .candidates = request.candidates});
     }
   }
   assert(all.verdicts.size() == request.kinds.size());
@@ -116,8 +120,13 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
   std::vector<session_id> running;
   for (const auto& [id, station] : stations_)
     for (const auto& x : station.sessions) {
-      sessions.push_back({id, x.running.kind.view(), x.since, x.task, x.worker,
-                          utilisation_by(x.running.kind), x.candidates});
+      sessions.push_back({.station = id,
+                          .kind = x.running.kind.view(),
+                          .since = x.since,
+                          .task = x.task,
+                          .worker = x.worker,
+                          .utilisation = utilisation_by(x.running.kind),
+                          .candidates = x.candidates});
       running.push_back(x.running);
     }
   assert(running.size() == sessions.size());

@@ -140,13 +140,10 @@ struct admissions_state {
     const auto t = now(self);
     if (auto line = refusals.add(printable(why), t))
       send_record(self, setup->recorder,
-                  event_record{t,
-                               event_type::peer_refused,
-                               0,
-                               setup->boot,
-                               {},
-                               0,
-                               std::move(*line)});
+                  event_record{.at = t,
+                               .what = event_type::peer_refused,
+                               .provider = setup->boot,
+                               .detail = std::move(*line)});
   }
 };
 

@@ -40,13 +40,9 @@ struct shared_setup {
     given.on_refusal(why);
     if (given.recorder)
       caf::anon_send(given.recorder,
-                     record{event_record{test_clock.shown(at),
-                                         event_type::peer_disconnected,
-                                         0,
-                                         0,
-                                         {},
-                                         0,
-                                         std::move(why)}});
+                     record{event_record{.at = test_clock.shown(at),
+                                         .what = event_type::peer_disconnected,
+                                         .detail = std::move(why)}});
   }
 };
 

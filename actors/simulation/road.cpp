@@ -127,15 +127,13 @@ struct road_state {
     const auto all = users->bodies();
     for (const auto& x :
          conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
-      send_record(self, setup.recorder,
-                  event_record{t,
-                               event_type::near_miss,
-                               x.first,
-                               0,
-                               {},
-                               0,
-                               fmt::format("with {} ttc_s={:.3f}", x.second,
-                                           x.time_to_collision_s)});
+      send_record(
+          self, setup.recorder,
+          event_record{.at = t,
+                       .what = event_type::near_miss,
+                       .station = x.first,
+                       .detail = fmt::format("with {} ttc_s={:.3f}", x.second,
+                                             x.time_to_collision_s)});
   }
 };
 
