@@ -1,21 +1,23 @@
 // Names of things: who talks, and what it is about.
 #pragma once
 
+#include "base/strong_id.hpp"
+
 #include <cstdint>
 
 namespace sofof {
 
 /// A connected vehicle, as in ETSI ITS (StationID).
-using station_id = std::uint32_t;
+using station_id = strong_id<struct station_tag, std::uint32_t>;
 
 /// Whose certificate a message came by: all stations of one certificate have
 /// one sender.
-using sender_id = std::uint64_t;
+using sender_id = strong_id<struct sender_tag, std::uint64_t>;
 
 /// @returns the number of the k-th obstacle, counting from 0. They count down
 /// from the highest there is.
 constexpr station_id obstacle_id(std::uint32_t k) {
-  return ~station_id{0} - k;
+  return ~station_id::rep{0} - k;
 }
 
 /// @returns whether this is the number of one of `count` obstacles.
@@ -37,7 +39,7 @@ constexpr bool is_provider_station(station_id x) {
 }
 
 /// A provider process since its start; a restarted one has a new id.
-using provider_id = std::uint64_t;
+using provider_id = strong_id<struct provider_tag, std::uint64_t>;
 
 /// @param place  Of the provider in the scenario's file, counting from 1,
 ///               < 65536.
@@ -49,7 +51,7 @@ constexpr provider_id boot_of(std::uint32_t place, std::uint64_t start) {
 
 /// @returns the place of a provider in the scenario's file.
 constexpr provider_id place_of(provider_id provider) {
-  return provider & 0xffff;
+  return provider.value() & 0xffff;
 }
 
 } // namespace sofof

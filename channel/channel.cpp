@@ -29,7 +29,7 @@ double spike_s(const spike_options& p, const random_stream& draws,
 
 random_stream radio_of(const random_stream& seed, station_id station,
                        std::string_view name) {
-  const auto vehicle = seed.part("channel").part(station);
+  const auto vehicle = seed.part("channel").part(station.value());
   return name.empty() ? vehicle : vehicle.part("radio").part(name);
 }
 

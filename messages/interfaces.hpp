@@ -52,7 +52,7 @@ using requester_manager_actor = result_actor::extend<
     reacts_to<session_id, provider_manager_actor>,
     // Of several, this provider stands by: it is fed when nobody has answered
     // a cycle for so long. 0: no provider is.
-    reacts_to<provider_id, duration>,
+    reacts_to<provider_id::rep, duration>,
     // The running service has ended: the local service plans at once.
     reacts_to<service_end>>;
 
@@ -121,7 +121,7 @@ using link_actor = requester_actor::extend<
 /// sends to the vehicles of this process.
 using vehicle_endpoint_actor = caf::typed_actor<
     // As requester_actor takes them; offers, with the station they are for.
-    reacts_to<station_id, service_offer>, reacts_to<service_response>,
+    reacts_to<station_id::rep, service_offer>, reacts_to<service_response>,
     reacts_to<service_result>, reacts_to<service_end>,
     // The connection lives; whose clock says what.
     reacts_to<ping>, reacts_to<pong>,
@@ -133,7 +133,7 @@ using vehicle_endpoint_actor = caf::typed_actor<
 using provider_endpoint_actor = caf::typed_actor<
     // As provider_actor and provider_manager_actor take them; a CAM or a CPM,
     // with the station that sends it.
-    reacts_to<station_id, its_pdu>, reacts_to<service_request>,
+    reacts_to<station_id::rep, its_pdu>, reacts_to<service_request>,
     reacts_to<service_input>, reacts_to<service_end>,
     // The connection lives; whose clock says what.
     reacts_to<ping>, reacts_to<pong>,
@@ -170,7 +170,7 @@ using road_actor = caf::typed_actor<
     // A vehicle wants to appear here; it waits until its place is free.
     reacts_to<begin_atom, motion_report, vehicle_actor>,
     // A vehicle has arrived and leaves the streets.
-    reacts_to<station_id>>;
+    reacts_to<station_id::rep>>;
 
 /// Keeps what happened.
 using recorder_actor = caf::typed_actor<

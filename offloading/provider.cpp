@@ -239,8 +239,13 @@ void provider::end(station_record& station, session_id session,
       e.what = service->here->termination_message(e, now);
     port_.send(*station.requester, e);
   }
-  port_.record(episode_record{session, side::provider, i->since, i->since, true,
-                              now, reason, false});
+  port_.record(episode_record{.session = session,
+                              .of = side::provider,
+                              .accepted = i->since,
+                              .first_data = i->since,
+                              .got_data = true,
+                              .ended = now,
+                              .reason = reason});
   setup_.policy->observe(episode_outcome{session.service.view(), setup_.id,
                                          to_seconds(now - i->since),
                                          name_of(reason), session.station});

@@ -98,9 +98,13 @@ provider::question provider::question_of(const open_request& open,
         end(station->second, session->session, end_reason::no_data, true, now);
       all.verdicts.emplace_back();
       all.places.push_back(k);
-      all.asked.push_back({request.station, name.view(), request.route,
-                           request.speed_mps, utilisation_by(name),
-                           task_of(*service), request.candidates});
+      all.asked.push_back({.station = request.station,
+                           .service = name.view(),
+                           .route = request.route,
+                           .speed_mps = request.speed_mps,
+                           .utilisation = utilisation_by(name),
+                           .task = task_of(*service),
+                           .candidates = request.candidates});
     }
   }
   assert(all.verdicts.size() == request.services.size());
@@ -116,9 +120,13 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
   std::vector<session_id> running;
   for (const auto& [id, station] : stations_)
     for (const auto& x : station.sessions) {
-      sessions.push_back({id, x.session.service.view(), x.since, x.task,
-                          x.worker, utilisation_by(x.session.service),
-                          x.candidates});
+      sessions.push_back({.station = id,
+                          .service = x.session.service.view(),
+                          .since = x.since,
+                          .task = x.task,
+                          .worker = x.worker,
+                          .utilisation = utilisation_by(x.session.service),
+                          .candidates = x.candidates});
       running.push_back(x.session);
     }
   assert(running.size() == sessions.size());
@@ -173,7 +181,7 @@ void provider::start(station_record& station, const session_id& session,
   assert(find(session.service));
   const auto& service = *find(session.service);
   const auto drawn =
-      setup_.noise.part(service.name.view()).part(session.station);
+      setup_.noise.part(service.name.view()).part(session.station.value());
   auto task = task_of(service);
   task.offset = how.offset.value_or(
       random_phase(drawn.part("remote phase"), service.options.period));

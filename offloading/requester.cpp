@@ -92,10 +92,12 @@ void requester::expire(const epoch_end&, time_point now) {
   for (const auto& x : services_) {
     assert(x.needs.period > duration{0});
     if (!x.is_remote())
-      setup_.policy->observe(
-          cycle_outcome{now, x.service.name.view(), 0, x.on_board.time_s, false,
-                        x.on_board.energy_j,
-                        to_seconds(epoch_) / to_seconds(x.needs.period)});
+      setup_.policy->observe(cycle_outcome{
+          .at = now,
+          .service = x.service.name.view(),
+          .latency_s = x.on_board.time_s,
+          .energy_j = x.on_board.energy_j,
+          .cycles = to_seconds(epoch_) / to_seconds(x.needs.period)});
   }
   weigh([](const service_state&) { return true; }, std::nullopt, now);
 }

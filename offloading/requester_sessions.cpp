@@ -124,9 +124,13 @@ void requester::on_result(const service_result& result, time_point now) {
     link.answered(result.created, now);
   else
     link.arrived(result.created, now);
-  setup_.policy->observe(cycle_outcome{
-      now, service.service.name.view(), provider, to_seconds(latency),
-      latency > service.needs.max_latency, service.offloaded.energy_j});
+  setup_.policy->observe(
+      cycle_outcome{.at = now,
+                    .service = service.service.name.view(),
+                    .provider = provider,
+                    .latency_s = to_seconds(latency),
+                    .missed = latency > service.needs.max_latency,
+                    .energy_j = service.offloaded.energy_j});
   port_.forward(result);
 }
 
@@ -177,10 +181,14 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   const auto reason = reason_of(violation.breach);
   if (violation.breach == qos_breach::implausible) {
     // Also if the session has ended in the same instant.
-    port_.record(event_record{now, event_type::implausible, setup_.station,
-                              session.provider, session.service,
-                              session.counter, violation.why, false,
-                              violation.check});
+    port_.record(event_record{.at = now,
+                              .what = event_type::implausible,
+                              .station = setup_.station,
+                              .provider = session.provider,
+                              .service = session.service,
+                              .counter = session.counter,
+                              .detail = violation.why,
+                              .check = violation.check});
     distrust_peer_of(session.provider, now);
   }
   const auto found = find(session);
@@ -191,9 +199,12 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   auto& service = *found.service;
   if (violation.breach != qos_breach::latency)
     setup_.policy->observe(
-        cycle_outcome{now, session.service.view(), session.provider,
-                      std::numeric_limits<double>::infinity(), true,
-                      service.offloaded.energy_j});
+        cycle_outcome{.at = now,
+                      .service = session.service.view(),
+                      .provider = session.provider,
+                      .latency_s = std::numeric_limits<double>::infinity(),
+                      .missed = true,
+                      .energy_j = service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, now);
   end(service, session.provider, reason, true, now);
@@ -278,10 +289,15 @@ void requester::log_end(service_state& service, const requester_session& ended,
   assert(!service.find(ended.provider));
   const auto was_remote = ended.at == phase::remote;
   const auto comes_home = was_remote && !service.is_remote();
-  port_.record(episode_record{ended.session, side::requester, ended.accepted,
-                              was_remote ? ended.first_data : ended.accepted,
-                              was_remote, now, reason,
-                              is_fallback(reason) && comes_home});
+  port_.record(episode_record{.session = ended.session,
+                              .of = side::requester,
+                              .accepted = ended.accepted,
+                              .first_data = was_remote ? ended.first_data
+                                                       : ended.accepted,
+                              .got_data = was_remote,
+                              .ended = now,
+                              .reason = reason,
+                              .fallback = is_fallback(reason) && comes_home});
   if (comes_home) {
     service.since = now;
     log_switch(ended.session, false, now);
@@ -323,16 +339,25 @@ void requester::log_verdict(const service_state& service, provider_id provider,
 
 void requester::log_switch(const session_id& session, bool remote,
                            time_point now) {
-  port_.record(event_record{now, event_type::switched, setup_.station,
-                            session.provider, session.service, session.counter,
-                            remote ? "remote" : "local", remote});
+  port_.record(event_record{.at = now,
+                            .what = event_type::switched,
+                            .station = setup_.station,
+                            .provider = session.provider,
+                            .service = session.service,
+                            .counter = session.counter,
+                            .detail = remote ? "remote" : "local",
+                            .remote = remote});
 }
 
 void requester::log(event_type what, const session_id& session,
                     std::string_view detail, time_point now) {
-  port_.record(event_record{now, what, setup_.station, session.provider,
-                            session.service, session.counter,
-                            std::string{detail}});
+  port_.record(event_record{.at = now,
+                            .what = what,
+                            .station = setup_.station,
+                            .provider = session.provider,
+                            .service = session.service,
+                            .counter = session.counter,
+                            .detail = std::string{detail}});
 }
 
 } // namespace sofof::offloading

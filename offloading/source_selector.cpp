@@ -143,13 +143,12 @@ void source_selector::on_result(const service_result& result, time_point now) {
       result.what, {x->session, newest_.at, newest_.what, used_}, now);
   assert(!(judged.refused && judged.useless));
   if (judged.refused || judged.useless)
-    port_.record(cycle_record{result.session,
-                              result.cycle,
-                              result.created,
-                              now,
-                              {},
-                              false,
-                              result.doubt});
+    port_.record(cycle_record{.session = result.session,
+                              .cycle = result.cycle,
+                              .created = result.created,
+                              .received = now,
+                              .interarrival = {},
+                              .doubt = result.doubt});
   if (judged.refused)
     refuse(result.session, *judged.refused, now);
   else if (judged.useless)
@@ -170,10 +169,14 @@ bool source_selector::can_judge(source& x, const service_result& result,
   const auto can = result.doubt <= options().limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
-    port_.record(event_record{
-        now, can ? event_type::clock_known : event_type::clock_in_doubt,
-        setup_.station, result.session.provider, setup_.service.name,
-        result.session.counter, in_ms(result.doubt)});
+    port_.record(event_record{.at = now,
+                              .what = can ? event_type::clock_known
+                                          : event_type::clock_in_doubt,
+                              .station = setup_.station,
+                              .provider = result.session.provider,
+                              .service = setup_.service.name,
+                              .counter = result.session.counter,
+                              .detail = in_ms(result.doubt)});
   }
   return can;
 }
@@ -244,8 +247,13 @@ void source_selector::record_cycle(const source& x,
   std::optional<duration> gap; // only while in use every period
   if (x.last_received)
     gap = now - *x.last_received;
-  cycle_record record{result.session, result.cycle, result.created, now, gap,
-                      used,           result.doubt};
+  cycle_record record{.session = result.session,
+                      .cycle = result.cycle,
+                      .created = result.created,
+                      .received = now,
+                      .interarrival = gap,
+                      .used = used,
+                      .doubt = result.doubt};
   if (used && setup_.record_margins)
     for (const auto& m : margins)
       record.margins.push_back({std::string{m.name}, m.left});

@@ -70,10 +70,12 @@ inline constexpr int margin_places = 4;
 inline constexpr int energy_places = 6;
 
 // Which offloading it was.
-inline constexpr auto station = [](const auto& r) { return r.id().station; };
+inline constexpr auto station = [](const auto& r) {
+  return r.id().station.value();
+};
 inline constexpr auto provider = [](const auto& r) { return r.in.provider; };
 inline constexpr auto provider_id = [](const auto& r) {
-  return r.id().provider;
+  return r.id().provider.value();
 };
 inline constexpr auto service = [](const auto& r) {
   return r.id().service.view();
@@ -140,7 +142,7 @@ inline constexpr csv_column<margin_row> of_margins[]{
 
 inline constexpr csv_column<track_row> of_tracks[]{
     {"t_s", [](const auto& r) { return seconds(r.x.at - r.in.start); }},
-    {"station", [](const auto& r) { return r.own().station; }},
+    {"station", [](const auto& r) { return r.own().station.value(); }},
     {"x_m",
      [](const auto& r) {
        return rounded(r.own().position.x_m, length_places);
@@ -166,7 +168,7 @@ inline constexpr csv_column<track_row> of_tracks[]{
 };
 
 inline constexpr csv_column<vehicle_row> of_vehicles[]{
-    {"station", [](const auto& r) { return r.station; }},
+    {"station", [](const auto& r) { return r.station.value(); }},
     {"driven_s", [](const auto& r) { return seconds(r.x.safety.driven); }},
     {"distance_m",
      [](const auto& r) { return rounded(r.x.ride.distance_m, length_places); }},

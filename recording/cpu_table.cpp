@@ -118,7 +118,7 @@ std::string to_csv(const cpu_table& table) {
   for (const auto& line : table.lines) {
     const auto& [station, service, remote] = line.account;
     if (station != 0)
-      append(out, std::uint64_t{station});
+      append(out, std::uint64_t{station.value()});
     add_row(out, line.actor, service.view(),
             station == 0 ? ""
             : remote     ? "remote"

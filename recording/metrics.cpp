@@ -195,7 +195,7 @@ void metrics::add(const air_record& x) {
   etsi::bit_reader in{octets};
   etsi::pdu_header header;
   etsi::read(in, header);
-  const auto downwards = is_provider_station(header.station);
+  const auto downwards = is_provider_station(header.station.value);
   auto& count = header.message_id == etsi::cam::message_id ? air_.cam
                 : header.message_id == etsi::mcm::message_id
                     ? downwards ? air_.mcm_down : air_.mcm_up

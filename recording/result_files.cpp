@@ -60,9 +60,9 @@ void result_files::write(const event_record& x) {
     json_object line{out, json_object::layout::one_line};
     line.member("t_s", seconds(x.at - start_));
     line.member("what", sofof::name_of(x.what));
-    line.member("station", x.station);
+    line.member("station", x.station.value());
     line.member("provider", name_of(x.provider));
-    line.member("provider_id", x.provider);
+    line.member("provider_id", x.provider.value());
     line.member("service", x.service.view());
     line.member("counter", x.counter);
     line.member("detail", x.detail);

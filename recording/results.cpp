@@ -18,8 +18,10 @@ std::optional<event_record> event_of(const Record&) {
 }
 
 std::optional<event_record> event_of(const collision_record& x) {
-  return event_record{x.at, event_type::collision,           x.first, 0, "",
-                      0,    fmt::format("with {}", x.second)};
+  return event_record{.at = x.at,
+                      .what = event_type::collision,
+                      .station = x.first,
+                      .detail = fmt::format("with {}", x.second)};
 }
 
 std::optional<event_record> event_of(const plan_switch_record& x) {
@@ -33,9 +35,13 @@ std::optional<event_record> event_of(const plan_switch_record& x) {
   figure(" kappa_1pm=", x.jump.curvature_1pm);
   figure(" v_mps=", x.jump.speed_mps);
   figure(" a_mps2=", x.jump.accel_mps2);
-  return event_record{
-      x.at,       event_type::plan_switch, id.station, id.provider, id.service,
-      id.counter, std::move(detail)};
+  return event_record{.at = x.at,
+                      .what = event_type::plan_switch,
+                      .station = id.station,
+                      .provider = id.provider,
+                      .service = id.service,
+                      .counter = id.counter,
+                      .detail = std::move(detail)};
 }
 
 } // namespace

@@ -295,7 +295,7 @@ private:
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,
-            noise = noise_of(s_, "vehicle").part(v.station),
+            noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
             future = std::move(future),
             margins = s_.record.margins](const vehicle_actor& vehicle) {

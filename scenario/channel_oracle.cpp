@@ -109,7 +109,7 @@ private:
     const std::pair key{id, std::string{type.name()}};
     if (const auto known = results_.find(key); known != results_.end())
       return known->second;
-    const auto own = all_->noise.part(type.name()).part(station_);
+    const auto own = all_->noise.part(type.name()).part(station_.value());
     return results_
         .try_emplace(
             key,

@@ -45,8 +45,8 @@ void check_stations(const scenario& all, const toml_file& source) {
 
 /// Who reads an ITS message tells vehicles from providers by their numbers.
 void check_provider_stations(const scenario& all, const toml_file& source) {
-  constexpr auto first = provider_station(0);
-  constexpr auto beyond = provider_station(provider_stations);
+  constexpr auto first = provider_station(0).value();
+  constexpr auto beyond = provider_station(provider_stations).value();
   for (std::size_t f = 0; f < all.fleets.size(); ++f) {
     const auto& fleet = all.fleets[f];
     if (fleet.first_station < beyond
@@ -60,7 +60,7 @@ void check_provider_stations(const scenario& all, const toml_file& source) {
 
 void check_obstacles(const scenario& all, const toml_file& source) {
   const auto highest =
-      obstacle_id(static_cast<std::uint32_t>(all.obstacles.size()));
+      obstacle_id(static_cast<std::uint32_t>(all.obstacles.size())).value();
   for (std::size_t f = 0; f < all.fleets.size(); ++f)
     if (all.fleets[f].first_station + all.fleets[f].count - 1 > highest)
       source.refuse(fmt::format("fleet.{}.first_station", f),

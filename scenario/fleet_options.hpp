@@ -40,7 +40,7 @@ struct fleet_options {
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
-    constexpr double max_station = std::numeric_limits<station_id>::max();
+    constexpr double max_station = std::numeric_limits<station_id::rep>::max();
     s.field("count", count, {1, 1e5});
     s.field("first_station", first_station, {1, max_station});
     if (static_cast<double>(first_station + count - 1) > max_station)

@@ -258,7 +258,7 @@ connection_to(const scenario& s, std::size_t place, const drive_options& what,
   setup.protocol = what.protocol;
   setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                     .part(place)
-                    .part(stations.empty() ? 0 : stations.front());
+                    .part(stations.empty() ? 0 : stations.front().value());
   setup.prove = [](peer_hello&, const std::string&) {};
   setup.on_connected = [board] { board->connected(); };
   setup.on_refusal = [board](const std::string& why) { board->refuse(why); };

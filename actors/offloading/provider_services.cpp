@@ -57,10 +57,11 @@ event_record provider_services::record_of(const station_doubt& x) const {
   const auto why = x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
                                           name_of(x.check), x.value, x.limit)
                             : std::string{};
-  return {x.at,      x.begins ? event_type::doubted : event_type::believed,
-          x.station, id_,
-          {},        0,
-          why};
+  return {.at = x.at,
+          .what = x.begins ? event_type::doubted : event_type::believed,
+          .station = x.station,
+          .provider = id_,
+          .detail = why};
 }
 
 offloading::provider_setup rules_of(provider_actor_setup setup,

@@ -64,7 +64,7 @@ void requester_links::set_standby(
     const service_name& service,
     const std::optional<offloading::standby>& chosen) {
   const auto told = chosen.value_or(offloading::standby{});
-  self_->send(managers_.at(service), told.provider, told.after);
+  self_->send(managers_.at(service), told.provider.value(), told.after);
 }
 
 // For whom it works, in case accounts are kept.

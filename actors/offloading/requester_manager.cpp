@@ -55,7 +55,7 @@ requester_manager_impl::behavior_type requester_manager(
       [self](const session_id& session, provider_manager_actor& manager) {
         self->state.on_session(session, std::move(manager));
       },
-      [self](provider_id provider, duration after) {
+      [self](provider_id::rep provider, duration after) {
         std::optional<offloading::standby> chosen;
         if (provider != 0)
           chosen = {provider, after};

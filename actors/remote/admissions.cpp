@@ -50,7 +50,7 @@ bool share_one(const std::set<station_id>& a, const std::set<station_id>& b) {
 
 /// @returns a number for the owner of a certificate: not 0, and no station's.
 sender_id sender_of(const std::string& name) {
-  constexpr auto no_station = sender_id{1} << 63;
+  constexpr auto no_station = sender_id::rep{1} << 63;
   return std::hash<std::string>{}(name) | no_station;
 }
 
@@ -140,13 +140,10 @@ struct admissions_state {
     const auto t = now(self);
     if (auto line = refusals.add(printable(why), t))
       send_record(self, setup->recorder,
-                  event_record{t,
-                               event_type::peer_refused,
-                               0,
-                               setup->boot,
-                               {},
-                               0,
-                               std::move(*line)});
+                  event_record{.at = t,
+                               .what = event_type::peer_refused,
+                               .provider = setup->boot,
+                               .detail = std::move(*line)});
   }
 };
 

@@ -38,10 +38,10 @@ struct shared_setup {
       why += fmt::format("; {} more", std::exchange(left_out, 0));
     given.on_refusal(why);
     if (given.recorder)
-      caf::anon_send(
-          given.recorder,
-          record{event_record{
-              at, event_type::peer_disconnected, 0, 0, {}, 0, std::move(why)}});
+      caf::anon_send(given.recorder,
+                     record{event_record{.at = at,
+                                         .what = event_type::peer_disconnected,
+                                         .detail = std::move(why)}});
   }
 };
 

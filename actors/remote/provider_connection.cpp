@@ -18,7 +18,7 @@ provider_connection_impl::behavior_type provider_connection(
       [self](const caf::down_msg& down) { self->state.on_down(down.source); });
   return {
       // Of the provider:
-      [self](station_id station, const service_offer& offer) {
+      [self](station_id::rep station, const service_offer& offer) {
         if (self->state.is_from_connection())
           self->state.on_offer(station, offer);
       },
@@ -49,19 +49,21 @@ provider_connection_impl::behavior_type provider_connection(
           self->state.on_acknowledgement(stream);
       },
       // Of vehicles:
-      [self](station_id station, const its_pdu& message) {
+      [self](station_id::rep station, const its_pdu& message) {
         self->state.on_its_message(station, message);
       },
       [self](const service_request& request) {
         self->state.on_request(request);
       },
       [self](const service_input& input) { self->state.on_input(input); },
-      [self](station_id station, const link_actor& vehicle) {
+      [self](station_id::rep station, const link_actor& vehicle) {
         self->state.vehicles.insert_or_assign(station, vehicle);
       },
       // Of its own timers, connections and attempts at one:
       [self](tick_atom) { self->state.on_tick(); },
-      [self](tick_atom, station_id station) { self->state.on_turn(station); },
+      [self](tick_atom, station_id::rep station) {
+        self->state.on_turn(station);
+      },
       [self](const peer_welcome& welcome, const provider_endpoint_actor& peer) {
         if (self->state.is_from_connection())
           self->state.on_welcome(welcome, peer);
@@ -88,8 +90,8 @@ provider_outbox spawn_provider_connection(caf::actor_system& sys,
 
 void introduce(const provider_outbox& outbox, station_id station,
                const link_actor& provider_proxy) {
-  caf::anon_send(caf::actor_cast<provider_connection_impl>(outbox), station,
-                 provider_proxy);
+  caf::anon_send(caf::actor_cast<provider_connection_impl>(outbox),
+                 station.value(), provider_proxy);
 }
 
 } // namespace sofof

@@ -144,9 +144,11 @@ void provider_connection_state::publish(const std::string& sentence) {
 
 void provider_connection_state::log_event(event_type what,
                                           std::string_view detail) {
-  send_record(
-      self, setup->recorder,
-      event_record{now(self), what, 0, boot, {}, 0, std::string{detail}});
+  send_record(self, setup->recorder,
+              event_record{.at = now(self),
+                           .what = what,
+                           .provider = boot,
+                           .detail = std::string{detail}});
 }
 
 } // namespace sofof

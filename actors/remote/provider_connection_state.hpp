@@ -24,14 +24,14 @@ namespace sofof {
 /// A connection, as it sees itself; this handle never leaves the process. It is
 /// a provider_outbox, too.
 using provider_connection_impl = vehicle_endpoint_owner::extend<
-    reacts_to<station_id, its_pdu>, reacts_to<service_request>,
+    reacts_to<station_id::rep, its_pdu>, reacts_to<service_request>,
     reacts_to<service_input>,
     // This station's messages go there.
-    reacts_to<station_id, link_actor>,
+    reacts_to<station_id::rep, link_actor>,
     // Something may be due.
     reacts_to<tick_atom>,
     // It is this station's turn to begin.
-    reacts_to<tick_atom, station_id>,
+    reacts_to<tick_atom, station_id::rep>,
     // An attempt has got through, or has failed for this reason.
     reacts_to<tick_atom, acceptor_actor>, reacts_to<tick_atom, std::string>>;
 

@@ -26,7 +26,7 @@ provider_endpoint(provider_endpoint_actor::pointer self,
       self->send(connection, std::string{"a stranger speaks"});
   };
   return {
-      [=](station_id station, const its_pdu& message) {
+      [=](station_id::rep station, const its_pdu& message) {
         pass_on(station, message);
       },
       [=](const service_request& request) { pass_on(request); },

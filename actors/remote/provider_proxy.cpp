@@ -54,7 +54,7 @@ provider_proxy(link_actor::stateful_pointer<provider_proxy_state> self,
   return {
       [self](const its_pdu& message, const requester_actor& requester) {
         self->state.near = requester;
-        self->send(self->state.outbox, self->state.station, message);
+        self->send(self->state.outbox, self->state.station.value(), message);
       },
       [self](const service_request& request, const requester_actor& requester) {
         self->state.near = requester;

@@ -11,8 +11,9 @@ namespace sofof {
 /// besides what comes from the far end. Who ends a service is told by the
 /// message itself.
 using provider_outbox =
-    caf::typed_actor<reacts_to<station_id, its_pdu>, reacts_to<service_request>,
-                     reacts_to<service_input>, reacts_to<service_end>>;
+    caf::typed_actor<reacts_to<station_id::rep, its_pdu>,
+                     reacts_to<service_request>, reacts_to<service_input>,
+                     reacts_to<service_end>>;
 
 /// Stands where a link to a provider of the same process would. Hands what the
 /// vehicle sends to the connection, and what comes from there to the vehicle.

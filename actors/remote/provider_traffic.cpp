@@ -15,7 +15,7 @@ void provider_connection_state::send_next(
   if (!next)
     return;
   if (const auto* x = std::get_if<outgoing_traffic::its_message>(&*next))
-    send_to_provider(x->station, x->content);
+    send_to_provider(x->station.value(), x->content);
   else
     send_to_provider(std::get<service_input>(*next));
 }
@@ -58,7 +58,7 @@ void provider_connection_state::on_ping(const ping& sign) {
   if (traffic->is_open())
     return;
   for (const auto& turn : traffic->open(std::max(t, began + setup->rest)))
-    send_at(self, self, turn.at, tick_atom_v, turn.station);
+    send_at(self, self, turn.at, tick_atom_v, turn.station.value());
 }
 
 void provider_connection_state::on_pong(const pong& echo) {

@@ -13,7 +13,9 @@ requester_actor::behavior_type requester_proxy(requester_actor::pointer self,
   self->link_to(outbox);
   return {
       [=](const service_result& result) { self->send(outbox, result); },
-      [=](const service_offer& offer) { self->send(outbox, station, offer); },
+      [=](const service_offer& offer) {
+        self->send(outbox, station.value(), offer);
+      },
       [=](const service_response& response,
           const std::vector<provider_manager_actor>& managers) {
         self->send(outbox, response, managers);

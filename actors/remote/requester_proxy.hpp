@@ -11,7 +11,7 @@ namespace sofof {
 /// besides what comes from the far end. Who ends a service is told by the
 /// message itself.
 using vehicle_outbox = caf::typed_actor<
-    reacts_to<station_id, service_offer>,
+    reacts_to<station_id::rep, service_offer>,
     reacts_to<service_response, std::vector<provider_manager_actor>>,
     reacts_to<service_result>, reacts_to<service_end>>;
 

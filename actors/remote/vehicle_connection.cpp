@@ -20,7 +20,7 @@ vehicle_connection_impl::behavior_type vehicle_connection(
       [self](const caf::exit_msg&) { self->state.on_exit(); });
   return {
       // Of the peer:
-      [self](station_id station, const its_pdu& message) {
+      [self](station_id::rep station, const its_pdu& message) {
         self->state.on_its_message(station, message);
       },
       [self](const service_request& request) {
@@ -39,7 +39,7 @@ vehicle_connection_impl::behavior_type vehicle_connection(
         self->state.on_acknowledgement(stream);
       },
       // Of the provider:
-      [self](station_id station, const service_offer& offer) {
+      [self](station_id::rep station, const service_offer& offer) {
         self->state.on_offer(station, offer);
       },
       [self](const service_response& response,

@@ -13,7 +13,7 @@ namespace sofof {
 /// What its endpoint takes from the peer, and what the provider sends: it is a
 /// vehicle_outbox, too. This handle never leaves the process.
 using vehicle_connection_actor = provider_endpoint_actor::extend<
-    reacts_to<station_id, service_offer>,
+    reacts_to<station_id::rep, service_offer>,
     reacts_to<service_response, std::vector<provider_manager_actor>>,
     reacts_to<service_result>,
     // Something that came by the connection was dropped for this reason.

@@ -71,9 +71,11 @@ std::string vehicle_connection_state::stations() const {
 
 void vehicle_connection_state::log_event(event_type what, station_id station,
                                          std::string_view detail) {
-  send_record(
-      self, setup.recorder,
-      event_record{now(self), what, station, 0, {}, 0, std::string{detail}});
+  send_record(self, setup.recorder,
+              event_record{.at = now(self),
+                           .what = what,
+                           .station = station,
+                           .detail = std::string{detail}});
 }
 
 } // namespace sofof

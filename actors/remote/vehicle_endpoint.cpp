@@ -152,7 +152,7 @@ vehicle_endpoint_actor::behavior_type vehicle_endpoint(
   self->set_default_handler(caf::drop); // what no interface has
   s.begin();
   return {
-      [self](station_id station, const service_offer& offer) {
+      [self](station_id::rep station, const service_offer& offer) {
         self->state.pass_on(station, offer);
       },
       [self](const service_response& response) {

@@ -113,7 +113,7 @@ vehicle_connection_state::requester_of(station_id station) {
 
 void vehicle_connection_state::on_offer(station_id station,
                                         const service_offer& offer) {
-  send_to_peer(station, offer);
+  send_to_peer(station.value(), offer);
 }
 
 void vehicle_connection_state::on_response(

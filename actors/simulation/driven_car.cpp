@@ -97,7 +97,7 @@ bool driven_car::is_tracked(std::uint64_t step) const {
 bool driven_car::ends(duration period, std::uint64_t step) const {
   const auto n = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(period / protocol::control_period));
-  return (step + setup_.station) % n == 0;
+  return (step + setup_.station.value()) % n == 0;
 }
 
 // -- plans ------------------------------------------------------------------

@@ -106,7 +106,7 @@ struct road_state {
         continue; // stands on the road
       auto view = users->perceive(user.id);
       view.objects =
-          visible.seen_by({setup.sensors, setup.noise.part(user.id),
+          visible.seen_by({setup.sensors, setup.noise.part(user.id.value()),
                            user.box.centre, user.box.heading_rad, user.id},
                           t);
       self->send(vehicle->second, std::move(view));
@@ -127,15 +127,13 @@ struct road_state {
     const auto all = users->bodies();
     for (const auto& x :
          conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
-      send_record(self, setup.recorder,
-                  event_record{t,
-                               event_type::near_miss,
-                               x.first,
-                               0,
-                               {},
-                               0,
-                               fmt::format("with {} ttc_s={:.3f}", x.second,
-                                           x.time_to_collision_s)});
+      send_record(
+          self, setup.recorder,
+          event_record{.at = t,
+                       .what = event_type::near_miss,
+                       .station = x.first,
+                       .detail = fmt::format("with {} ttc_s={:.3f}", x.second,
+                                             x.time_to_collision_s)});
   }
 };
 
@@ -156,7 +154,7 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
              const vehicle_actor& vehicle) {
         self->state.waiting.try_emplace(report.station, report, vehicle);
       },
-      [self](station_id station) { self->state.forget(station); },
+      [self](station_id::rep station) { self->state.forget(station); },
       [self](tick_atom) { self->state.tick(); },
   };
 }

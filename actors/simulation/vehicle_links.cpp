@@ -20,7 +20,7 @@ void vehicle_links::report(const driven_car& car) {
 }
 
 void vehicle_links::leave_road() {
-  self_->send(setup_.road, setup_.car.station);
+  self_->send(setup_.road, setup_.car.station.value());
 }
 
 void vehicle_links::broadcast(const std::optional<its_pdu>& message, point from,
@@ -35,7 +35,9 @@ void vehicle_links::broadcast(const std::optional<its_pdu>& message, point from,
 
 void vehicle_links::log_event(event_type what) {
   send_record(self_, setup_.recorder,
-              event_record{now(self_), what, setup_.car.station, 0, {}, 0, {}});
+              event_record{.at = now(self_),
+                           .what = what,
+                           .station = setup_.car.station});
 }
 
 void vehicle_links::record(const driven_car& car, bool remote) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/fields.hpp"
+#include "base/strong_id.hpp"
 #include "base/time.hpp"
 
 #include <bit>
@@ -45,6 +46,10 @@ private:
       // The list serves both directions, hence takes a mutable reference.
       visit_fields(each, const_cast<T&>(x));
     }
+  }
+  template <class Tag, class Rep>
+  void write(const strong_id<Tag, Rep>& id) {
+    write(id.value());
   }
   void write(const duration& d) { write(d.count()); }
   void write(const time_point& t) { write(t.time_since_epoch()); }
@@ -133,6 +138,12 @@ private:
       auto each = [this](std::string_view, auto& field) { read(field); };
       visit_fields(each, x);
     }
+  }
+  template <class Tag, class Rep>
+  void read(strong_id<Tag, Rep>& id) {
+    Rep number = 0;
+    read(number);
+    id = number;
   }
   void read(duration& d) {
     duration::rep count = 0;

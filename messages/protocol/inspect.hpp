@@ -3,6 +3,7 @@
 
 #include "base/fields.hpp"
 #include "base/geometry.hpp"
+#include "base/strong_id.hpp"
 #include "base/time.hpp"
 
 #include <bit>
@@ -33,6 +34,17 @@ bool inspect(Inspector& f, time_point& x) {
   auto set = [&x](duration::rep count) {
     x = time_point{duration{count}};
     return is_plausible(x);
+  };
+  return f.apply(get, set);
+}
+
+/// An id travels as its number.
+template <class Inspector, class Tag, class Rep>
+bool inspect(Inspector& f, strong_id<Tag, Rep>& x) {
+  auto get = [&x] { return x.value(); };
+  auto set = [&x](Rep value) {
+    x = value;
+    return true;
   };
   return f.apply(get, set);
 }

@@ -30,9 +30,9 @@ struct its_pdu {
     constexpr std::size_t begin = 2, end = 6; // of its header
     if (octets.size() < end)
       return std::nullopt;
-    station_id id = 0;
+    station_id::rep id = 0;
     for (auto i = begin; i < end; ++i)
-      id = id << 8 | std::to_integer<station_id>(octets[i]);
+      id = id << 8 | std::to_integer<station_id::rep>(octets[i]);
     return id;
   }
 };

@@ -17,15 +17,15 @@ namespace sofof {
 
 /// Something worth a line in events.jsonl.
 struct event_record {
-  time_point at;
+  time_point at{};
   event_type what{};
   station_id station = 0;
   provider_id provider = 0;
-  service_name service; ///< Empty when it concerns no single service.
+  service_name service{}; ///< Empty when it concerns no single service.
   std::uint32_t counter = 0;
-  std::string detail;  ///< Why, or how, for people.
-  bool remote = false; ///< Of a switch: to a provider.
-  std::string check{}; ///< Of an implausible result: the one that it failed.
+  std::string detail{}; ///< Why, or how, for people.
+  bool remote = false;  ///< Of a switch: to a provider.
+  std::string check{};  ///< Of an implausible result: the one that it failed.
 };
 
 /// One requested service has been answered, or has not been in time.

@@ -15,7 +15,7 @@ point front_of(const cam& own, const vehicle_params& car) {
 etsi::cam make_cam(const cam& own, const vehicle_params& car,
                    const georeference& where) {
   etsi::cam message;
-  message.header.station = own.station;
+  message.header.station = own.station.value();
   message.body.generation = etsi::to_delta_time(where.clock.timestamp(own.at));
   auto& basic = message.body.parameters.basic;
   basic.station_type = etsi::passenger_car;
@@ -80,7 +80,7 @@ std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
   const auto length_m =
       etsi::vehicle_length_m.to_si(motion->length.value).value_or(our_length_m);
   cam own;
-  own.station = message.header.station;
+  own.station = message.header.station.value;
   own.at = where.unwrapped(body.generation, now);
   own.position =
       *front - car.front_m * length_m / our_length_m * unit_vector(*heading);

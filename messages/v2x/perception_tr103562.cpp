@@ -140,7 +140,7 @@ tr::cpm make_cpm_tr103562(const perceived_scene& scene,
   const auto heading =
       where.frame.to_etsi_heading(own.heading_rad, own.position);
   tr::cpm message;
-  message.header.station = own.station;
+  message.header.station = own.station.value();
   const auto generated = where.clock.timestamp(own.at);
   message.body.generation = etsi::to_delta_time(generated);
   auto& body = message.body.parameters;
@@ -188,7 +188,8 @@ std::optional<object_list> read_cpm(const tr::cpm& message,
     for (const auto& told : *body.objects)
       if (const auto x = decode(told, from, generated))
         objects.push_back(*x);
-  auto seen = brought_together(message.header.station, generated, objects);
+  auto seen =
+      brought_together(message.header.station.value, generated, objects);
   seen.perceived = body.number_of_objects;
   auto& eye = seen.eye.emplace(*at, *heading);
   if (body.sensors && body.sensors->size() == 1)

@@ -148,7 +148,7 @@ ts::cpm make_cpm_ts103324(const perceived_scene& scene,
   const auto& own = scene.own;
   const auto place = where.frame.to_wgs84(front_of(own, car));
   ts::cpm message;
-  message.header.station = own.station;
+  message.header.station = own.station.value();
   const auto generated = where.clock.timestamp(own.at);
   auto& body = message.body;
   body.management.reference_time = static_cast<std::uint64_t>(generated);
@@ -214,7 +214,8 @@ std::optional<object_list> read_cpm(const ts::cpm& message,
         look_through(sensors->front(), eye);
     }
   }
-  auto seen = brought_together(message.header.station, reference, objects);
+  auto seen =
+      brought_together(message.header.station.value, reference, objects);
   seen.perceived = perceived;
   if (is_heading_known)
     seen.eye = eye;

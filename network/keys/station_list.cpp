@@ -1,6 +1,8 @@
 // Lists of stations: numbers, '-' and ','.
 #include "network/keys/station_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <system_error>
@@ -10,7 +12,7 @@ namespace sofof {
 namespace {
 
 std::optional<station_id> parse_station(std::string_view text) {
-  station_id station = 0;
+  station_id::rep station = 0;
   const auto* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, station);
   if (error != std::errc{} || rest != end || station == 0)
@@ -32,9 +34,9 @@ std::optional<station_range> parse_station_range(std::string_view text) {
 
 std::string print_station_range(station_range range) {
   const auto [first, last] = range;
-  auto text = std::to_string(first);
+  auto text = fmt::to_string(first);
   if (last != first)
-    text += "-" + std::to_string(last);
+    text += "-" + fmt::to_string(last);
   return text;
 }
 
@@ -43,10 +45,13 @@ std::optional<std::vector<station_id>> parse_stations(std::string_view text) {
   for (std::size_t at = 0; at <= text.size();) {
     const auto comma = std::min(text.find(',', at), text.size());
     const auto range = parse_station_range(text.substr(at, comma - at));
-    if (!range || range->second - range->first >= most_stations)
+    if (!range)
       return std::nullopt;
-    for (auto k = range->second - range->first + 1; k > 0; --k)
-      stations.push_back(range->first + (k - 1));
+    const auto first = range->first.value(), last = range->second.value();
+    if (last - first >= most_stations)
+      return std::nullopt;
+    for (auto k = last - first + 1; k > 0; --k)
+      stations.push_back(first + (k - 1));
     if (stations.size() > most_stations)
       return std::nullopt;
     at = comma + 1;
@@ -61,7 +66,7 @@ std::vector<station_range>
 station_ranges(const std::vector<station_id>& stations) {
   std::vector<station_range> ranges;
   for (const auto station : stations) {
-    if (!ranges.empty() && ranges.back().second + 1 == station)
+    if (!ranges.empty() && ranges.back().second.value() + 1 == station)
       ranges.back().second = station;
     else
       ranges.emplace_back(station, station);

@@ -73,7 +73,7 @@ bool plausibility::on_report(station_id who, sender_id from,
 void plausibility::sift(station_id who, time_point at,
                         std::vector<std::uint32_t>& ids,
                         std::vector<perceived_object>& bodies) {
-  const auto known = witnesses_.find(key_of({who}));
+  const auto known = witnesses_.find(key_of({who.value()}));
   if (known == witnesses_.end())
     return; // its first look is about to make it known
   auto& words = known->second.words;
@@ -337,7 +337,7 @@ void plausibility::believed(time_point now, std::optional<station_id> planned,
 
 const plausibility::witness_record*
 plausibility::find_witness(station_id vehicle) const {
-  const auto found = witnesses_.find(key_of({vehicle}));
+  const auto found = witnesses_.find(key_of({vehicle.value()}));
   return found != witnesses_.end() ? &found->second : nullptr;
 }
 

@@ -49,7 +49,7 @@ public:
     state_writer out{"places", 1};
     out.word("providers").count(known_.size() - 1);
     for (std::size_t k = 1; k < known_.size(); ++k)
-      out.count(known_[k]);
+      out.count(known_[k].value());
     return out.text() + bandit_.snapshot();
   }
   std::optional<std::string> restore(std::string_view text) override;
@@ -78,7 +78,7 @@ std::optional<std::string> places::restore(std::string_view text) {
   in.expect("providers");
   places read{weights_};
   for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left)
-    if (read.arm_of(in.count(~provider_id{0})) + 1 != read.known_.size())
+    if (read.arm_of(in.count(~provider_id::rep{0})) + 1 != read.known_.size())
       in.refuse("expected each provider once.");
   const auto rest = in.after_end();
   if (in.failed())

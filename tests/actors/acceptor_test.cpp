@@ -331,7 +331,7 @@ TEST_CASE_FIXTURE(acceptor_world,
 TEST_CASE_FIXTURE(acceptor_world,
                   "nobody has more than 16 connections at a time") {
   std::vector<provider_endpoint_actor> all;
-  for (station_id k = 1; k <= 16; ++k)
+  for (station_id::rep k = 1; k <= 16; ++k)
     all.push_back(enter_as("car", {k}).endpoint);
   const auto more = enter_as("car", {17});
   CHECK(!more.welcome);

@@ -159,8 +159,8 @@ TEST_CASE_FIXTURE(listening_world,
 TEST_CASE_FIXTURE(listening_world,
                   "what a listener doubts is recorded, five stations a "
                   "second after the first fifty") {
-  const auto doubts = [&](station_id first, station_id count) {
-    for (station_id k = 0; k < count; ++k)
+  const auto doubts = [&](station_id::rep first, station_id::rep count) {
+    for (station_id::rep k = 0; k < count; ++k)
       heard().doubts.push_back(
           {now(), first + k, true, doubt_check::sight, 0.35, 0.3});
     hear(inside);

@@ -22,7 +22,7 @@ namespace sofof::test {
 
 /// One vehicle on a straight street (limit 10 m/s), starting 100 m along it.
 struct driving_world : virtual_world {
-  static constexpr station_id station = 101;
+  static constexpr station_id::rep station = 101;
   probe<road_actor> road = listen<road_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
   probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();

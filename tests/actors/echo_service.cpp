@@ -25,7 +25,7 @@ namespace {
 /// A requester and a provider, joined by an ideal link; the vehicle is a
 /// probe.
 struct echo_world : virtual_world {
-  static constexpr station_id station = 101;
+  static constexpr station_id::rep station = 101;
   probe<vehicle_actor> vehicle = listen<vehicle_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
   streets_ptr world = one_street();

@@ -245,9 +245,9 @@ TEST_CASE_FIXTURE(requester_world,
                   "a provider that has booted anew is not known "
                   "by its earlier boots any more") {
   offer({});
-  for (provider_id next = 40; next < 50; ++next)
+  for (provider_id::rep next = 40; next < 50; ++next)
     offer_from(provider, next, {});
-  for (provider_id next = 40; next < 49; ++next)
+  for (provider_id::rep next = 40; next < 49; ++next)
     result({next, station, one, 99}, 1);
   result(at_here(one, 99), 1);
   CHECK(ends().empty());

@@ -110,7 +110,8 @@ TEST_CASE("what vehicles say to a provider is admitted") {
   CHECK(at.judge(down, node() + node(9) + octets(6)) == "");
   CHECK(at.judge(direct, message_of(std::uint32_t{6}, std::uint64_t{1}), asked)
         == "");
-  CHECK(at.judge(direct, message_of(station_id{101}, its_pdu{octets(300), {}}),
+  CHECK(at.judge(direct,
+                 message_of(station_id::rep{101}, its_pdu{octets(300), {}}),
                  told)
         == "");
   service_request request{11, 101, 1, {"a", "b"}, {}, 5};
@@ -128,8 +129,9 @@ TEST_CASE("what vehicles say to a provider is admitted") {
 
 TEST_CASE("what a provider says to vehicles is admitted") {
   at_vehicles at;
-  CHECK(at.judge(direct, message_of(station_id{101}, service_offer{}), told)
-        == "");
+  CHECK(
+      at.judge(direct, message_of(station_id::rep{101}, service_offer{}), told)
+      == "");
   CHECK(at.judge(direct, message_of(service_response{}), told) == "");
   CHECK(at.judge(direct, message_of(service_result{running, 1, {}, {}}), told)
         == "");

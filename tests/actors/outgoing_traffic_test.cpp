@@ -16,12 +16,13 @@ using test::at;
 namespace {
 
 struct traffic_of_two {
-  static constexpr station_id first = 101, second = 102;
+  static constexpr station_id::rep first = 101, second = 102;
   static constexpr std::byte cam_id{2}, cpm_id{14};
   const session_id running{11, first, "one", 7};
 
   /// Of these last octets.
-  static its_pdu message_of(std::byte id, station_id station, int mark = 0) {
+  static its_pdu message_of(std::byte id, station_id::rep station,
+                            int mark = 0) {
     return {{std::byte{2},
              id,
              {},

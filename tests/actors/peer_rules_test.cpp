@@ -13,10 +13,10 @@ using test::at;
 namespace {
 
 struct peer_of_two {
-  static constexpr station_id own = 101, neighbour = 102, foreign = 999;
+  static constexpr station_id::rep own = 101, neighbour = 102, foreign = 999;
 
   /// Of nothing but its header.
-  static its_pdu message_of(station_id station) {
+  static its_pdu message_of(station_id::rep station) {
     return {{{},
              {},
              std::byte(station >> 24),

@@ -34,8 +34,8 @@ inline streets_ptr blocks() {
 class planning {
 public:
   static constexpr time_point start{100s};
-  static constexpr station_id station = 101;
-  static constexpr station_id provider = 9001;
+  static constexpr station_id::rep station = 101;
+  static constexpr station_id::rep provider = 9001;
 
   explicit planning(bool at_provider, bool crossings_granted = true)
       : world{.streets = blocks(),
@@ -70,9 +70,9 @@ public:
   void hear(const its_pdu& message) {
     const auto heard = decode(message, *world.where, *now);
     if (const auto* own = std::get_if<cam>(&heard))
-      listener_of(*there)->on_cam(*own, own->station);
+      listener_of(*there)->on_cam(*own, own->station.value());
     if (const auto* seen = std::get_if<object_list>(&heard))
-      listener_of(*there)->on_objects(*seen, seen->from);
+      listener_of(*there)->on_objects(*seen, seen->from.value());
   }
 
   /// @returns the vehicle's word to who plans for it, or takes over.

@@ -17,7 +17,8 @@ TEST_CASE_FIXTURE(provider_connection_world,
   start();
   REQUIRE(host->hellos.size() == 1);
   CHECK(host->hellos[0].provider == "server");
-  CHECK(host->hellos[0].stations == std::vector{station, neighbour});
+  CHECK(host->hellos[0].stations
+        == std::vector<station_id>{station, neighbour});
   CHECK(host->hellos[0].world == 5);
   CHECK(host->hellos[0].certificate == "proof of a number");
   CHECK(news
@@ -437,10 +438,10 @@ TEST_CASE("a hundred vehicles begin to speak one after the other, each in "
   provider_connection_world world;
   auto setup = world.setup();
   std::vector<link_actor> far;
-  for (station_id k = 200; k < 300; ++k)
+  for (station_id::rep k = 200; k < 300; ++k)
     setup.stations.push_back(k);
   world.start(setup);
-  for (station_id k = 200; k < 300; ++k)
+  for (station_id::rep k = 200; k < 300; ++k)
     far.push_back(
         world.own(spawn_provider_proxy(world.system(), k, world.outbox)));
   const auto all_speak = [&] {
@@ -481,7 +482,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
                   "a turn that a lost connection left is none in "
                   "the next one") {
   auto many = setup();
-  for (station_id k = 200; k < 400; ++k)
+  for (station_id::rep k = 200; k < 400; ++k)
     many.stations.push_back(k);
   std::ranges::sort(many.stations);
   many.stations.erase(std::ranges::find(many.stations, neighbour));

@@ -78,8 +78,8 @@ played_acceptor(acceptor_actor::pointer self,
 }
 
 struct provider_connection_world : virtual_world {
-  static constexpr provider_id boot = 11;
-  static constexpr station_id station = 101, neighbour = 102;
+  static constexpr provider_id::rep boot = 11;
+  static constexpr station_id::rep station = 101, neighbour = 102;
   /// By then each of them may speak.
   static constexpr duration turns = std::chrono::milliseconds{10};
   const session_id one{boot, station, "one", 7};

@@ -60,7 +60,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   CHECK(managers.front()
         == std::vector<provider_manager_actor>{provider_manager_actor{far}});
   CHECK(other->count<service_response>() == 0);
-  say(station_id{999}, service_offer{boot, {}, {"one"}}); // for nobody
+  say(station_id::rep{999}, service_offer{boot, {}, {"one"}}); // for nobody
   CHECK(!is_gone(outbox));
 }
 

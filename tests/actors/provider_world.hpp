@@ -15,8 +15,8 @@
 namespace sofof::test {
 
 struct provider_world : virtual_world {
-  static constexpr provider_id boot = 11;
-  static constexpr station_id station = 101;
+  static constexpr provider_id::rep boot = 11;
+  static constexpr station_id::rep station = 101;
   static constexpr point inside{10, 0}, outside{101, 0};
   const service_name one{"one"}, two{"two"};
 

@@ -45,7 +45,7 @@ TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {
   auto sink = std::make_shared<letters>();
   auto recorder = own(spawn_recorder(system(), sink));
   std::vector<station_id> said;
-  for (station_id n = 1; n <= 100; ++n) {
+  for (station_id::rep n = 1; n <= 100; ++n) {
     track_record r;
     r.ego.own.station = n;
     caf::anon_send(recorder, record{r});

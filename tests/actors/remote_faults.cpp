@@ -39,9 +39,9 @@ struct troubled_world : remote_world {
     return {boot, some_station(), once_in(2) ? one : two,
             static_cast<std::uint32_t>(random.below(60))};
   }
-  station_id some_station() {
-    return once_in(4) ? nonsense<station_id>()
-                      : static_cast<station_id>(101 + random.below(4));
+  station_id::rep some_station() {
+    return once_in(4) ? nonsense<station_id::rep>()
+                      : static_cast<station_id::rep>(101 + random.below(4));
   }
   its_pdu some_pdu() {
     auto pdu = nonsense<its_pdu>();

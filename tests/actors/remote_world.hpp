@@ -26,11 +26,11 @@
 namespace sofof::test {
 
 struct remote_world : virtual_world {
-  static constexpr provider_id first_boot = 11;
+  static constexpr provider_id::rep first_boot = 11;
 
   /// A vehicle that stands still and wants its services run elsewhere.
   struct car {
-    station_id station = 0;
+    station_id::rep station = 0;
     probe<vehicle_actor> vehicle;
     link_actor far;
     onboard_requester_actor requester;
@@ -44,7 +44,7 @@ struct remote_world : virtual_world {
   streets_ptr world = one_street();
   std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
   std::shared_ptr<codm_script> codm = std::make_shared<codm_script>();
-  provider_id boot = first_boot - 1;
+  provider_id::rep boot = first_boot - 1;
   roadside_provider_actor provider;
   acceptor_actor inner_acceptor; ///< Of the provider.
   acceptor_actor acceptor; ///< With the wire; none while its host is down.
@@ -60,7 +60,7 @@ struct remote_world : virtual_world {
     boot_up();
     outbox = own(spawn_provider_connection(system(), make_connection(count)));
     for (std::size_t k = 0; k < count; ++k)
-      add_car(static_cast<station_id>(101 + k));
+      add_car(static_cast<station_id::rep>(101 + k));
     settle();
   }
 
@@ -81,7 +81,7 @@ struct remote_world : virtual_world {
     s.provider = "server";
     s.address = "10.0.0.5:4711";
     for (std::size_t k = 0; k < count; ++k)
-      s.stations.push_back(static_cast<station_id>(101 + k));
+      s.stations.push_back(static_cast<station_id::rep>(101 + k));
     s.recorder = here.handle;
     s.noise = random_stream{1, "connection"};
     s.connect = [this]() -> std::variant<acceptor_actor, std::string> {
@@ -99,7 +99,7 @@ struct remote_world : virtual_world {
     return s;
   }
 
-  void add_car(station_id station) {
+  void add_car(station_id::rep station) {
     car c{station,
           listen<vehicle_actor>(),
           own(spawn_provider_proxy(system(), station, outbox)),

@@ -19,8 +19,8 @@
 namespace sofof::test {
 
 struct requester_world : virtual_world {
-  static constexpr station_id station = 101;
-  static constexpr provider_id here = 11, elsewhere = 22;
+  static constexpr station_id::rep station = 101;
+  static constexpr provider_id::rep here = 11, elsewhere = 22;
   const service_name one{"one"}, two{"two"};
 
   std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();

@@ -104,9 +104,9 @@ TEST_CASE_FIXTURE(requester_world, "the LODM sees all who offer a service, the "
     return all;
   };
   REQUIRE(lodm->asked.size() == 3);
-  CHECK(ids(lodm->asked[0]) == std::vector{here});
-  CHECK(ids(lodm->asked[1]) == std::vector{elsewhere, here});
-  CHECK(ids(lodm->asked[2]) == std::vector{elsewhere});
+  CHECK(ids(lodm->asked[0]) == std::vector<provider_id>{here});
+  CHECK(ids(lodm->asked[1]) == std::vector<provider_id>{elsewhere, here});
+  CHECK(ids(lodm->asked[2]) == std::vector<provider_id>{elsewhere});
 }
 
 TEST_CASE_FIXTURE(requester_world,
@@ -475,7 +475,7 @@ TEST_CASE_FIXTURE(requester_world, "of more providers than a request may name "
   lodm->wanted = {};
   drive_to(0);
   std::vector<probe<provider_actor>> all;
-  for (provider_id k = 1; k <= 2 * protocol::most_candidates; ++k) {
+  for (provider_id::rep k = 1; k <= 2 * protocol::most_candidates; ++k) {
     all.push_back(listen<provider_actor>());
     // Those with odd ids are near.
     tell_as(all.back().handle, requester,
@@ -490,7 +490,7 @@ TEST_CASE_FIXTURE(requester_world, "of more providers than a request may name "
   CHECK(std::ranges::count(told, here, &candidate::provider) == 1);
   CHECK(std::ranges::is_sorted(told, {}, &candidate::provider));
   for (const auto& c : told)
-    CHECK((c.provider == here || c.provider % 2 == 1));
+    CHECK((c.provider == here || c.provider.value() % 2 == 1));
 }
 
 TEST_CASE_FIXTURE(requester_world, "who asks to leave a provider does not tell "
@@ -555,7 +555,8 @@ TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is not asked if "
 
 TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "
                                    "is not asked") {
-  for (const provider_id name : {provider_id{0}, provider_id{99}, here}) {
+  for (const provider_id name :
+       {provider_id{0}, provider_id{99}, provider_id{here}}) {
     offer({one});
     const auto before = requests();
     refuse_and_name(*this, last_request(), name);

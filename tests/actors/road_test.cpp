@@ -153,8 +153,8 @@ TEST_CASE_FIXTURE(road_world, "who has left the streets is in nobody's way") {
   report(2, 130, 7, ahead);
   run_for(100ms);
   REQUIRE(last(behind).objects.size() == 1);
-  tell(road, station_id{2});
-  tell(road, station_id{2}); // twice does no harm
+  tell(road, station_id::rep{2});
+  tell(road, station_id::rep{2}); // twice does no harm
   ahead->clear();
   run_for(100ms);
   CHECK(last(behind).objects.empty());

@@ -52,7 +52,8 @@ public:
                               c.since});
     if (!script_->wanted.contains(c.service))
       return {0, "as told"};
-    return {script_->preferred ? script_->preferred : c.providers.front().id,
+    return {script_->preferred != 0 ? script_->preferred
+                                    : c.providers.front().id,
             "as told",
             script_->second,
             script_->release,

@@ -29,7 +29,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   say_cam(neighbour);
   tell_as(provider.handle, voice(), service_offer{boot, {1, 2}, {"one"}});
   REQUIRE(peer->seconds<service_offer>().size() == 1);
-  CHECK(peer->all<station_id>() == std::vector{neighbour});
+  CHECK(peer->all<station_id::rep>() == std::vector{neighbour});
   CHECK(peer->entries().back().from
         == caf::actor_cast<caf::strong_actor_ptr>(endpoint));
   accept(one);
@@ -235,7 +235,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
     say(request_of(station, 2000));
   }
   provider->clear();
-  tell_as(polite.handle, other, station_id{201}, cam_of(201));
+  tell_as(polite.handle, other, station_id::rep{201}, cam_of(201));
   tell_as(polite.handle, other, request_of(201));
   CHECK(provider->count<its_pdu>() == 1);
   CHECK(provider->count<service_request>() == 1);
@@ -248,7 +248,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   const auto other = join(other_peer, {201});
   live(1s);
   forget();
-  tell_as(peer.handle, other, station_id{201}, cam_of(201));
+  tell_as(peer.handle, other, station_id::rep{201}, cam_of(201));
   tell_as(peer.handle, other, request_of(201));
   CHECK(provider->entries().empty());
   CHECK(was_ignored("a stranger speaks"));

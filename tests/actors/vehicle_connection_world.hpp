@@ -17,8 +17,9 @@ namespace sofof::test {
 
 struct vehicle_connection_world : virtual_world {
   static constexpr sender_id certificate = 77;
-  static constexpr provider_id boot = 11;
-  static constexpr station_id station = 101, neighbour = 102, foreign = 999;
+  static constexpr provider_id::rep boot = 11;
+  static constexpr station_id::rep station = 101, neighbour = 102,
+                                   foreign = 999;
   /// How much later the peer's clock stood at 0, by its time of day.
   static constexpr auto gap = 200ms;
   const session_id one{boot, station, "one", 7};
@@ -68,7 +69,7 @@ struct vehicle_connection_world : virtual_world {
   void say_strangely(const Ts&... xs) {
     tell_as(stranger.handle, endpoint, xs...);
   }
-  void say_cam(station_id of = station) { say(of, cam_of(of)); }
+  void say_cam(station_id::rep of = station) { say(of, cam_of(of)); }
   its_pdu cam_of(station_id of) {
     return pdu_of(cam{of, now(), {1, 2}, 0, 5, 0});
   }

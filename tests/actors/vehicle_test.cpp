@@ -362,8 +362,8 @@ TEST_CASE_FIXTURE(driving_world,
 TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
                                  "streets, and its requester goes with it") {
   drive(120s); // 900 m at 10 m/s
-  REQUIRE(road->count<station_id>() == 1);
-  CHECK(road->all<station_id>().front() == station);
+  REQUIRE(road->count<station_id::rep>() == 1);
+  CHECK(road->all<station_id::rep>().front() == station);
   CHECK(last_report().s_m > 990);
   CHECK(is_gone(requester.handle));
   std::vector<event_type> events;

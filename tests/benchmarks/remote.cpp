@@ -22,7 +22,7 @@ using namespace sofof;
 namespace {
 
 constexpr std::size_t octets_of_a_plan = 440; // as docs/v2x.md has it
-constexpr station_id first_station = 101;
+constexpr station_id::rep first_station = 101;
 /// They take turns: each may say but so much a second.
 constexpr std::size_t stations = 200;
 constexpr provider_id boot = 1;

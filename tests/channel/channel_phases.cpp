@@ -58,7 +58,7 @@ struct shares {
 shares late_results(const channel_profile& p, std::uint64_t count) {
   std::vector<bool> late;
   const auto computers = compute_measured_with(p.name);
-  for (station_id v = 1; v <= 40; ++v) {
+  for (station_id::rep v = 1; v <= 40; ++v) {
     const auto one = phase_channel(p, v);
     const auto draws = result_draws(phase_seed, v, 0);
     for (std::uint64_t n = 0; n < count; ++n)

@@ -236,7 +236,7 @@ TEST_CASE("vehicles replay a trace from places of their own if they may") {
   auto p = measured();
   const auto alike = [&] {
     auto same = 0;
-    for (station_id s = 1; s <= 100; ++s)
+    for (station_id::rep s = 1; s <= 100; ++s)
       same += link_channel(p, s).downlink_delay(0, time_point{}) == 20ms;
     return same;
   };

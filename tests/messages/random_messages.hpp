@@ -140,6 +140,12 @@ public:
       std::apply(fill_all, members(x));
     }
   }
+  template <class Tag, class Rep>
+  void fill(strong_id<Tag, Rep>& x) {
+    Rep value = 0;
+    fill(value);
+    x = value;
+  }
   void fill(duration& x) {
     duration::rep count = 0;
     fill(count);

@@ -66,7 +66,7 @@ TEST_CASE("a service keeps its name and options on both sides, and is made "
   CHECK(own.name == service_name{"one"});
   CHECK(own.options.period == echo_options().period);
   REQUIRE(own.own);
-  const auto there = at_provider(service, {.station = 9001});
+  const auto there = at_provider(service, {9001, {}});
   CHECK(there.name == service_name{"one"});
   CHECK(there.options.limits.max_latency == 50ms);
   REQUIRE(there.here);

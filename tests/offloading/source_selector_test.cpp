@@ -68,7 +68,7 @@ struct diary final : offloading::selector_port {
 
   void write(std::string line) { lines.push_back(std::move(line)); }
   static std::string name(const session_id& x) {
-    return x.counter == 0 ? "own" : std::string(1, "?AB"[x.provider]);
+    return x.counter == 0 ? "own" : std::string(1, "?AB"[x.provider.value()]);
   }
 
   void feed_local(const service_input&) override {}

@@ -56,7 +56,7 @@ public:
     for (auto i = 0; i < 30; ++i) {
       road.pass();
       if (i > 2 && i % 5 == 0)
-        for (station_id of = 1; of <= road.cars.size(); ++of)
+        for (station_id::rep of = 1; of <= road.cars.size(); ++of)
           for (const auto& c : road.cars)
             missed += road.believes_in(c.is, of) ? 0 : 1;
     }

@@ -17,7 +17,7 @@ road_observer mast_number(std::uint32_t number) {
   return {number, true, 0};
 }
 road_observer vehicle_of(station_id station, sender_id sender) {
-  return {station, false, sender};
+  return {station.value(), false, sender};
 }
 
 testimony told_by(sender_id who) {

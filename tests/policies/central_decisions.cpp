@@ -288,7 +288,7 @@ TEST_CASE("absurd numbers of one do the others no harm") {
   at.ask(0.3, {{self, 0.2, 0}});
   at.ask(0.3, {{self, 0.4, 0}});
   std::vector<candidate> many;
-  for (provider_id id = 100; id < 5000; ++id)
+  for (provider_id::rep id = 100; id < 5000; ++id)
     many.push_back({id, -1, 0.5});
   at.ask(0.3, many);
   CHECK(at.verdicts(*codm_of("assignment", {}, {{"wait", 50ms}})) == "h--h-");

@@ -53,7 +53,7 @@ TEST_CASE("the random choice asks as often as it is told, everybody alike") {
   lodm->visit_options(options);
   auto counts = choices(*lodm, three());
   CHECK(counts[0] == doctest::Approx(750).epsilon(0.1));
-  for (provider_id id = 1; id <= 3; ++id)
+  for (provider_id::rep id = 1; id <= 3; ++id)
     CHECK(counts[id] == doctest::Approx(750).epsilon(0.1));
 }
 

@@ -16,8 +16,9 @@ void scatter(roadside& at, dice& random) {
   at.providers.clear();
   const auto count = static_cast<int>(random.between(0, 5));
   for (int k = 0; k < count; ++k) {
-    const auto id = static_cast<provider_id>(random.between(1, 9)) * 10
-                    + static_cast<provider_id>(k);
+    const provider_id id =
+        static_cast<provider_id::rep>(random.between(1, 9)) * 10
+        + static_cast<provider_id::rep>(k);
     auto& one =
         at.add(id, {random.between(-400, 400), random.between(-400, 400)});
     one.utilisation = random.between(-1, 3);

@@ -38,12 +38,12 @@ struct alto_learner {
   alto learner{{}};
 
   std::uint64_t live(std::uint64_t step) {
-    std::array<provider_id, 3> present{1, boot_of(2, 1'700'000'000'000), 3};
-    present[2] += step / 20;
+    std::array<provider_id, 3> present{1, boot_of(2, 1'700'000'000'000),
+                                       3 + step / 20};
     const auto bits = chance.uniform(50e3, 400e3, step, 1);
     const auto provider = *learner.choose(bits, present);
     learner.learn(provider, bits, chance.exponential(0.02, step));
-    return provider;
+    return provider.value();
   }
 };
 

@@ -320,7 +320,7 @@ TEST_CASE("every event is a JSON object, whatever its text") {
   const auto event = json::parse(all[0]);
   CHECK(event["t_s"] == 1);
   CHECK(event["provider"] == "mec");
-  CHECK(event["provider_id"] == provider);
+  CHECK(event["provider_id"] == provider.value());
   CHECK(event["counter"] == 4);
   CHECK(event["detail"] == "say \"no\"\\\n\tt_off \x01 \ufffd ü");
   CHECK(all[1]

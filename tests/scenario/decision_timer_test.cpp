@@ -26,7 +26,7 @@ public:
   void observe(const cycle_outcome&) override { ++to_.cycles; }
   void observe(const episode_outcome&) override { ++to_.episodes; }
   void visit_options(option_visitor& s) override {
-    auto wanted = static_cast<std::int64_t>(wanted_);
+    auto wanted = static_cast<std::int64_t>(wanted_.value());
     s.field("wanted", wanted, {0, 9});
     wanted_ = static_cast<provider_id>(wanted);
   }

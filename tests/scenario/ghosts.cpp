@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr station_id victim = 101;
-constexpr sender_id certificate = sender_id{1} << 63 | 5;
+constexpr sender_id certificate = sender_id::rep{1} << 63 | 5;
 constexpr duration begins = 8s, talks = 60s;
 
 /// Where on its way the vehicle is, and the way.
@@ -206,7 +206,7 @@ std::vector<named_attack> attacks() {
        }},
       {"is ten stations in turn",
        [=](duration t, const position& p) {
-         const auto who = 201 + static_cast<station_id>(t / 600ms) % 10;
+         const auto who = 201 + static_cast<station_id::rep>(t / 600ms) % 10;
          if (t % 600ms == 0s)
            *stands = of(who, p.car_ahead(25));
          return words{{*stands}, {}};

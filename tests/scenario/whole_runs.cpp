@@ -210,7 +210,7 @@ TEST_CASE("vehicles appear over time, and never on each other") {
       appeared[e.station] = e.at;
   CHECK(appeared.size() == 11); // but for the first, who is there
   for (const auto& [station, at] : appeared)
-    CHECK(at >= time_point{(station - 101) * 5s});
+    CHECK(at >= time_point{(station.value() - 101) * 5s});
 }
 
 TEST_CASE("an obstacle of a scenario stands on its road") {

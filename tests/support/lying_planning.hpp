@@ -183,7 +183,8 @@ private:
       case lie::ram:
         return made(from, now, by(3.4), straight);
       case lie::mix:
-        return made(from, now, by(station_ % 2 == 0 ? -6 : 3.4), straight);
+        return made(from, now, by(station_.value() % 2 == 0 ? -6 : 3.4),
+                    straight);
       case lie::offroad:
         return made(from, now, by(0), [](double t) { return -0.8 * t; });
       case lie::oncoming:

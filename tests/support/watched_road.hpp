@@ -109,8 +109,8 @@ public:
 
 private:
   sender_id sender_of(station_id who) const {
-    const auto& c = cars[who - 1];
-    return c.sender == 0 ? who : c.sender;
+    const auto& c = cars[who.value() - 1];
+    return c.sender == 0 ? sender_id{who.value()} : c.sender;
   }
 
   void look(std::uint32_t k) {
@@ -124,7 +124,7 @@ private:
   // All that it sees, but each object is due only once a second.
   void send_cpm(station_id who, const telling_car& c) {
     sensor eye{{.range_m = c.range_m},
-               random_stream{who, "eyes"},
+               random_stream{who.value(), "eyes"},
                c.is.centre,
                c.is.heading_rad,
                who};
@@ -148,12 +148,12 @@ private:
         continue;
       last = now + 1s; // also if the message is lost
       due.push_back(*at);
-      ids.push_back(number(k));
+      ids.push_back(number(k).value());
     }
-    if (air.uniform(steps_, who) < loss)
+    if (air.uniform(steps_, who.value()) < loss)
       return;
     model.update(now, due);
-    doubts.judge({who, false, sender_of(who)},
+    doubts.judge({who.value(), false, sender_of(who)},
                  {now, eye.view(), c.is.speed_mps, now, due, ids, all},
                  model.tracks());
   }

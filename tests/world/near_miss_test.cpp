@@ -132,7 +132,7 @@ TEST_CASE_FIXTURE(watch_world, "an encounter is a near miss once") {
 
 TEST_CASE_FIXTURE(watch_world, "of many, those that come near are found") {
   std::vector<road_body> all;
-  for (station_id k = 0; k < 20; ++k) { // each fifth is caught up with
+  for (station_id::rep k = 0; k < 20; ++k) { // each fifth is caught up with
     all.push_back(
         driving_car(2 * k + 2, {100.0 * k, 40.0 * (k % 3)}, east, 10));
     all.push_back(driving_car(

@@ -167,10 +167,10 @@ TEST_CASE("nobody is let through behind somebody who waits") {
 
 TEST_CASE("a convoy crosses without a break") {
   town t{cross_roads()};
-  for (station_id i = 1; i <= 3; ++i)
+  for (station_id::rep i = 1; i <= 3; ++i)
     add(t, i, {3, 0, 1}, 15.0 * i, 8);
   t.step();
-  for (station_id i = 1; i <= 2; ++i)
+  for (station_id::rep i = 1; i <= 2; ++i)
     CHECK(may_cross(t, t.at(i)));
 }
 
@@ -269,7 +269,7 @@ TEST_CASE("when a full street has room again the right of way holds again") {
 
 TEST_CASE("whoever has waited for long gets through an endless stream") {
   town t{cross_roads()};
-  station_id next = 1;
+  station_id::rep next = 1;
   const auto stream = [&](int steps, auto until) {
     auto step = 0;
     for (; step < steps && !until(); ++step) {
@@ -297,7 +297,7 @@ TEST_CASE("on random ways over a junction nobody touches and all arrive") {
       town t{cross_roads(equal)};
       const random_stream dice{seed, "crossing"};
       std::array<double, 5> free_m{0, 120, 120, 120, 120};
-      for (station_id i = 1; i <= 24; ++i) {
+      for (station_id::rep i = 1; i <= 24; ++i) {
         const auto from = 1 + dice.bits(i, 0) % 4;
         const auto to = 1 + (from + dice.bits(i, 1) % 3) % 4;
         free_m[from] -= dice.uniform(8, 24, i, 2);
@@ -390,7 +390,7 @@ TEST_CASE("a full ring round a block turns on") {
   // the next. One corner is just a bend, and full as well.
   town t{grid(3, 70)};
   const auto round = make_route(t.map, {0, 1, 4, 3}, true);
-  station_id next = 1;
+  station_id::rep next = 1;
   for (const auto& [leg, cars] : {std::pair{0U, 6}, {2U, 6}, {4U, 6}, {6U, 8}})
     for (int i = 0; i < cars; ++i) {
       t.riders.push_back(

@@ -257,7 +257,7 @@ TEST_CASE("a sensor sees what a slow look at all pairs sees") {
   const random_stream draw{3, "town"};
   std::vector<road_body> bodies;
   std::vector<building> buildings;
-  for (station_id i = 1; i <= 60; ++i)
+  for (station_id::rep i = 1; i <= 60; ++i)
     bodies.push_back(small_car(
         i, {draw.uniform(-120, 120, i, 0), draw.uniform(-120, 120, i, 1)},
         draw.uniform(-pi, pi, i, 2)));

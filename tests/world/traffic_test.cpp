@@ -82,7 +82,7 @@ TEST_CASE("touching bodies are those that a comparison of all pairs finds") {
   const random_stream dice{7, "heap"};
   traffic all{map};
   std::vector<road_user> users;
-  for (station_id i = 1; i <= 60; ++i) {
+  for (station_id::rep i = 1; i <= 60; ++i) {
     auto u = user(i, east, 10);
     u.body = {{dice.uniform(0, 60, i, 0), dice.uniform(0, 60, i, 1)},
               dice.uniform(0, 6, i, 2),

@@ -69,7 +69,7 @@ bool is_in_field(const sensor& s, point p) {
 
 perceived_object measure(const road_body& body, const sensor& s,
                          time_point now) {
-  const auto noise = s.noise.part(body.id);
+  const auto noise = s.noise.part(body.id.value());
   const auto when = static_cast<std::uint64_t>(now.time_since_epoch().count());
   enum measured : std::uint32_t { east, north, along, turn };
   const auto err = [&](double sd, measured what) {

@@ -56,7 +56,8 @@ void edge_perception::on_objects(const object_list& told, sender_id from) {
   doubts_.sift(told.from, told.at, steady.ids, steady.objects);
   model_.update(told.at, steady.objects);
   if (steady.eye)
-    doubts_.judge({told.from, false, from}, look_of(steady), model_.tracks());
+    doubts_.judge({told.from.value(), false, from}, look_of(steady),
+                  model_.tracks());
 }
 
 void edge_perception::on_detections(const roadside_detections& view) {

@@ -50,7 +50,7 @@ private:
 
   void on_report(const its_pdu& message, time_point now) {
     if (!etsi::decode(message.view(), word_)
-        || word_.header.station != station_)
+        || word_.header.station.value != station_)
       return;
     const auto word =
         read_word(word_, world_->where->ahead_by(message.ahead), now);

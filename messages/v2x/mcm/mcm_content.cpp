@@ -24,7 +24,7 @@ etsi::reference_position_with_confidence reference(const geo_position& at) {
 /// @returns what its waypoints refer to.
 maneuver_frame begin(etsi::mcm& message, station_id from, std::uint8_t type,
                      point at, time_point t, const georeference& where) {
-  message.header.station = from;
+  message.header.station = from.value();
   message.body.generation = etsi::to_delta_time(where.clock.timestamp(t));
   const auto place = place_maneuver(where.frame, at, t);
   message.body.parameters.basic.station_type = type;
@@ -125,7 +125,7 @@ read_word(const etsi::mcm& message, const georeference& where, time_point now) {
   if (!user || !frame)
     return std::nullopt;
   decoded_mcm word;
-  word.from = message.header.station;
+  word.from = message.header.station.value;
   word.at = frame->generated;
   word.reference = frame->reference;
   if (user->desired_route)
@@ -154,12 +154,12 @@ T& made(auto& x) {
 etsi::suggested_maneuver& suggest(etsi::mcm& message, const suggestion& what) {
   auto& to = made<etsi::suggested_maneuver_container>(
       message.body.parameters.maneuver.value);
-  to.target = what.to;
+  to.target = what.to.value();
   auto& maneuver = to.maneuver ? *to.maneuver : to.maneuver.emplace();
   maneuver.maneuver_id = what.name.maneuver;
   maneuver.advice_update_id = what.name.update;
   maneuver.participants.clear();
-  maneuver.participants.push_back(what.to);
+  maneuver.participants.push_back(what.to.value());
   return maneuver;
 }
 
@@ -218,7 +218,7 @@ plan_in(const etsi::suggested_maneuver_container* to) {
 const etsi::maneuver_constraints* suggested_to(station_id me,
                                                const etsi::mcm& message) {
   const auto* to = suggestion_in(message);
-  return to && to->target == me ? plan_in(to) : nullptr;
+  return to && me == to->target.value ? plan_in(to) : nullptr;
 }
 
 } // namespace

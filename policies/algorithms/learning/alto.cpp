@@ -68,7 +68,7 @@ std::string alto::snapshot() const {
   out.word("tasks").count(tasks_).word("providers").count(known_.size());
   for (const auto& [provider, known] : known_)
     out.line()
-        .count(provider)
+        .count(provider.value())
         .count(known.appeared)
         .count(known.results)
         .number(known.mean_delay);
@@ -85,7 +85,7 @@ std::optional<std::string> alto::restore(std::string_view snapshot) {
   read.tasks_ = in.count();
   in.expect("providers");
   for (auto left = in.count(); left > 0 && !in.failed(); --left) {
-    const auto provider = in.count(~provider_id{0});
+    const provider_id provider = in.count(~provider_id::rep{0});
     record known;
     known.appeared = in.count(read.tasks_);
     known.results = in.count();
