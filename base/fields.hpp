@@ -12,9 +12,9 @@ struct no_field_visitor {
   void operator()(std::string_view, T&) {}
 };
 
-/// A struct whose fields are listed in order, beside it, for whoever writes or
-/// reads them: CAF's inspectors (messages/protocol/inspect.hpp) and the plain
-/// bytes of payloads (messages/protocol/bytes.hpp).
+/// A struct whose fields are listed in order, directly behind it, for whoever
+/// writes or reads them: CAF's inspectors (messages/protocol/inspect.hpp) and
+/// the plain bytes of payloads (messages/protocol/bytes.hpp).
 ///
 ///     void visit_fields(auto& v, point& x) {
 ///       v("x_m", x.x_m);

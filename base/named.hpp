@@ -1,5 +1,5 @@
-// Things that are known by the name of their file: policies, services,
-// planners, channel profiles. CMake makes a table of each folder of them
+// Things that are known by the name of their file: policies, filters,
+// governors, services, planners. CMake makes a table of each folder of them
 // (cmake/sofof_table.cmake).
 #pragma once
 
@@ -24,7 +24,7 @@ auto find_named(const Table& table, std::string_view name) {
   return static_cast<decltype(&table[0].make)>(nullptr);
 }
 
-/// @returns all names, sorted.
+/// @returns all names, in the order of the table, which CMake sorts.
 template <class Table>
 std::vector<std::string_view> names_of(const Table& table) {
   std::vector<std::string_view> all;

@@ -22,14 +22,14 @@ struct policy_entry {
 using lodm_entry = policy_entry<local_policy>;
 /// Of policies/codm/NAME.cpp, which defines codm_NAME().
 using codm_entry = policy_entry<central_policy>;
-/// Of policies/filters/NAME.cpp, which defines local_filter_NAME()
+/// Of policies/filters/NAME.cpp, which defines local_filter_NAME().
 using local_filter_entry = policy_entry<local_filter>;
-/// and central_filter_NAME().
+/// Of the same file, which also defines central_filter_NAME().
 using central_filter_entry = policy_entry<central_filter>;
 /// Of policies/governors/NAME.cpp, which defines governor_NAME().
 using governor_entry = policy_entry<governor>;
 
-/// Makes what sees everything.
+/// Makes one as it is, without a filter before it.
 template <class Decider, class Whole>
 std::unique_ptr<Decider> unfiltered() {
   return std::make_unique<Whole>();

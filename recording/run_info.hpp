@@ -49,7 +49,7 @@ struct run_info {
   std::string provider; ///< The one that is all that runs here; often empty.
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
   sofof::provider_names provider_names;
-  std::vector<std::string> services; ///< Of services, in the order of reports.
+  std::vector<std::string> services; ///< Names, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
   /// Of each vehicle that is driven here.

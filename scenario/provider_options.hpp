@@ -80,7 +80,7 @@ struct provider_options {
   std::int64_t area_corners = 24;
   std::vector<point> area_m;         ///< Polygon instead of the regular area.
   double range_m = 2000;             ///< CAMs from farther away are not heard.
-  std::vector<std::string> services; ///< Offered ones; empty: all.
+  std::vector<std::string> services; ///< Their names; empty: all.
   std::vector<roadside_options> sensors; ///< `sensor` in the file.
   /// Radio that reaches it: vehicles are stalled, and fade, on one radio at the
   /// same times; providers without a name share one.

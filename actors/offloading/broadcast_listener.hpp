@@ -34,7 +34,8 @@ public:
 /// A service that listens at its provider.
 class listening_service : public offloading::provider_service {
 public:
-  /// @returns who is told, for as long as the service is there; null: nobody.
+  /// @returns who is told; null: nobody. Asked once: it is the same one for as
+  /// long as the service is there.
   virtual broadcast_listener* listener() = 0;
 };
 

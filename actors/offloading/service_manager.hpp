@@ -11,7 +11,7 @@
 
 namespace sofof {
 
-/// Service management in the vehicle, for one kind.
+/// Service management in the vehicle, for one service.
 struct requester_manager_setup {
   station_id station = 0;
   offloading::onboard_service service;

@@ -27,6 +27,7 @@ public:
     return to_caf(error_.shown(to_ours(machine_.now())));
   }
 
+  /// A period runs by the machine's clock; no actor here has one.
   caf::disposable schedule_periodically(time_point first, caf::action what,
                                         duration_type period) override {
     return machine_.schedule_periodically(to_caf(error_.meant(to_ours(first))),

@@ -47,7 +47,8 @@ public:
   option_move(std::string_view to, std::string_view file)
       : to_{to}, file_{file} {}
 
-  void apply(toml::node& what, const named_node& to,
+  /// @returns whether anything of it counts.
+  bool apply(toml::node& what, const named_node& to,
              std::string_view from) const {
     assert(to.table);
     auto* there = to.get();
@@ -56,18 +57,23 @@ public:
       what.visit(
           [&](auto& exact) { to.table->insert(to.key, std::move(exact)); });
     } else if (parts && there->is_table()) {
+      auto counts = false;
       for (auto&& [key, part] : *parts)
-        apply(part, {there->as_table(), key.str()}, key.str());
+        counts |= apply(part, {there->as_table(), key.str()}, key.str());
+      return counts;
     } else if (is_from_command_line(what) == is_from_command_line(*there)) {
       throw input_error{fmt::format(
           "{}: {} stands at its new place, {}, too: {}. Remove one of them.",
           place_of(what.source(), file_), from, to_,
           place_of(there->source(), file_))};
-    } else if (is_from_command_line(what)) {
+    } else if (!is_from_command_line(what)) {
+      return false;
+    } else {
       what.visit([&](auto& exact) {
         to.table->insert_or_assign(to.key, std::move(exact));
       });
     }
+    return true;
   }
 
 private:
@@ -77,20 +83,22 @@ private:
 
 } // namespace
 
-std::string move_option(toml::table& table, std::string_view from,
-                        std::string_view to, std::string_view file) {
+std::optional<former_place> move_option(toml::table& table,
+                                        std::string_view from,
+                                        std::string_view to,
+                                        std::string_view file) {
   assert(!from.empty() && !to.empty());
   const auto old = find_node(table, from, false);
   auto* what = old.get();
   if (!what)
     return {};
-  const auto place = place_of(what->source(), file);
+  former_place found{place_of(what->source(), file)};
   const auto target = find_node(table, to, true);
   if (!target.table)
     return {};
-  option_move{to, file}.apply(*what, target, from);
+  found.counts = option_move{to, file}.apply(*what, target, from);
   old.table->erase(old.key);
-  return place;
+  return found;
 }
 
 } // namespace sofof

@@ -56,7 +56,8 @@ public:
   /// loader still reads there, with a note, and refuses to read both.
   /// @param from  Its path in this table as it was: "network.workers".
   /// @param to    As it is. A table's options move one by one.
-  /// @returns whether a loader has found it at the former place.
+  /// @returns whether a loader has found it there and takes it: `--set` of the
+  /// new place counts for more.
   virtual bool moved([[maybe_unused]] std::string_view from,
                      [[maybe_unused]] std::string_view to) {
     return false;

@@ -164,13 +164,16 @@ bool toml_options::has(std::string_view key, bool) {
 
 bool toml_options::moved(std::string_view from, std::string_view to) {
   auto* table = node_.as_table();
-  const auto place = table ? move_option(*table, from, to, file_) : "";
-  if (place.empty())
+  const auto found =
+      table ? move_option(*table, from, to, file_) : std::nullopt;
+  if (!found)
     return false;
   notes_.push_back(
-      {place,
-       fmt::format("{} is {} now; the old place still counts.", from, to)});
-  return true;
+      {found->place,
+       fmt::format("{} is {} now; {}.", from, to,
+                   found->counts ? "the old place still counts"
+                                 : "what --set says there counts instead")});
+  return found->counts;
 }
 
 void toml_options::note(std::string_view key, const std::string& what) {

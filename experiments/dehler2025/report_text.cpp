@@ -78,7 +78,6 @@ std::string report_text::fill(const std::string& part,
     if (!used.contains(name))
       throw std::logic_error{
           fmt::format("{}: {} does not mention {}", name_, part, name)};
-  assert(used.size() == figures.size());
   return filled.append(rest);
 }
 

@@ -60,7 +60,8 @@ public:
     ok_ = ok_ && f_.field({name.data(), name.size()}, x)(f_);
   }
 
-  /// A number, finite and as its bits: CAF 0.18 breaks those next to zero.
+  /// A number, finite and as its bits: CAF 0.18 breaks those next to zero. An
+  /// optional one takes CAF's way; none crosses between hosts.
   void operator()(std::string_view name, double& x) {
     auto get = [&x] { return std::bit_cast<std::uint64_t>(x); };
     auto set = [&x](std::uint64_t bits) {

@@ -15,7 +15,7 @@ namespace sofof {
 /// What cycles of a service were like.
 struct cycle_outcome {
   time_point at;            ///< When the result came.
-  std::string_view service; ///< Of the service.
+  std::string_view service; ///< Its name.
   provider_id provider = 0; ///< Who computed it; 0: the vehicle itself.
   double latency_s = 0;     ///< Infinite when nothing came.
   bool missed = false;      ///< Later than the limit, or not at all.
@@ -26,14 +26,14 @@ struct cycle_outcome {
 /// A request that came to nothing.
 struct refusal_outcome {
   time_point at;
-  std::string_view service; ///< Of the service.
+  std::string_view service; ///< Its name.
   provider_id provider = 0;
   std::string_view why; ///< As the provider says; "no answer" if it does not.
 };
 
 /// What one whole offloading was like.
 struct episode_outcome {
-  std::string_view service; ///< Of the service.
+  std::string_view service; ///< Its name.
   provider_id provider = 0;
   double remote_s = 0;         ///< Time on the remote source.
   std::string_view end_reason; ///< One of protocol's reasons.

@@ -128,6 +128,14 @@ TEST_CASE("what [network] said of workers was not for other networks") {
   CHECK(other.more_computing == 4ms);
 }
 
+TEST_CASE("what --set says of workers is for all, whatever [network] says") {
+  const auto old =
+      example::with("[network]", "[network]\nworkers = 16", own_network);
+  const std::vector<std::string> set{"compute.workers=4"};
+  CHECK(computers(old, 0, set).workers == 4);
+  CHECK(computers(old, 1, set).workers == 4);
+}
+
 TEST_CASE("hyphens in names of channel profiles are read, with a note") {
   const auto before =
       example::load(example::text, {"network.profile=paper-sim-stalls",
