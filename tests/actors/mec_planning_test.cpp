@@ -125,8 +125,8 @@ TEST_CASE("when the authority grows, the plan goes on") {
 TEST_CASE("a suggestion counts plans, names the running service, and says how "
           "it came about") {
   informed there{"3-4-5"};
-  there.session.counter = 0x50007;
-  there.session.station = planning::station;
+  there.running.counter = 0x50007;
+  there.running.station = planning::station;
   for (std::uint16_t k = 1; k <= 3; ++k) {
     const auto result = there.run(there.word(there.ask));
     CHECK(result.about.as<plan_report>());

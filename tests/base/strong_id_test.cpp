@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <concepts>
 #include <cstdint>
