@@ -2,12 +2,15 @@
 #include "offloading/service.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <utility>
 
 namespace sofof::offloading {
 
 service_options on(const computer_options& computer, service_options options) {
+  assert(computer.clock_ghz > 0);
+  assert(options.period >= duration{0});
   if (computer.clock_ghz == usual_clock_ghz)
     return options;
   const auto slower = usual_clock_ghz / computer.clock_ghz;

@@ -24,7 +24,9 @@ time_point next_on_grid(time_point t, duration phase, duration period) {
 
 cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
                       const random_stream& noise) {
+  assert(service.own);
   const auto period = service.options.period;
+  assert(period > duration{0});
   const auto drawn = noise.part(service.name.view()).part("local phase");
   return {.session = {0, vehicle, service.name, 0},
           .function = service.own->make_function(),

@@ -61,9 +61,7 @@ provider_connection_impl::behavior_type provider_connection(
       },
       // Of its own timers, connections and attempts at one:
       [self](tick_atom) { self->state.on_tick(); },
-      [self](tick_atom, station_id::rep station) {
-        self->state.on_turn(station);
-      },
+      [self](tick_atom, station_id::rep of) { self->state.on_turn(of); },
       [self](const peer_welcome& welcome, const provider_endpoint_actor& peer) {
         if (self->state.is_from_connection())
           self->state.on_welcome(welcome, peer);
