@@ -23,6 +23,7 @@ public:
     return start;
   }
   /// For whoever keeps records; by default nobody does.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): others keep it
   virtual void record(sofof::record) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
