@@ -20,7 +20,6 @@ double interference::received_at(const player& p, double rate_bps) const {
 }
 
 double contention::rate_bps(const player& p, double received) const {
-  assert(received >= 0);
   const auto share = p.contention_weight / (p.contention_weight + received);
   return p.lone_rate_bps * share;
 }
