@@ -22,8 +22,8 @@ public:
                             std::uint64_t /*cycle*/) {
     return start;
   }
-  /// For whoever keeps records; by default nobody does.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): others keep it
+  /// Records are lost unless this is overridden.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides keep it
   virtual void record(sofof::record) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;

@@ -21,7 +21,7 @@ struct planning_input {
   driving_scene others;
 };
 
-/// The others stay with whoever has perceived them.
+/// What is known of the others is left out: it stays in the vehicle.
 void visit_fields(auto& v, planning_input& x) {
   v("at", x.at);
   v("s_m", x.s_m);

@@ -1,4 +1,4 @@
-// Filter "none", of both sides: whoever offers or asks comes into question.
+// Filter "none", of both sides: every offer and every request passes.
 #include "policies/entry.hpp"
 
 namespace sofof {
