@@ -4,6 +4,7 @@
 #include "base/strong_id.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace sofof {
 
@@ -40,6 +41,9 @@ constexpr bool is_provider_station(station_id x) {
 
 /// A provider process since its start; a restarted one has a new id.
 using provider_id = strong_id<struct provider_tag, std::uint64_t>;
+
+/// Where a service runs: at a provider, or in the vehicle itself (nullopt).
+using service_place = std::optional<provider_id>;
 
 /// @param place  Of the provider in the scenario's file, counting from 1,
 ///               < 65536.

@@ -209,8 +209,7 @@ private:
   void respond(const open_request& open,
                const std::vector<central_decision>& decisions, time_point now);
   void start(station_record& station, const session_id& session,
-             const open_request& open, const central_decision& how,
-             time_point now);
+             const open_request& open, const accepted& terms, time_point now);
 
   void end(station_record& station, session_id session, end_reason reason,
            bool tell, time_point now);

@@ -64,7 +64,7 @@ void provider::answer(std::vector<open_request> requests, time_point now) {
   for (auto& q : questions)
     for (const auto place : q.places)
       q.verdicts[place] = next == decided.end()
-                              ? central_decision{false, "not decided"}
+                              ? central_decision{refused{}, "not decided"}
                               : *next++;
   for (std::size_t k = 0; k < requests.size(); ++k)
     respond(requests[k], questions[k].verdicts, now);
@@ -87,11 +87,11 @@ provider::question provider::question_of(const open_request& open,
     const auto station = stations_.find(request.station);
     const auto* service = find(name);
     if (station == stations_.end()) {
-      all.verdicts.push_back({false, "not in the area"});
+      all.verdicts.push_back({refused{}, "not in the area"});
     } else if (!service) {
-      all.verdicts.push_back({false, "not offered here"});
+      all.verdicts.push_back({refused{}, "not offered here"});
     } else if (std::ranges::find(before, name) != before.end()) {
-      all.verdicts.push_back({false, "named twice"});
+      all.verdicts.push_back({refused{}, "named twice"});
     } else {
       // A station that asks again does not run it: its service_end was lost.
       if (const auto* session = station->second.find(name))
@@ -142,7 +142,7 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
                                         .number = ++decisions_});
   const auto most = asked.size() + running.size();
   for (auto k = asked.size(); k < std::min(decided.size(), most); ++k)
-    if (const auto& session = running[k - asked.size()]; !decided[k].accept)
+    if (const auto& session = running[k - asked.size()]; !terms_of(decided[k]))
       end(stations_.at(session.station), session, end_reason::revoked, true,
           now);
   if (decided.size() > asked.size())
@@ -159,13 +159,14 @@ void provider::respond(const open_request& open,
   service_response response{setup_.id, request.station, request.number, {}};
   for (std::size_t k = 0; k < request.services.size(); ++k) {
     const auto& decision = decisions[k];
-    verdict v{{setup_.id, request.station, request.services[k], 0},
-              decision.accept,
-              std::string{decision.why},
-              decision.instead};
-    if (v.accepted) {
+    verdict v{.session = {setup_.id, request.station, request.services[k], 0},
+              .why = std::string{decision.why}};
+    if (const auto* terms = terms_of(decision)) {
+      v.accepted = true;
       v.session.counter = ++last_session_;
-      start(stations_.at(request.station), v.session, open, decision, now);
+      start(stations_.at(request.station), v.session, open, *terms, now);
+    } else {
+      v.instead = std::get<refused>(decision.what).instead;
     }
     response.verdicts.push_back(std::move(v));
   }
@@ -174,7 +175,7 @@ void provider::respond(const open_request& open,
 }
 
 void provider::start(station_record& station, const session_id& session,
-                     const open_request& open, const central_decision& how,
+                     const open_request& open, const accepted& terms,
                      time_point now) {
   assert(session.counter != 0);
   assert(!station.find(session.service));
@@ -183,15 +184,15 @@ void provider::start(station_record& station, const session_id& session,
   const auto drawn =
       setup_.noise.part(service.name.view()).part(session.station.value());
   auto task = task_of(service);
-  task.offset = how.offset.value_or(
+  task.offset = terms.offset.value_or(
       random_phase(drawn.part("remote phase"), service.options.period));
   assert(task.offset >= duration{0} && task.offset < service.options.period);
   station.sessions.push_back(
-      {session, now, task, how.worker, open.what.candidates});
+      {session, now, task, terms.worker, open.what.candidates});
   port_.start({.session = session,
                .requester = open.from,
                .phase = task.offset,
-               .keeps_phase = how.offset.has_value()});
+               .keeps_phase = terms.offset.has_value()});
 }
 
 } // namespace sofof::offloading

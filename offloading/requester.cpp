@@ -230,17 +230,24 @@ requester::decide(service_state& service,
   };
   if (providers.empty() || (offering && !knows(*offering)))
     return {};
-  auto decision = ask_policy(service, providers, path, now);
-  if (decision.release) {
+  const auto decision = ask_policy(service, providers, path, now);
+  if (std::holds_alternative<come_home>(decision.what)) {
     leave(service, end_reason::released, now, [](provider_id) { return true; });
     return {};
   }
-  if (decision.source == 0 && decision.second != 0)
-    decision.source = service.current().value_or(0);
+  const auto second = second_of(decision);
+  const auto* there = std::get_if<run_at>(&decision.what);
   std::vector<provider_id> wanted;
-  for (const auto id : {decision.source, decision.second})
-    if (id != 0 && knows(id) && !std::ranges::count(wanted, id))
-      wanted.push_back(id);
+  const auto want = [&](service_place place) {
+    if (place && knows(*place) && !std::ranges::count(wanted, *place))
+      wanted.push_back(*place);
+  };
+  if (there)
+    want(there->provider);
+  else if (second)
+    want(service.current());
+  if (second)
+    want(second->provider);
   if (wanted.empty()) {
     if (service.sessions.empty() && offering)
       log(event_type::stay_local,
@@ -250,7 +257,7 @@ requester::decide(service_state& service,
   }
   assert(wanted.size() <= 2);
   service.wanted = wanted;
-  set_standby(service, wanted.size() > 1 ? decision.hedge_after : duration{0});
+  set_standby(service, wanted.size() > 1 ? second->hedge_after : duration{0});
   std::erase_if(wanted, [&](provider_id id) { return service.find(id); });
   if (wanted.empty())
     leave_unwanted(service, now);
@@ -270,7 +277,7 @@ local_decision requester::ask_policy(const service_state& service,
                                 .speed_mps = ego_.own.speed_mps,
                                 .noise = setup_.noise.part("decisions"),
                                 .number = ++decisions_,
-                                .current = service.current().value_or(0),
+                                .current = service.current(),
                                 .since = service.since,
                                 .needs = service.needs,
                                 .on_board = service.on_board,

@@ -48,8 +48,7 @@ void requester::on_response(const service_response& response, time_point now) {
     if (open && v.accepted)
       accept(*service, *session, v, now);
     else if (open)
-      refuse(*service, response.provider, v.why,
-             v.instead != 0 ? std::optional{v.instead} : std::nullopt, now);
+      refuse(*service, response.provider, v.why, v.instead, now);
     else if (v.accepted && !find(v.session)) // not just a duplicate
       send_end({v.session, end_reason::no_data, side::requester});
   }
@@ -127,7 +126,7 @@ void requester::on_result(const service_result& result, time_point now) {
   setup_.policy->observe(
       cycle_outcome{.at = now,
                     .service = service.service.name.view(),
-                    .provider = provider,
+                    .computed_at = provider,
                     .latency_s = to_seconds(latency),
                     .missed = latency > service.needs.max_latency,
                     .energy_j = service.offloaded.energy_j});
@@ -201,7 +200,7 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
     setup_.policy->observe(
         cycle_outcome{.at = now,
                       .service = session.service.view(),
-                      .provider = session.provider,
+                      .computed_at = session.provider,
                       .latency_s = std::numeric_limits<double>::infinity(),
                       .missed = true,
                       .energy_j = service.offloaded.energy_j});

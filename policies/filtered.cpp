@@ -41,8 +41,8 @@ local_decision filtered_lodm::decide(const local_context& context) {
     else if (objection.empty())
       objection = why;
   }
-  if (left.empty() && context.current == 0)
-    return {0, objection.empty() ? "nobody offers it" : objection};
+  if (left.empty() && !context.current)
+    return as_it_is(objection.empty() ? "nobody offers it" : objection);
   auto rest = context;
   rest.here = where_it_runs(context);
   rest.providers = left;
@@ -63,7 +63,7 @@ filtered_codm::decide(const central_context& context) {
   std::vector<central_decision> all;
   std::vector<request_view> left;
   for (const auto& request : context.requests) {
-    all.push_back({false, filter_->objection(context, request)});
+    all.push_back({refused{}, filter_->objection(context, request)});
     if (all.back().why.empty())
       left.push_back(request);
   }
@@ -73,8 +73,9 @@ filtered_codm::decide(const central_context& context) {
   auto next = chosen.begin();
   for (auto& decision : all)
     if (decision.why.empty())
-      decision = next == chosen.end() ? central_decision{false, "not decided"}
-                                      : *next++;
+      decision = next == chosen.end()
+                     ? central_decision{refused{}, "not decided"}
+                     : *next++;
   all.insert(all.end(), next, chosen.end()); // of sessions
   return all;
 }

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -67,6 +68,18 @@ public:
     auto set = [&x](std::uint64_t bits) {
       x = std::bit_cast<double>(bits);
       return std::isfinite(x);
+    };
+    ok_ = ok_ && f_.field({name.data(), name.size()}, get, set)(f_);
+  }
+
+  /// An id that may be missing, as its number: no provider has the number 0.
+  template <class Tag, class Rep>
+  void operator()(std::string_view name,
+                  std::optional<strong_id<Tag, Rep>>& x) {
+    auto get = [&x] { return x ? x->value() : Rep{0}; };
+    auto set = [&x](Rep value) {
+      x = value == 0 ? std::nullopt : std::optional<strong_id<Tag, Rep>>{value};
+      return true;
     };
     ok_ = ok_ && f_.field({name.data(), name.size()}, get, set)(f_);
   }

@@ -108,8 +108,8 @@ void visit_fields(auto& v, service_request& x) {
 struct verdict {
   session_id session; ///< Counter 0 when refused.
   bool accepted = false;
-  std::string why;         ///< Short; for records.
-  provider_id instead = 0; ///< If refused: who should be asked; 0: nobody.
+  std::string why;                      ///< Short; for records.
+  std::optional<provider_id> instead{}; ///< If refused: who should be asked.
 };
 
 void visit_fields(auto& v, verdict& x) {

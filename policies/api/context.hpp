@@ -1,10 +1,11 @@
-// What the deciders see, and what they say.
+// What the deciders see.
 #pragma once
 
 #include "base/candidate.hpp"
 #include "base/geometry.hpp"
 #include "base/ids.hpp"
 #include "base/random.hpp"
+#include "policies/api/decision.hpp"
 #include "policies/api/gain.hpp"
 #include "policies/api/periodic_task.hpp"
 #include "policies/api/policy.hpp"
@@ -79,7 +80,7 @@ struct local_context {
   random_stream noise{0, ""}; ///< Of this vehicle's decisions.
   std::uint64_t number = 0;   ///< Of this decision: the counter of `noise`.
 
-  provider_id current = 0; ///< Where it runs; 0: in the vehicle itself.
+  service_place current{}; ///< Where it runs.
   time_point since{};      ///< When it came there.
   service_needs needs{};
   cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
@@ -93,39 +94,12 @@ struct local_context {
 /// @returns what is known of where the service runs, whatever a filter says of
 /// it; null when it runs in the vehicle.
 inline const provider_view* where_it_runs(const local_context& context) {
-  if (context.here || context.current == 0)
+  if (context.here || !context.current)
     return context.here;
   const auto& all = context.providers;
   const auto found =
-      std::ranges::find(all, context.current, &provider_view::id);
+      std::ranges::find(all, *context.current, &provider_view::id);
   return found == all.end() ? nullptr : &*found;
-}
-
-struct local_decision {
-  /// The provider that shall run it; 0: it stays where it is. Where it runs
-  /// already it goes on until it has come to the new one (hand-over).
-  provider_id source = 0;
-  std::string_view why; ///< A short literal, for the records.
-  /// Another one that shall run it at the same time; 0: none. Of each cycle the
-  /// first result is used.
-  provider_id second = 0;
-  bool release = false; ///< It shall come home, and nobody is asked.
-  double advantage = 1; ///< Over where it runs: a normalised gain, if known.
-  /// The second one plans only cycles that the first has not answered for so
-  /// long after they began (a hedge); 0: all.
-  duration hedge_after{};
-};
-
-/// @returns a decision to leave all as it is.
-constexpr local_decision as_it_is(std::string_view why) {
-  return {0, why};
-}
-
-/// @param place  A provider; 0: the vehicle itself.
-/// @returns a decision to have the service there, and nowhere else.
-constexpr local_decision at_place(const local_context& context,
-                                  provider_id place, std::string_view why) {
-  return {place, why, 0, place == 0 && context.current != 0};
 }
 
 /// One service that a vehicle asks for.
@@ -149,7 +123,7 @@ struct session_view {
   std::string_view service;
   time_point since;
   periodic_task task;     ///< With the offset that was assigned, or drawn.
-  std::size_t worker = 0; ///< As `central_decision` has it.
+  std::size_t worker = 0; ///< As `accepted` has it.
   double utilisation = 0; ///< What it adds to that of the provider.
   std::span<const candidate> candidates{}; ///< As the vehicle asked for it.
 };
@@ -166,16 +140,6 @@ struct central_context {
   provider_id self = 0;       ///< The provider.
   random_stream noise{0, ""}; ///< Of its decisions.
   std::uint64_t number = 0;   ///< Of this one: the counter of `noise`.
-};
-
-struct central_decision {
-  bool accept = false;
-  std::string_view why;   ///< A short literal, for the records.
-  std::size_t worker = 0; ///< That it counts on.
-  /// When in the period its cycles begin; drawn if nobody assigns it.
-  std::optional<duration> offset{};
-  /// If it does not accept: who should be asked instead; 0: nobody.
-  provider_id instead = 0;
 };
 
 /// LODM: local offloading decision making, in the vehicle.

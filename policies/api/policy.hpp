@@ -14,13 +14,13 @@ namespace sofof {
 
 /// What cycles of a service were like.
 struct cycle_outcome {
-  time_point at;            ///< When the result came.
-  std::string_view service; ///< Its name.
-  provider_id provider = 0; ///< Who computed it; 0: the vehicle itself.
-  double latency_s = 0;     ///< Infinite when nothing came.
-  bool missed = false;      ///< Later than the limit, or not at all.
-  double energy_j = 0;      ///< Of the vehicle, for each of them.
-  double cycles = 1;        ///< How many it stands for, > 0.
+  time_point at;             ///< When the result came.
+  std::string_view service;  ///< Its name.
+  service_place computed_at; ///< Where its results came from.
+  double latency_s = 0;      ///< Infinite when nothing came.
+  bool missed = false;       ///< Later than the limit, or not at all.
+  double energy_j = 0;       ///< Of the vehicle, for each of them.
+  double cycles = 1;         ///< How many it stands for, > 0.
 };
 
 /// A request that came to nothing.

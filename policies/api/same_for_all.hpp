@@ -4,6 +4,7 @@
 #include "policies/api/context.hpp"
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace sofof {
@@ -14,8 +15,9 @@ class same_for_all final : public central_policy {
 public:
   std::vector<central_decision>
   decide(const central_context& context) override {
+    using verdict = std::conditional_t<yes, accepted, refused>;
     return std::vector<central_decision>(context.requests.size(),
-                                         {yes, name()});
+                                         {verdict{}, name()});
   }
   std::string_view name() const override { return yes ? "always" : "never"; }
   std::unique_ptr<central_policy> clone() const override {

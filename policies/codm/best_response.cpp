@@ -44,10 +44,11 @@ private:
   std::string model_ = "contention";
 };
 
-/// @returns where a request would win most, and still finds room; 0: nowhere.
-provider_id best_other(const request_view& request,
-                       std::span<const other_provider> others) {
-  provider_id best = 0;
+/// @returns where a request would win most, and still finds room; nullopt:
+/// nowhere.
+std::optional<provider_id> best_other(const request_view& request,
+                                      std::span<const other_provider> others) {
+  std::optional<provider_id> best;
   double most = 0;
   for (const auto& other : others) {
     const auto gain = told_gain(request.candidates, other.id).value_or(0);
@@ -69,14 +70,12 @@ equilibrium::decide(const central_context& context) {
   for (const auto c : choices) {
     const auto asks = all.size() < context.requests.size();
     if (c != game::locally)
-      all.push_back({true, "it pays", c - 1});
+      all.push_back({accepted{.worker = c - 1}, "it pays"});
     else if (asks)
-      all.push_back(
-          {.accept = false,
-           .why = "too crowded",
-           .instead = best_other(context.requests[all.size()], others)});
+      all.push_back({refused{best_other(context.requests[all.size()], others)},
+                     "too crowded"});
     else
-      all.push_back({false, "crowded out"});
+      all.push_back({refused{}, "crowded out"});
   }
   return all;
 }

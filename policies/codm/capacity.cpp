@@ -17,7 +17,8 @@ public:
       const auto fits = used + request.utilisation <= most_;
       if (fits)
         used += request.utilisation;
-      all.push_back({fits, fits ? "there is room" : "no room"});
+      all.push_back(fits ? central_decision{accepted{}, "there is room"}
+                         : central_decision{refused{}, "no room"});
     }
     return all;
   }

@@ -35,7 +35,7 @@ public:
     auto all =
         decisions_of(context, asked, flow ? *flow : branch_and_bound(p).best);
     for (vehicle = 0; vehicle < p.vehicles(); ++vehicle)
-      if (!all[vehicle].accept && p.gains(vehicle, 0) <= 0)
+      if (!terms_of(all[vehicle]) && p.gains(vehicle, 0) <= 0)
         all[vehicle].why = "late too often";
     std::erase_if(services_, [&](const auto& known) {
       return known.second.told < context.now && known.second.debt <= 0;

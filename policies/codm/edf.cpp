@@ -71,19 +71,20 @@ std::vector<central_decision> edf::decide(const central_context& context) {
     const auto test = test_of(test_);
     if (test == admission_test::phases
         && task.period + task.deadline > protocol::start_timeout) {
-      all.push_back({false, "its first result would come too late"});
+      all.push_back({refused{}, "its first result would come too late"});
       continue;
     }
     const auto place = worst_fit(workers, task, test);
     if (!place) {
-      all.push_back({false, "no worker keeps all deadlines"});
+      all.push_back({refused{}, "no worker keeps all deadlines"});
       continue;
     }
     task.offset = place->offset;
     workers[place->core].push_back(task);
-    all.push_back({true, "all deadlines are kept", place->core});
+    accepted terms{.worker = place->core};
     if (test == admission_test::phases)
-      all.back().offset = place->offset;
+      terms.offset = place->offset;
+    all.push_back({terms, "all deadlines are kept"});
   }
   return all;
 }

@@ -15,8 +15,9 @@ public:
     std::vector<central_decision> all;
     for (const auto& request : context.requests) {
       const auto why = stays_.objection(context, request);
-      all.push_back(why.empty() ? central_decision{true, "t_in_area >= t_min"}
-                                : central_decision{false, why});
+      all.push_back(why.empty()
+                        ? central_decision{accepted{}, "t_in_area >= t_min"}
+                        : central_decision{refused{}, why});
     }
     return all;
   }

@@ -37,20 +37,17 @@ local_decision hysteresis_governor::govern(const local_context& context,
     i = services_.emplace(context.service, hysteresis{options_}).first;
   auto& service = i->second;
   service.is_at(context.current, context.since);
-  if (wanted.release) {
-    service.next({hysteresis::local, 0, true}, context.now);
+  if (std::holds_alternative<come_home>(wanted.what)) {
+    service.next({.must_fall_back = true}, context.now);
     return wanted;
   }
-  const auto source = wanted.source != 0 ? wanted.source : context.current;
-  const auto next = service.next({source, wanted.advantage}, context.now);
-  if (next == source)
+  hysteresis::wish wish{.source = context.current, .advantage = 1};
+  if (const auto* there = std::get_if<run_at>(&wanted.what))
+    wish = {.source = there->provider, .advantage = there->advantage};
+  if (service.next(wish, context.now) == wish.source)
     return wanted;
   auto decision = as_it_is("not for long enough");
-  if (context.current != 0) { // else it would be the first
-    decision.second = wanted.second;
-    decision.hedge_after = wanted.hedge_after;
-  }
-  return decision;
+  return context.current ? with_second(decision, second_of(wanted)) : decision;
 }
 
 void hysteresis_governor::visit_options(option_visitor& s) {

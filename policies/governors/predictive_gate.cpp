@@ -3,9 +3,11 @@
 
 #include "policies/entry.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sofof {
 
@@ -46,29 +48,34 @@ bool predictive_gate_governor::open(const local_context& context,
 
 local_decision predictive_gate_governor::govern(const local_context& context,
                                                 const local_decision& wanted) {
-  auto decision = wanted;
-  auto ends = false;                               // where it runs
+  auto ends = false; // where it runs
+  std::vector<provider_id> closed;
   for (const auto& provider : context.providers) { // all gates look on
     if (open(context, provider))
       continue;
-    const auto is_known = provider.link.median.has_value();
-    ends = ends || (provider.id == context.current && is_known);
-    if (provider.id == decision.second)
-      decision.second = 0;
-    if (provider.id == decision.source && provider.id != context.current)
-      decision.source = 0;
+    closed.push_back(provider.id);
+    ends = ends || (provider.id == context.current && provider.link.median);
   }
-  const auto stays = decision.source == 0 || decision.source == context.current;
-  if (stays && ends && decision.second == 0) {
-    decision = as_it_is(late_results);
-    decision.release = true;
-  } else if (stays && ends) { // the other one is fine
-    decision.source = decision.second;
-    decision.second = 0;
-  } else if (decision.source != wanted.source) {
-    decision.why = late_results;
-  }
-  return decision;
+  const auto is_closed = [&](provider_id id) {
+    return std::ranges::find(closed, id) != closed.end();
+  };
+  if (std::holds_alternative<come_home>(wanted.what))
+    return wanted;
+  auto second = second_of(wanted);
+  if (second && is_closed(second->provider))
+    second.reset();
+  const auto* there = std::get_if<run_at>(&wanted.what);
+  const auto moves = there && there->provider != context.current;
+  if (moves && !is_closed(there->provider))
+    return with_second(wanted, second);
+  if (ends && !second)
+    return {come_home{}, late_results};
+  if (second && (ends || !context.current)) // the other one is fine
+    return {run_at{.provider = second->provider,
+                   .advantage = there ? there->advantage : 1},
+            wanted.why};
+  return moves ? with_second(as_it_is(late_results), second)
+               : with_second(wanted, second);
 }
 
 void predictive_gate_governor::visit_options(option_visitor& s) {

@@ -29,10 +29,12 @@ private:
 
 local_decision redundancy_governor::govern(const local_context& context,
                                            const local_decision& wanted) {
-  auto decision = wanted;
-  const auto first = wanted.source != 0 ? wanted.source : context.current;
-  if (wanted.release || first == 0)
-    return decision;
+  if (std::holds_alternative<come_home>(wanted.what))
+    return wanted;
+  const auto* there = std::get_if<run_at>(&wanted.what);
+  const auto first = there ? there->provider : context.current;
+  if (!first)
+    return wanted;
   const provider_view* best = nullptr;
   bool is_enough = false;
   for (const auto& other : context.providers) {
@@ -41,13 +43,10 @@ local_decision redundancy_governor::govern(const local_context& context,
     else if (!best || other.link.late < best->link.late)
       best = &other;
   }
-  if (best && !is_enough) {
-    decision.second = best->id;
-    decision.hedge_after = hedge_after_;
-  } else {
-    decision.source = first; // alone: a second one ends
-  }
-  return decision;
+  if (best && !is_enough)
+    return with_second(wanted, second_provider{best->id, hedge_after_});
+  return there ? wanted // alone: a second one ends
+               : local_decision{run_at{*first, second_of(wanted)}, wanted.why};
 }
 
 void redundancy_governor::visit_options(option_visitor& s) {

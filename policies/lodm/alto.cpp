@@ -5,6 +5,7 @@
 #include "policies/entry.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sofof {
 
@@ -18,20 +19,21 @@ public:
       : bandit_{options}, task_bits_{task_bits},
         worst_s_{options.worst_delay_s_per_bit * task_bits} {}
 
-  std::optional<provider_id> choose(const local_context& context) override {
+  std::optional<service_place> choose(const local_context& context) override {
     std::vector<provider_id> present;
     for (const auto& provider : context.providers)
       present.push_back(provider.id);
     return bandit_.choose(task_bits_, present);
   }
   std::optional<double> value(const cycle_outcome& outcome,
-                              provider_id place) const override {
-    if (outcome.provider != place)
+                              service_place place) const override {
+    if (outcome.computed_at != place)
       return std::nullopt;
     return std::min(outcome.latency_s, worst_s_); // what is lost as well
   }
-  void learn(provider_id place, std::optional<double> mean) override {
-    bandit_.learn(place, task_bits_, mean.value_or(worst_s_));
+  void learn(service_place place, std::optional<double> mean) override {
+    assert(place); // there is no arm for the vehicle
+    bandit_.learn(*place, task_bits_, mean.value_or(worst_s_));
   }
   std::string snapshot() const override { return bandit_.snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {

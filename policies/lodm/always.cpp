@@ -9,7 +9,8 @@ class always final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
-    return {all.empty() ? provider_id{0} : all.front().id, name()};
+    return all.empty() ? as_it_is(name())
+                       : local_decision{run_at{all.front().id}, name()};
   }
   std::string_view name() const override { return "always"; }
   std::unique_ptr<local_policy> clone() const override {

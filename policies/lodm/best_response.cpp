@@ -22,21 +22,22 @@ public:
     const auto kept = here ? cost_at(*here, context) : at_home;
     auto best = context.current;
     auto least = kept - margin_;
-    const auto consider = [&](provider_id place, double cost) {
+    const auto consider = [&](service_place place, double cost) {
       if (place == context.current || !(cost < least))
         return;
       best = place;
       least = cost;
     };
-    consider(0, at_home);
+    consider(std::nullopt, at_home);
     for (const auto& provider : context.providers)
       consider(provider.id, cost_at(provider, context));
     if (best == context.current)
-      return at_place(context, best, "no better response");
+      return at_place(context.current, best, "no better response");
     if (context.noise.uniform(context.number) > probability_)
-      return at_place(context, context.current, "lost the lottery");
-    auto decision = at_place(context, best, "the best response");
-    decision.advantage = kept - least;
+      return at_place(context.current, context.current, "lost the lottery");
+    auto decision = at_place(context.current, best, "the best response");
+    if (auto* there = std::get_if<run_at>(&decision.what))
+      there->advantage = kept - least;
     return decision;
   }
   void visit_options(option_visitor& s) override {

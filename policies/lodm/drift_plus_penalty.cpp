@@ -21,13 +21,13 @@ public:
     choices_.clear();
     if (const auto* here = where_it_runs(context))
       add(*here);
-    places_.push_back(0);
+    places_.push_back(std::nullopt);
     choices_.push_back({context.on_board.energy_j, 0});
     for (const auto& provider : context.providers)
       if (provider.id != context.current)
         add(provider);
     const auto place = places_[of(context.service).core.choose(choices_)];
-    return at_place(context, place, "the least price");
+    return at_place(context.current, place, "the least price");
   }
 
   void observe(const cycle_outcome& outcome) override {
@@ -75,7 +75,7 @@ private:
   double energy_budget_j_ = 0; // 0: there is none
   double epoch_s_ = 0.1;
   std::map<std::string, service, std::less<>> services_;
-  std::vector<provider_id> places_; // of the choices
+  std::vector<service_place> places_; // of the choices
   std::vector<planning_option> choices_;
 };
 

@@ -24,13 +24,12 @@ public:
         most = won;
       }
     if (is_gone && !best)
-      return at_place(context, 0, "the gain has gone");
+      return at_place(context.current, std::nullopt, "the gain has gone");
     if (!best)
-      return at_place(context, context.current,
+      return at_place(context.current, context.current,
                       here ? "the gain goes on" : "too little is gained");
-    auto decision = at_place(context, best->id, "the greatest gain");
-    decision.advantage = most - kept;
-    return decision;
+    return {run_at{.provider = best->id, .advantage = most - kept},
+            "the greatest gain"};
   }
   void visit_options(option_visitor& s) override {
     s.field("margin", margin_, {0, 1e3});

@@ -12,14 +12,14 @@ class least_loaded final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
-    if (context.current != 0)
+    if (context.current)
       return as_it_is("it runs already");
     if (all.empty())
-      return {0, "nobody comes into question"};
+      return as_it_is("nobody comes into question");
     const auto& best = better_of_two(context);
     if (!(best.utilisation < most_)) // nor what is no number
-      return {0, "no room"};
-    return {best.id, "the less loaded of two"};
+      return as_it_is("no room");
+    return {run_at{best.id}, "the less loaded of two"};
   }
   void visit_options(option_visitor& s) override {
     s.field("most", most_, {0, 1e3});

@@ -16,11 +16,11 @@ public:
     for (const auto& provider : context.providers) {
       const auto why = near_.objection(context, provider);
       if (why.empty())
-        return {provider.id, "d_passed > d_min"};
+        return {run_at{provider.id}, "d_passed > d_min"};
       if (objection.empty())
         objection = why;
     }
-    return {0, objection.empty() ? "nobody offers it" : objection};
+    return as_it_is(objection.empty() ? "nobody offers it" : objection);
   }
   void visit_options(option_visitor& s) override { near_.visit_options(s); }
   std::string_view name() const override { return "location"; }

@@ -11,13 +11,13 @@ class nearest final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     if (context.providers.empty() || context.path.empty())
-      return {0, "nobody comes into question"};
+      return as_it_is("nobody comes into question");
     const auto here = context.path.front();
     const auto best =
         std::ranges::min_element(context.providers, {}, [here](const auto& p) {
           return distance_m(p.at, here);
         });
-    return {best->id, "the nearest"};
+    return {run_at{best->id}, "the nearest"};
   }
   std::string_view name() const override { return "nearest"; }
   std::unique_ptr<local_policy> clone() const override {

@@ -7,7 +7,9 @@ namespace {
 
 class never final : public local_policy {
 public:
-  local_decision decide(const local_context&) override { return {0, name()}; }
+  local_decision decide(const local_context&) override {
+    return as_it_is(name());
+  }
   std::string_view name() const override { return "never"; }
   std::unique_ptr<local_policy> clone() const override {
     return std::make_unique<never>(*this);

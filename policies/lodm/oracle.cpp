@@ -15,7 +15,7 @@ class oracle final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     if (!context.future)
-      return at_place(context, context.current, "no foresight here");
+      return at_place(context.current, context.current, "no foresight here");
     const auto* here = where_it_runs(context);
     const auto stay = here ? prospect_of(context, *here) : prospect{};
     const auto next = context.now + from_seconds(epoch_s_);
@@ -31,14 +31,14 @@ public:
           most = there.gain;
         }
     if (best)
-      return at_place(context, best->id, "the best to come");
+      return at_place(context.current, best->id, "the best to come");
     if (!here)
       return as_it_is("nothing good is to come");
     if (stay.until <= next)
-      return at_place(context, 0, "the next will be late");
+      return at_place(context.current, std::nullopt, "the next will be late");
     if (!(stay.gain >= 0)) // nor what is no number
-      return at_place(context, 0, "the gain has gone");
-    return at_place(context, context.current, "nothing is late yet");
+      return at_place(context.current, std::nullopt, "the gain has gone");
+    return at_place(context.current, context.current, "nothing is late yet");
   }
   void visit_options(option_visitor& s) override {
     s.field("lookahead", lookahead_, duration{0});

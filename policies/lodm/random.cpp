@@ -11,14 +11,15 @@ class random_choice final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
     const auto& all = context.providers;
-    if (context.current != 0)
+    if (context.current)
       return as_it_is("it runs already");
     if (all.empty())
-      return {0, "nobody comes into question"};
+      return as_it_is("nobody comes into question");
     constexpr std::uint32_t whether = 0, whom = 1;
     if (context.noise.uniform(context.number, whether) > probability_)
-      return {0, "drawn: no"};
-    return {all[drawn_place(context, whom, all.size())].id, "drawn: yes"};
+      return as_it_is("drawn: no");
+    const auto& drawn = all[drawn_place(context, whom, all.size())];
+    return {run_at{drawn.id}, "drawn: yes"};
   }
   void visit_options(option_visitor& s) override {
     s.field("probability", probability_, {0, 1});

@@ -21,7 +21,7 @@ class places final : public bandit {
 public:
   explicit places(const cost_weights& weights) : weights_{weights} {}
 
-  std::optional<provider_id> choose(const local_context& context) override {
+  std::optional<service_place> choose(const local_context& context) override {
     needs_ = context.needs;
     reference_j_ = context.on_board.energy_j;
     action_set allowed{1}; // on board
@@ -32,14 +32,14 @@ public:
     return chosen ? std::optional{known_[*chosen]} : std::nullopt;
   }
   std::optional<double> value(const cycle_outcome& outcome,
-                              provider_id) const override {
+                              service_place) const override {
     const auto cost =
         weighed({outcome.latency_s, outcome.energy_j}, outcome.missed ? 1 : 0,
                 needs_, reference_j_, weights_);
     return cost < 1 ? 1 - cost : 0; // also when it is no number
   }
-  void learn(provider_id place, std::optional<double> mean) override {
-    if (place == 0 && !mean)
+  void learn(service_place place, std::optional<double> mean) override {
+    if (!place && !mean)
       return;
     if (const auto arm = arm_of(place); arm < most_arms)
       bandit_.learn(arm, mean.value_or(0));
@@ -49,7 +49,7 @@ public:
     state_writer out{"places", 1};
     out.word("providers").count(known_.size() - 1);
     for (std::size_t k = 1; k < known_.size(); ++k)
-      out.count(known_[k].value());
+      out.count(known_[k]->value());
     return out.text() + bandit_.snapshot();
   }
   std::optional<std::string> restore(std::string_view text) override;
@@ -58,7 +58,7 @@ public:
   }
 
 private:
-  std::size_t arm_of(provider_id place) {
+  std::size_t arm_of(service_place place) {
     const auto found = std::ranges::find(known_, place);
     const auto arm = static_cast<std::size_t>(found - known_.begin());
     if (arm == known_.size() && arm < most_arms)
@@ -69,7 +69,7 @@ private:
   cost_weights weights_;
   service_needs needs_;
   double reference_j_ = 0;
-  std::vector<provider_id> known_{0}; // by arm
+  std::vector<service_place> known_{std::nullopt}; // by arm
   ucb1 bandit_{most_arms};
 };
 
@@ -78,7 +78,8 @@ std::optional<std::string> places::restore(std::string_view text) {
   in.expect("providers");
   places read{weights_};
   for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left)
-    if (read.arm_of(in.count(~provider_id::rep{0})) + 1 != read.known_.size())
+    if (read.arm_of(provider_id{in.count(~provider_id::rep{0})}) + 1
+        != read.known_.size())
       in.refuse("expected each provider once.");
   const auto rest = in.after_end();
   if (in.failed())

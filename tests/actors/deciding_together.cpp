@@ -208,9 +208,9 @@ TEST_CASE_FIXTURE(provider_world, "a refusal names who should be asked "
   hear(inside);
   ask(make_request({one, two, "unheard_of"}));
   REQUIRE(verdicts().size() == 3);
-  CHECK(verdicts()[0].instead == 0);
+  CHECK(!verdicts()[0].instead);
   CHECK(verdicts()[1].instead == 22);
-  CHECK(verdicts()[2].instead == 0);
+  CHECK(!verdicts()[2].instead);
 }
 
 TEST_CASE_FIXTURE(provider_world, "offers tell workers, the mean computing "

@@ -504,7 +504,7 @@ TEST_CASE_FIXTURE(requester_world, "an implausible result is a bad outcome to "
   lie(*this, at_here(one, 7));
   const auto& cycles = lodm->cycles;
   REQUIRE(!cycles.empty());
-  CHECK(cycles.back().provider == here);
+  CHECK(cycles.back().computed_at == here);
   CHECK(cycles.back().missed);
   REQUIRE(!lodm->episodes.empty());
   CHECK(lodm->episodes.back().end_reason == "implausible");

@@ -149,7 +149,7 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(lodm->asked.empty()); // nobody to choose from
   // Two services, each of five cycles an epoch on board.
   REQUIRE(lodm->cycles.size() == 8);
-  CHECK(lodm->cycles.front().provider == 0);
+  CHECK(lodm->cycles.front().computed_at == std::nullopt);
   CHECK(lodm->cycles.front().cycles == doctest::Approx(5));
 }
 

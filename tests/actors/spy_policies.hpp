@@ -21,13 +21,13 @@ struct lodm_script {
     std::vector<point> path;
     double speed_mps = 0;
     std::vector<provider_view> providers;
-    provider_id current = 0;
+    service_place current{};
     time_point since;
   };
   std::vector<question> asked;
   std::set<std::string, std::less<>> wanted{"one", "two"};
-  provider_id preferred = 0; ///< Whom it shall ask; 0: who stands first.
-  provider_id second = 0;
+  service_place preferred{}; ///< Whom it shall ask; else who stands first.
+  service_place second{};
   duration hedge_after{};
   bool release = false;
   double epoch_s = 0;
@@ -51,14 +51,13 @@ public:
                               c.current,
                               c.since});
     if (!script_->wanted.contains(c.service))
-      return {0, "as told"};
-    return {script_->preferred != 0 ? script_->preferred
-                                    : c.providers.front().id,
-            "as told",
-            script_->second,
-            script_->release,
-            1,
-            script_->hedge_after};
+      return as_it_is("as told");
+    if (script_->release)
+      return {come_home{}, "as told"};
+    run_at there{script_->preferred.value_or(c.providers.front().id)};
+    if (script_->second)
+      there.second = {*script_->second, script_->hedge_after};
+    return {there, "as told"};
   }
   void observe(const cycle_outcome& x) override {
     script_->cycles.push_back(x);
@@ -100,10 +99,10 @@ struct codm_script {
   std::vector<candidate> served;      ///< Told of its first session.
   std::vector<candidate> candidates;  ///< Of its first request.
   std::set<std::string, std::less<>> accepted{"one", "two"};
-  std::size_t worker = 0;         ///< Assigned to all.
-  std::optional<duration> offset; ///< Likewise.
-  provider_id instead = 0;        ///< Told to all who are refused.
-  double epoch_s = 0;             ///< Read when a provider begins.
+  std::size_t worker = 0;               ///< Assigned to all.
+  std::optional<duration> offset;       ///< Likewise.
+  std::optional<provider_id> instead{}; ///< Told to all who are refused.
+  double epoch_s = 0;                   ///< Read when a provider begins.
   /// If there are any, it decides about sessions too: those go.
   std::set<std::string, std::less<>> revoked{};
   std::optional<std::size_t> at_most; ///< Decisions that it makes.
@@ -137,13 +136,16 @@ public:
     script_->asked.push_back(std::move(q));
     std::vector<central_decision> all;
     for (const auto& request : c.requests) {
-      const auto yes = script_->accepted.contains(request.service);
-      all.push_back({yes, "as told", script_->worker, script_->offset,
-                     yes ? 0 : script_->instead});
+      if (script_->accepted.contains(request.service))
+        all.push_back({accepted{script_->worker, script_->offset}, "as told"});
+      else
+        all.push_back({refused{script_->instead}, "as told"});
     }
     if (!script_->revoked.empty())
       for (const auto& s : c.sessions)
-        all.push_back({!script_->revoked.contains(s.service), "as told"});
+        all.push_back(script_->revoked.contains(s.service)
+                          ? central_decision{refused{}, "as told"}
+                          : central_decision{accepted{}, "as told"});
     if (script_->at_most && all.size() > *script_->at_most)
       all.resize(*script_->at_most);
     return all;

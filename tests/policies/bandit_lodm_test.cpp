@@ -8,14 +8,17 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::after;
+using test::goes_to;
 using test::make_lodm_with;
+using test::on_board;
 using test::roadside;
 
 namespace {
 
 /// A vehicle that follows what a bandit says, at once.
 struct follower : roadside {
-  std::map<provider_id, int> seconds; ///< Where it planned.
+  std::map<service_place, int> seconds; ///< Where it planned.
 
   /// Latencies of each provider; those above 50 ms are missed.
   std::map<provider_id, double> latency_s;
@@ -23,15 +26,13 @@ struct follower : roadside {
   void drive(local_policy& lodm, int for_s) {
     for (int k = 0; k < for_s; ++k) {
       const auto decision = ask(lodm);
-      const auto to = decision.release       ? 0
-                      : decision.source == 0 ? seen.current
-                                             : decision.source;
+      const auto to = after(decision, seen.current);
       if (to != seen.current)
         runs_at(to);
       ++seconds[seen.current];
       auto one = cycle(false, 20);
-      if (seen.current != 0)
-        one.latency_s = latency_s.at(seen.current);
+      if (seen.current)
+        one.latency_s = latency_s.at(*seen.current);
       one.missed = one.latency_s > 0.05;
       lodm.observe(one);
       pass(1s);
@@ -48,12 +49,12 @@ TEST_CASE_FIXTURE(follower,
   add(1);
   add(2);
   latency_s = {{1, 0.02}, {2, 0.02}};
-  std::vector<provider_id> way;
+  std::vector<service_place> way;
   for (int k = 0; k < 6; ++k) {
     drive(*lodm, 1);
     way.push_back(seen.current);
   }
-  CHECK(way == std::vector<provider_id>{0, 0, 1, 1, 2, 2});
+  CHECK(way == std::vector<service_place>{on_board, on_board, 1, 1, 2, 2});
 }
 
 TEST_CASE_FIXTURE(follower, "UCB1 is most where a cycle costs least, on board "
@@ -63,13 +64,13 @@ TEST_CASE_FIXTURE(follower, "UCB1 is most where a cycle costs least, on board "
   add(3);
   latency_s = {{1, 0.045}, {2, 0.02}, {3, 0.06}};
   drive(*make_lodm("ucb1"), 20'000);
-  CHECK(seconds[2] > seconds[0]);
-  CHECK(seconds[0] > 2 * seconds[3]);
+  CHECK(seconds[2] > seconds[on_board]);
+  CHECK(seconds[on_board] > 2 * seconds[3]);
   seconds.clear();
   latency_s = {{1, 0.06}, {2, 0.06}, {3, 0.06}};
-  runs_at(0);
+  runs_at(std::nullopt);
   drive(*make_lodm("ucb1"), 20'000);
-  CHECK(seconds[0] > seconds[1] + seconds[2] + seconds[3]);
+  CHECK(seconds[on_board] > seconds[1] + seconds[2] + seconds[3]);
 }
 
 TEST_CASE_FIXTURE(follower,
@@ -80,7 +81,7 @@ TEST_CASE_FIXTURE(follower,
   add(2);
   latency_s = {{1, 0.04}, {2, 0.015}};
   drive(*lodm, 2000);
-  CHECK(seconds[0] == 0);
+  CHECK(seconds[on_board] == 0);
   CHECK(seconds[2] > 4 * seconds[1]);
   // A quicker one that appears late is found.
   add(3);
@@ -95,14 +96,14 @@ TEST_CASE_FIXTURE(roadside,
   const auto lodm = make_lodm("alto");
   add(1);
   add(2);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   runs_at(1);
   auto lost = cycle(true);
   lost.latency_s = std::numeric_limits<double>::infinity();
   lodm->observe(lost);
   lodm->observe(episode_outcome{"any", 1, 1, "qos_gap"});
-  runs_at(0);
-  CHECK(ask(*lodm).source == 2);
+  runs_at(std::nullopt);
+  CHECK(goes_to(ask(*lodm)) == 2);
 }
 
 TEST_CASE_FIXTURE(roadside, "who refuses is left alone for a while") {
@@ -111,13 +112,13 @@ TEST_CASE_FIXTURE(roadside, "who refuses is left alone for a while") {
     providers.clear();
     add(1);
     add(2);
-    if (ask(*lodm).source == 0) { // on trial on board
+    if (!goes_to(ask(*lodm))) { // on trial on board
       lodm->observe(cycle());
       pass(2s);
     }
-    CHECK(ask(*lodm).source == 1);
+    CHECK(goes_to(ask(*lodm)) == 1);
     lodm->observe(refusal_outcome{seen.now, "any", 1, "no room"});
-    CHECK(ask(*lodm).source == 2);
+    CHECK(goes_to(ask(*lodm)) == 2);
   }
 }
 
@@ -127,14 +128,14 @@ TEST_CASE_FIXTURE(roadside, "a trial ends where the provider is gone, and the "
     const auto lodm = make_lodm(name);
     providers.clear();
     add(1);
-    if (ask(*lodm).source == 0) {
+    if (!goes_to(ask(*lodm))) {
       lodm->observe(cycle());
       pass(2s);
     }
-    CHECK(ask(*lodm).source == 1);
-    CHECK(ask(*lodm).source == 1);
+    CHECK(goes_to(ask(*lodm)) == 1);
+    CHECK(goes_to(ask(*lodm)) == 1);
     providers[0].id = 2;
-    CHECK(ask(*lodm).source != 1);
+    CHECK(goes_to(ask(*lodm)) != 1);
   }
 }
 
@@ -163,6 +164,6 @@ TEST_CASE_FIXTURE(follower, "a bandit that is restored goes on alike, a clone "
       CHECK(restored->restore(bad));
       CHECK(restored->snapshot() == text);
     }
-    CHECK(ask(*cloned).source == ask(*restored).source);
+    CHECK(goes_to(ask(*cloned)) == goes_to(ask(*restored)));
   }
 }

@@ -90,18 +90,17 @@ double value_of(const scene& at, const std::vector<central_decision>& all) {
   REQUIRE(all.size() == at.requests.size() + at.sessions.size());
   for (std::size_t k = 0; k < at.requests.size(); ++k) {
     const auto& r = at.requests[k];
-    if (all[k].accept) {
+    if (is_accepted(all[k])) {
       left.here -= r.utilisation;
       sum += local_gain(r.candidates, r.utilisation) - price;
-    } else if (all[k].instead != 0) {
-      (all[k].instead == second ? left.at_second : left.at_third) -=
-          r.utilisation;
-      sum += gain_of(r.candidates, all[k].instead).value() - price;
+    } else if (const auto other = instead_of(all[k])) {
+      (*other == second ? left.at_second : left.at_third) -= r.utilisation;
+      sum += gain_of(r.candidates, *other).value() - price;
     }
   }
   for (std::size_t k = 0; k < at.sessions.size(); ++k) {
     const auto& s = at.sessions[k];
-    if (all[at.requests.size() + k].accept) {
+    if (is_accepted(all[at.requests.size() + k])) {
       left.here -= s.utilisation;
       sum += local_gain(s.candidates, s.utilisation);
     } else {
@@ -226,7 +225,7 @@ TEST_CASE("who wins more elsewhere is told so, as long as there is room") {
   for (const auto* name : {"assignment", "cross_entropy"}) {
     scene at;
     at.ask(0.2, {{self, 0.2, 0}, {second, 0.4, 0.5}});
-    CHECK(at.decide(*codm_of(name)).front().instead == second);
+    CHECK(instead_of(at.decide(*codm_of(name)).front()) == second);
     scene full;
     full.ask(0.2, {{self, 0.2, 0}, {second, 0.4, 0.9}});
     CHECK(full.verdicts(name) == "h");

@@ -15,7 +15,9 @@ public:
   decide(const central_context& context) override {
     std::vector<central_decision> all;
     for (std::size_t k = 0; k < count_; ++k)
-      all.push_back({k < context.requests.size(), "brief"});
+      all.push_back(k < context.requests.size()
+                        ? central_decision{accepted{}, "brief"}
+                        : central_decision{refused{}, "brief"});
     return all;
   }
   std::string_view name() const override { return "brief"; }
@@ -47,7 +49,7 @@ std::string behind_a_filter(std::size_t count) {
   for (const auto& d :
        codm.decide({time_point{}, at.requests, at.sessions, 0, 1, area, map})) {
     CHECK(!d.why.empty());
-    all += d.accept ? 'h' : d.why == "not decided" ? '?' : '-';
+    all += is_accepted(d) ? 'h' : d.why == "not decided" ? '?' : '-';
   }
   return all;
 }

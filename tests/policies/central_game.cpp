@@ -21,9 +21,12 @@ TEST_CASE("as many play on a worker as it pays beside the others") {
   two.workers = 2;
   two.ask_alike(14, 0.04, 5.5 * computes_alone); // of two workers
   const auto all = two.decide(*codm_of("best_response"));
-  CHECK(std::ranges::count(all, true, &central_decision::accept) == 12);
-  CHECK(std::ranges::count_if(
-            all, [](const auto& d) { return d.accept && d.worker == 1; })
+  CHECK(std::ranges::count_if(all, is_accepted) == 12);
+  CHECK(std::ranges::count_if(all,
+                              [](const auto& d) {
+                                return is_accepted(d)
+                                       && terms_of(d)->worker == 1;
+                              })
         == 6);
 }
 
@@ -56,13 +59,13 @@ TEST_CASE("nobody would rather have decided differently") {
     const auto all = at.decide(*codm_of("best_response"), k);
     std::vector<int> on(at.workers);
     for (const auto& d : all)
-      if (d.accept)
-        ++on.at(d.worker);
+      if (const auto* terms = terms_of(d))
+        ++on.at(terms->worker);
     const auto least = *std::ranges::min_element(on);
     for (std::size_t n = 0; n < all.size(); ++n) {
-      if (all[n].accept) {
-        CHECK(wins[n] >= computes_alone * (on[all[n].worker] - 1) - rounding);
-        CHECK(on[all[n].worker] <= least + 1);
+      if (const auto* terms = terms_of(all[n])) {
+        CHECK(wins[n] >= computes_alone * (on[terms->worker] - 1) - rounding);
+        CHECK(on[terms->worker] <= least + 1);
       } else {
         CHECK(wins[n] <= computes_alone * least + rounding);
       }
@@ -89,8 +92,8 @@ TEST_CASE("who finds it too crowded is told who would be better, if there is "
       {{self, 0.1, 0}, {second, 0.3, 0.95}, {third, 0.2, 0.1}, {44, 0.1, 0.1}});
   at.ask(0.08, {{self, 0.1, 0}, {third, -0.2, 0.1}});
   const auto all = at.decide(*codm_of("best_response"));
-  CHECK(!all[11].accept);
-  CHECK(all[11].instead == third);
-  CHECK(!all[12].accept);
-  CHECK(all[12].instead == 0);
+  CHECK(!is_accepted(all[11]));
+  CHECK(instead_of(all[11]) == third);
+  CHECK(!is_accepted(all[12]));
+  CHECK(!instead_of(all[12]));
 }

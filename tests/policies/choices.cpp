@@ -1,6 +1,7 @@
 // Tests of simple choices among providers, of filters before them, and of
 // admission by room.
 #include "policies/registry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -12,6 +13,9 @@
 #include <vector>
 
 using namespace sofof;
+using test::goes_to;
+using test::is_accepted;
+using test::on_board;
 
 namespace {
 
@@ -22,18 +26,17 @@ std::vector<provider_view> three(double a = 0, double b = 0, double c = 0) {
   return {{1, {100, 0}, a}, {2, {20, 10}, b}, {3, {150, 20}, c}};
 }
 
-provider_id choose(local_policy& lodm, const std::vector<provider_view>& among,
-                   std::uint64_t number = 0) {
-  return lodm
-      .decide(
-          {time_point{}, "any", among, path, 10, random_stream{1, "x"}, number})
-      .source;
+service_place choose(local_policy& lodm,
+                     const std::vector<provider_view>& among,
+                     std::uint64_t number = 0) {
+  return goes_to(lodm.decide(
+      {time_point{}, "any", among, path, 10, random_stream{1, "x"}, number}));
 }
 
 /// How often each is chosen in 3000 decisions.
-std::map<provider_id, int> choices(local_policy& lodm,
-                                   const std::vector<provider_view>& among) {
-  std::map<provider_id, int> counts;
+std::map<service_place, int> choices(local_policy& lodm,
+                                     const std::vector<provider_view>& among) {
+  std::map<service_place, int> counts;
   for (std::uint64_t k = 0; k < 3000; ++k)
     ++counts[choose(lodm, among, k)];
   return counts;
@@ -43,7 +46,7 @@ std::map<provider_id, int> choices(local_policy& lodm,
 
 TEST_CASE("nobody is chosen where nobody offers") {
   for (const auto name : lodm_names())
-    CHECK(choose(*make_lodm(name), {}) == 0);
+    CHECK(choose(*make_lodm(name), {}) == on_board);
 }
 
 TEST_CASE("the random choice asks as often as it is told, everybody alike") {
@@ -52,7 +55,7 @@ TEST_CASE("the random choice asks as often as it is told, everybody alike") {
   options.numbers = {{"probability", 0.75}};
   lodm->visit_options(options);
   auto counts = choices(*lodm, three());
-  CHECK(counts[0] == doctest::Approx(750).epsilon(0.1));
+  CHECK(counts[on_board] == doctest::Approx(750).epsilon(0.1));
   for (provider_id::rep id = 1; id <= 3; ++id)
     CHECK(counts[id] == doctest::Approx(750).epsilon(0.1));
 }
@@ -81,17 +84,17 @@ TEST_CASE("of two the less loaded is chosen, and of three never the most "
 
 TEST_CASE("who has no room is not asked, nor who talks nonsense") {
   const auto lodm = make_lodm("least_loaded");
-  CHECK(choose(*lodm, {{1, {}, 1}}) == 0);
+  CHECK(choose(*lodm, {{1, {}, 1}}) == on_board);
   CHECK(choose(*lodm, {{1, {}, 0.99}}) == 1);
   CHECK(choose(*lodm, {{1, {}, std::numeric_limits<double>::quiet_NaN()}})
-        == 0);
+        == on_board);
 }
 
 TEST_CASE("a choice is made among those that are near enough") {
   const auto lodm = make_lodm("nearest");
   // The second is nearer, but the way leads away from it.
   CHECK(choose(*lodm, {{1, {100, 200}, 0}, {2, {-150, -10}, 0}}) == 1);
-  CHECK(choose(*lodm, {{2, {-10, -320}, 0}}) == 0);
+  CHECK(choose(*lodm, {{2, {-10, -320}, 0}}) == on_board);
   CHECK(lodm->name() == "nearest");
 }
 
@@ -132,7 +135,7 @@ struct short_street {
     std::vector<bool> all;
     for (const auto& d :
          codm.decide({time_point{}, requests, {}, used, 1, area, map}))
-      all.push_back(d.accept);
+      all.push_back(is_accepted(d));
     return all;
   }
 };
@@ -168,6 +171,6 @@ TEST_CASE_FIXTURE(short_street,
         == std::vector<std::string>{"t_in_area < t_min", "there is room",
                                     "t_in_area < t_min", "no room",
                                     "there is room"});
-  CHECK(all[1].accept);
-  CHECK(!all[2].accept);
+  CHECK(is_accepted(all[1]));
+  CHECK(!is_accepted(all[2]));
 }

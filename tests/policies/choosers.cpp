@@ -6,7 +6,10 @@
 #include <limits>
 
 using namespace sofof;
+using test::backed_by;
+using test::comes_home;
 using test::dice;
+using test::goes_to;
 using test::roadside;
 
 namespace {
@@ -52,18 +55,18 @@ TEST_CASE("nobody outside the context is ever chosen, and a decision that is "
       scatter(at, random);
       const auto is_remote =
           !at.providers.empty() && random.between(0, 1) < 0.5;
-      at.runs_at(is_remote ? at.providers.front().id : 0);
+      at.runs_at(is_remote ? service_place{at.providers.front().id}
+                           : std::nullopt);
       const auto decision = at.ask(*lodm);
-      for (const auto id : {decision.source, decision.second})
+      for (const auto id : {goes_to(decision), backed_by(decision)})
         REQUIRE(
-            (id == 0
+            (!id
              || std::ranges::count(at.providers, id, &provider_view::id) > 0));
-      REQUIRE(!(decision.release && decision.source != 0));
-      REQUIRE(!(decision.release && !is_remote));
+      REQUIRE(!(comes_home(decision) && !is_remote));
       REQUIRE(!decision.why.empty());
       const auto again = at.ask(*lodm);
-      REQUIRE(again.source == decision.source);
-      REQUIRE(again.release == decision.release);
+      REQUIRE(goes_to(again) == goes_to(decision));
+      REQUIRE(comes_home(again) == comes_home(decision));
       at.pass(std::chrono::milliseconds{700});
       lodm->observe(at.cycle(random.between(0, 1) < 0.1, 14));
     }

@@ -3,6 +3,8 @@
 #include "tests/support/roadside.hpp"
 
 using namespace sofof;
+using test::comes_home;
+using test::goes_to;
 using test::make_lodm_with;
 using test::roadside;
 
@@ -13,8 +15,8 @@ TEST_CASE_FIXTURE(roadside,
   add(1).cost.energy_j = 0.012;
   auto& cheap = add(2);
   cheap.link.late = 1;
-  CHECK(ask(*lodm).source == 2);
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -26,18 +28,18 @@ TEST_CASE_FIXTURE(roadside,
       make_lodm_with("drift_plus_penalty", {.numbers = {{"V", 0.5}}});
   add(1).link.late = 0.02;
   runs_at(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   lodm->observe(cycle(true));
-  CHECK(ask(*lodm).release);
-  runs_at(0);
-  CHECK(ask(*lodm).source == 0);
+  CHECK(comes_home(ask(*lodm)));
+  runs_at(std::nullopt);
+  CHECK(!goes_to(ask(*lodm)));
   // 0.0085 / 0.02 = 0.425 is left when 57 good cycles are over.
   lodm->observe(cycle(false, 56));
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   lodm->observe(cycle(false, 0.6));
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   lodm->observe(cycle(false, 0.6));
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
 }
 
 TEST_CASE_FIXTURE(roadside, "each service has debts of its own") {
@@ -47,9 +49,9 @@ TEST_CASE_FIXTURE(roadside, "each service has debts of its own") {
   runs_at(1);
   lodm->observe(cycle(true));
   seen.service = "other";
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   seen.service = "any";
-  CHECK(ask(*lodm).release);
+  CHECK(comes_home(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -67,18 +69,18 @@ TEST_CASE_FIXTURE(roadside,
   add(1).link.late = 0.02;
   for (auto* each : {lodm.get(), budget.get()}) {
     each->observe(cycle(true));
-    CHECK(ask(*each).source == 0);
+    CHECK(!goes_to(ask(*each)));
     each->observe(cycle(false, 200));
   }
-  CHECK(ask(*lodm).source == 0);
-  CHECK(ask(*budget).source == 1);
+  CHECK(!goes_to(ask(*lodm)));
+  CHECK(goes_to(ask(*budget)) == 1);
 }
 
 TEST_CASE_FIXTURE(roadside, "of equal prices nothing changes") {
   const auto lodm = make_lodm("drift_plus_penalty");
   add(1).cost = seen.on_board;
   add(2).cost = seen.on_board;
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   runs_at(2);
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
 }

@@ -1,5 +1,6 @@
 // Tests of admission by deadlines as a policy.
 #include "policies/registry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::is_accepted;
 
 namespace {
 
@@ -45,8 +47,7 @@ struct server {
   }
 
   static std::size_t accepted(const std::vector<central_decision>& all) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(all, &central_decision::accept));
+    return static_cast<std::size_t>(std::ranges::count_if(all, is_accepted));
   }
 };
 
@@ -71,14 +72,15 @@ TEST_CASE("three workers take three times as many, spread evenly") {
   CHECK(server::accepted(all) == 36);
   std::vector<int> on(3);
   for (const auto& decision : all)
-    if (decision.accept)
-      ++on.at(decision.worker);
+    if (const auto* terms = terms_of(decision))
+      ++on.at(terms->worker);
   CHECK(on == std::vector{12, 12, 12});
 }
 
 TEST_CASE("who is accepted does not compute while another one does") {
-  const auto offset =
-      server{}.decide(1, {running(0, 0ms)}).front().offset.value();
+  const auto decision = server{}.decide(1, {running(0, 0ms)}).front();
+  REQUIRE(is_accepted(decision));
+  const auto offset = terms_of(decision)->offset.value();
   CHECK(offset >= 8ms);
   CHECK(offset <= 92ms);
 }
@@ -87,8 +89,8 @@ TEST_CASE("what runs counts, on the worker where it runs") {
   const std::vector<session_view> two{running(0, 0ms), running(0, 8ms)};
   CHECK(server::accepted(server{"demand"}.decide(1, two)) == 0);
   const auto beside = server{"demand"}.decide(1, two, 2).front();
-  REQUIRE(beside.accept);
-  CHECK(beside.worker == 1);
+  REQUIRE(is_accepted(beside));
+  CHECK(terms_of(beside)->worker == 1);
 }
 
 TEST_CASE("a session on a worker that is not there counts on the last one") {
@@ -99,7 +101,7 @@ TEST_CASE("a session on a worker that is not there counts on the last one") {
 
 TEST_CASE("without phases nobody is told when to compute") {
   for (const auto& decision : server{"demand"}.decide(2))
-    CHECK(!decision.offset);
+    CHECK((!is_accepted(decision) || !terms_of(decision)->offset));
 }
 
 TEST_CASE("who would wait too long for its first phase is refused") {
@@ -109,7 +111,7 @@ TEST_CASE("who would wait too long for its first phase is refused") {
   const std::vector<request_view> one{{101, "any", {}, 10, 0.01, slow}};
   const auto decided =
       at.codm->decide({time_point{}, one, {}, 0, 1, at.area, at.map});
-  CHECK(!decided.front().accept);
+  CHECK(!is_accepted(decided.front()));
   CHECK(decided.front().why == "its first result would come too late");
 }
 

@@ -6,6 +6,9 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::backed_by;
+using test::comes_home;
+using test::goes_to;
 using test::make_lodm_with;
 using test::option_list;
 using test::option_values;
@@ -65,25 +68,25 @@ TEST_CASE("whoever wants to be asked most often is asked as often") {
 TEST_CASE_FIXTURE(roadside, "behind a gate nobody is asked who may be late") {
   const auto lodm = always_with("predictive_gate");
   add(1).link.late = 0.01;
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   CHECK(ask(*lodm).why == "late results are likely");
   providers[0].link.late = 0.005;
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   providers[0].link.late = 0.02; // it is open
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
 }
 
 TEST_CASE_FIXTURE(roadside, "it comes home when late results are likely, not "
                             "because nothing is known yet") {
   const auto lodm = always_with("predictive_gate");
   add(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   runs_at(1);
   providers[0].link = {};
-  CHECK(!ask(*lodm).release);
+  CHECK(!comes_home(ask(*lodm)));
   providers[0].link = {0.021, 0, 20ms, 30ms};
-  CHECK(ask(*lodm).release);
-  CHECK(ask(*lodm).source == 0);
+  CHECK(comes_home(ask(*lodm)));
+  CHECK(!goes_to(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -95,14 +98,14 @@ TEST_CASE_FIXTURE(roadside,
   add(1, {50, 0});
   add(2, {10, 0});
   runs_at(1);
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
   providers[0].link.late = 0.5;
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
   providers[1].link.late = 0.5;
-  CHECK(ask(*lodm).release);
+  CHECK(comes_home(ask(*lodm)));
   providers[0].link.late = 0;
-  CHECK(!ask(*lodm).release);
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!comes_home(ask(*lodm)));
+  CHECK(!goes_to(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -110,18 +113,18 @@ TEST_CASE_FIXTURE(roadside,
                   "clone") {
   const auto lodm = always_with("predictive_gate");
   add(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   const auto other = lodm->clone();
   providers[0].link.late = 0.01;
-  CHECK(ask(*lodm).source == 1);
-  CHECK(ask(*other).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
+  CHECK(goes_to(ask(*other)) == 1);
   providers[0].link.late = 0.03;
-  CHECK(ask(*other).source == 0);
+  CHECK(!goes_to(ask(*other)));
   providers[0].link.late = 0.01;
-  CHECK(ask(*other).source == 0);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(!goes_to(ask(*other)));
+  CHECK(goes_to(ask(*lodm)) == 1);
   seen.service = "other";
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -130,10 +133,10 @@ TEST_CASE_FIXTURE(roadside,
   const auto lodm = always_with("hysteresis");
   add(1);
   for (int k = 0; k < 5; ++k) {
-    CHECK(ask(*lodm).source == 0);
+    CHECK(!goes_to(ask(*lodm)));
     pass(100ms);
   }
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -145,14 +148,14 @@ TEST_CASE_FIXTURE(roadside,
   const auto lodm = make_lodm_with("greedy_gain", options);
   add(1);
   runs_at(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   providers[0].link.late = 1;
   pass(10ms);
-  CHECK(ask(*lodm).release);
-  runs_at(0);
+  CHECK(comes_home(ask(*lodm)));
+  runs_at(std::nullopt);
   const auto home = seen.now;
   providers[0].link.late = 0;
-  while (ask(*lodm).source == 0 && seen.now < home + 10s)
+  while (!goes_to(ask(*lodm)) && seen.now < home + 10s)
     pass(100ms);
   CHECK(seen.now == home + 2s);
 }
@@ -163,11 +166,11 @@ TEST_CASE_FIXTURE(roadside, "after a fallback that nobody decided hysteresis "
   add(1);
   seen.now += 100s;
   runs_at(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   pass(5s);
-  runs_at(0); // a violation
+  runs_at(std::nullopt); // a violation
   const auto home = seen.now;
-  while (ask(*lodm).source == 0 && seen.now < home + 10s)
+  while (!goes_to(ask(*lodm)) && seen.now < home + 10s)
     pass(100ms);
   CHECK(seen.now == home + 2s);
 }
@@ -180,7 +183,7 @@ TEST_CASE_FIXTURE(roadside, "an advantage of the margin is no reason to go") {
   const auto lodm = make_lodm_with("greedy_gain", options);
   add(1); // wins 0.13
   for (int k = 0; k < 50; ++k) {
-    CHECK(ask(*lodm).source == 0);
+    CHECK(!goes_to(ask(*lodm)));
     pass(100ms);
   }
 }
@@ -189,13 +192,13 @@ TEST_CASE_FIXTURE(roadside, "with redundancy the one that is late least often "
                             "plans too") {
   const auto lodm = always_with("redundancy");
   add(1).link.late = 0.01;
-  CHECK(ask(*lodm).second == 0);
+  CHECK(!backed_by(ask(*lodm)));
   add(2).link.late = 0.2;
   add(3).link.late = 0.1;
-  CHECK(ask(*lodm).source == 1);
-  CHECK(ask(*lodm).second == 3);
+  CHECK(goes_to(ask(*lodm)) == 1);
+  CHECK(backed_by(ask(*lodm)) == 3);
   runs_at(1);
-  CHECK(ask(*lodm).second == 3);
+  CHECK(backed_by(ask(*lodm)) == 3);
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -206,21 +209,22 @@ TEST_CASE_FIXTURE(roadside,
   add(1).link.late = 0.02;
   add(2).link.late = 0.5;
   runs_at(1);
-  CHECK(ask(*lodm).second == 2);
+  CHECK(backed_by(ask(*lodm)) == 2);
   providers[0].link.late = 0.019;
-  CHECK(ask(*lodm).second == 0);
-  CHECK(ask(*lodm).source == 1); // there, and nowhere else
+  CHECK(!backed_by(ask(*lodm)));
+  CHECK(goes_to(ask(*lodm)) == 1); // there, and nowhere else
 }
 
 TEST_CASE_FIXTURE(roadside, "the second plans all cycles, or may be kept for "
                             "those that are not answered") {
   add(1);
   add(2);
-  CHECK(ask(*always_with("redundancy")).hedge_after == duration{0});
+  CHECK(second_of(ask(*always_with("redundancy"))).value().hedge_after
+        == duration{0});
   const auto lodm =
       always_with("redundancy", {.times = {{"govern.0.hedge_after", 20ms}}});
-  CHECK(ask(*lodm).second == 2);
-  CHECK(ask(*lodm).hedge_after == 20ms);
+  CHECK(backed_by(ask(*lodm)) == 2);
+  CHECK(second_of(ask(*lodm)).value().hedge_after == 20ms);
 }
 
 TEST_CASE_FIXTURE(roadside, "who stays on board needs no second") {
@@ -229,13 +233,13 @@ TEST_CASE_FIXTURE(roadside, "who stays on board needs no second") {
   options.lengths = {{"govern", 1}};
   add(1);
   add(2);
-  CHECK(ask(*make_lodm_with("never", options)).second == 0);
+  CHECK(!backed_by(ask(*make_lodm_with("never", options))));
   const auto lodm = make_lodm_with("greedy_gain", options);
   for (auto& provider : providers)
     provider.link.late = 1;
   runs_at(1);
-  CHECK(ask(*lodm).release);
-  CHECK(ask(*lodm).second == 0);
+  CHECK(comes_home(ask(*lodm)));
+  CHECK(!backed_by(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(roadside,
@@ -253,12 +257,12 @@ TEST_CASE_FIXTURE(roadside,
     seen.now = {};
     for (int k = 0; k < 5; ++k) {
       const auto decision = ask(*lodm);
-      CHECK(decision.source == 0);
-      CHECK(decision.second == 0);
+      CHECK(!goes_to(decision));
+      CHECK(!backed_by(decision));
       pass(100ms);
     }
     const auto decision = ask(*lodm);
-    CHECK(decision.source == 1);
-    CHECK(decision.second == 2);
+    CHECK(goes_to(decision) == 1);
+    CHECK(backed_by(decision) == 2);
   }
 }

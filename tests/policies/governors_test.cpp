@@ -2,6 +2,7 @@
 #include "policies/algorithms/forecast/predictive_gate.hpp"
 #include "policies/algorithms/switching/hysteresis.hpp"
 #include "tests/support/at.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@ using namespace sofof;
 using namespace std::chrono_literals;
 using test::at;
 using test::dice;
+using test::on_board;
 
 namespace {
 
@@ -42,8 +44,8 @@ TEST_CASE("a gate closes when its forecast is no number, and stays so") {
 TEST_CASE("a better source is followed once it has been better for the time "
           "to trigger") {
   hysteresis governor;
-  CHECK(governor.next({near_one, 0.1}, at(0s)) == hysteresis::local);
-  CHECK(governor.next({near_one, 0.1}, at(499ms)) == hysteresis::local);
+  CHECK(governor.next({near_one, 0.1}, at(0s)) == on_board);
+  CHECK(governor.next({near_one, 0.1}, at(499ms)) == on_board);
   CHECK(governor.next({near_one, 0.1}, at(500ms)) == near_one);
 }
 
@@ -54,7 +56,7 @@ TEST_CASE("an advantage of the margin or of no number is none") {
     governor.next({near_one, std::numeric_limits<double>::quiet_NaN()},
                   at(k * 100ms));
   }
-  CHECK(governor.source() == hysteresis::local);
+  CHECK(governor.source() == on_board);
 }
 
 TEST_CASE("a break, or another challenger, starts the time to trigger anew") {
@@ -62,9 +64,9 @@ TEST_CASE("a break, or another challenger, starts the time to trigger anew") {
   governor.next({near_one, 0.1}, at(0s));
   governor.next({near_one, 0.01}, at(400ms));
   governor.next({near_one, 0.1}, at(450ms));
-  CHECK(governor.next({near_one, 0.1}, at(900ms)) == hysteresis::local);
+  CHECK(governor.next({near_one, 0.1}, at(900ms)) == on_board);
   governor.next({far_one, 0.1}, at(940ms));
-  CHECK(governor.next({near_one, 0.1}, at(960ms)) == hysteresis::local);
+  CHECK(governor.next({near_one, 0.1}, at(960ms)) == on_board);
   CHECK(governor.next({near_one, 0.1}, at(1460ms)) == near_one);
 }
 
@@ -81,7 +83,7 @@ TEST_CASE("after a fallback the dwell passes before anybody is asked again") {
   hysteresis governor;
   governor.next({near_one, 1}, at(0s));
   CHECK(governor.next({near_one, 1}, at(1s)) == near_one);
-  CHECK(governor.next({near_one, 1, true}, at(1001ms)) == hysteresis::local);
+  CHECK(governor.next({near_one, 1, true}, at(1001ms)) == on_board);
   duration back{0};
   for (auto t = 1010ms; back == 0s && t < 10s; t += 10ms)
     if (governor.next({near_one, 1}, at(t)) == near_one)
@@ -91,7 +93,7 @@ TEST_CASE("after a fallback the dwell passes before anybody is asked again") {
 
 TEST_CASE("a fallback of who is local already is no switch") {
   hysteresis governor;
-  CHECK(governor.next({near_one, 1, true}, at(0s)) == hysteresis::local);
+  CHECK(governor.next({near_one, 1, true}, at(0s)) == on_board);
   governor.next({near_one, 1}, at(100ms));
   CHECK(governor.next({near_one, 1}, at(600ms)) == near_one);
 }
@@ -105,13 +107,14 @@ TEST_CASE("no fallback is delayed, and no two other switches come closer than "
     auto now = at(0s);
     for (int k = 0; k < 500; ++k) {
       now += from_seconds(random.between(0, 0.2));
-      const auto source = static_cast<provider_id>(random.between(0, 1.2) * 2);
+      const auto id = static_cast<provider_id>(random.between(0, 1.2) * 2);
+      const auto source = id == 0 ? on_board : service_place{id};
       const auto falls_back = random.between(0, 1) < 0.02;
       const auto before = governor.source();
       const auto after =
           governor.next({source, random.between(0.04, 1), falls_back}, now);
       if (falls_back)
-        REQUIRE(after == hysteresis::local);
+        REQUIRE(after == on_board);
       if (after == before)
         continue;
       if (!falls_back && switched)

@@ -11,6 +11,9 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::after;
+using test::comes_home;
+using test::goes_to;
 using test::make_lodm_with;
 using test::mean_cost;
 using test::roadside;
@@ -156,7 +159,7 @@ TEST_CASE_FIXTURE(roadside, "while it learns it decides once an epoch, however "
   for (int k = 0; k < 1000; ++k) {
     const auto decision = ask(*lodm);
     refused += decision.why == "not yet" ? 1 : 0;
-    asked += decision.source == 1 ? 1 : 0;
+    asked += goes_to(decision) == 1 ? 1 : 0;
     lodm->observe(cycle(false, 2));
     pass(100ms);
   }
@@ -173,14 +176,14 @@ TEST_CASE_FIXTURE(roadside,
        .flags = {{"learning", true}}});
   add(1);
   runs_at(1);
-  CHECK(ask(*lodm).source == 1); // keeps, of equals
+  CHECK(goes_to(ask(*lodm)) == 1); // keeps, of equals
   for (int k = 0; k < 9; ++k)
     lodm->observe(cycle());
   lodm->observe(cycle(true));
   lodm->observe(
       episode_outcome{"any", 1, 1, "qos_latency"}); // a change for the worse
   pass(500ms);
-  runs_at(0);
+  runs_at(std::nullopt);
   ask(*lodm);
   const auto expected = -(0.3 * 10 / 27 + 0.1) - 0.2;
   const auto text = lodm->snapshot();
@@ -202,21 +205,21 @@ TEST_CASE_FIXTURE(roadside, "a learner that would come home goes on to another "
   for (int k = 0; k < 4000; ++k) {
     providers[0].utilisation = k / 20 % 2 == 0 ? 0.2 : 1.0;
     const auto decision = ask(*lodm);
-    if (decision.release || decision.source == 1)
-      runs_at(decision.release ? 0 : 1);
-    const auto is_late = seen.current != 0 && providers[0].utilisation > 0.5;
+    if (const auto to = after(decision, seen.current); to != seen.current)
+      runs_at(to);
+    const auto is_late = seen.current && providers[0].utilisation > 0.5;
     lodm->observe(cycle(is_late, 10));
     pass(500ms);
   }
   const auto frozen = make_lodm("q_learning");
   REQUIRE(!frozen->restore(lodm->snapshot()));
-  runs_at(0);
+  runs_at(std::nullopt);
   providers[0].utilisation = 0.2;
-  CHECK(ask(*frozen).source == 1);
+  CHECK(goes_to(ask(*frozen)) == 1);
   providers[0].utilisation = 1;
-  CHECK(ask(*frozen).source == 0);
+  CHECK(!goes_to(ask(*frozen)));
   runs_at(1);
-  CHECK(ask(*frozen).release);
+  CHECK(comes_home(ask(*frozen)));
   add(2).utilisation = 0.2;
-  CHECK(ask(*frozen).source == 2);
+  CHECK(goes_to(ask(*frozen)) == 2);
 }

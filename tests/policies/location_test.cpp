@@ -2,6 +2,7 @@
 #include "policies/filters/location.hpp"
 
 #include "policies/registry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/not_a_number.hpp"
 #include "tests/support/option_list.hpp"
@@ -16,6 +17,8 @@
 
 using namespace sofof;
 using test::dice;
+using test::goes_to;
+using test::is_accepted;
 using test::not_a_number;
 
 namespace {
@@ -37,10 +40,10 @@ line eastward(double from_m, double to_m) {
 bool wants(local_policy& lodm, const line& path, double speed_mps = 10,
            point provider_at = {0, 0}) {
   const std::vector<provider_view> one{{7, provider_at, 0}};
-  const auto decision =
-      lodm.decide({time_point{}, "any", one, path, speed_mps});
-  CHECK((decision.source == 7 || decision.source == 0));
-  return decision.source != 0;
+  const auto to =
+      goes_to(lodm.decide({time_point{}, "any", one, path, speed_mps}));
+  CHECK((!to || *to == 7));
+  return to.has_value();
 }
 
 bool wants(const line& path, double speed_mps = 10) {
@@ -68,7 +71,7 @@ struct codm_world {
     return decide(*codm, route, speed_mps, std::move(kinds));
   }
   bool accepts(const line& route, double speed_mps) {
-    return decide(route, speed_mps).front().accept;
+    return is_accepted(decide(route, speed_mps).front());
   }
 };
 
@@ -225,7 +228,7 @@ TEST_CASE_FIXTURE(codm_world, "there is a decision for each service") {
   CHECK(decide(eastward(0, 300), 10, {"a", "b", "c"}).size() == 3);
   CHECK(decide(eastward(0, 300), 10, {}).empty());
   for (const auto& d : decide(eastward(101, 300), 10, {"a", "b"}))
-    CHECK(!d.accept);
+    CHECK(!is_accepted(d));
 }
 
 TEST_CASE_FIXTURE(codm_world, "the least time and the map's tolerance are "
@@ -245,7 +248,7 @@ TEST_CASE_FIXTURE(codm_world, "a clone keeps the options") {
   codm->visit_options(options);
   const auto copy = codm->clone();
   const auto route = eastward(50, 300);
-  CHECK(!decide(*copy, route, 10, {"any"}).front().accept);
+  CHECK(!is_accepted(decide(*copy, route, 10, {"any"}).front()));
 }
 
 TEST_CASE_FIXTURE(codm_world, "a request full of nonsense is refused") {

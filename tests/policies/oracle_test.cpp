@@ -5,6 +5,8 @@
 
 using namespace sofof;
 using namespace std::chrono_literals;
+using test::comes_home;
+using test::goes_to;
 using test::roadside;
 
 namespace {
@@ -41,7 +43,7 @@ struct with_foresight : roadside {
 TEST_CASE_FIXTURE(roadside, "who has no foresight stays on board and says so") {
   add(1);
   const auto decision = ask(*make_lodm("oracle"));
-  CHECK(decision.source == 0);
+  CHECK(!goes_to(decision));
   CHECK(decision.why == "no foresight here");
 }
 
@@ -49,10 +51,10 @@ TEST_CASE_FIXTURE(with_foresight,
                   "it goes where nothing is late for a second") {
   add(1);
   late_in(1, 999ms);
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   late_in(1, 1s);
-  CHECK(ask(*lodm).source == 1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
 }
 
 TEST_CASE_FIXTURE(with_foresight,
@@ -64,11 +66,11 @@ TEST_CASE_FIXTURE(with_foresight,
   future.latency_s = {{1, 0.015}};
   providers[0].link.late = 0.5; // it knows better
   providers[0].link.median = 45ms;
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   providers[1].cost.energy_j = 0.001;
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
   late_in(2, 900ms);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
 }
 
 TEST_CASE_FIXTURE(with_foresight, "it moves for more than the margin only") {
@@ -76,20 +78,20 @@ TEST_CASE_FIXTURE(with_foresight, "it moves for more than the margin only") {
   add(2);
   runs_at(1);
   future.latency_s = {{2, 0.019}}; // 0.3 / 50 of 0.01
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   future.latency_s = {{2, 0.017}};
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
 }
 
 TEST_CASE_FIXTURE(with_foresight, "what costs more than on board is no gain") {
   auto& there = add(1);
   there.cost.energy_j = 0.1;
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
   there.cost.energy_j = 0.001;
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   runs_at(1);
   providers[0].cost.energy_j = 0.1;
-  CHECK(ask(*lodm).release);
+  CHECK(comes_home(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(with_foresight,
@@ -97,7 +99,7 @@ TEST_CASE_FIXTURE(with_foresight,
   lodm = test::make_lodm_with("oracle", {.times = {{"lookahead", 0s}}});
   add(1);
   late_in(1, 0s);
-  CHECK(ask(*lodm).source == 0);
+  CHECK(!goes_to(ask(*lodm)));
 }
 
 TEST_CASE_FIXTURE(with_foresight,
@@ -107,7 +109,7 @@ TEST_CASE_FIXTURE(with_foresight,
   late_in(1, 400ms);
   runs_at(1);
   int looks = 0;
-  while (!ask(*lodm).release) {
+  while (!comes_home(ask(*lodm))) {
     ++looks;
     REQUIRE(looks < 20);
     pass(from_seconds(lodm->epoch_s()));
@@ -122,7 +124,7 @@ TEST_CASE_FIXTURE(with_foresight, "it goes on to another one as soon as that "
   add(2);
   late_in(2, 5s);
   runs_at(1);
-  CHECK(ask(*lodm).source == 1);
+  CHECK(goes_to(ask(*lodm)) == 1);
   late_in(1, 900ms);
-  CHECK(ask(*lodm).source == 2);
+  CHECK(goes_to(ask(*lodm)) == 2);
 }

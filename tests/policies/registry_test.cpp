@@ -1,6 +1,7 @@
 // Tests of the policies by name, and of those that need no thought.
 #include "policies/registry.hpp"
 
+#include "tests/support/decisions.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,8 @@
 #include <algorithm>
 
 using namespace sofof;
+using test::goes_to;
+using test::is_accepted;
 
 namespace {
 
@@ -19,7 +22,7 @@ bool has(const Names& names, std::string_view name) {
 bool request(local_policy& lodm) {
   const std::vector<point> path{{1e6, 0}};
   const std::vector<provider_view> one{{7, {}, 0}};
-  return lodm.decide({time_point{}, "any", one, path, 10}).source == 7;
+  return goes_to(lodm.decide({time_point{}, "any", one, path, 10})) == 7;
 }
 
 std::vector<central_decision> decide(central_policy& codm) {
@@ -81,7 +84,7 @@ TEST_CASE("always is always yes, never is never yes") {
   REQUIRE(yes.size() == 2);
   REQUIRE(no.size() == 2);
   for (std::size_t k = 0; k < 2; ++k) {
-    CHECK(yes[k].accept);
-    CHECK(!no[k].accept);
+    CHECK(is_accepted(yes[k]));
+    CHECK(!is_accepted(no[k]));
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "policies/registry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/option_list.hpp"
 
@@ -96,8 +97,7 @@ struct scene {
     std::string all;
     for (const auto& d : decide(codm, number)) {
       CHECK(!d.why.empty());
-      CHECK((!d.accept || d.instead == 0));
-      all += d.accept ? 'h' : d.instead != 0 ? 'o' : '-';
+      all += is_accepted(d) ? 'h' : instead_of(d) ? 'o' : '-';
     }
     return all;
   }

@@ -1,5 +1,6 @@
 // The policies of docs/policies.md, as they are printed there.
 #include "policies/entry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -10,13 +11,15 @@ codm_entry codm_slowest_first();
 } // namespace sofof
 
 using namespace sofof;
+using test::goes_to;
+using test::is_accepted;
 
 namespace {
 
 bool asks(local_policy& lodm, double speed_mps) {
   const std::vector<provider_view> one{{7, {0, 0}, 0}};
   const std::vector<point> path{{0, 0}, {100, 0}};
-  return lodm.decide({time_point{}, "any", one, path, speed_mps}).source == 7;
+  return goes_to(lodm.decide({time_point{}, "any", one, path, speed_mps})) == 7;
 }
 
 } // namespace
@@ -56,7 +59,7 @@ TEST_CASE("the provider's policy of the tutorial gives the room to the slowest "
   const road_map map{"street", {}, {}};
   const auto decided = codm->decide({time_point{}, asked, {}, 0, 1, area, map});
   REQUIRE(decided.size() == 3);
-  CHECK(!decided[0].accept);
-  CHECK(decided[1].accept);
-  CHECK(decided[2].accept);
+  CHECK(!is_accepted(decided[0]));
+  CHECK(is_accepted(decided[1]));
+  CHECK(is_accepted(decided[2]));
 }

@@ -2,12 +2,14 @@
 #include "scenario/decision_timer.hpp"
 
 #include "base/options/option_printer.hpp"
+#include "tests/support/decisions.hpp"
 
 #include <doctest/doctest.h>
 
 #include <map>
 
 using namespace sofof;
+using test::goes_to;
 
 namespace {
 
@@ -21,7 +23,7 @@ public:
   explicit picky(told& to) : to_{to} {}
 
   local_decision decide(const local_context&) override {
-    return {wanted_, "because"};
+    return {run_at{wanted_}, "because"};
   }
   void observe(const cycle_outcome&) override { ++to_.cycles; }
   void observe(const episode_outcome&) override { ++to_.episodes; }
@@ -55,7 +57,7 @@ TEST_CASE("a timed policy is and does what the policy is and does") {
   REQUIRE(policies.lodm != plain);
   auto& timed = *policies.lodm;
   CHECK(timed.name() == "picky");
-  CHECK(timed.decide(nothing_offered()).source == 7);
+  CHECK(goes_to(timed.decide(nothing_offered())) == 7);
   CHECK(timed.clone()->decide(nothing_offered()).why == "because");
   timed.observe(cycle_outcome{});
   timed.clone()->observe(episode_outcome{});

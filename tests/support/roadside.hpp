@@ -2,6 +2,7 @@
 #pragma once
 
 #include "policies/registry.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/option_list.hpp"
 
 #include <doctest/doctest.h>
@@ -52,7 +53,7 @@ struct roadside {
   }
 
   /// Has the service run somewhere; providers that do so stand first.
-  void runs_at(provider_id place) {
+  void runs_at(service_place place) {
     seen.current = place;
     seen.since = seen.now;
     const auto i = std::ranges::find(providers, place, &provider_view::id);

@@ -3,6 +3,7 @@
 
 #include "policies/algorithms/forecast/normal_law.hpp"
 #include "policies/api/context.hpp"
+#include "tests/support/decisions.hpp"
 #include "tests/support/dice.hpp"
 
 #include <algorithm>
@@ -92,15 +93,15 @@ private:
     context.needs = {50ms, 50ms, 100ms};
     context.on_board = {0.01, on_board_j};
     const auto decision = lodm.decide(context);
-    if (decision.release)
+    if (comes_home(decision))
       end(lodm, "released");
-    else if (decision.source != 0 && decision.source != current_)
-      change(decision.source);
+    else if (const auto to = after(decision, current_); to != current_)
+      change(to);
   }
 
   void plan(local_policy& lodm) {
     cycle_outcome outcome{now_, "any", current_, 0.01, false, on_board_j};
-    if (current_ != 0) {
+    if (current_) {
       outcome.energy_j *= energy_share_;
       outcome.missed = random_.between(0, 1) < late();
       outcome.latency_s = outcome.missed ? 0.06 : median_s();
@@ -115,13 +116,13 @@ private:
   }
 
   void end(local_policy& lodm, std::string_view reason) {
-    if (current_ == 0)
+    if (!current_)
       return;
-    change(0);
+    change(std::nullopt);
     lodm.observe(episode_outcome{"any", 7, 1, reason});
   }
 
-  void change(provider_id to) {
+  void change(service_place to) {
     current_ = to;
     since_ = now_;
     cost_ += 0.2;
@@ -140,7 +141,7 @@ private:
   time_point now_;
   time_point since_;
   time_point cool_until_;
-  provider_id current_ = 0;
+  service_place current_;
   std::uint64_t decisions_ = 0;
 };
 

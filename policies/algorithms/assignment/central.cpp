@@ -96,13 +96,12 @@ std::vector<central_decision> decisions_of(const central_context& context,
     const auto c = found.choices[v];
     const auto asks = all.size() < context.requests.size();
     if (c == here)
-      all.push_back({true, asks ? "best here" : "stays"});
+      all.push_back({accepted{}, asks ? "best here" : "stays"});
     else if (!c)
-      all.push_back({false, asks ? "no room" : "others win more by its room"});
+      all.push_back(
+          {refused{}, asks ? "no room" : "others win more by its room"});
     else
-      all.push_back({.accept = false,
-                     .why = "better elsewhere",
-                     .instead = asked.providers[*c]});
+      all.push_back({refused{asked.providers[*c]}, "better elsewhere"});
   }
   return all;
 }

@@ -13,9 +13,9 @@ namespace {
 constexpr std::string_view text_kind = "trials";
 constexpr std::uint64_t text_version = 1;
 
-bool is_offered(const local_context& context, provider_id place) {
-  return place == 0 || place == context.current
-         || std::ranges::find(context.providers, place, &provider_view::id)
+bool is_offered(const local_context& context, service_place place) {
+  return !place || place == context.current
+         || std::ranges::find(context.providers, *place, &provider_view::id)
                 != context.providers.end();
 }
 
@@ -39,7 +39,7 @@ bandit_lodm::service& bandit_lodm::of(std::string_view name) {
   return i->second;
 }
 
-bandit_trial* bandit_lodm::running(std::string_view name, provider_id place) {
+bandit_trial* bandit_lodm::running(std::string_view name, service_place place) {
   auto& now = of(name).now;
   return now.is_open() && now.place() == place ? &now : nullptr;
 }
@@ -55,13 +55,14 @@ local_decision bandit_lodm::decide(const local_context& context) {
   auto& tried = of(context.service);
   if (tried.now.is_open() && !tried.now.lasted(trial_, context.now)
       && is_offered(context, tried.now.place()))
-    return at_place(context, tried.now.place(), "on trial");
+    return at_place(context.current, tried.now.place(), "on trial");
   conclude(tried, context.now);
   const auto place = tried.learner->choose(context);
   if (!place)
-    return at_place(context, context.current, "nobody comes into question");
+    return at_place(context.current, context.current,
+                    "nobody comes into question");
   tried.now = {*place, context.now};
-  return at_place(context, *place, "on trial");
+  return at_place(context.current, *place, "on trial");
 }
 
 void bandit_lodm::observe(const cycle_outcome& outcome) {

@@ -19,14 +19,13 @@ class bandit {
 public:
   virtual ~bandit() = default;
 
-  /// @returns where it is tried next, 0 for the vehicle itself; nullopt: there
-  /// is no choice.
-  virtual std::optional<provider_id> choose(const local_context& context) = 0;
+  /// @returns where it is tried next; nullopt: there is no choice.
+  virtual std::optional<service_place> choose(const local_context& context) = 0;
   /// @returns what a cycle counts in a trial; nullopt: nothing.
   virtual std::optional<double> value(const cycle_outcome& outcome,
-                                      provider_id place) const = 0;
+                                      service_place place) const = 0;
   /// @param mean  Of a cycle; nullopt: nothing came, or nobody would have it.
-  virtual void learn(provider_id place, std::optional<double> mean) = 0;
+  virtual void learn(service_place place, std::optional<double> mean) = 0;
 
   virtual std::string snapshot() const = 0;
   virtual std::optional<std::string> restore(std::string_view text) = 0;
@@ -63,7 +62,7 @@ private:
   using services = std::map<std::string, service, std::less<>>;
 
   service& of(std::string_view name);
-  bandit_trial* running(std::string_view name, provider_id place);
+  bandit_trial* running(std::string_view name, service_place place);
   void conclude(service& tried, time_point now) const;
 
   duration trial_ = std::chrono::seconds{2};

@@ -13,11 +13,10 @@ namespace sofof {
 class bandit_trial {
 public:
   bandit_trial() = default;
-  bandit_trial(provider_id place, time_point begin)
+  bandit_trial(service_place place, time_point begin)
       : place_{place}, begin_{begin}, is_open_{true} {}
 
-  /// @returns a provider; 0: the vehicle itself.
-  provider_id place() const { return place_; }
+  service_place place() const { return place_; }
   bool is_open() const { return is_open_; }
   /// @returns whether it has lasted so long.
   bool lasted(duration length, time_point now) const {
@@ -39,7 +38,7 @@ public:
   }
 
 private:
-  provider_id place_ = 0;
+  service_place place_;
   time_point begin_;
   bool is_open_ = false;
   double sum_ = 0;

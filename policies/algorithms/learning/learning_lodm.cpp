@@ -82,24 +82,26 @@ local_decision learning_lodm::decide(const local_context& context) {
     const auto lasted = context.now - seen.open->begin;
     const auto epoch = from_seconds(options_.epoch_s);
     if (lasted < epoch)
-      return at_place(context, context.current, "not yet");
+      return at_place(context.current, context.current, "not yet");
     if (lasted > longest_step_epochs * epoch)
       conclude(seen, std::nullopt);
   }
   const auto other = best_way_out(context);
-  if (context.current != 0 && is_there(context, context.current)) {
+  if (context.current && is_there(context, *context.current)) {
     const auto state = look(context, *where_it_runs(context), true);
     if (act(seen, context, state) == to_keep)
-      return at_place(context, context.current, "learned to stay there");
+      return at_place(context.current, context.current,
+                      "learned to stay there");
     return other && other->pays > 0
-               ? at_place(context, other->place, "learned to go on")
-               : at_place(context, 0, "learned to come home");
+               ? at_place(context.current, other->place, "learned to go on")
+               : at_place(context.current, std::nullopt,
+                          "learned to come home");
   }
-  if (context.current != 0)
+  if (context.current)
     conclude(seen, std::nullopt);
   if (!other || act(seen, context, other->state) == to_keep)
-    return at_place(context, context.current, "learned to stay");
-  return at_place(context, other->place, "learned to go there");
+    return at_place(context.current, context.current, "learned to stay");
+  return at_place(context.current, other->place, "learned to go there");
 }
 
 std::size_t learning_lodm::act(service& seen, const local_context& context,

@@ -82,7 +82,7 @@ private:
   };
   /// Where a service may go, and what the mind sees there.
   struct way_out {
-    provider_id place = 0;
+    provider_id place;
     mind_state state;
     double pays = 0;
   };

@@ -5,12 +5,12 @@
 
 namespace sofof {
 
-provider_id hysteresis::next(const wish& wanted, time_point now) {
+service_place hysteresis::next(const wish& wanted, time_point now) {
   assert(!better_since_ || now >= *better_since_);
   if (wanted.must_fall_back) {
     better_since_.reset();
-    if (source_ != local)
-      switch_to(local, now);
+    if (source_)
+      switch_to(std::nullopt, now);
     return source_;
   }
   if (wanted.source == source_ || !(wanted.advantage > options_.margin)) {
@@ -28,7 +28,7 @@ provider_id hysteresis::next(const wish& wanted, time_point now) {
   return source_;
 }
 
-void hysteresis::switch_to(provider_id source, time_point now) {
+void hysteresis::switch_to(service_place source, time_point now) {
   source_ = source;
   switched_ = now;
   better_since_.reset();

@@ -22,13 +22,10 @@ struct hysteresis_options {
 /// time), with a dwell in addition.
 class hysteresis {
 public:
-  /// The vehicle itself as a source; others are called by their provider.
-  static constexpr provider_id local = 0;
-
   struct wish {
-    provider_id source = local;
+    service_place source{};
     double advantage = 0;        ///< Over the present source, normalised.
-    bool must_fall_back = false; ///< To local at once, whatever is better.
+    bool must_fall_back = false; ///< Home at once, whatever is better.
   };
 
   explicit hysteresis(const hysteresis_options& options = {})
@@ -36,23 +33,23 @@ public:
 
   /// @param now  Not before the last call's.
   /// @returns the source from now on.
-  provider_id next(const wish& wanted, time_point now);
+  service_place next(const wish& wanted, time_point now);
 
-  provider_id source() const { return source_; }
+  service_place source() const { return source_; }
 
   /// The source has changed without being asked, or not changed though asked.
   /// @param since  When it came there.
-  void is_at(provider_id source, time_point since) {
+  void is_at(service_place source, time_point since) {
     if (source != source_)
       switch_to(source, since);
   }
 
 private:
-  void switch_to(provider_id source, time_point now);
+  void switch_to(service_place source, time_point now);
 
   hysteresis_options options_;
-  provider_id source_ = local;
-  provider_id challenger_ = local;
+  service_place source_;
+  service_place challenger_;
   std::optional<time_point> better_since_; // of the challenger
   std::optional<time_point> switched_;
 };
