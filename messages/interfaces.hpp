@@ -18,7 +18,8 @@
 
 namespace sofof {
 
-struct begin_atom; // a word of nothing but its name, in type_ids.hpp
+struct begin_atom; // words of nothing but their names, in type_ids.hpp
+struct no_standby_atom;
 
 template <class... Ts>
 using reacts_to = caf::result<void>(Ts...);
@@ -50,9 +51,10 @@ using requester_manager_actor = result_actor::extend<
     // A provider runs the service too: feed it there, and use the results from
     // the first one on.
     reacts_to<session_id, provider_manager_actor>,
-    // Of several, this provider stands by: it is fed when nobody has answered
-    // a cycle for so long. 0: no provider is.
-    reacts_to<provider_id::rep, duration>,
+    // Of several, this provider stands by.
+    reacts_to<standby>,
+    // No provider stands by any more.
+    reacts_to<no_standby_atom>,
     // The running service has ended: the local service plans at once.
     reacts_to<service_end>>;
 

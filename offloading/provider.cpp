@@ -43,7 +43,7 @@ provider::station_record::find(const service_name& service) const {
 
 bool provider::station_record::is_consistent() const {
   const auto is_only_one = [this](const provider_session& x) {
-    return find(x.session.service) == &x && x.session.counter != 0;
+    return find(x.session.service) == &x && x.session.is_remote();
   };
   return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
 }

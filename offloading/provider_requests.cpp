@@ -177,7 +177,7 @@ void provider::respond(const open_request& open,
 void provider::start(station_record& station, const session_id& session,
                      const open_request& open, const accepted& terms,
                      time_point now) {
-  assert(session.counter != 0);
+  assert(session.is_remote());
   assert(!station.find(session.service));
   assert(find(session.service));
   const auto& service = *find(session.service);

@@ -159,7 +159,7 @@ private:
   void leave(peer_id) override {}
 
   void start(const session_start& start) override {
-    assert(start.session.counter != 0);
+    assert(start.session.is_remote());
     auto setup = cycle_of(services_.at(start.session.service), start);
     setup.finish = [this, session = start.session](time_point t,
                                                    std::uint64_t cycle) {

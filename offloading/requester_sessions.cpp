@@ -34,10 +34,9 @@ void requester::on_response(const service_response& response, time_point now) {
       i != providers_.end() && i->second.open_request == response.number;
   if (expected)
     i->second.open_request.reset();
-  // Counter 0 is the vehicle's own function.
   const auto is_sound = [&](const session_id& session) {
     return session.provider == response.provider
-           && session.station == setup_.station && session.counter != 0;
+           && session.station == setup_.station && session.is_remote();
   };
   for (const auto& v : response.verdicts) {
     if (v.accepted && !is_sound(v.session))
@@ -69,7 +68,7 @@ void requester::accept(service_state& service, requester_session& session,
                        const verdict& v, time_point now) {
   assert(session.at == phase::requested);
   assert(v.session.provider == session.provider);
-  assert(v.session.counter != 0); // that is the vehicle's own function
+  assert(v.session.is_remote());
   session.at = phase::starting;
   session.session = v.session;
   session.accepted = now;
@@ -147,7 +146,7 @@ void requester::complain(const session_id& session, time_point now) {
 
 void requester::on_first_data(const session_id& session, time_point now) {
   pass(now);
-  assert(session.counter != 0);
+  assert(session.is_remote());
   const auto found = find(session);
   if (!found || found.session->at != phase::starting)
     return;
@@ -176,7 +175,7 @@ void requester::on_first_data(const session_id& session, time_point now) {
 void requester::on_violation(const qos_violation& violation, time_point now) {
   pass(now);
   const auto& session = violation.session;
-  assert(session.counter != 0);
+  assert(session.is_remote());
   const auto reason = reason_of(violation.breach);
   if (violation.breach == qos_breach::implausible) {
     // Also if the session has ended in the same instant.

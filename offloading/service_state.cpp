@@ -80,7 +80,7 @@ bool service_state::is_consistent() const {
   const auto is_sound = [this](const requester_session& x) {
     const auto runs = x.session.provider == x.provider
                       && x.session.service == service.name
-                      && x.session.counter != 0;
+                      && x.session.is_remote();
     return (x.at == phase::requested || runs) && find(x.provider) == &x
            && (x.at != phase::remote || x.accepted <= x.first_data);
   };

@@ -49,7 +49,7 @@ void source_selector::pass(time_point now) {
 // watches by the name of such a one.
 bool source_selector::is_consistent() const {
   const auto has_its_own = [this](const source& x) {
-    return x.judge && x.session.counter != 0
+    return x.judge && x.session.is_remote()
            && std::ranges::count(sources_, x.session, &source::session) == 1;
   };
   const auto is_watched = [this](const source& x) {
@@ -109,7 +109,7 @@ bool source_selector::feed(source& x, time_point now) {
 
 void source_selector::on_session(const session_id& session, time_point now) {
   pass(now);
-  assert(session.counter != 0);
+  assert(session.is_remote());
   assert(!find(session));
   auto& x = sources_.emplace_back();
   x.session = session;
@@ -123,7 +123,7 @@ void source_selector::on_session(const session_id& session, time_point now) {
 void source_selector::on_result(const service_result& result, time_point now) {
   pass(now);
   assert(is_consistent());
-  if (result.session.counter == 0) {
+  if (!result.session.is_remote()) {
     if (!is_remote())
       use(result, now);
     return;

@@ -24,7 +24,7 @@ bool watchdog::disarm(const session_id& session) {
 
 std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
                                                   time_point now) {
-  assert(result.session.counter != 0);
+  assert(result.session.is_remote());
   assert(result.received <= now);
   if (watched_ != result.session)
     return std::nullopt;

@@ -86,14 +86,14 @@ std::optional<cpu_figures> figures_of(const cpu_table& table,
   std::set<station_id> stations;
   for (const auto& line : table.lines) {
     const auto& [station, name, remote] = line.account;
-    if (station == 0)
+    if (!station)
       continue;
     if (line.actor == function) {
       if (name.view() == service)
         (remote ? inactive : active).add(line);
       continue;
     }
-    stations.insert(station);
+    stations.insert(*station);
     wakes += line.wakes;
     auto& sofof = remote ? sofof_remote : sofof_local;
     sofof.cpu += line.cpu;
@@ -117,12 +117,12 @@ std::string to_csv(const cpu_table& table) {
   std::string out{header};
   for (const auto& line : table.lines) {
     const auto& [station, service, remote] = line.account;
-    if (station != 0)
-      append(out, std::uint64_t{station.value()});
+    if (station)
+      append(out, std::uint64_t{station->value()});
     add_row(out, line.actor, service.view(),
-            station == 0 ? ""
-            : remote     ? "remote"
-                         : "local",
+            !station ? ""
+            : remote ? "remote"
+                     : "local",
             {line.cpu, line.time}, line.wakes);
   }
   const auto wakes = table.wakes();

@@ -60,11 +60,13 @@ void requester_links::end(const service_end& end) {
   self_->send(managers_.at(end.session.service), end);
 }
 
-void requester_links::set_standby(
-    const service_name& service,
-    const std::optional<offloading::standby>& chosen) {
-  const auto told = chosen.value_or(offloading::standby{});
-  self_->send(managers_.at(service), told.provider.value(), told.after);
+void requester_links::set_standby(const service_name& service,
+                                  const std::optional<standby>& chosen) {
+  const auto& manager = managers_.at(service);
+  if (chosen)
+    self_->send(manager, *chosen);
+  else
+    self_->send(manager, no_standby_atom_v);
 }
 
 // For whom it works, in case accounts are kept.

@@ -42,7 +42,7 @@ public:
   void forward(const service_result& result) override;
   void end(const service_end& end) override;
   void set_standby(const service_name& service,
-                   const std::optional<offloading::standby>& chosen) override;
+                   const std::optional<standby>& chosen) override;
   void on_placement(bool any_remote) override;
   void record(sofof::record x) override;
   void wake_at(time_point t, std::uint64_t number) override;

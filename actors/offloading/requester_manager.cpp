@@ -55,11 +55,11 @@ requester_manager_impl::behavior_type requester_manager(
       [self](const session_id& session, provider_manager_actor& manager) {
         self->state.on_session(session, std::move(manager));
       },
-      [self](provider_id::rep provider, duration after) {
-        std::optional<offloading::standby> chosen;
-        if (provider != 0)
-          chosen = {provider, after};
+      [self](const standby& chosen) {
         self->state.selector->on_standby(chosen, now(self));
+      },
+      [self](no_standby_atom) {
+        self->state.selector->on_standby(std::nullopt, now(self));
       },
       [self](const service_end& end) { self->state.on_end(end); },
       [self](tick_atom, std::uint64_t number) {

@@ -60,7 +60,7 @@ struct provider_state {
 
   // A station that is alone in its process stands for itself.
   static sender_id sender_of(const its_pdu& message, station_id station) {
-    return message.sender == 0 ? sender_id{station.value()} : message.sender;
+    return message.sender.value_or(sender_id{station.value()});
   }
 
   template <class Function>

@@ -20,7 +20,7 @@ struct vehicle_connection_setup {
   etsi::its_clock clock;         ///< Ours.
   etsi::its_clock peer_clock;    ///< As the peer has told it.
   recorder_actor recorder;
-  sender_id sender = 0; ///< Of its certificate; 0: none.
+  std::optional<sender_id> sender{}; ///< Of its certificate, if any.
 };
 
 /// Stands for all vehicles of one peer: gives each a requester of its own that

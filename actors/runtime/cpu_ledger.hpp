@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -18,9 +19,9 @@ namespace sofof {
 
 /// For what an actor works: offloading in a vehicle, or something else.
 struct cpu_account {
-  station_id station = 0; ///< The vehicle; 0: something else.
-  service_name service;   ///< Empty: all of the vehicle's.
-  bool remote = false;    ///< Whether it (or any of all) is remote meanwhile.
+  std::optional<station_id> station{}; ///< The vehicle, if it is one's work.
+  service_name service;                ///< Empty: all of the vehicle's.
+  bool remote = false; ///< Whether it (or any of all) is remote meanwhile.
 
   auto operator<=>(const cpu_account&) const = default;
 };

@@ -8,7 +8,7 @@ namespace sofof {
 namespace {
 
 bool is_remote(const session_id& x) {
-  return x.counter != 0;
+  return x.is_remote();
 }
 
 } // namespace

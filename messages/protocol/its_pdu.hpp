@@ -19,9 +19,9 @@ struct its_pdu {
   /// How far its sender's time of day is ahead of ours. Does not travel: who
   /// gets it from another host fills it in.
   duration ahead{};
-  /// Whose certificate it came by; 0: it comes from this process. Does not
+  /// Whose certificate it came by, unless it comes from this process. Does not
   /// travel either.
-  sender_id sender = 0;
+  std::optional<sender_id> sender{};
 
   std::span<const std::byte> view() const { return octets; }
 

@@ -24,6 +24,9 @@ struct session_id {
   service_name service;
   std::uint32_t counter = 0; ///< Rising per provider; 0: the local service.
   friend auto operator<=>(const session_id&, const session_id&) = default;
+
+  /// @returns whether it is one with a provider, and not the vehicle's own.
+  bool is_remote() const { return counter != 0; }
 };
 
 void visit_fields(auto& v, session_id& x) {
@@ -132,6 +135,20 @@ void visit_fields(auto& v, service_response& x) {
   v("station", x.station);
   v("number", x.number);
   v("verdicts", x.verdicts);
+}
+
+/// The provider that is fed only when a cycle has not been answered for so
+/// long. Source: Dean & Barroso 2013 (hedged requests).
+struct standby {
+  provider_id provider;
+  duration after{}; ///< > 0.
+
+  friend bool operator==(const standby&, const standby&) = default;
+};
+
+void visit_fields(auto& v, standby& x) {
+  v("provider", x.provider);
+  v("after", x.after);
 }
 
 /// What a running service works on next; newer input replaces older. A standby

@@ -11,7 +11,7 @@ namespace sofof {
 
 /// The nearest road user ahead on one's own way.
 struct lead_vehicle {
-  station_id station = 0;
+  std::optional<station_id> station{}; ///< If it tells of itself.
   double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
                        ///< route, laps counted as the follower counts.
   double speed_mps = 0;

@@ -229,7 +229,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!is_in_the_way || room_m >= need_m)
       out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps});
     else if (b.to_m > front_m && (!out.lead || b.from_m < out.lead->rear_s_m))
-      out.lead = {x.station.value_or(0), b.from_m, std::max(b.speed_mps, 0.0),
+      out.lead = {x.station, b.from_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
   }
   assert(!out.lead || out.lead->speed_mps >= 0);

@@ -29,7 +29,7 @@ std::vector<bool> accepted(const std::vector<verdict>& verdicts) {
   std::vector<bool> all;
   for (const auto& v : verdicts) {
     all.push_back(v.accepted);
-    CHECK(v.accepted == (v.session.counter != 0));
+    CHECK(v.accepted == v.session.is_remote());
   }
   return all;
 }

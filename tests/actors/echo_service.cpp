@@ -92,7 +92,7 @@ struct echo_world : virtual_world {
     const auto all = vehicle->all<service_result>();
     return static_cast<std::size_t>(
         std::ranges::count_if(all, [&](const service_result& r) {
-          return (r.session.counter != 0) == remote;
+          return r.session.is_remote() == remote;
         }));
   }
 };

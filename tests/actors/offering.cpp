@@ -270,7 +270,7 @@ TEST_CASE_FIXTURE(provider_world, "an unknown service is refused, whatever the "
   ask(make_request({"unheard_of", one}));
   REQUIRE(verdicts().size() == 2);
   CHECK(!verdicts()[0].accepted);
-  CHECK(verdicts()[0].session.counter == 0);
+  CHECK(!verdicts()[0].session.is_remote());
   CHECK(verdicts()[1].accepted);
   CHECK(managers().size() == 1);
 }
@@ -323,7 +323,7 @@ TEST_CASE_FIXTURE(provider_world, "a station nobody has seen is refused") {
   REQUIRE(verdicts().size() == 2);
   for (const auto& v : verdicts()) {
     CHECK(!v.accepted);
-    CHECK(v.session.counter == 0);
+    CHECK(!v.session.is_remote());
   }
   CHECK(managers().empty());
   CHECK(codm->asked.empty());

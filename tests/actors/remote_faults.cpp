@@ -205,7 +205,7 @@ struct troubled_world : remote_world {
           remote[change.service] = change.remote;
         } else if (e.what.match_elements<service_result>()) {
           const auto& r = e.what.get_as<service_result>(0).session;
-          broken += remote[r.service] != (r.counter != 0);
+          broken += remote[r.service] != r.is_remote();
         }
       }
       CHECK(broken == 0);

@@ -202,7 +202,7 @@ struct remote_world : virtual_world {
   static std::vector<service_result> remote_results(const car& c) {
     std::vector<service_result> found;
     for (const auto& r : c.vehicle->all<service_result>())
-      if (r.session.counter != 0)
+      if (r.session.is_remote())
         found.push_back(r);
     return found;
   }

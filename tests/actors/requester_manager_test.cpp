@@ -113,7 +113,7 @@ struct managed_world : virtual_world {
   std::size_t results(bool remote) const {
     std::size_t n = 0;
     for (const auto& r : client->all<service_result>())
-      n += (r.session.counter != 0) == remote;
+      n += r.session.is_remote() == remote;
     return n;
   }
 };
@@ -351,7 +351,7 @@ TEST_CASE_FIXTURE(managed_world,
   REQUIRE(client->count<service_result>() == 1);
   const auto first = client->all<service_result>().front();
   CHECK(first.created == ended);
-  CHECK(first.session.counter == 0);
+  CHECK(!first.session.is_remote());
   CHECK(first.what.as<echo>()->number == 42);
 }
 

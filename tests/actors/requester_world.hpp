@@ -149,7 +149,7 @@ struct requester_world : virtual_world {
   std::vector<service_result> local_results() const {
     std::vector<service_result> found;
     for (const auto& r : vehicle->all<service_result>())
-      if (r.session.counter == 0)
+      if (!r.session.is_remote())
         found.push_back(r);
     return found;
   }

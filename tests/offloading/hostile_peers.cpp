@@ -119,7 +119,7 @@ struct deceived_vehicle final : offloading::vehicle_port {
       asked = request->number;
   }
   void use(const service_result& result) override {
-    CHECK(remote[result.session.service] == (result.session.counter != 0));
+    CHECK(remote[result.session.service] == result.session.is_remote());
     ++uses;
   }
   void on_source(const service_name& service, bool is_remote) override {

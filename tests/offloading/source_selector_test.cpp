@@ -20,7 +20,7 @@
 using namespace sofof;
 using namespace std::chrono_literals;
 using offloading::source_selector;
-using offloading::standby;
+
 using test::at;
 using test::echo;
 
@@ -68,7 +68,7 @@ struct diary final : offloading::selector_port {
 
   void write(std::string line) { lines.push_back(std::move(line)); }
   static std::string name(const session_id& x) {
-    return x.counter == 0 ? "own" : std::string(1, "?AB"[x.provider.value()]);
+    return x.is_remote() ? std::string(1, "?AB"[x.provider.value()]) : "own";
   }
 
   void feed_local(const service_input&) override {}

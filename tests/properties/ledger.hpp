@@ -60,7 +60,7 @@ struct client_diary {
 
   void on_result(const service_result& result) {
     auto& e = services[result.session.service];
-    if (e.remote != (result.session.counter != 0))
+    if (e.remote != result.session.is_remote())
       broken.push_back("a result came from the source that is not in use");
     if (result.created < e.newest_of_source)
       broken.push_back("a source's results came out of order");
