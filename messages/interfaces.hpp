@@ -1,6 +1,7 @@
 // Every actor's interface, a sentence per message: the page to read first.
 #pragma once
 
+#include "messages/inspector_access.hpp"
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/lifecycle.hpp"
 #include "messages/protocol/motion.hpp"
