@@ -19,7 +19,15 @@
 
 namespace sofof {
 
-struct begin_atom; // a word of nothing but its name, in type_ids.hpp
+// Words of nothing but their names.
+
+/// Begin.
+struct begin_atom {};
+inline constexpr begin_atom begin_atom_v{};
+
+/// It is time; from an actor to itself.
+struct tick_atom {};
+inline constexpr tick_atom tick_atom_v{};
 
 template <class... Ts>
 using reacts_to = caf::result<void>(Ts...);
