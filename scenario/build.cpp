@@ -88,8 +88,8 @@ std::vector<oriented_box> obstacles(const scenario& s) {
 
 antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
                 const provider_cell& at) {
-  const channel draws{at.channel, noise_of(s, "network"), station, at.place,
-                      at.options->radio};
+  const channel_draws draws{at.channel, noise_of(s, "network"), station,
+                            at.place, at.options->radio};
   return {spawn_network_link(sys, at.provider,
                              {{draws, direction::up, at.cell_up},
                               {draws, direction::down, at.cell_down},
