@@ -6,7 +6,7 @@
 
 namespace sofof {
 
-link_direction::link_direction(channel draws, direction to,
+link_direction::link_direction(channel_draws draws, direction to,
                                std::shared_ptr<multi_server_queue> cell)
     : draws_{std::move(draws)}, direction_{to}, cell_{std::move(cell)},
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}

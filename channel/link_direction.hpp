@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/time.hpp"
-#include "channel/channel.hpp"
+#include "channel/channel_draws.hpp"
 #include "channel/multi_server_queue.hpp"
 #include "channel/outage_process.hpp"
 
@@ -19,7 +19,7 @@ class link_direction {
 public:
   /// @param cell  The radio cell's airtime queue, of one worker, shared by
   ///              the vehicles of a cell in this direction; null for none.
-  link_direction(channel draws, direction to,
+  link_direction(channel_draws draws, direction to,
                  std::shared_ptr<multi_server_queue> cell);
 
   /// The run begins now: outages are counted from here, else from time zero.
@@ -37,7 +37,7 @@ public:
                                     std::size_t octets = usual_octets);
 
 private:
-  channel draws_;
+  channel_draws draws_;
   direction direction_;
   std::shared_ptr<multi_server_queue> cell_;
   outage_process stalls_;

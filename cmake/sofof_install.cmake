@@ -11,6 +11,7 @@ foreach(folder ${sofof_installed})
     FILES_MATCHING PATTERN "*.hpp"
     # Of the actors.
     PATTERN interfaces.hpp EXCLUDE
+    PATTERN inspector_access.hpp EXCLUDE
     PATTERN type_ids.hpp EXCLUDE
     PATTERN admission.hpp EXCLUDE)
 endforeach()

@@ -11,6 +11,12 @@
 
 namespace sofof {
 
+struct handshake_state; // actors/remote/handshake.cpp
+
+} // namespace sofof
+
+namespace sofof {
+
 /// A hello that a handshake of this process has examined. Nothing else makes
 /// one that holds anything, and none crosses between processes.
 class admission {

@@ -1,6 +1,7 @@
 // Every actor's interface, a sentence per message: the page to read first.
 #pragma once
 
+#include "messages/inspector_access.hpp"
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/lifecycle.hpp"
 #include "messages/protocol/motion.hpp"
@@ -18,8 +19,19 @@
 
 namespace sofof {
 
-struct begin_atom; // words of nothing but their names, in type_ids.hpp
-struct no_standby_atom;
+// Words of nothing but their names.
+
+/// Begin.
+struct begin_atom {};
+inline constexpr begin_atom begin_atom_v{};
+
+/// It is time; from an actor to itself.
+struct tick_atom {};
+inline constexpr tick_atom tick_atom_v{};
+
+/// No provider stands by any more.
+struct no_standby_atom {};
+inline constexpr no_standby_atom no_standby_atom_v{};
 
 template <class... Ts>
 using reacts_to = caf::result<void>(Ts...);

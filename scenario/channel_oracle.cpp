@@ -19,7 +19,7 @@ namespace {
 /// The results of one service at one provider, as they would come.
 class results_to_come {
 public:
-  results_to_come(const channel& way, const random_stream& draws,
+  results_to_come(const channel_draws& way, const random_stream& draws,
                   const provider_compute& compute,
                   const offloading::service_options& options, duration phase)
       : draws_{draws}, compute_{&compute}, way_{way, direction::down, nullptr},
@@ -113,8 +113,8 @@ private:
     return results_
         .try_emplace(
             key,
-            channel{provider.channel, all_->noise, station_, provider.place,
-                    provider.radio},
+            channel_draws{provider.channel, all_->noise, station_,
+                          provider.place, provider.radio},
             result_draws(all_->noise, station_, provider.place, provider.radio),
             provider.compute, type.options,
             random_phase(own.part("remote phase"), type.options.period))
@@ -130,7 +130,7 @@ private:
 } // namespace
 
 std::function<std::shared_ptr<const channel_oracle>(station_id)>
-foresee(const scenario& s) {
+foresee(const scenario_definition& s) {
   auto all = std::make_shared<air>(
       air{random_stream{static_cast<std::uint64_t>(s.seed), "network"},
           s.services,

@@ -1,7 +1,7 @@
 // SP: the edge server's side of offloading.
 #pragma once
 
-#include "channel/channel.hpp"
+#include "channel/channel_draws.hpp"
 #include "channel/provider_compute.hpp"
 #include "messages/type_ids.hpp"
 #include "messages/v2x/decode_broadcast.hpp"

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace sofof::report {
+namespace sofof {
 
 namespace {
 
@@ -136,4 +136,4 @@ void csv_reader::refuse(std::string_view why) const {
   throw input_error{fmt::format("{}:{}: {}", file_, line_, why)};
 }
 
-} // namespace sofof::report
+} // namespace sofof

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof {
 
 /// A CSV file with a header (RFC 4180). Columns are asked for by their place
 /// among those wanted; columns that nobody wants are skipped. Everything
@@ -58,4 +58,4 @@ private:
   std::size_t count_ = 0; // of the row's fields
 };
 
-} // namespace sofof::report
+} // namespace sofof

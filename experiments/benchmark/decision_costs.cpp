@@ -33,7 +33,7 @@ using figures = std::map<std::string, double>;
 
 figures read_timing(const std::filesystem::path& folder) {
   constexpr std::string_view columns[] = {"figure", "value"};
-  report::csv_reader rows{folder / "timing.csv", columns};
+  csv_reader rows{folder / "timing.csv", columns};
   figures all;
   while (rows.next())
     if (const auto value = rows.number_if_any(1))

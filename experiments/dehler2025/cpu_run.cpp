@@ -24,7 +24,7 @@ std::optional<cpu_figures> figures_in(const fs::path& file) {
   enum { station, actor, service, source, cpu_s, time_s, wakes };
   constexpr std::string_view columns[] = {
       "station", "actor", "service", "source", "cpu_s", "time_s", "wakes"};
-  report::csv_reader rows{file, columns};
+  csv_reader rows{file, columns};
   std::deque<std::string> names; // which the table's lines refer to
   cpu_table table;
   while (rows.next()) {

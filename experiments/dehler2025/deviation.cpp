@@ -26,7 +26,7 @@ using tracks = std::map<std::uint64_t, std::vector<passing>>; // by station
 tracks read(const std::filesystem::path& folder) {
   constexpr std::string_view columns[] = {"station", "s_m", "lateral_m",
                                           "speed_mps", "source"};
-  report::csv_reader rows{folder / "tracks.csv", columns};
+  csv_reader rows{folder / "tracks.csv", columns};
   tracks all;
   while (rows.next())
     all[rows.whole(0)].push_back({rows.number(1), rows.number(2),

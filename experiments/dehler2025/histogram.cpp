@@ -47,7 +47,7 @@ histogram read_histogram(const std::filesystem::path& folder,
                          std::string_view service, std::string_view figure) {
   constexpr std::string_view columns[] = {"service", "figure", "up_to_ms",
                                           "count"};
-  report::csv_reader rows{folder / "distributions.csv", columns};
+  csv_reader rows{folder / "distributions.csv", columns};
   histogram all;
   while (rows.next())
     if (rows.text(0) == service && rows.text(1) == figure)

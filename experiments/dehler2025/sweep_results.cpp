@@ -59,7 +59,7 @@ sweep_results read_swept(const std::filesystem::path& table) {
   sweep_results all{table.stem().string(), axes_of(table), {}, 0, 0};
   std::vector<std::string_view> wanted{"seed", "status", "run"};
   wanted.insert(wanted.end(), all.axes.begin(), all.axes.end());
-  report::csv_reader rows{table, wanted};
+  csv_reader rows{table, wanted};
   while (rows.next()) {
     if (rows.text(1) == "failed") {
       ++all.failed;

@@ -41,7 +41,8 @@ void visit_fields(auto& v, its_pdu& x) {
   v("octets", x.octets);
 }
 
-template <>
-inline constexpr std::string_view payload_name<its_pdu> = "its_pdu";
-
 } // namespace sofof
+
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::its_pdu> =
+    "its_pdu";

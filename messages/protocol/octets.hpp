@@ -1,6 +1,7 @@
 // How many octets a message takes between processes.
 #pragma once
 
+#include "messages/protocol/inspect.hpp"
 #include "messages/protocol/payload.hpp"
 #include "messages/protocol/service_name.hpp"
 
@@ -21,6 +22,11 @@ public:
   static constexpr bool is_loading = false;
 
   std::size_t count() const { return count_; }
+
+  template <class T>
+  bool value(T& x) {
+    return add(x);
+  }
 
   template <class T>
   octet_counter& object(T&) {
@@ -54,7 +60,7 @@ private:
       count_ += sizeof(T);
       return true;
     } else {
-      return inspect(*this, x);
+      return inspect_value(*this, x);
     }
   }
   template <class Rep, class Period>
@@ -100,8 +106,8 @@ private:
 template <class Message>
 std::size_t octets_of(const Message& message) {
   octet_counter f;
-  // `inspect` serves both directions, hence takes a mutable reference.
-  return inspect(f, const_cast<Message&>(message)) ? f.count() : 0;
+  // Inspectors serve both directions, hence take a mutable reference.
+  return f.value(const_cast<Message&>(message)) ? f.count() : 0;
 }
 
 } // namespace sofof

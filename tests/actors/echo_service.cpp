@@ -61,7 +61,8 @@ struct echo_world : virtual_world {
     return spawn_service_provider(system(), std::move(s));
   }
   link_actor spawn_link() {
-    const channel draws{profile(), random_stream{1, "network"}, station, 0};
+    const channel_draws draws{profile(), random_stream{1, "network"}, station,
+                              0};
     return spawn_network_link(system(), provider,
                               {{draws, direction::up, nullptr},
                                {draws, direction::down, nullptr},

@@ -42,8 +42,8 @@ struct linked_world : virtual_world {
                   const channel_profile& profile = steady(),
                   const std::shared_ptr<multi_server_queue>& cell = nullptr) {
     const random_stream seed{1, "network"};
-    const channel draws{std::make_shared<const channel_profile>(profile), seed,
-                        101, 0};
+    const channel_draws draws{std::make_shared<const channel_profile>(profile),
+                              seed, 101, 0};
     link_setup setup{
         {draws, direction::up, cell}, {draws, direction::down, cell}, {}};
     if (faults)

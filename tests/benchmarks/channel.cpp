@@ -20,7 +20,7 @@ void result_through(benchmark::State& state, const std::string& profile) {
   const random_stream seed{1, "benchmark"};
   const auto computers = compute_measured_with(profile);
   const auto draws = result_draws(seed, 101, 1);
-  link_direction link{channel{definition, seed, 101, 1}, direction::down,
+  link_direction link{channel_draws{definition, seed, 101, 1}, direction::down,
                       std::make_shared<multi_server_queue>(1)};
   std::uint64_t cycle = 0;
   time_point created;

@@ -18,8 +18,9 @@ namespace {
 
 const random_stream phase_seed{1, "phases"};
 
-channel phase_channel(const channel_profile& p, station_id station = 1,
-                      std::uint32_t provider = 0, std::string_view radio = {}) {
+channel_draws phase_channel(const channel_profile& p, station_id station = 1,
+                            std::uint32_t provider = 0,
+                            std::string_view radio = {}) {
   return {std::make_shared<channel_profile>(p), phase_seed, station, provider,
           radio};
 }
@@ -38,7 +39,7 @@ channel_profile drifting() {
 }
 
 /// g(t), as the delay of a message shows it.
-double g(const channel& of, time_point t, std::uint64_t number = 0) {
+double g(const channel_draws& of, time_point t, std::uint64_t number = 0) {
   return std::log(to_seconds(of.downlink_delay(number, t)) / 0.010) / 0.5;
 }
 

@@ -1,7 +1,7 @@
 // Tests of the distributions of delays.
 #include "channel/delay_distribution.hpp"
 
-#include "channel/channel.hpp"
+#include "channel/channel_draws.hpp"
 
 #include <doctest/doctest.h>
 
@@ -45,8 +45,8 @@ TEST_CASE("a profile's constant delay is on top of all draws, each way") {
     auto profile = *find_channel_profile(name);
     profile.trace = {{0, 0.010}, {1, 0.020}};
     const auto made = [&] {
-      return channel{std::make_shared<const channel_profile>(profile),
-                     random_stream{1, "network"}, 101, 0};
+      return channel_draws{std::make_shared<const channel_profile>(profile),
+                           random_stream{1, "network"}, 101, 0};
     };
     const auto plain = made();
     profile.more_delay = 30ms;

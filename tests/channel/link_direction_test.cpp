@@ -21,8 +21,8 @@ using kind = message_class;
 
 const random_stream link_seed{1, "link"};
 
-channel link_channel(const channel_profile& profile, station_id station = 1,
-                     std::uint32_t provider = 0) {
+channel_draws link_channel(const channel_profile& profile,
+                           station_id station = 1, std::uint32_t provider = 0) {
   return {std::make_shared<channel_profile>(profile), link_seed, station,
           provider};
 }

@@ -1,7 +1,7 @@
 // Tests of what providers compute with.
 #include "channel/provider_compute.hpp"
 
-#include "channel/channel.hpp"
+#include "channel/channel_draws.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ random_stream draws_here(std::string_view radio = {}) {
   return result_draws(compute_seed, computed_for, computed_at, radio);
 }
 
-channel channel_here(std::string_view profile) {
+channel_draws channel_here(std::string_view profile) {
   return {
       std::make_shared<const channel_profile>(*find_channel_profile(profile)),
       compute_seed, computed_for, computed_at};

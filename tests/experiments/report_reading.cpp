@@ -15,6 +15,7 @@
 namespace sofof::report {
 
 using namespace made_up;
+using test::check_says;
 
 namespace {
 

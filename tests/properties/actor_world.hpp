@@ -134,8 +134,8 @@ struct actor_world : virtual_world {
     setup.seed = random_stream{seed, "network"};
     setup.number = static_cast<std::uint32_t>(k);
     providers.push_back(spawn_service_provider(system(), std::move(setup)));
-    const channel draws{profile, random_stream{seed, "network"},
-                        shuttle::station, static_cast<std::uint32_t>(k)};
+    const channel_draws draws{profile, random_stream{seed, "network"},
+                              shuttle::station, static_cast<std::uint32_t>(k)};
     links.push_back(spawn_network_link(
         system(), providers.back(),
         {{draws, direction::up, nullptr},

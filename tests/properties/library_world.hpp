@@ -116,7 +116,8 @@ inline std::size_t octets_of_cam() {
 /// As network_link has it.
 class library_link {
 public:
-  library_link(agenda<event>& time, const channel& draws, link_faults faults)
+  library_link(agenda<event>& time, const channel_draws& draws,
+               link_faults faults)
       : time_{time}, up_{draws, direction::up, nullptr},
         down_{draws, direction::down, nullptr}, faults_{std::move(faults)} {}
 
@@ -210,7 +211,7 @@ struct library_world {
           std::make_unique<offloading::provider_side>(std::move(setup), *this);
     }
 
-    channel draws() const {
+    channel_draws draws() const {
       return {world.profile, random_stream{world.seed, "network"},
               shuttle::station, static_cast<std::uint32_t>(number)};
     }

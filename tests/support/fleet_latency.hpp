@@ -47,7 +47,8 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
   jobs.reserve(f.vehicles * cycles);
   for (std::uint32_t v = 0; v < f.vehicles; ++v) {
     draws.push_back(result_draws(seed, v, 0));
-    links.emplace_back(channel{f.profile, seed, v, 0}, direction::down, cell);
+    links.emplace_back(channel_draws{f.profile, seed, v, 0}, direction::down,
+                       cell);
     const auto phase =
         from_seconds(seed.part("phase").uniform(0, to_seconds(f.period), v));
     for (std::uint64_t c = 0; c < cycles; ++c)

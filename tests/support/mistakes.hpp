@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::test {
 
 /// One mistake: a right text of which `right` is replaced by `wrong`. A `@` in
 /// `wrong` marks the place that has to be named; it is taken out.
@@ -45,4 +45,4 @@ inline void check_says(const std::string& error, std::string_view place,
   CHECK(error.ends_with('.'));
 }
 
-} // namespace sofof
+} // namespace sofof::test

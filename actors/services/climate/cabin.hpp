@@ -36,11 +36,6 @@ void visit_fields(auto& v, climate_power& x) {
   v("power_w", x.power_w);
 }
 
-template <>
-inline constexpr std::string_view payload_name<climate_request> = "climate_ask";
-template <>
-inline constexpr std::string_view payload_name<climate_power> = "climate_power";
-
 /// The weather, what is wanted, and the cabin itself.
 struct climate_options {
   double outside_c = 5;
@@ -61,3 +56,10 @@ client_actor spawn_cabin(caf::actor_system& sys, const climate_options& options,
                          duration period);
 
 } // namespace sofof
+
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::climate_request> =
+    "climate_ask";
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::climate_power> =
+    "climate_power";

@@ -27,11 +27,14 @@ void visit_fields(auto& v, plan_request& x) {
   v("own", x.own);
 }
 
-template <>
-inline constexpr std::string_view payload_name<plan_request> = "plan_request";
-template <>
-inline constexpr std::string_view payload_name<trajectory> = "trajectory";
-template <>
-inline constexpr std::string_view payload_name<plan_report> = "plan_report";
-
 } // namespace sofof
+
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::plan_request> =
+    "plan_request";
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::trajectory> =
+    "trajectory";
+template <>
+inline constexpr std::string_view sofof::payload_name<sofof::plan_report> =
+    "plan_report";

@@ -30,10 +30,10 @@ def type_ids():
            "message": 39, "forced_close": 26, "u8": 11, "bool": 0}
     here = os.path.dirname(__file__)
     with open(f"{here}/../../../messages/type_ids.hpp") as file:
-        names = re.findall(r"CAF_ADD_(?:TYPE_ID\(sofof, \(|ATOM\(sofof, sofof, )"
-                           r"([\w:<>]+)\)", file.read())
+        names = re.findall(r"CAF_ADD_TYPE_ID\(sofof, \(([\w:<>]+)\)",
+                           file.read())
     for n, name in enumerate(names):
-        ids[name.removeprefix("sofof::")] = 200 + n
+        ids[re.sub(r"\w+::", "", name)] = 200 + n
     return ids
 
 

@@ -1,5 +1,5 @@
 // How long messages travel: the draws of one vehicle.
-#include "channel/channel.hpp"
+#include "channel/channel_draws.hpp"
 
 #include "channel/draw_lanes.hpp"
 
@@ -43,9 +43,9 @@ constexpr std::string_view results_part = "results";
 
 } // namespace
 
-channel::channel(std::shared_ptr<const channel_profile> profile,
-                 random_stream seed, station_id station, std::uint32_t provider,
-                 std::string_view radio)
+channel_draws::channel_draws(std::shared_ptr<const channel_profile> profile,
+                             random_stream seed, station_id station,
+                             std::uint32_t provider, std::string_view radio)
     : of_radio_{radio_of(seed, station, radio)},
       drift_{of_radio_.part("drift").part(provider)}, // stalls by radio
       up_{split("up", provider)}, // the rest by provider, too
@@ -59,7 +59,8 @@ channel::channel(std::shared_ptr<const channel_profile> profile,
         of_radio_.part("trace").uniform(0, replay_length_s(profile_->trace), 0);
 }
 
-duration channel::network_delay(const message_id& m, time_point sent) const {
+duration channel_draws::network_delay(const message_id& m,
+                                      time_point sent) const {
   const auto& p = *profile_;
   const auto extra =
       p.more_delay + from_seconds(spike_s(p.spikes, of(m), m.number));
@@ -76,7 +77,7 @@ duration channel::network_delay(const message_id& m, time_point sent) const {
 
 // Between values that are drawn for the ends of each period the weights turn
 // from one to the other; their squares add up to 1, so g is as wide anywhere.
-double channel::drift(time_point sent) const {
+double channel_draws::drift(time_point sent) const {
   const auto& [sd, period] = profile_->drift;
   if (sd <= 0 || period <= duration{})
     return 1;
@@ -89,11 +90,11 @@ double channel::drift(time_point sent) const {
   return std::exp(sd * g);
 }
 
-duration channel::burst_delay(direction to, std::uint64_t stall) const {
+duration channel_draws::burst_delay(direction to, std::uint64_t stall) const {
   return from_seconds(network_draw_s(*profile_, of(to).bursts, stall));
 }
 
-duration channel::airtime(const message_id& m, std::size_t octets) const {
+duration channel_draws::airtime(const message_id& m, std::size_t octets) const {
   const auto& p = *profile_;
   const auto size = static_cast<double>(octets);
   const auto usual = p.airtime.draw_s(of(m), m.number, airtime_lane);
@@ -102,14 +103,14 @@ duration channel::airtime(const message_id& m, std::size_t octets) const {
   return from_seconds(usual * share + bits);
 }
 
-bool channel::lost(const message_id& m, bool fading) const {
+bool channel_draws::lost(const message_id& m, bool fading) const {
   const auto& burst = profile_->burst_loss;
   const auto arrives =
       (1 - profile_->loss) * (1 - (fading ? burst.loss_bad : burst.loss_good));
   return arrives < 1 && of(m).uniform(m.number, loss_lane) >= arrives;
 }
 
-outage_process channel::stalls() const {
+outage_process channel_draws::stalls() const {
   const auto& [rate_hz, shortest, longest] = profile_->stalls;
   if (rate_hz <= 0)
     return {};
@@ -120,7 +121,7 @@ outage_process channel::stalls() const {
           delay_distribution::uniform(shortest, longest)};
 }
 
-outage_process channel::fades() const {
+outage_process channel_draws::fades() const {
   const auto& burst = profile_->burst_loss;
   if (burst.mean_good <= duration{} || burst.mean_bad <= duration{})
     return {};
@@ -129,23 +130,23 @@ outage_process channel::fades() const {
           delay_distribution::exponential(burst.mean_bad)};
 }
 
-bool channel::is_out(duration since_start) const {
+bool channel_draws::is_out(duration since_start) const {
   return std::ranges::any_of(profile_->outages, [since_start](const auto& x) {
     return x.from <= since_start && since_start < x.to;
   });
 }
 
-channel::streams channel::split(std::string_view direction,
-                                std::uint32_t provider) const {
+channel_draws::streams channel_draws::split(std::string_view direction,
+                                            std::uint32_t provider) const {
   const auto s = provider_part(of_radio_, direction, provider);
   return {s.part(results_part), s.part("others"), s.part("bursts")};
 }
 
-const channel::streams& channel::of(direction to) const {
+const channel_draws::streams& channel_draws::of(direction to) const {
   return to == direction::up ? up_ : down_;
 }
 
-const random_stream& channel::of(const message_id& m) const {
+const random_stream& channel_draws::of(const message_id& m) const {
   const auto& streams = of(m.to);
   return m.kind == message_class::result ? streams.results : streams.others;
 }

@@ -34,15 +34,15 @@ struct message_id {
 };
 
 /// Draws for one vehicle at one provider. Cheap to make and to copy.
-class channel {
+class channel_draws {
 public:
   /// @param radio  Over which the vehicle reaches the provider: providers of
   ///               one radio are reached, and stalled, at the same times.
   /// @throws std::invalid_argument  when the profile replays a trace and has
   /// no samples.
-  channel(std::shared_ptr<const channel_profile> profile, random_stream seed,
-          station_id station, std::uint32_t provider,
-          std::string_view radio = {});
+  channel_draws(std::shared_ptr<const channel_profile> profile,
+                random_stream seed, station_id station, std::uint32_t provider,
+                std::string_view radio = {});
 
   /// Network delay without queues and stalls.
   /// @param sent  Matters when a trace is replayed, or where delays drift.
