@@ -79,7 +79,10 @@ private:
       wake_at(t, timer_of::function, number);
     }
     void deliver_at(time_point t, service_result result) override {
-      wake_at(t, timer_of::result, results.add(std::move(result)));
+      if (t > all.now_)
+        wake_at(t, timer_of::result, results.add(std::move(result)));
+      else
+        all.port_.send(requester, std::move(result));
     }
   };
 
