@@ -49,7 +49,12 @@ constexpr double to_milliseconds(duration d) {
 /// @param seconds  |seconds| < 9.2e9.
 /// @returns the nearest whole number of nanoseconds.
 inline duration from_seconds(double seconds) {
-  return duration{std::llround(seconds * 1e9)};
+  // As std::llround does it, without a call: the number below a half lifts
+  // what is to be rounded up over the next whole number, and nothing else.
+  constexpr double almost_half = 0x1.fffffffffffffp-2;
+  const auto ns = seconds * 1e9;
+  return duration{
+      static_cast<duration::rep>(ns + std::copysign(almost_half, ns))};
 }
 
 } // namespace sofof

@@ -19,12 +19,19 @@ double network_draw_s(const channel_profile& p, const random_stream& draws,
          + p.joint_share * p.joint.draw_s(draws, number, joint_lane);
 }
 
-double spike_s(const spike_options& p, const random_stream& draws,
+duration spike(const spike_options& p, const random_stream& draws,
                std::uint64_t number) {
   if (p.probability <= 0 || draws.uniform(number, spike_lane) >= p.probability)
-    return 0;
-  return draws.uniform(to_seconds(p.shortest), to_seconds(p.longest), number,
-                       spike_length_lane);
+    return {};
+  return from_seconds(draws.uniform(to_seconds(p.shortest),
+                                    to_seconds(p.longest), number,
+                                    spike_length_lane));
+}
+
+/// Whether all messages travel for the same time.
+bool draws_no_delay(const channel_profile& p) {
+  return !p.replays && p.network.is_none() && p.joint.is_none()
+         && p.spikes.probability <= 0;
 }
 
 random_stream radio_of(const random_stream& seed, station_id station,
@@ -61,9 +68,14 @@ channel_draws::channel_draws(std::shared_ptr<const channel_profile> profile,
 
 duration channel_draws::network_delay(const message_id& m,
                                       time_point sent) const {
+  return draws_no_delay(*profile_) ? profile_->more_delay
+                                   : drawn_delay(m, sent);
+}
+
+duration channel_draws::drawn_delay(const message_id& m,
+                                    time_point sent) const {
   const auto& p = *profile_;
-  const auto extra =
-      p.more_delay + from_seconds(spike_s(p.spikes, of(m), m.number));
+  const auto extra = p.more_delay + spike(p.spikes, of(m), m.number);
   if (!p.replays)
     return extra
            + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));
@@ -96,6 +108,8 @@ duration channel_draws::burst_delay(direction to, std::uint64_t stall) const {
 
 duration channel_draws::airtime(const message_id& m, std::size_t octets) const {
   const auto& p = *profile_;
+  if (p.airtime.is_none() && p.cell_mbps <= 0)
+    return {};
   const auto size = static_cast<double>(octets);
   const auto usual = p.airtime.draw_s(of(m), m.number, airtime_lane);
   const auto share = size / static_cast<double>(usual_octets);

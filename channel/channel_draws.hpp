@@ -76,6 +76,7 @@ public:
   bool is_out(duration since_start) const;
 
 private:
+  duration drawn_delay(const message_id& m, time_point sent) const;
   double drift(time_point sent) const;
   struct streams {
     random_stream results;

@@ -35,9 +35,9 @@ delay_distribution delay_distribution::beta(duration longest, double a,
   return {shape::beta, {}, to_seconds(longest), a, b};
 }
 
-double delay_distribution::draw_s(const random_stream& stream,
-                                  std::uint64_t number,
-                                  std::uint32_t lane) const {
+double delay_distribution::draw_some_s(const random_stream& stream,
+                                       std::uint64_t number,
+                                       std::uint32_t lane) const {
   switch (kind_) {
     case shape::none:
       return 0;

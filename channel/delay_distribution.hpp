@@ -26,9 +26,14 @@ public:
   /// `longest` times a beta(a, b) variable.
   static delay_distribution beta(duration longest, double a, double b);
 
+  /// @returns whether it takes no time at all, whatever is drawn.
+  bool is_none() const { return kind_ == shape::none; }
+
   /// @returns draw `number` of this law, s, >= 0.
   double draw_s(const random_stream& stream, std::uint64_t number,
-                std::uint32_t lane) const;
+                std::uint32_t lane) const {
+    return is_none() ? 0 : draw_some_s(stream, number, lane);
+  }
 
   /// @returns the mean of this law, s, >= 0.
   double mean_s() const;
@@ -38,6 +43,9 @@ public:
 
 private:
   enum class shape { none, uniform, exponential, lognormal, beta };
+
+  double draw_some_s(const random_stream& stream, std::uint64_t number,
+                     std::uint32_t lane) const;
 
   delay_distribution(shape kind, duration shift, double p, double q = 0,
                      double r = 0)

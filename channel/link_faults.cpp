@@ -7,13 +7,16 @@ namespace sofof {
 
 link_faults::link_faults(random_stream stream,
                          const link_fault_options& options)
-    : stream_{stream}, options_{options} {
+    : stream_{stream}, options_{options}, is_faultless_{
+                                              options.loss <= 0
+                                              && options.duplicate <= 0
+                                              && options.reorder <= 0} {
   assert(options.loss >= 0 && options.loss <= 1);
   assert(options.duplicate >= 0 && options.duplicate <= 1);
   assert(options.reorder >= 0 && options.reorder <= 1);
 }
 
-link_faults::fate link_faults::of(std::uint64_t number) const {
+link_faults::fate link_faults::draw(std::uint64_t number) const {
   enum lane : std::uint32_t { loss, duplicate, reorder, extra, copy };
   const auto happens = [&](double probability, lane l) {
     return probability > 0 && stream_.uniform(number, l) < probability;

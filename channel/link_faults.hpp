@@ -30,11 +30,16 @@ public:
 
   link_faults(random_stream stream, const link_fault_options& options);
 
-  fate of(std::uint64_t number) const;
+  fate of(std::uint64_t number) const {
+    return is_faultless_ ? fate{} : draw(number);
+  }
 
 private:
+  fate draw(std::uint64_t number) const;
+
   random_stream stream_;
   link_fault_options options_;
+  bool is_faultless_;
 };
 
 } // namespace sofof

@@ -164,23 +164,23 @@ bool provider::serves(peer_id requester) const {
 void provider::offer(station_record& station, time_point now) {
   assert(station.requester);
   assert(now >= station.next_offer);
-  service_offer offered{.provider = setup_.id,
-                        .position = setup_.position,
-                        .services = {},
-                        .utilisation = utilisation(),
-                        .workers =
-                            static_cast<std::uint32_t>(setup_.computer.workers),
-                        .computing = from_seconds(setup_.computer.mean_s),
-                        .created = now};
+  std::vector<service_name> idle;
   for (const auto& service : setup_.services)
     if (!station.find(service.name))
-      offered.services.push_back(service.name);
-  assert(offered.services.size() + station.sessions.size()
-         == setup_.services.size());
-  if (offered.services.empty())
+      idle.push_back(service.name);
+  assert(idle.size() + station.sessions.size() == setup_.services.size());
+  if (idle.empty())
     return;
   station.next_offer = now + protocol::offer_period;
-  port_.send(*station.requester, offered);
+  port_.send(*station.requester,
+             service_offer{
+                 .provider = setup_.id,
+                 .position = setup_.position,
+                 .services = std::move(idle),
+                 .utilisation = utilisation(),
+                 .workers = static_cast<std::uint32_t>(setup_.computer.workers),
+                 .computing = from_seconds(setup_.computer.mean_s),
+                 .created = now});
 }
 
 void provider::forget(stations::iterator i, end_reason reason, time_point now) {

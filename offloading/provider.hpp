@@ -77,7 +77,7 @@ public:
   /// It shall end.
   virtual void end(const service_end& end) = 0;
 
-  virtual void record(sofof::record x) = 0;
+  virtual void record(sofof::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;

@@ -29,9 +29,9 @@ public:
     provider_->on_sign_of_life(station, from, now);
   }
 
-  void on_message(peer_id from, to_provider message, time_point now) {
+  void on_message(peer_id from, const to_provider& message, time_point now) {
     begin_call(now);
-    std::visit([&](auto& x) { handle(from, std::move(x)); }, message);
+    std::visit([&](const auto& x) { handle(from, x); }, message);
   }
 
   void on_lost(peer_id requester, time_point now) {
@@ -79,7 +79,10 @@ private:
       wake_at(t, timer_of::function, number);
     }
     void deliver_at(time_point t, service_result result) override {
-      wake_at(t, timer_of::result, results.add(std::move(result)));
+      if (t > all.now_)
+        wake_at(t, timer_of::result, results.add(std::move(result)));
+      else
+        all.port_.send(requester, std::move(result));
     }
   };
 
@@ -135,11 +138,11 @@ private:
   }
   void handle(peer_id, const service_end& end) { provider_->on_end(end, now_); }
   // Only the requester of a session feeds it.
-  void handle(peer_id from, service_input&& input) {
+  void handle(peer_id from, const service_input& input) {
     auto* to = find(input.session);
     if (!to || to->requester != from)
       return;
-    to->cycle.on_input(std::move(input), now_);
+    to->cycle.on_input(input, now_);
     if (!std::exchange(to->fed, true))
       to->cycle.on_step(lifecycle_step::activate, now_);
   }
@@ -176,7 +179,7 @@ private:
     sessions_.erase(end.session.counter);
   }
 
-  void record(sofof::record x) override { port_.record(std::move(x)); }
+  void record(sofof::record&& x) override { port_.record(std::move(x)); }
 
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::provider, 0, number});
@@ -204,9 +207,9 @@ void provider_side::on_sign_of_life(station_id station, peer_id from,
   parts_->on_sign_of_life(station, from, now);
 }
 
-void provider_side::on_message(peer_id from, to_provider message,
+void provider_side::on_message(peer_id from, const to_provider& message,
                                time_point now) {
-  parts_->on_message(from, std::move(message), now);
+  parts_->on_message(from, message, now);
 }
 
 void provider_side::on_lost(peer_id requester, time_point now) {

@@ -23,8 +23,7 @@ public:
     return start;
   }
   /// Records are lost unless this is overridden.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides keep it
-  virtual void record(sofof::record) {}
+  virtual void record(sofof::record&&) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };
@@ -48,7 +47,7 @@ public:
   /// A station has sent something else, a CPM say: it lives.
   void on_sign_of_life(station_id station, peer_id from, time_point now);
 
-  void on_message(peer_id from, to_provider message, time_point now);
+  void on_message(peer_id from, const to_provider& message, time_point now);
 
   /// A requester cannot be reached any more.
   void on_lost(peer_id requester, time_point now);

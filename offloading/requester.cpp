@@ -41,9 +41,10 @@ bool requester::is_consistent() const {
 }
 
 service_state* requester::find(const service_name& service) {
-  const auto i =
-      std::ranges::find(services_, service,
-                        [](const service_state& x) { return x.service.name; });
+  const auto i = std::ranges::find(
+      services_, service, [](const service_state& x) -> const service_name& {
+        return x.service.name;
+      });
   return i == services_.end() ? nullptr : &*i;
 }
 

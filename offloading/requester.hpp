@@ -57,7 +57,7 @@ public:
   /// Whether any service is run by a provider has perhaps changed.
   virtual void on_placement(bool any_remote) = 0;
 
-  virtual void record(sofof::record x) = 0;
+  virtual void record(sofof::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;

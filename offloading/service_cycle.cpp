@@ -53,8 +53,8 @@ void service_cycle::on_step(lifecycle_step step, time_point now) {
     begin(now);
 }
 
-void service_cycle::on_input(service_input input, time_point now) {
-  newest_ = std::move(input);
+void service_cycle::on_input(const service_input& input, time_point now) {
+  newest_ = input;
   if (newest_.standby)
     stop_timer();
   if (state_ == lifecycle_state::active && !has_timer_)
@@ -96,13 +96,17 @@ void service_cycle::await_next(time_point now) {
 
 void service_cycle::run(time_point now) {
   assert(state_ == lifecycle_state::active);
-  const auto is_ahead = next_number(now) > grid_number(now) + 1;
+  const auto on_grid = grid_number(now);
+  const auto cycle = next_number(on_grid);
+  const auto is_ahead = cycle > on_grid + 1;
   if (newest_.what.empty() || is_ahead)
     return;
   auto output = setup_.function->run(now, newest_);
   if (output.what.empty())
     return;
-  const auto cycle = take_number(now);
+  after_any_ = cycle + 1;
+  if (newest_.standby || cycle > on_grid)
+    after_off_grid_ = after_any_;
   const auto done = setup_.finish(now, cycle);
   assert(done >= now);
   port_.deliver_at(done, {setup_.session, cycle, now, std::move(output.what),
@@ -115,17 +119,8 @@ std::uint64_t service_cycle::grid_number(time_point t) const {
 }
 
 // A call off the grid may run one cycle more than the grid has by then.
-std::uint64_t service_cycle::next_number(time_point t) const {
-  return std::max(grid_number(t),
-                  newest_.standby ? after_any_ : after_off_grid_);
-}
-
-std::uint64_t service_cycle::take_number(time_point t) {
-  const auto cycle = next_number(t);
-  after_any_ = cycle + 1;
-  if (newest_.standby || cycle > grid_number(t))
-    after_off_grid_ = after_any_;
-  return cycle;
+std::uint64_t service_cycle::next_number(std::uint64_t on_grid) const {
+  return std::max(on_grid, newest_.standby ? after_any_ : after_off_grid_);
 }
 
 } // namespace sofof::offloading

@@ -65,7 +65,7 @@ public:
   void on_step(lifecycle_step step, time_point now);
 
   /// The next cycles start from this.
-  void on_input(service_input input, time_point now);
+  void on_input(const service_input& input, time_point now);
 
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);
@@ -79,8 +79,7 @@ private:
   void run(time_point now);
 
   std::uint64_t grid_number(time_point t) const;
-  std::uint64_t next_number(time_point t) const;
-  std::uint64_t take_number(time_point t);
+  std::uint64_t next_number(std::uint64_t on_grid) const;
 
   cycle_setup setup_;
   cycle_port& port_;

@@ -69,14 +69,15 @@ std::ptrdiff_t source_selector::in_use() const {
 }
 
 bool source_selector::is_standby(const source& x) const {
-  return stands_by(standby_, x.session.provider, in_use() > x.in_use);
+  return standby_
+         && stands_by(standby_, x.session.provider, in_use() > x.in_use);
 }
 
 // -- input --------------------------------------------------------------------
 
-void source_selector::on_input(service_input input, time_point now) {
+void source_selector::on_input(const service_input& input, time_point now) {
   pass(now);
-  newest_ = std::move(input);
+  newest_ = input;
   port_.feed_local(newest_);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
@@ -206,7 +207,8 @@ void source_selector::on_result_of(source& x, const service_result& result,
   assert(in_limits || margins.empty());
   if (in_limits && !is_standby(x) && result.created > began_)
     await_cycle_after(result.created);
-  const auto alone = !is_remote() || (x.in_use && in_use() == 1);
+  const auto used = in_use();
+  const auto alone = used == 0 || (x.in_use && used == 1);
   const auto fits = in_limits && (alone || may_follow(result, now));
   // A standby answers the cycle that it was called for.
   const auto start = is_standby(x) ? began_ : result.created;

@@ -55,7 +55,7 @@ public:
                              const implausibility& found) = 0;
   virtual void watch_end(const service_end& end) = 0;
 
-  virtual void record(sofof::record x) = 0;
+  virtual void record(sofof::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -81,7 +81,7 @@ public:
   source_selector(selector_setup setup, selector_port& port);
 
   /// The client has new input.
-  void on_input(service_input input, time_point now);
+  void on_input(const service_input& input, time_point now);
 
   /// A provider runs the service too. It is fed at once.
   void on_session(const session_id& session, time_point now);

@@ -27,11 +27,11 @@ public:
 
   void on_motion(const ego_state& ego) { requester_->on_motion(ego); }
 
-  void on_input(const service_name& service, service_input input,
+  void on_input(const service_name& service, const service_input& input,
                 time_point now) {
     begin_call(now);
     if (auto* known = find(service))
-      known->selector.on_input(std::move(input), now);
+      known->selector.on_input(input, now);
     end_call();
   }
 
@@ -149,7 +149,7 @@ private:
       own.on_step(lifecycle_step::deactivate, all.now_);
     }
     void go_local(service_input input) override {
-      own.on_input(std::move(input), all.now_);
+      own.on_input(input, all.now_);
       own.on_step(lifecycle_step::activate, all.now_);
     }
     void announce_source(bool remote) override {
@@ -195,7 +195,7 @@ private:
       report(std::move(violation));
     }
 
-    void record(sofof::record x) override { all.port_.record(std::move(x)); }
+    void record(sofof::record&& x) override { all.port_.record(std::move(x)); }
 
     void wake_at(time_point t, std::uint64_t number) override {
       wake_at(t, timer_of::selector, number);
@@ -295,7 +295,7 @@ private:
     at(service).selector.on_standby(chosen, now_);
   }
   void on_placement(bool) override {}
-  void record(sofof::record x) override { port_.record(std::move(x)); }
+  void record(sofof::record&& x) override { port_.record(std::move(x)); }
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::requester, nullptr, number});
   }
@@ -320,9 +320,9 @@ void vehicle_side::on_motion(const ego_state& ego) {
   parts_->on_motion(ego);
 }
 
-void vehicle_side::on_input(const service_name& service, service_input input,
-                            time_point now) {
-  parts_->on_input(service, std::move(input), now);
+void vehicle_side::on_input(const service_name& service,
+                            const service_input& input, time_point now) {
+  parts_->on_input(service, input, now);
 }
 
 void vehicle_side::on_message(peer_id from, const to_vehicle& message,

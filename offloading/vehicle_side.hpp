@@ -43,8 +43,7 @@ public:
     return start;
   }
   /// Records are lost unless this is overridden.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides keep it
-  virtual void record(sofof::record) {}
+  virtual void record(sofof::record&&) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };
@@ -67,7 +66,7 @@ public:
   void on_motion(const ego_state& ego);
 
   /// New input of a service; of one that is not known it is ignored.
-  void on_input(const service_name& service, service_input input,
+  void on_input(const service_name& service, const service_input& input,
                 time_point now);
 
   void on_message(peer_id from, const to_vehicle& message, time_point now);

@@ -78,7 +78,7 @@ void provider_links::end(const service_end& end) {
   self_->send(manager.mapped(), end);
 }
 
-void provider_links::record(sofof::record x) {
+void provider_links::record(sofof::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 

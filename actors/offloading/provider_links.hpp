@@ -46,7 +46,7 @@ public:
   void leave(offloading::peer_id requester) override;
   void start(const offloading::session_start& start) override;
   void end(const service_end& end) override;
-  void record(sofof::record x) override;
+  void record(sofof::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:

@@ -74,7 +74,7 @@ void requester_links::on_placement(bool any_remote) {
   charge(self_->system(), self_->id(), {station_, {}, any_remote});
 }
 
-void requester_links::record(sofof::record x) {
+void requester_links::record(sofof::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 

@@ -44,7 +44,7 @@ public:
   void set_standby(const service_name& service,
                    const std::optional<standby>& chosen) override;
   void on_placement(bool any_remote) override;
-  void record(sofof::record x) override;
+  void record(sofof::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:

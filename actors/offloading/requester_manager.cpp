@@ -49,8 +49,8 @@ requester_manager_impl::behavior_type requester_manager(
       [self](const service_result& result) {
         self->state.selector->on_result(result, now(self));
       },
-      [self](service_input& input) {
-        self->state.selector->on_input(std::move(input), now(self));
+      [self](const service_input& input) {
+        self->state.selector->on_input(input, now(self));
       },
       [self](const session_id& session, provider_manager_actor& manager) {
         self->state.on_session(session, std::move(manager));

@@ -96,7 +96,7 @@ void selector_links::watch_end(const service_end& end) {
   self_->send(watchdog_, end);
 }
 
-void selector_links::record(sofof::record x) {
+void selector_links::record(sofof::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 

@@ -42,7 +42,7 @@ public:
   void watch_useless(const session_id& session,
                      const implausibility& found) override;
   void watch_end(const service_end& end) override;
-  void record(sofof::record x) override;
+  void record(sofof::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:

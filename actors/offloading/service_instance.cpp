@@ -47,8 +47,8 @@ instance(instance_impl::stateful_pointer<instance_state> self,
   self->state.cycle.emplace(std::move(setup.cycle), self->state);
   return {
       [self](lifecycle_step step) { self->state.on_step(step); },
-      [self](service_input& input) {
-        self->state.cycle->on_input(std::move(input), now(self));
+      [self](const service_input& input) {
+        self->state.cycle->on_input(input, now(self));
       },
       [self](tick_atom, std::uint64_t number) {
         self->state.cycle->on_timer(number, now(self));

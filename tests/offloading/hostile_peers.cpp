@@ -125,7 +125,7 @@ struct deceived_vehicle final : offloading::vehicle_port {
   void on_source(const service_name& service, bool is_remote) override {
     CHECK(std::exchange(remote[service], is_remote) != is_remote);
   }
-  void record(sofof::record) override {}
+  void record(sofof::record&&) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     due.emplace(t, number);
   }
@@ -164,7 +164,7 @@ struct deceived_provider final : offloading::provider_side_port {
                     std::uint64_t) override {
     return start + 2ms;
   }
-  void record(sofof::record x) override {
+  void record(sofof::record&& x) override {
     ended += std::holds_alternative<episode_record>(x);
   }
   void wake_at(time_point t, std::uint64_t number) override {

@@ -231,7 +231,7 @@ struct library_world {
       return workers->finish(start,
                              computers.computing_time(draws_of_results, cycle));
     }
-    void record(sofof::record x) override {
+    void record(sofof::record&& x) override {
       if (const auto* episode = std::get_if<episode_record>(&x))
         world.book->add(*episode);
     }
@@ -266,7 +266,7 @@ struct library_world {
     void on_source(const service_name& service, bool remote) override {
       world.diary->on_source(service, remote);
     }
-    void record(sofof::record x) override {
+    void record(sofof::record&& x) override {
       if (const auto* episode = std::get_if<episode_record>(&x))
         world.book->add(*episode);
     }

@@ -123,18 +123,21 @@ TEST_CASE_TEMPLATE("a lost message costs seconds of offloading, not a passage",
 }
 
 TEST_CASE("actors and library leave the same ledger of the same seed") {
-  dice random{99};
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    CAPTURE(seed);
-    const link_fault_options faults{
-        random.between(0, 0.3), random.between(0, 0.3), random.between(0, 0.3),
-        from_seconds(random.between(0.001, 1.0))};
-    const auto providers = 1 + static_cast<int>(seed % 3);
-    actor_world actors{seed, faults, providers};
-    library_world library{seed, faults, providers};
-    actors.run_for(200s);
-    library.run_for(200s);
-    CHECK(actors.book->remote_episodes > 0);
-    CHECK(*actors.book == *library.book);
+  for (const auto* channel : {"paper_5g", "ideal"}) {
+    CAPTURE(channel);
+    dice random{99};
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(seed);
+      const link_fault_options faults{
+          random.between(0, 0.3), random.between(0, 0.3),
+          random.between(0, 0.3), from_seconds(random.between(0.001, 1.0))};
+      const auto providers = 1 + static_cast<int>(seed % 3);
+      actor_world actors{seed, faults, providers, channel};
+      library_world library{seed, faults, providers, channel};
+      actors.run_for(200s);
+      library.run_for(200s);
+      CHECK(actors.book->remote_episodes > 0);
+      CHECK(*actors.book == *library.book);
+    }
   }
 }

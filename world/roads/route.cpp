@@ -91,6 +91,8 @@ std::vector<point> route::waypoints(double s_m, double ahead_m,
   std::vector<point> ahead;
   const auto end_m =
       closed() ? s_m + ahead_m : std::min(s_m + ahead_m, length_m());
+  const auto steps = std::max(end_m - s_m, 0.0) / spacing_m;
+  ahead.reserve(static_cast<std::size_t>(steps) + 2);
   for (auto i = 0.0; s_m + i * spacing_m < end_m; ++i)
     ahead.push_back(path_.at(s_m + i * spacing_m).at);
   ahead.push_back(path_.at(end_m).at);
