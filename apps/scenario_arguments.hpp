@@ -32,7 +32,7 @@ struct scenario_arguments {
         ->expected(1);
   }
 
-  scenario load() const {
+  scenario_definition load() const {
     auto overrides = set;
     if (!seed.empty())
       overrides.push_back("seed=" + seed);

@@ -28,7 +28,7 @@ namespace sofof {
 namespace {
 
 /// Everybody's noise comes from the seed through streams with names.
-random_stream noise_of(const scenario& s, std::string_view what) {
+random_stream noise_of(const scenario_definition& s, std::string_view what) {
   return random_stream{static_cast<std::uint64_t>(s.seed), what};
 }
 
@@ -52,7 +52,7 @@ struct provider_cell {
 
 /// A plan is fresh up to the longest time between two usable ones.
 /// Source: latency limit + gap limit + one planning period.
-duration fresh_limit(const scenario& s) {
+duration fresh_limit(const scenario_definition& s) {
   const auto* planning = planning_service(s);
   if (!planning)
     return {};
@@ -64,7 +64,8 @@ duration fresh_limit(const scenario& s) {
 /// @returns those of providers; none where the cars drive in other processes:
 /// they would tell of an empty road, and speak against every car.
 std::vector<roadside_sensor>
-sensors_beside(const scenario& s, const std::vector<provider_cell>& cells,
+sensors_beside(const scenario_definition& s,
+               const std::vector<provider_cell>& cells,
                const process_share& here) {
   if (here.serves_others)
     return {};
@@ -79,15 +80,15 @@ sensors_beside(const scenario& s, const std::vector<provider_cell>& cells,
   return beside;
 }
 
-std::vector<oriented_box> obstacles(const scenario& s) {
+std::vector<oriented_box> obstacles(const scenario_definition& s) {
   std::vector<oriented_box> boxes;
   for (const auto& o : s.obstacles)
     boxes.push_back(o.box());
   return boxes;
 }
 
-antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                const provider_cell& at) {
+antenna connect(caf::actor_system& sys, const scenario_definition& s,
+                station_id station, const provider_cell& at) {
   const channel_draws draws{at.channel, noise_of(s, "network"), station,
                             at.place, at.options->radio};
   return {spawn_network_link(sys, at.provider,
@@ -98,8 +99,8 @@ antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
 }
 
 // Real delays take the place of modelled ones.
-antenna connect(caf::actor_system& sys, const scenario& s, station_id station,
-                const process_share::remote_provider& to,
+antenna connect(caf::actor_system& sys, const scenario_definition& s,
+                station_id station, const process_share::remote_provider& to,
                 const provider_outbox& outbox) {
   auto far = spawn_provider_proxy(sys, station, outbox);
   introduce(outbox, station, far);
@@ -132,7 +133,7 @@ void end(const std::vector<Handle>& leaving, runtime& time) {
 /// Spawns one run, group by group.
 class builder {
 public:
-  builder(caf::actor_system& sys, const scenario& s,
+  builder(caf::actor_system& sys, const scenario_definition& s,
           std::shared_ptr<record_sink> sink, etsi::its_clock clock,
           bool virtual_time, const process_share& here)
       : sys_{sys}, s_{s}, here_{here}, virtual_time_{virtual_time},
@@ -318,7 +319,7 @@ private:
   }
 
   caf::actor_system& sys_;
-  const scenario& s_;
+  const scenario_definition& s_;
   const process_share& here_;
   bool virtual_time_;
   georeference_ptr where_;
@@ -331,7 +332,7 @@ private:
 
 } // namespace
 
-world_actors build(caf::actor_system& sys, const scenario& s,
+world_actors build(caf::actor_system& sys, const scenario_definition& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
                    std::function<void(const std::string&)> on_loss,

@@ -59,7 +59,7 @@ struct world_actors {
 /// @param virtual_time  Model computing times instead of taking time.
 /// @param here  What of it.
 /// @param on_loss  Called with a sentence when one of them dies.
-world_actors build(caf::actor_system& sys, const scenario& s,
+world_actors build(caf::actor_system& sys, const scenario_definition& s,
                    std::shared_ptr<record_sink> sink, etsi::its_clock clock,
                    bool virtual_time,
                    std::function<void(const std::string&)> on_loss = {},

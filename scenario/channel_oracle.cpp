@@ -130,7 +130,7 @@ private:
 } // namespace
 
 std::function<std::shared_ptr<const channel_oracle>(station_id)>
-foresee(const scenario& s) {
+foresee(const scenario_definition& s) {
   auto all = std::make_shared<air>(
       air{random_stream{static_cast<std::uint64_t>(s.seed), "network"},
           s.services,

@@ -15,6 +15,6 @@ namespace sofof {
 /// and for the radio cell, and phases that a CODM assigns.
 /// @returns what makes the channel_oracle of each vehicle.
 std::function<std::shared_ptr<const channel_oracle>(station_id)>
-foresee(const scenario& s);
+foresee(const scenario_definition& s);
 
 } // namespace sofof

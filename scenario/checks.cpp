@@ -12,7 +12,7 @@ namespace sofof {
 
 namespace {
 
-void check_routes(const scenario& all, const toml_file& source) {
+void check_routes(const scenario_definition& all, const toml_file& source) {
   std::vector<std::string_view> known;
   for (const auto& r : all.world->routes)
     known.push_back(r->name());
@@ -25,7 +25,7 @@ void check_routes(const scenario& all, const toml_file& source) {
   }
 }
 
-void check_stations(const scenario& all, const toml_file& source) {
+void check_stations(const scenario_definition& all, const toml_file& source) {
   for (std::size_t f = 0; f < all.fleets.size(); ++f) {
     const auto& fleet = all.fleets[f];
     for (std::size_t g = 0; g < f; ++g) {
@@ -44,7 +44,8 @@ void check_stations(const scenario& all, const toml_file& source) {
 }
 
 /// Who reads an ITS message tells vehicles from providers by their numbers.
-void check_provider_stations(const scenario& all, const toml_file& source) {
+void check_provider_stations(const scenario_definition& all,
+                             const toml_file& source) {
   constexpr auto first = provider_station(0).value();
   constexpr auto beyond = provider_station(provider_stations).value();
   for (std::size_t f = 0; f < all.fleets.size(); ++f) {
@@ -58,7 +59,7 @@ void check_provider_stations(const scenario& all, const toml_file& source) {
   }
 }
 
-void check_obstacles(const scenario& all, const toml_file& source) {
+void check_obstacles(const scenario_definition& all, const toml_file& source) {
   const auto highest =
       obstacle_id(static_cast<std::uint32_t>(all.obstacles.size())).value();
   for (std::size_t f = 0; f < all.fleets.size(); ++f)
@@ -76,7 +77,7 @@ void check_obstacles(const scenario& all, const toml_file& source) {
   }
 }
 
-void check_services(const scenario& all, const toml_file& source) {
+void check_services(const scenario_definition& all, const toml_file& source) {
   std::vector<std::string_view> names;
   for (const auto& type : all.services) {
     if (std::ranges::find(names, type->name()) != names.end())
@@ -98,7 +99,7 @@ void check_services(const scenario& all, const toml_file& source) {
   }
 }
 
-void check_providers(const scenario& all, const toml_file& source) {
+void check_providers(const scenario_definition& all, const toml_file& source) {
   const auto& list = all.providers;
   for (auto p = list.begin(); p != list.end(); ++p)
     if (std::find_if(
@@ -112,7 +113,7 @@ void check_providers(const scenario& all, const toml_file& source) {
 constexpr auto more_room =
     "use fewer vehicles, or another start_m or spacing_m";
 
-void check_placement(const scenario& all, const toml_file& source) {
+void check_placement(const scenario_definition& all, const toml_file& source) {
   const auto vehicles = place_vehicles(all);
   for (const auto& v : vehicles)
     if (v.off_its_way())
@@ -147,7 +148,7 @@ void check_placement(const scenario& all, const toml_file& source) {
 
 } // namespace
 
-void check_whole(const scenario& all, const toml_file& source) {
+void check_whole(const scenario_definition& all, const toml_file& source) {
   if (all.fleets.empty())
     source.refuse("", "there are no vehicles: add a [[fleet]].");
   if (all.services.empty())

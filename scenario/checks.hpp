@@ -11,6 +11,6 @@ namespace sofof {
 /// @param all     With its world.
 /// @param source  Knows the places.
 /// @throws input_error.
-void check_whole(const scenario& all, const toml_file& source);
+void check_whole(const scenario_definition& all, const toml_file& source);
 
 } // namespace sofof

@@ -81,10 +81,10 @@ news_of(std::shared_ptr<news_board> board, const host_options& what,
 }
 
 /// What both sides must have in common: the map and the services.
-std::uint64_t fingerprint_of_world(const scenario& s) {
+std::uint64_t fingerprint_of_world(const scenario_definition& s) {
   auto text = s.map_text;
   if (s.grid) {
-    scenario streets; // and nothing else
+    scenario_definition streets; // and nothing else
     streets.grid = true;
     streets.grid_params = s.grid_params;
     text = to_toml(streets);
@@ -96,7 +96,7 @@ std::uint64_t fingerprint_of_world(const scenario& s) {
   return fingerprint(text);
 }
 
-std::string names_of(const scenario& s) {
+std::string names_of(const scenario_definition& s) {
   std::string names;
   for (const auto& p : s.providers)
     names += (names.empty() ? "" : ", ") + p.name;
@@ -104,7 +104,7 @@ std::string names_of(const scenario& s) {
 }
 
 /// @returns the place of a provider in the scenario, counting from 0.
-std::size_t find_provider(const scenario& s, std::string_view name,
+std::size_t find_provider(const scenario_definition& s, std::string_view name,
                           std::string_view option) {
   if (name.empty() && s.providers.size() == 1)
     return 0;
@@ -169,7 +169,8 @@ void check_identity(const credentials& own, const std::string& folder,
           folder, describe(own.identity()), station));
 }
 
-void check_stations(const scenario& s, const std::set<station_id>& wanted) {
+void check_stations(const scenario_definition& s,
+                    const std::set<station_id>& wanted) {
   std::set<station_id> missing = wanted;
   for (const auto& fleet : s.fleets)
     for (std::int64_t k = 0; k < fleet.count; ++k)
@@ -180,7 +181,7 @@ void check_stations(const scenario& s, const std::set<station_id>& wanted) {
                                   *missing.begin()));
 }
 
-std::vector<station_id> connected_stations(const scenario& s,
+std::vector<station_id> connected_stations(const scenario_definition& s,
                                            const process_share& here) {
   std::vector<station_id> all;
   for (const auto& fleet : s.fleets)
@@ -200,7 +201,7 @@ std::uint64_t start_of(const runtime& time) {
 }
 
 /// @returns whom a provider lets in; what is of its actors is filled in later.
-acceptor_setup acceptor_of(const scenario& s, std::size_t place,
+acceptor_setup acceptor_of(const scenario_definition& s, std::size_t place,
                            std::shared_ptr<key_ring> keys,
                            network_runtime& time,
                            const std::shared_ptr<news_board>& board) {
@@ -247,7 +248,8 @@ void secure(provider_connection_setup& setup, tls_connector& connector,
 
 /// @returns the connection to one provider, as far as it is like that to any.
 provider_connection_setup
-connection_to(const scenario& s, std::size_t place, const drive_options& what,
+connection_to(const scenario_definition& s, std::size_t place,
+              const drive_options& what,
               const std::vector<station_id>& stations,
               const std::shared_ptr<news_board>& board) {
   provider_connection_setup setup;
@@ -268,7 +270,7 @@ connection_to(const scenario& s, std::size_t place, const drive_options& what,
 
 } // namespace
 
-run_outcome provide(const scenario& s, const provide_options& what,
+run_outcome provide(const scenario_definition& s, const provide_options& what,
                     run_options options, const std::atomic<bool>& interrupted,
                     std::ostream& console) {
   const auto place = find_provider(s, what.name, "--name");
@@ -323,7 +325,7 @@ run_outcome provide(const scenario& s, const provide_options& what,
   return run_part(s, options, here, *time, interrupted, console, open);
 }
 
-run_outcome drive(const scenario& s, const drive_options& what,
+run_outcome drive(const scenario_definition& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console) {
   check_stations(s, what.stations);

@@ -39,13 +39,13 @@ struct drive_options : host_options {
 
 /// Runs one provider, for vehicles of other processes.
 /// @throws input_error.
-run_outcome provide(const scenario& s, const provide_options& what,
+run_outcome provide(const scenario_definition& s, const provide_options& what,
                     run_options options, const std::atomic<bool>& interrupted,
                     std::ostream& console);
 
 /// Runs vehicles, which providers of other processes plan for.
 /// @throws input_error, also when a provider refuses us at the beginning.
-run_outcome drive(const scenario& s, const drive_options& what,
+run_outcome drive(const scenario_definition& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console);
 

@@ -43,7 +43,7 @@ streets_ptr known_map(const std::string& text, const fs::path& file) {
   return last.streets;
 }
 
-void load_world(scenario& all, const fs::path& folder,
+void load_world(scenario_definition& all, const fs::path& folder,
                 const toml_file& source) {
   if (all.grid == !all.map_file.empty())
     source.refuse(all.grid ? "map" : "",
@@ -61,7 +61,7 @@ void load_world(scenario& all, const fs::path& folder,
   all.world = known_map(all.map_text, file);
 }
 
-void load_trace(scenario& all, const fs::path& folder,
+void load_trace(scenario_definition& all, const fs::path& folder,
                 const toml_file& source) {
   constexpr std::string_view key = "network.trace";
   const auto file = folder / all.network.trace;
@@ -78,7 +78,7 @@ void load_trace(scenario& all, const fs::path& folder,
 }
 
 /// Gives everybody a channel, and computers as they fit to it.
-void complete_networks(scenario& all) {
+void complete_networks(scenario_definition& all) {
   const auto share = [](network_options& network) {
     network.channel = std::make_shared<const channel_profile>(network.profile);
   };
@@ -108,12 +108,12 @@ void tell(const std::vector<option_note>& notes) {
 
 } // namespace
 
-scenario parse_scenario(std::string_view text, const fs::path& file,
-                        std::span<const std::string> overrides) {
+scenario_definition parse_scenario(std::string_view text, const fs::path& file,
+                                   std::span<const std::string> overrides) {
   toml_file source{text, file.string()};
   for (const auto& assignment : overrides)
     source.set(assignment);
-  scenario all;
+  scenario_definition all;
   source.read([&](option_visitor& s) { all.visit_options(s); });
   all.read_from.push_back(file);
   all.notes = source.notes();
@@ -126,8 +126,8 @@ scenario parse_scenario(std::string_view text, const fs::path& file,
   return all;
 }
 
-scenario load_scenario(const fs::path& file,
-                       std::span<const std::string> overrides) {
+scenario_definition load_scenario(const fs::path& file,
+                                  std::span<const std::string> overrides) {
   auto all = parse_scenario(require_text(file), file, overrides);
   tell(all.notes);
   return all;

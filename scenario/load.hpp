@@ -18,13 +18,13 @@ namespace sofof {
 ///                   before anything is checked.
 /// Options at former places are told once on stderr.
 /// @throws input_error with the place of the first mistake.
-scenario load_scenario(const std::filesystem::path& file,
-                       std::span<const std::string> overrides = {});
+scenario_definition load_scenario(const std::filesystem::path& file,
+                                  std::span<const std::string> overrides = {});
 
 /// The same for text in memory; of notes nothing is told.
 /// @param file  Where it could stand.
-scenario parse_scenario(std::string_view text,
-                        const std::filesystem::path& file,
-                        std::span<const std::string> overrides = {});
+scenario_definition parse_scenario(std::string_view text,
+                                   const std::filesystem::path& file,
+                                   std::span<const std::string> overrides = {});
 
 } // namespace sofof

@@ -55,7 +55,7 @@ std::vector<route_ptr> find_routes(const streets& world,
   return found;
 }
 
-std::vector<placed_vehicle> place_vehicles(const scenario& all) {
+std::vector<placed_vehicle> place_vehicles(const scenario_definition& all) {
   assert(all.world);
   std::vector<placed_vehicle> placed;
   for (std::size_t f = 0; f < all.fleets.size(); ++f) {

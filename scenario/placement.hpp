@@ -39,7 +39,7 @@ std::vector<route_ptr> find_routes(const streets& world, std::string_view name);
 ///   from `start_m` towards the end of an open one;
 /// * "convoy": `spacing_m` apart, the first at `start_m`, each next one behind.
 /// @param all  Loaded: its routes are in its world.
-std::vector<placed_vehicle> place_vehicles(const scenario& all);
+std::vector<placed_vehicle> place_vehicles(const scenario_definition& all);
 
 /// @returns indices of two vehicles, there from the start on, of which one
 /// stands on the other, or less than `min_start_gap_m` before or behind it;

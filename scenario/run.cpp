@@ -39,7 +39,7 @@ constexpr double flush_every_real_s = 0.5;
 constexpr duration settling = 1s;
 
 /// What a cycle of a service costs with this computer.
-cycle_energy energy_of(const scenario& s, std::string_view service,
+cycle_energy energy_of(const scenario_definition& s, std::string_view service,
                        const computer_options& computer) {
   for (const auto& k : s.services)
     if (k->name() == service)
@@ -48,7 +48,7 @@ cycle_energy energy_of(const scenario& s, std::string_view service,
   return {};
 }
 
-run_info describe(const scenario& s, const run_options& options,
+run_info describe(const scenario_definition& s, const run_options& options,
                   const process_share& here) {
   run_info info;
   info.scenario = s.name;
@@ -156,7 +156,7 @@ time_point advance(runtime& time, time_point end, stage& on) {
 
 /// Refuses a capture that cannot be opened, or that would destroy what this run
 /// reads or writes, while nothing has been touched.
-void check_capture(const scenario& s, const run_options& options) {
+void check_capture(const scenario_definition& s, const run_options& options) {
   if (options.pcap.empty())
     return;
   const std::filesystem::path file = options.pcap;
@@ -224,9 +224,10 @@ struct played {
 ///                  begun.
 /// @throws start_refused, and whatever ends a run early; the actors have gone
 /// then, too, and `has_begun` tells whether there are results.
-played play(const scenario& s, const process_share& here, runtime& time,
-            time_point end, const std::shared_ptr<locked_results>& keeper,
-            stage& on, const std::function<void(const world_actors&)>& on_start,
+played play(const scenario_definition& s, const process_share& here,
+            runtime& time, time_point end,
+            const std::shared_ptr<locked_results>& keeper, stage& on,
+            const std::function<void(const world_actors&)>& on_start,
             bool& has_begun) {
   auto timed = s;
   std::optional<deciding_times> deciding;
@@ -297,7 +298,7 @@ std::unique_ptr<runtime> make_runtime(const run_options& options) {
 
 } // namespace
 
-std::string configuration_of(scenario s) {
+std::string configuration_of(scenario_definition s) {
   // A results folder holds its own copies of the files that are named.
   if (!s.map_text.empty())
     s.map_file = "map.toml";
@@ -307,7 +308,7 @@ std::string configuration_of(scenario s) {
          + to_toml(std::move(s));
 }
 
-run_outcome run(const scenario& s, const run_options& options,
+run_outcome run(const scenario_definition& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
   if (options.cpu && !options.realtime)
     throw input_error("--cpu measures computing time, which passes on the wall "
@@ -316,7 +317,7 @@ run_outcome run(const scenario& s, const run_options& options,
   return run_part(s, options, {}, *time, interrupted, console);
 }
 
-run_outcome run_part(const scenario& s, const run_options& options,
+run_outcome run_part(const scenario_definition& s, const run_options& options,
                      const process_share& here, runtime& time,
                      const std::atomic<bool>& interrupted,
                      std::ostream& console,

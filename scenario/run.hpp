@@ -55,7 +55,7 @@ public:
 
 /// @returns what config.toml of the results folder says: the effective
 /// configuration, which runs again wherever the folder goes.
-std::string configuration_of(scenario s);
+std::string configuration_of(scenario_definition s);
 
 /// @param s            Loaded.
 /// @param interrupted  Once true, the run ends soon; what was recorded is
@@ -64,7 +64,7 @@ std::string configuration_of(scenario s);
 /// @throws input_error when the results folder is refused, or it or the
 ///         capture cannot be written and this ends the run, or computing time
 ///         is asked for where none passes.
-run_outcome run(const scenario& s, const run_options& options,
+run_outcome run(const scenario_definition& s, const run_options& options,
                 const std::atomic<bool>& interrupted, std::ostream& console);
 
 /// The same for a part of a scenario, in a runtime of the caller's.
@@ -72,7 +72,7 @@ run_outcome run(const scenario& s, const run_options& options,
 ///                  What it throws leaves no results; nor does a start_refused
 ///                  that comes with the news.
 run_outcome
-run_part(const scenario& s, const run_options& options,
+run_part(const scenario_definition& s, const run_options& options,
          const process_share& here, runtime& time,
          const std::atomic<bool>& interrupted, std::ostream& console,
          const std::function<void(const world_actors&)>& on_start = {});

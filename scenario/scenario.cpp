@@ -139,19 +139,19 @@ void policy_options::visit_options(option_visitor& s) {
 }
 
 const std::shared_ptr<const channel_profile>&
-scenario::channel_to(std::size_t place) const {
+scenario_definition::channel_to(std::size_t place) const {
   assert(place < providers.size());
   const auto& own = providers[place].network;
   return own ? own->channel : network.channel;
 }
 
-provider_compute scenario::compute_of(std::size_t place) const {
+provider_compute scenario_definition::compute_of(std::size_t place) const {
   assert(place < providers.size());
   const auto& own = providers[place].compute;
   return (own ? *own : compute).computers();
 }
 
-std::string scenario::profiles() const {
+std::string scenario_definition::profiles() const {
   std::vector<std::string_view> names;
   for (const auto& p : providers) {
     const std::string_view name =
@@ -163,7 +163,7 @@ std::string scenario::profiles() const {
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void scenario::visit_options(option_visitor& s) {
+void scenario_definition::visit_options(option_visitor& s) {
   s.field("name", name);
   s.field("duration", length, 1ns);
   constexpr double max_seed = 0x1p63; // no int64 exceeds it
@@ -197,13 +197,13 @@ void scenario::visit_options(option_visitor& s) {
   s.table("record", [this](option_visitor& t) { record.visit_options(t); });
 }
 
-const service_type* planning_service(const scenario& s) {
+const service_type* planning_service(const scenario_definition& s) {
   const auto i = std::ranges::find_if(
       s.services, [](const auto& type) { return type->plans() != nullptr; });
   return i == s.services.end() ? nullptr : i->get();
 }
 
-std::string to_toml(scenario what) {
+std::string to_toml(scenario_definition what) {
   return print_options([&](option_visitor& s) { what.visit_options(s); });
 }
 

@@ -53,7 +53,7 @@ struct record_options {
 };
 
 /// The whole file.
-struct scenario {
+struct scenario_definition {
   std::string name = "scenario";
   duration length = std::chrono::minutes{10}; ///< `duration` in the file.
   std::int64_t seed = 1;
@@ -96,10 +96,10 @@ struct scenario {
 };
 
 /// @returns the service that plans how vehicles drive; null if there is none.
-const service_type* planning_service(const scenario& s);
+const service_type* planning_service(const scenario_definition& s);
 
 /// @returns the effective configuration, defaults included, as a scenario
 /// file; file names in it stay as they were given.
-std::string to_toml(scenario what);
+std::string to_toml(scenario_definition what);
 
 } // namespace sofof

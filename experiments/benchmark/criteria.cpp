@@ -245,7 +245,7 @@ constexpr criterion all_criteria[]{
      }},
 };
 
-provider_capacity capacity_of(const scenario& s,
+provider_capacity capacity_of(const scenario_definition& s,
                               const provider_compute& compute) {
   const auto workers = static_cast<std::size_t>(compute.workers);
   provider_capacity capacity{static_cast<double>(workers), {}};
@@ -263,7 +263,7 @@ std::span<const criterion> criteria() {
   return all_criteria;
 }
 
-baseline baseline_of(const scenario& s) {
+baseline baseline_of(const scenario_definition& s) {
   baseline by;
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     by.providers.push_back(capacity_of(s, s.compute_of(k)));

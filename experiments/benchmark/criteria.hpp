@@ -57,7 +57,7 @@ struct baseline {
 };
 
 /// @param s  Loaded, so that it has trajectory planning.
-baseline baseline_of(const scenario& s);
+baseline baseline_of(const scenario_definition& s);
 
 /// A run of an entrant, judged.
 struct judged_run {

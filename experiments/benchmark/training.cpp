@@ -36,7 +36,7 @@ std::vector<std::string> learners() {
 }
 
 /// Drives until the end, or until it is interrupted.
-void drive(const scenario& s, const std::atomic<bool>& interrupted) {
+void drive(const scenario_definition& s, const std::atomic<bool>& interrupted) {
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, std::make_shared<no_records>(),
                             time->clock(), true);
@@ -86,7 +86,8 @@ public:
 private:
   static constexpr std::string_view choose = "another file with --out";
 
-  scenario lesson(const std::filesystem::path& file, std::int64_t seed) const {
+  scenario_definition lesson(const std::filesystem::path& file,
+                             std::int64_t seed) const {
     std::vector<std::string> set{
         "record.tracks=false", "record.cycles=false",
         fmt::format("policies.lodm={{name=\"{}\"}}", options_.policy)};

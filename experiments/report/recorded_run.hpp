@@ -15,8 +15,8 @@ namespace sofof::report {
 
 struct recorded_run {
   std::filesystem::path folder;
-  std::string label; ///< What a reader knows it by: the folder's name.
-  scenario what;     ///< From config.toml.
+  std::string label;        ///< What a reader knows it by: the folder's name.
+  scenario_definition what; ///< From config.toml.
   std::string config_toml;
   /// What summary.json says, by dotted names ("latency_ms.mean"), without
   /// what is null; nothing when the run was killed before it wrote any.

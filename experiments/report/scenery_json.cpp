@@ -74,21 +74,21 @@ json lanes_json(const road_map& map) {
           {"y", delta_encoding(y_m, street_places)}};
 }
 
-json houses_json(const scenario& what) {
+json houses_json(const scenario_definition& what) {
   auto all = json::array();
   for (const auto& house : what.world->map.buildings())
     all.push_back(corners_json(house.corners));
   return all;
 }
 
-json obstacles_json(const scenario& what) {
+json obstacles_json(const scenario_definition& what) {
   auto all = json::array();
   for (const auto& one : what.obstacles)
     all.push_back(corners_json(corners_of(one.box())));
   return all;
 }
 
-json providers_json(const scenario& what) {
+json providers_json(const scenario_definition& what) {
   auto all = json::array();
   for (const auto& one : what.providers) {
     auto sensors = json::array();
@@ -104,7 +104,7 @@ json providers_json(const scenario& what) {
 
 } // namespace
 
-json scenery_json(const scenario& what) {
+json scenery_json(const scenario_definition& what) {
   return {{"lanes", lanes_json(what.world->map)},
           {"houses", houses_json(what)},
           {"obstacles", obstacles_json(what)},

@@ -10,6 +10,6 @@ namespace sofof::report {
 /// @param what  Loaded.
 /// @returns lanes, houses, obstacles, and providers with their areas and
 /// sensors.
-nlohmann::json scenery_json(const scenario& what);
+nlohmann::json scenery_json(const scenario_definition& what);
 
 } // namespace sofof::report

@@ -14,9 +14,9 @@ namespace sofof {
 /// new one, when it returns; what it throws says why there are none. Several
 /// threads call it at the same time.
 /// @param interrupted  Once true, it returns soon, with what there is.
-using run_maker =
-    std::function<void(const scenario& s, const std::filesystem::path& folder,
-                       const std::atomic<bool>& interrupted)>;
+using run_maker = std::function<void(const scenario_definition& s,
+                                     const std::filesystem::path& folder,
+                                     const std::atomic<bool>& interrupted)>;
 
 /// @param version         Of this program, for the summaries.
 /// @param time_decisions  As `run_options` has it.

@@ -72,7 +72,8 @@ std::optional<std::string> summary_in(const fs::path& folder) {
 
 } // namespace
 
-std::string name_of_run(const scenario& s, std::string_view program) {
+std::string name_of_run(const scenario_definition& s,
+                        std::string_view program) {
   const auto configuration = configuration_of(s);
   std::string whole;
   for (const auto text :

@@ -18,7 +18,7 @@ namespace sofof {
 /// @param program  Tells programs apart whose results may differ.
 /// @returns the name of the run of this scenario: the same for the same
 /// configuration, map, trace and program.
-std::string name_of_run(const scenario& s, std::string_view program);
+std::string name_of_run(const scenario_definition& s, std::string_view program);
 
 /// The results folders below one folder, which any number of processes may
 /// share, on several machines. A run is made beside them, in runs/.unfinished,

@@ -17,7 +17,7 @@ namespace sofof {
 namespace {
 
 /// Vehicle cycles, and something for making a world.
-double cost_of(const scenario& s) {
+double cost_of(const scenario_definition& s) {
   constexpr double setup = 1000;
   auto cycles = setup;
   const auto vehicles = static_cast<double>(place_vehicles(s).size());

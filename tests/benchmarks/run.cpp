@@ -18,7 +18,7 @@ using namespace sofof;
 namespace {
 
 /// One virtual second after the other of a run that has settled in.
-void messages(benchmark::State& state, const scenario& s) {
+void messages(benchmark::State& state, const scenario_definition& s) {
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, std::make_shared<no_records>(),
                             time->clock(), true);
@@ -46,7 +46,7 @@ void virtual_second_of_thousand(benchmark::State& state) {
 BENCHMARK(virtual_second_of_thousand)->Unit(benchmark::kMillisecond);
 
 /// As `sofof run`, files and all.
-void whole_run(benchmark::State& state, const scenario& s) {
+void whole_run(benchmark::State& state, const scenario_definition& s) {
   namespace fs = std::filesystem;
   const auto out = fs::temp_directory_path()
                    / ("sofof_benchmark_" + std::to_string(getpid()));

@@ -8,11 +8,13 @@
 
 namespace sofof::bench {
 
-inline scenario ulm_lehr(const std::vector<std::string>& overrides = {}) {
+inline scenario_definition
+ulm_lehr(const std::vector<std::string>& overrides = {}) {
   return load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml", overrides);
 }
 
-inline scenario scale(const std::vector<std::string>& overrides = {}) {
+inline scenario_definition
+scale(const std::vector<std::string>& overrides = {}) {
   return load_scenario(SOFOF_SOURCE_DIR "/config/scale.toml", overrides);
 }
 

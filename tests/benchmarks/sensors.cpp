@@ -11,7 +11,7 @@ using namespace sofof;
 namespace {
 
 /// Everybody is placed anew, and everybody looks, at the start of a scenario.
-void look_round(benchmark::State& state, const scenario& s) {
+void look_round(benchmark::State& state, const scenario_definition& s) {
   std::vector<road_body> bodies;
   for (const auto& v : place_vehicles(s)) {
     const auto pose = v.way->path().at(v.start_s_m);

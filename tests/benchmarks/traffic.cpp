@@ -15,7 +15,7 @@ constexpr double speed_mps = 8;
 
 /// Everybody reports, one update, everybody looks; all creep on, so that
 /// lanes and crossings change hands.
-void update(benchmark::State& state, const scenario& s) {
+void update(benchmark::State& state, const scenario_definition& s) {
   traffic users{s.world->map};
   auto vehicles = place_vehicles(s);
   time_point t;

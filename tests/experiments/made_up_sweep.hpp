@@ -39,7 +39,7 @@ seeds = 4
 /// Writes summaries instead of driving.
 class made_up_runs {
 public:
-  void make(const scenario& s, const fs::path& folder) {
+  void make(const scenario_definition& s, const fs::path& folder) {
     const std::lock_guard lock{mutex_};
     seeds.insert(s.seed);
     if (s.seed == failing)
@@ -53,7 +53,7 @@ public:
   double collisions = 0;             ///< Of each run.
 
 private:
-  std::string summary(const scenario& s) const {
+  std::string summary(const scenario_definition& s) const {
     std::ostringstream text;
     text << R"({"scenario":"base","interrupted":false,"seed":)" << s.seed
          << R"(,"t_off_s":{"mean":)" << 1.5 * static_cast<double>(s.seed)
@@ -81,7 +81,7 @@ struct sweep_of_four {
     sweep_options all;
     all.out = at / "out";
     all.program = "this";
-    all.make = [this](const scenario& s, const fs::path& folder,
+    all.make = [this](const scenario_definition& s, const fs::path& folder,
                       const std::atomic<bool>&) { made.make(s, folder); };
     return all;
   }

@@ -59,7 +59,7 @@ TEST_CASE("a shard works beside a sweep in the same folder") {
   shards_of_four four;
   auto options = four.options();
   std::size_t beside = 0;
-  options.make = [&](const scenario& s, const fs::path& folder,
+  options.make = [&](const scenario_definition& s, const fs::path& folder,
                      const std::atomic<bool>&) {
     if (s.seed == 1)
       beside = four.make(1, 1).good;

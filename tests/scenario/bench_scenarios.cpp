@@ -26,8 +26,8 @@ std::set<std::string> names() {
   return all;
 }
 
-scenario load_bench(const std::string& name,
-                    const std::vector<std::string>& overrides = {}) {
+scenario_definition load_bench(const std::string& name,
+                               const std::vector<std::string>& overrides = {}) {
   return load_scenario(bench_folder / (name + ".toml"), overrides);
 }
 

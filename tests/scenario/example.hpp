@@ -77,8 +77,9 @@ inline std::string with(std::string_view from, std::string_view to,
 }
 
 /// Loads a text as if it were a file beside the test data.
-inline scenario load(std::string_view what = text,
-                     const std::vector<std::string>& overrides = {}) {
+inline scenario_definition
+load(std::string_view what = text,
+     const std::vector<std::string>& overrides = {}) {
   return parse_scenario(what, folder / "example.toml", overrides);
 }
 

@@ -117,7 +117,7 @@ struct outcome {
   }
 };
 
-outcome drive(const scenario& s, const attack& says) {
+outcome drive(const scenario_definition& s, const attack& says) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, time->clock(), true);

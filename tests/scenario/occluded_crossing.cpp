@@ -27,7 +27,7 @@ constexpr auto speed_mps = 13.89;
 /// later at most for both to be on the conflict's stretch at once, s.
 constexpr auto latest_s = 0.8;
 
-scenario load_crossing(std::vector<std::string> overrides = {}) {
+scenario_definition load_crossing(std::vector<std::string> overrides = {}) {
   return load_scenario(SOFOF_SOURCE_DIR "/config/occluded_crossing.toml",
                        overrides);
 }

@@ -11,7 +11,7 @@ using namespace sofof;
 
 namespace {
 
-scenario with_fleet(const fleet_options& fleet) {
+scenario_definition with_fleet(const fleet_options& fleet) {
   auto s = example::load();
   s.fleets = {fleet};
   return s;

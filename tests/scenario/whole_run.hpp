@@ -10,7 +10,7 @@
 namespace sofof::test {
 
 /// @returns the records of a whole run.
-inline memory_sink play(const scenario& s) {
+inline memory_sink play(const scenario_definition& s) {
   auto records = std::make_shared<memory_sink>();
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, records, time->clock(), true);

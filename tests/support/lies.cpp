@@ -35,8 +35,8 @@ constexpr auto planning = "trajectory_planning";
 
 /// Three connected cars in a row on the round trip through Ulm-Lehr, a pair
 /// that comes towards them, and, if wanted, twelve more that do not talk.
-scenario scene(std::uint64_t seed, bool traffic, int seconds,
-               std::string_view lodm) {
+scenario_definition scene(std::uint64_t seed, bool traffic, int seconds,
+                          std::string_view lodm) {
   const auto start_m = 30 + static_cast<int>(seed * 37 % 400);
   auto text = fmt::format(R"(
 name = "lies"
@@ -139,7 +139,7 @@ bool any_ahead(const track_record& me, const route& way,
   return false;
 }
 
-figures measure(const scenario& s, const memory_sink& lied,
+figures measure(const scenario_definition& s, const memory_sink& lied,
                 const memory_sink& alone) {
   figures out;
   std::map<station_id, route_ptr> ways;
