@@ -25,7 +25,7 @@ void look_round(benchmark::State& state, const scenario_definition& s) {
     t += std::chrono::milliseconds{50};
     all.place(bodies);
     for (const auto& b : bodies)
-      seen += all.seen_by({s.sensors, noise.part(b.id), b.box.centre,
+      seen += all.seen_by({s.sensors, noise.part(b.id.value()), b.box.centre,
                            b.box.heading_rad, b.id},
                           t)
                   .size();
