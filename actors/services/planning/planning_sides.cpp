@@ -4,6 +4,7 @@
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/session_maneuver.hpp"
 #include "actors/services/planning/suggestion_judge.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
@@ -30,34 +31,6 @@ std::vector<point> authority(const route& way, double s_m,
       std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
                  protocol::authority_m);
   return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
-}
-
-etsi::termination_status status_of(end_reason why) {
-  using enum etsi::termination_status;
-  switch (why) {
-    case end_reason::left_area:
-    case end_reason::handed_over:
-    case end_reason::released:
-    case end_reason::shutdown:
-      return regular_end;
-    case end_reason::cam_timeout:
-    case end_reason::no_data:
-      return abort_by_timeout;
-    case end_reason::qos_latency:
-    case end_reason::qos_gap:
-      return abort_by_constraint_violation;
-    case end_reason::refused:
-    case end_reason::revoked:
-    case end_reason::implausible:
-      return abort_by_reject;
-    case end_reason::peer_lost:
-      break;
-  }
-  return reason_unknown;
-}
-
-maneuver_name name_of_maneuver(const session_id& running) {
-  return {static_cast<std::uint16_t>(running.counter), 0};
 }
 
 class planning_in_vehicle final : public offloading::vehicle_service {
