@@ -233,12 +233,15 @@ void requester::shut_down(time_point now) {
 std::vector<provider_id>
 requester::leave(service_state& service, end_reason reason, time_point now,
                  const std::function<bool(provider_id)>& is_meant) {
+  assert(is_meant);
   std::vector<provider_id> left;
   for (const auto& session : service.sessions)
     if (session.at == phase::remote && is_meant(session.provider))
       left.push_back(session.provider);
   for (const auto id : left)
     end(service, id, reason, true, now);
+  assert(std::ranges::none_of(
+      left, [&](provider_id id) { return service.find(id); }));
   return left;
 }
 
@@ -315,6 +318,7 @@ void requester::learn_from(const service_state& service,
   if (ended.at != phase::remote)
     return;
   assert(ended.first_data <= now);
+  assert(!service.find(ended.provider));
   setup_.policy->observe(episode_outcome{
       service.service.name.view(), ended.provider,
       to_seconds(now - ended.first_data), name_of(reason), setup_.station});

@@ -141,6 +141,8 @@ duration object_tracker::lifetime(const track& x) const {
 
 object_tracker::observation
 object_tracker::make_sighting(time_point at, const perceived_object& o) const {
+  assert(is_sound(o));
+  assert(at <= newest_);
   const auto across_mps = o.speed_mps * noise_.heading_rad;
   observation s{o, {}, false, false};
   s.motion.mean << o.centre.x_m, o.speed_mps * std::cos(o.heading_rad),
