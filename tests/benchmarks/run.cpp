@@ -36,12 +36,12 @@ void count_messages(benchmark::State& state, const scenario_definition& s) {
 }
 
 void virtual_second_of_six(benchmark::State& state) {
-  count_messages(state, bench::ulm_lehr());
+  count_messages(state, benchmarks::ulm_lehr());
 }
 BENCHMARK(virtual_second_of_six)->Unit(benchmark::kMicrosecond);
 
 void virtual_second_of_thousand(benchmark::State& state) {
-  count_messages(state, bench::scale());
+  count_messages(state, benchmarks::scale());
 }
 BENCHMARK(virtual_second_of_thousand)->Unit(benchmark::kMillisecond);
 
@@ -65,12 +65,12 @@ void whole_run(benchmark::State& state, const scenario_definition& s) {
 }
 
 void half_an_hour_of_six(benchmark::State& state) {
-  whole_run(state, bench::ulm_lehr({"duration=1800s"}));
+  whole_run(state, benchmarks::ulm_lehr({"duration=1800s"}));
 }
 BENCHMARK(half_an_hour_of_six)->Unit(benchmark::kSecond);
 
 void minute_of_thousand(benchmark::State& state) {
-  whole_run(state, bench::scale());
+  whole_run(state, benchmarks::scale());
 }
 BENCHMARK(minute_of_thousand)->Unit(benchmark::kSecond)->Iterations(1);
 
