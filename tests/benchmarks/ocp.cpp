@@ -91,7 +91,7 @@ private:
 
 template <class... Driver>
 void plan(benchmark::State& state, bool warm, Driver&&... drivers) {
-  bench::stopwatch watch{state};
+  benchmarks::stopwatch watch{state};
   for (auto _ : state) {
     (drivers.drive_on(warm), ...);
     watch.time([&] { (drivers.solve(), ...); });

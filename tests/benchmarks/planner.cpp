@@ -28,7 +28,7 @@ void a_lap(benchmark::internal::Benchmark* b) {
 /// the plan before has led it. Another may drive ahead, at constant speed.
 void drive_round(benchmark::State& state, trajectory_planner& planner,
                  bool with_lead) {
-  bench::stopwatch watch{state};
+  benchmarks::stopwatch watch{state};
   trajectory plan, before;
   planning_input input;
   if (with_lead)
@@ -51,14 +51,14 @@ void drive_round(benchmark::State& state, trajectory_planner& planner,
 }
 
 void follow_lane(benchmark::State& state, bool with_lead) {
-  const auto s = bench::ulm_lehr();
+  const auto s = benchmarks::ulm_lehr();
   lane_follow planner{s.world->find("round_trip"), {}};
   drive_round(state, planner, with_lead);
 }
 
 void optimise(benchmark::State& state, const spatial_params& params,
               bool with_lead) {
-  const auto s = bench::ulm_lehr();
+  const auto s = benchmarks::ulm_lehr();
   spatial_planner planner{std::make_shared<route_profile>(
                               s.world->find("round_trip"), comfort_limits{}),
                           {},
@@ -102,7 +102,7 @@ void mec_behind_another(benchmark::State& state) {
 BENCHMARK(mec_behind_another)->Apply(a_lap);
 
 void safe_stop(benchmark::State& state) {
-  const auto s = bench::ulm_lehr();
+  const auto s = benchmarks::ulm_lehr();
   const auto way = s.world->find("round_trip");
   planning_input input;
   input.s_m = 100;

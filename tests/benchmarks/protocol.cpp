@@ -25,11 +25,11 @@ void run_episodes(benchmark::State& state, const char* channel) {
   state.SetItemsProcessed(episodes);
 }
 
-void actors(benchmark::State& state, const char* channel) {
+void by_actors(benchmark::State& state, const char* channel) {
   run_episodes<test::actor_world>(state, channel);
 }
-BENCHMARK_CAPTURE(actors, paper, "paper_5g");
-BENCHMARK_CAPTURE(actors, ideal, "ideal");
+BENCHMARK_CAPTURE(by_actors, paper, "paper_5g")->Name("actors/paper");
+BENCHMARK_CAPTURE(by_actors, ideal, "ideal")->Name("actors/ideal");
 
 void library(benchmark::State& state, const char* channel) {
   run_episodes<test::library_world>(state, channel);

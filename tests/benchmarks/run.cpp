@@ -18,7 +18,7 @@ using namespace sofof;
 namespace {
 
 /// One virtual second after the other of a run that has settled in.
-void messages(benchmark::State& state, const scenario_definition& s) {
+void count_messages(benchmark::State& state, const scenario_definition& s) {
   const auto time = make_virtual_runtime();
   const auto actors = build(time->system(), s, std::make_shared<no_records>(),
                             time->clock(), true);
@@ -36,12 +36,12 @@ void messages(benchmark::State& state, const scenario_definition& s) {
 }
 
 void virtual_second_of_six(benchmark::State& state) {
-  messages(state, bench::ulm_lehr());
+  count_messages(state, benchmarks::ulm_lehr());
 }
 BENCHMARK(virtual_second_of_six)->Unit(benchmark::kMicrosecond);
 
 void virtual_second_of_thousand(benchmark::State& state) {
-  messages(state, bench::scale());
+  count_messages(state, benchmarks::scale());
 }
 BENCHMARK(virtual_second_of_thousand)->Unit(benchmark::kMillisecond);
 
@@ -65,12 +65,12 @@ void whole_run(benchmark::State& state, const scenario_definition& s) {
 }
 
 void half_an_hour_of_six(benchmark::State& state) {
-  whole_run(state, bench::ulm_lehr({"duration=1800s"}));
+  whole_run(state, benchmarks::ulm_lehr({"duration=1800s"}));
 }
 BENCHMARK(half_an_hour_of_six)->Unit(benchmark::kSecond);
 
 void minute_of_thousand(benchmark::State& state) {
-  whole_run(state, bench::scale());
+  whole_run(state, benchmarks::scale());
 }
 BENCHMARK(minute_of_thousand)->Unit(benchmark::kSecond)->Iterations(1);
 

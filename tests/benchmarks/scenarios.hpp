@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::benchmarks {
 
 inline scenario_definition
 ulm_lehr(const std::vector<std::string>& overrides = {}) {
@@ -18,4 +18,4 @@ scale(const std::vector<std::string>& overrides = {}) {
   return load_scenario(SOFOF_SOURCE_DIR "/config/scale.toml", overrides);
 }
 
-} // namespace sofof::bench
+} // namespace sofof::benchmarks

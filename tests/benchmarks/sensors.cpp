@@ -38,12 +38,12 @@ void look_round(benchmark::State& state, const scenario_definition& s) {
 }
 
 void six_look_round(benchmark::State& state) {
-  look_round(state, bench::ulm_lehr());
+  look_round(state, benchmarks::ulm_lehr());
 }
 BENCHMARK(six_look_round)->Unit(benchmark::kMicrosecond);
 
 void thousand_look_round(benchmark::State& state) {
-  look_round(state, bench::scale());
+  look_round(state, benchmarks::scale());
 }
 BENCHMARK(thousand_look_round)->Unit(benchmark::kMicrosecond);
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::benchmarks {
 
 /// Times one piece of work in each iteration of a benchmark that takes its
 /// time by hand (`UseManualTime`).
@@ -45,4 +45,4 @@ private:
   std::vector<double> times_us_;
 };
 
-} // namespace sofof::bench
+} // namespace sofof::benchmarks

@@ -44,12 +44,12 @@ void update(benchmark::State& state, const scenario_definition& s) {
 }
 
 void six_vehicles(benchmark::State& state) {
-  update(state, bench::ulm_lehr());
+  update(state, benchmarks::ulm_lehr());
 }
 BENCHMARK(six_vehicles)->Unit(benchmark::kMicrosecond);
 
 void thousand_vehicles(benchmark::State& state) {
-  update(state, bench::scale());
+  update(state, benchmarks::scale());
 }
 BENCHMARK(thousand_vehicles)->Unit(benchmark::kMicrosecond);
 

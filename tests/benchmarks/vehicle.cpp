@@ -14,7 +14,7 @@ constexpr duration motion_step = std::chrono::milliseconds{10};
 
 /// Follows one plan from its begin to its end, again and again.
 void control_and_step(benchmark::State& state) {
-  const auto s = bench::ulm_lehr();
+  const auto s = benchmarks::ulm_lehr();
   const auto way = s.world->find("round_trip");
   planning_input input;
   input.speed_mps = 8;
@@ -39,7 +39,7 @@ BENCHMARK(control_and_step);
 
 /// Where on its route a car is.
 void project(benchmark::State& state) {
-  const auto s = bench::ulm_lehr();
+  const auto s = benchmarks::ulm_lehr();
   const auto way = s.world->find("round_trip");
   double s_m = 0;
   for (auto _ : state) {

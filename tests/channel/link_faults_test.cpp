@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto messages = 100'000;
+constexpr auto sent = 100'000;
 
 } // namespace
 
@@ -35,7 +35,7 @@ TEST_CASE("faults are as frequent as asked for, and bounded") {
   auto copied = 0;
   auto delayed = 0;
   auto both = 0;
-  for (auto n = 0; n < messages; ++n) {
+  for (auto n = 0; n < sent; ++n) {
     const auto fate = faults.of(n);
     lost += fate.lost;
     copied += fate.copy_after.has_value();
@@ -44,11 +44,11 @@ TEST_CASE("faults are as frequent as asked for, and bounded") {
     REQUIRE(fate.extra_delay <= 40ms);
     REQUIRE(fate.copy_after.value_or(0ns) <= 40ms);
   }
-  CHECK(lost / double{messages} == near(0.2, 0.05));
+  CHECK(lost / double{sent} == near(0.2, 0.05));
   // Of those that are not lost.
-  CHECK(copied / (0.8 * messages) == near(0.1, 0.05));
-  CHECK(delayed / (0.8 * messages) == near(0.3, 0.05));
-  CHECK(both / (0.8 * messages) == near(0.03, 0.1));
+  CHECK(copied / (0.8 * sent) == near(0.1, 0.05));
+  CHECK(delayed / (0.8 * sent) == near(0.3, 0.05));
+  CHECK(both / (0.8 * sent) == near(0.03, 0.1));
 }
 
 TEST_CASE("one kind of fault does not shift another") {

@@ -34,7 +34,7 @@ socket_address address(const char* text) {
   return at;
 }
 
-network_prefix network(const char* text) {
+network_prefix prefix_of(const char* text) {
   return prefix_of(address(text));
 }
 
@@ -46,7 +46,7 @@ double share_let_in(double per_s,
   constexpr std::size_t places = 256;
   constexpr double timeout_s = 2, handshake_s = 0.06;
   constexpr int connections = 60'000, every = 97;
-  const auto honest = network("198.51.100.7");
+  const auto honest = prefix_of("198.51.100.7");
   struct handshake {
     network_prefix from;
     double begun_s;
@@ -80,13 +80,13 @@ double share_let_in(double per_s,
 } // namespace
 
 TEST_CASE("an IPv4 network is a /24, and an IPv6 network a /64") {
-  CHECK(network("192.0.2.1") == network("192.0.2.254"));
-  CHECK(network("192.0.2.1") != network("192.0.3.1"));
-  CHECK(network("192.0.2.1") == network("::ffff:192.0.2.9"));
-  CHECK(network("::ffff:192.0.2.9") != network("::ffff:192.0.3.9"));
-  CHECK(network("2001:db8:1:2::1") == network("2001:db8:1:2:ffff::"));
-  CHECK(network("2001:db8:1:2::1") != network("2001:db8:1:3::1"));
-  CHECK(network("::1") != network("0.0.0.1"));
+  CHECK(prefix_of("192.0.2.1") == prefix_of("192.0.2.254"));
+  CHECK(prefix_of("192.0.2.1") != prefix_of("192.0.3.1"));
+  CHECK(prefix_of("192.0.2.1") == prefix_of("::ffff:192.0.2.9"));
+  CHECK(prefix_of("::ffff:192.0.2.9") != prefix_of("::ffff:192.0.3.9"));
+  CHECK(prefix_of("2001:db8:1:2::1") == prefix_of("2001:db8:1:2:ffff::"));
+  CHECK(prefix_of("2001:db8:1:2::1") != prefix_of("2001:db8:1:3::1"));
+  CHECK(prefix_of("::1") != prefix_of("0.0.0.1"));
 }
 
 TEST_CASE("a handshake makes room in the network that has the most") {
@@ -132,6 +132,6 @@ TEST_CASE("a newcomer with 40 ms of round trip gets in beside a crowd") {
   CHECK(share_let_in(300, alone) > 0.9);
   CHECK(share_let_in(1000, alone) > 0.7);
   // In the attacker's own network as well.
-  const auto same = [](int) { return network("198.51.100.8"); };
+  const auto same = [](int) { return prefix_of("198.51.100.8"); };
   CHECK(share_let_in(300, same) > 0.9);
 }

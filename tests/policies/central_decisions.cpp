@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const auto policies = {"assignment", "cross_entropy", "best_response"};
+const auto batch_codms = {"assignment", "cross_entropy", "best_response"};
 
 // -- the assignment, as its formula is written -------------------------------
 
@@ -150,7 +150,7 @@ TEST_CASE("sampling finds what is possible, and mostly the best") {
 TEST_CASE("the same context gives the same decisions, whoever decides and "
           "however often") {
   dice random{3};
-  for (const auto* name : policies) {
+  for (const auto* name : batch_codms) {
     CAPTURE(name);
     const auto one = codm_of(name);
     for (int k = 0; k < 10; ++k) {
@@ -165,7 +165,7 @@ TEST_CASE("the same context gives the same decisions, whoever decides and "
 }
 
 TEST_CASE("nobody who asks is nobody who is told to go") {
-  for (const auto* name : policies) {
+  for (const auto* name : batch_codms) {
     scene at;
     CHECK(at.verdicts(name).empty());
     for (int k = 0; k < 3; ++k)
@@ -192,7 +192,7 @@ TEST_CASE("nobody is sent home, and nobody refused, where there is room for "
 }
 
 TEST_CASE("answers come before vehicles give up") {
-  for (const auto* name : policies) {
+  for (const auto* name : batch_codms) {
     const auto waits_s = codm_of(name)->epoch_s();
     CHECK(waits_s > 0);
     CHECK(waits_s < to_seconds(protocol::request_timeout) / 1.5);
@@ -291,7 +291,7 @@ TEST_CASE("absurd numbers of one do the others no harm") {
     many.push_back({id, -1, 0.5});
   at.ask(0.3, many);
   CHECK(at.verdicts(*codm_of("assignment", {}, {{"wait", 50ms}})) == "h--h-");
-  for (const auto* name : policies) {
+  for (const auto* name : batch_codms) {
     const auto all = at.verdicts(name);
     CHECK(all.size() == 5);
     CHECK(all[0] == 'h');
