@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -82,7 +82,8 @@ private:
 
 /// @returns "unit, range: meaning", as far as there is each; a time has its
 /// unit in its range.
-std::string comment_of(const option_info& note, const std::string& range) {
+std::string comment_of(const policies::option_info& note,
+                       const std::string& range) {
   std::string text;
   if (note.unit != "1" && note.unit != "time")
     text = note.unit;
@@ -95,7 +96,7 @@ std::string comment_of(const option_info& note, const std::string& range) {
 
 std::string print_documented(std::string_view header,
                              const std::function<void(option_visitor&)>& list,
-                             const std::vector<option_info>& notes) {
+                             const std::vector<policies::option_info>& notes) {
   lines options;
   list(options);
   std::size_t width = 0;
@@ -103,7 +104,8 @@ std::string print_documented(std::string_view header,
     width = std::max(width, x.key.size() + x.value.size());
   auto text = fmt::format("{}\n", header);
   for (const auto& x : options.all) {
-    const auto note = std::ranges::find(notes, x.key, &option_info::name);
+    const auto note =
+        std::ranges::find(notes, x.key, &policies::option_info::name);
     text += fmt::format("{} = {}", x.key, x.value);
     if (note != notes.end())
       text +=
@@ -114,4 +116,4 @@ std::string print_documented(std::string_view header,
   return text;
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// Prints options with their defaults as TOML under a header: each with a
 /// comment that tells its unit, its range and its meaning; of its tables, such
@@ -18,6 +18,6 @@ namespace sofof {
 /// @param list    Lists the options: `name`, and those of the notes.
 std::string print_documented(std::string_view header,
                              const std::function<void(option_visitor&)>& list,
-                             const std::vector<option_info>& notes);
+                             const std::vector<policies::option_info>& notes);
 
-} // namespace sofof
+} // namespace sofof::apps

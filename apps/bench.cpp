@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -28,53 +28,58 @@ struct bench_arguments {
   sweep_arguments runs;
 
   /// @returns the plain ones, those of the file, and scenarios' own.
-  std::vector<bench::entrant> known() const {
-    auto all = bench::plain_entrants();
+  std::vector<experiments::bench::entrant> known() const {
+    auto all = experiments::bench::plain_entrants();
     const std::filesystem::path file =
         entrants.empty() ? usual_entrants : entrants;
     if (!entrants.empty() || std::filesystem::exists(file))
-      std::ranges::move(bench::load_entrants(file), std::back_inserter(all));
+      std::ranges::move(experiments::bench::load_entrants(file),
+                        std::back_inserter(all));
     else if (policies == "all")
       std::cerr << "sofof: there is no " << usual_entrants
                 << " here, so nobody takes part but the policies themselves "
                    "(--entrants FILE)\n";
-    bench::add_own_entrants(all, files);
+    experiments::bench::add_own_entrants(all, files);
     return all;
   }
 
   /// Decisions are timed by one shard: times of several machines say nothing.
-  static int make_part(bench::bench_options what, const shard& which) {
-    const auto measures = which.number == measuring_shard;
-    what.runs.make = virtual_runs(SOFOF_VERSION, measures);
-    return tell_shard(bench::bench_shard(what, which, interrupted, std::cout),
-                      which, (what.runs.out / "report.html").string());
+  static int make_part(experiments::bench::bench_options what,
+                       const experiments::shard& which) {
+    const auto measures = which.number == experiments::measuring_shard;
+    what.runs.make = experiments::virtual_runs(SOFOF_VERSION, measures);
+    return tell_shard(
+        experiments::bench::bench_shard(what, which, interrupted, std::cout),
+        which, (what.runs.out / "report.html").string());
   }
 
   int obey() const {
-    bench::bench_options what;
+    experiments::bench::bench_options what;
     what.scenarios.assign(files.begin(), files.end());
-    what.entrants = bench::chosen_from(known(), policies);
+    what.entrants = experiments::bench::chosen_from(known(), policies);
     what.set = set;
     what.seeds = seeds;
     what.runs = runs.given("bench");
     what.colour = isatty(STDOUT_FILENO) != 0;
     const auto part = runs.part();
     if (runs.count) {
-      std::cout << count_runs(plans_of(what), what.runs.program, interrupted)
+      std::cout << experiments::count_runs(plans_of(what), what.runs.program,
+                                           interrupted)
                 << '\n';
-      return static_cast<int>(run_outcome::good);
+      return static_cast<int>(scenario::run_outcome::good);
     }
     if (part)
       return make_part(what, *part);
-    const auto outcome = bench::bench(what, interrupted, std::cout);
+    const auto outcome =
+        experiments::bench::bench(what, interrupted, std::cout);
     if (outcome.interrupted) {
       std::cout << "interrupted; the same command goes on from here\n";
-      return static_cast<int>(run_outcome::interrupted);
+      return static_cast<int>(scenario::run_outcome::interrupted);
     }
     std::cout << "report in " << (what.runs.out / "report.html").string()
               << '\n';
-    return static_cast<int>(outcome.all_good ? run_outcome::good
-                                             : run_outcome::failed);
+    return static_cast<int>(outcome.all_good ? scenario::run_outcome::good
+                                             : scenario::run_outcome::failed);
   }
 };
 
@@ -117,4 +122,4 @@ void add_bench(CLI::App& app, int& exit_code) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-namespace sofof {
+namespace sofof::apps {
 
 void add_check(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
@@ -14,7 +14,7 @@ void add_check(CLI::App& app, int&) {
   args->add_to(*command);
   command->footer("Example:\n  sofof check config/ulm_lehr.toml "
                   "--set network.profile=paper_5g");
-  command->callback([args] { std::cout << to_toml(args->load()); });
+  command->callback([args] { std::cout << scenario::to_toml(args->load()); });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

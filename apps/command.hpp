@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// Each adds itself to the command line; when it was chosen, `exit_code` gets
 /// what the process shall exit with.
@@ -22,4 +22,4 @@ void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 
-} // namespace sofof
+} // namespace sofof::apps

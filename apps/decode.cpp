@@ -6,19 +6,19 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
 turned_line decode(const std::string& line) {
-  const auto octets = etsi::octets_from_hex(line);
+  const auto octets = messages::etsi::octets_from_hex(line);
   if (!octets)
     return {{}, "only hexadecimal digits, two an octet, are expected"};
-  const auto [message, error] = etsi::decode_message(*octets);
+  const auto [message, error] = messages::etsi::decode_message(*octets);
   if (!message)
     return {{}, error};
   turned_line json;
-  etsi::append_json(json.text, *message);
+  messages::etsi::append_json(json.text, *message);
   return json;
 }
 
@@ -40,4 +40,4 @@ void add_decode(CLI::App& app, int& exit_code) {
       [words, &exit_code] { exit_code = filter_lines(*words, decode); });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

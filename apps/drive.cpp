@@ -12,12 +12,12 @@
 #include <iostream>
 #include <memory>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
 /// [NAME=]HOST:PORT
-drive_options::provider to_provider(std::string_view text) {
+scenario::drive_options::provider to_provider(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos)
     return {"", address_of(text)};
@@ -28,7 +28,7 @@ drive_options::provider to_provider(std::string_view text) {
 std::set<station_id> to_stations(const std::string& text) {
   if (text.empty())
     return {};
-  const auto all = parse_stations(text);
+  const auto all = network::parse_stations(text);
   if (!all)
     throw input_error(fmt::format(
         "'{}' is no list of stations, like 101-106 or 101,104", text));
@@ -41,7 +41,7 @@ void add_drive(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
-    drive_options what;
+    scenario::drive_options what;
     std::vector<std::string> providers;
     std::string stations;
   };
@@ -71,9 +71,9 @@ void add_drive(CLI::App& app, int& exit_code) {
     args->what.stations = to_stations(args->stations);
     args->host.give(args->what);
     catch_signals();
-    exit_code = static_cast<int>(
-        drive(s, args->what, args->run.given(), interrupted, std::cout));
+    exit_code = static_cast<int>(scenario::drive(
+        s, args->what, args->run.given(), interrupted, std::cout));
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -6,19 +6,19 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
 turned_line encode(const std::string& line) {
-  const auto [message, error] = etsi::message_from_json(line);
+  const auto [message, error] = messages::etsi::message_from_json(line);
   if (!message)
     return {{}, error};
-  const auto [octets, reason] = etsi::encode_message(*message);
+  const auto [octets, reason] = messages::etsi::encode_message(*message);
   if (!octets)
     return {{}, reason};
   turned_line hex;
-  etsi::append_hex(hex.text, *octets);
+  messages::etsi::append_hex(hex.text, *octets);
   return hex;
 }
 
@@ -40,4 +40,4 @@ void add_encode(CLI::App& app, int& exit_code) {
       [words, &exit_code] { exit_code = filter_lines(*words, encode); });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

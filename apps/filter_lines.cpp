@@ -13,7 +13,7 @@
 #include <iostream>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -75,4 +75,4 @@ int filter_lines(const std::vector<std::string>& words,
   return exit_code;
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// What became of a line: text to print, or why there is none.
 struct turned_line {
@@ -26,4 +26,4 @@ inline constexpr std::size_t longest_line = 16 * 1024 * 1024;
 int filter_lines(const std::vector<std::string>& words,
                  const std::function<turned_line(const std::string&)>& turn);
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -12,11 +12,11 @@
 #include <charconv>
 #include <string>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// @throws input_error.
-inline network_address address_of(std::string_view text) {
-  auto address = parse_address(text);
+inline network::network_address address_of(std::string_view text) {
+  auto address = network::parse_address(text);
   if (!address)
     throw input_error(fmt::format(
         "'{}' is no HOST:PORT, like 10.0.0.5:4711 or [::1]:4711", text));
@@ -27,7 +27,7 @@ struct host_arguments {
   std::string keys;
   // For tests; not shown.
   std::string clock;
-  std::uint32_t protocol = remote_protocol;
+  std::uint32_t protocol = messages::remote_protocol;
 
   void add_to(CLI::App& command) {
     command
@@ -39,7 +39,7 @@ struct host_arguments {
   }
 
   /// @param to  Gets them.
-  void give(host_options& to) const {
+  void give(scenario::host_options& to) const {
     to.keys = keys;
     if (!keys.empty()) {
       to.keys_have_changed = &keys_have_changed;
@@ -51,7 +51,7 @@ struct host_arguments {
 
 private:
   /// SHIFT,DRIFT: e.g. "500ms,50", the drift in ppm.
-  static clock_error clock_error_of(const std::string& text) {
+  static actors::clock_error clock_error_of(const std::string& text) {
     if (text.empty())
       return {};
     const auto late = text.starts_with('-');
@@ -68,4 +68,4 @@ private:
   }
 };
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -21,7 +21,7 @@ struct issue_arguments {
   std::string stations;
   std::string provider;
   std::string out;
-  int days = issue_options{}.days;
+  int days = network::issue_options{}.days;
 };
 
 struct init_arguments {
@@ -33,7 +33,7 @@ struct init_arguments {
 struct renew_arguments {
   std::string folder;
   std::string of;
-  int days = issue_options{}.days;
+  int days = network::issue_options{}.days;
 };
 
 struct revoke_arguments {
@@ -44,28 +44,28 @@ struct revoke_arguments {
 };
 
 std::vector<station_id> stations_in(const std::string& list) {
-  auto stations = parse_stations(list);
+  auto stations = network::parse_stations(list);
   if (!stations)
     throw input_error{fmt::format(
         "--station {}: that is no list of stations; 101, 101-106 and "
         "101-106,110 are, of at most {}",
-        list, most_stations)};
+        list, network::most_stations)};
   return *std::move(stations);
 }
 
-peer_identity identity_in(const std::string& stations,
-                          const std::string& provider) {
+network::peer_identity identity_in(const std::string& stations,
+                                   const std::string& provider) {
   if (!provider.empty())
     return {{}, provider};
   return {stations_in(stations), {}};
 }
 
 void init(const init_arguments& args) {
-  permitted_names names;
+  network::permitted_names names;
   if (!args.stations.empty())
     names.stations = stations_in(args.stations);
   names.providers = args.providers;
-  init_keys(args.folder, names);
+  network::init_keys(args.folder, names);
   std::cout << fmt::format("{0}/ca.pem, {0}/ca_key.pem: a new CA. Keep "
                            "ca_key.pem here; no host needs it.\n",
                            args.folder);
@@ -73,29 +73,29 @@ void init(const init_arguments& args) {
 
 void issue(const issue_arguments& args) {
   const auto who = identity_in(args.stations, args.provider);
-  issue_options options{args.days, {}};
+  network::issue_options options{args.days, {}};
   if (!args.out.empty())
     options.out = args.out;
-  const auto written = issue_keys(args.folder, who, options);
+  const auto written = network::issue_keys(args.folder, who, options);
   std::cout << fmt::format("{}: ca.pem, cert.pem, key.pem for {}, valid for {} "
                            "days.\nCopy the folder to its host; key.pem is "
                            "secret.\n",
-                           written.string(), describe(who), args.days);
+                           written.string(), network::describe(who), args.days);
 }
 
 void renew(const renew_arguments& args) {
-  const auto who = renew_keys(args.folder, args.of, args.days);
+  const auto who = network::renew_keys(args.folder, args.of, args.days);
   std::cout << fmt::format("{}: ca.pem, cert.pem, key.pem for {}, valid for {} "
                            "days.\nCopy the folder to its host, and send "
                            "SIGHUP to what runs there.\n",
-                           args.of, describe(who), args.days);
+                           args.of, network::describe(who), args.days);
 }
 
 void revoke(const revoke_arguments& args) {
-  revocation_choice which{{}, args.serial};
+  network::revocation_choice which{{}, args.serial};
   if (args.serial.empty())
     which.who = identity_in(args.stations, args.provider);
-  const auto revoked = revoke_keys(args.folder, which);
+  const auto revoked = network::revoke_keys(args.folder, which);
   for (const auto& name : revoked)
     std::cout << fmt::format("revoked: {}\n", name);
   if (revoked.empty())
@@ -188,4 +188,4 @@ void add_keys(CLI::App& app, int&) {
   revoke_command->callback([revoke_args] { revoke(*revoke_args); });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -23,7 +23,7 @@ namespace {
 struct role {
   std::string_view key; ///< In `[policies]`.
   std::string_view what;
-  std::vector<policy_info> all;
+  std::vector<policies::policy_info> all;
   /// Lists the options of one.
   std::function<void(option_visitor&, std::string_view name)> options;
   bool several = false; ///< A list of them.
@@ -38,16 +38,18 @@ auto options_by(Make make) {
 }
 
 std::vector<role> roles() {
-  return {{"lodm", "in the vehicle: whom to ask", lodm_notes(),
-           options_by(make_lodm)},
-          {"codm", "at the provider: whom to accept", codm_notes(),
-           options_by(make_codm)},
-          {"lodm.filter", "before it: who comes into question",
-           local_filter_notes(), options_by(make_local_filter)},
-          {"codm.filter", "before it: who comes into question",
-           central_filter_notes(), options_by(make_central_filter)},
-          {"lodm.govern", "after it, one or several: the last word",
-           governor_notes(), options_by(make_governor), true}};
+  return {
+      {"lodm", "in the vehicle: whom to ask", policies::lodm_notes(),
+       options_by(policies::make_lodm)},
+      {"codm", "at the provider: whom to accept", policies::codm_notes(),
+       options_by(policies::make_codm)},
+      {"lodm.filter", "before it: who comes into question",
+       policies::local_filter_notes(), options_by(policies::make_local_filter)},
+      {"codm.filter", "before it: who comes into question",
+       policies::central_filter_notes(),
+       options_by(policies::make_central_filter)},
+      {"lodm.govern", "after it, one or several: the last word",
+       policies::governor_notes(), options_by(policies::make_governor), true}};
 }
 
 std::string list(const role& one) {
@@ -57,7 +59,7 @@ std::string list(const role& one) {
   return text;
 }
 
-std::string describe(const role& sort, const policy_info& one) {
+std::string describe(const role& sort, const policies::policy_info& one) {
   const auto header = sort.several ? fmt::format("[[policies.{}]]", sort.key)
                                    : fmt::format("[policies.{}]", sort.key);
   const auto options = [&](option_visitor& s) {
@@ -114,4 +116,4 @@ void add_policies(CLI::App& app, int&) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// The file that this process runs.
 inline constexpr auto program_file = "/proc/self/exe";
@@ -22,4 +22,4 @@ inline std::string this_program() {
                      fingerprint(text.value_or("")));
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -9,7 +9,7 @@
 #include <memory>
 #include <sys/resource.h>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -28,7 +28,7 @@ void add_provide(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
-    provide_options what;
+    scenario::provide_options what;
     std::string listen = "127.0.0.1:4711";
   };
   auto* command =
@@ -57,8 +57,8 @@ void add_provide(CLI::App& app, int& exit_code) {
     catch_signals();
     allow_many_files();
     exit_code = static_cast<int>(
-        provide(s, args->what, options, interrupted, std::cout));
+        scenario::provide(s, args->what, options, interrupted, std::cout));
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -24,16 +24,17 @@ struct report_arguments {
   static void check(const std::filesystem::path& to,
                     const std::vector<std::filesystem::path>& from) {
     for (const auto& folder : from)
-      if (is_result(to, folder))
+      if (recording::is_result(to, folder))
         throw input_error(to.string()
                           + " is one of the run's results; choose another "
                             "file with -o");
   }
 
-  static report::document what(const std::vector<std::filesystem::path>& from) {
-    if (from.size() == 1 && study::is_sweep_folder(from.front()))
-      return study::describe_sweeps(from.front(), SOFOF_VERSION);
-    return report::describe(from, SOFOF_VERSION);
+  static experiments::report::document
+  what(const std::vector<std::filesystem::path>& from) {
+    if (from.size() == 1 && experiments::study::is_sweep_folder(from.front()))
+      return experiments::study::describe_sweeps(from.front(), SOFOF_VERSION);
+    return experiments::report::describe(from, SOFOF_VERSION);
   }
 
   /// @returns where it was written to.
@@ -41,11 +42,12 @@ struct report_arguments {
     const std::vector<std::filesystem::path> from(folders.begin(),
                                                   folders.end());
     // A reproduction has its own report.html.
-    const auto* name =
-        study::is_sweep_folder(from.front()) ? "sweeps.html" : "report.html";
+    const auto* name = experiments::study::is_sweep_folder(from.front())
+                           ? "sweeps.html"
+                           : "report.html";
     auto to = out.empty() ? from.front() / name : std::filesystem::path{out};
     check(to, from);
-    report::write_html(what(from), to);
+    experiments::report::write_html(what(from), to);
     return to;
   }
 };
@@ -75,4 +77,4 @@ void add_report(CLI::App& app, int&) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

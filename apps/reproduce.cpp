@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -18,25 +18,26 @@ struct reproduce_arguments {
   sweep_arguments runs;
 
   int obey() const {
-    const study::reproduction_options all{folder, SOFOF_VERSION,
-                                          runs.given("paper")};
+    const experiments::study::reproduction_options all{folder, SOFOF_VERSION,
+                                                       runs.given("paper")};
     const auto page = (all.runs.out / "report.html").string();
     const auto part = runs.part();
     if (runs.count) {
-      std::cout << count_runs(plans_of(all), all.runs.program, interrupted)
+      std::cout << experiments::count_runs(plans_of(all), all.runs.program,
+                                           interrupted)
                 << '\n';
-      return static_cast<int>(run_outcome::good);
+      return static_cast<int>(scenario::run_outcome::good);
     }
     if (part)
-      return tell_shard(
-          study::reproduce_shard(all, *part, interrupted, std::cout), *part,
-          page);
-    if (!study::reproduce(all, interrupted, std::cout)) {
+      return tell_shard(experiments::study::reproduce_shard(
+                            all, *part, interrupted, std::cout),
+                        *part, page);
+    if (!experiments::study::reproduce(all, interrupted, std::cout)) {
       std::cout << "interrupted; the same command goes on from here\n";
-      return static_cast<int>(run_outcome::interrupted);
+      return static_cast<int>(scenario::run_outcome::interrupted);
     }
     std::cout << "report in " << page << '\n';
-    return static_cast<int>(run_outcome::good);
+    return static_cast<int>(scenario::run_outcome::good);
   }
 };
 
@@ -59,4 +60,4 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

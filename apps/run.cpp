@@ -8,7 +8,7 @@
 #include <iostream>
 #include <memory>
 
-namespace sofof {
+namespace sofof::apps {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("run", "Drive a scenario");
@@ -23,8 +23,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->callback([args, &exit_code] {
     const auto s = args->what.load();
     catch_signals();
-    exit_code = static_cast<int>(run(s, args->given(), interrupted, std::cout));
+    exit_code = static_cast<int>(
+        scenario::run(s, args->given(), interrupted, std::cout));
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

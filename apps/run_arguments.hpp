@@ -7,11 +7,11 @@
 #include <string>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::apps {
 
 struct run_arguments {
   scenario_arguments what;
-  run_options options;
+  scenario::run_options options;
   std::string out;
   bool quiet = false;
 
@@ -34,18 +34,18 @@ struct run_arguments {
   }
 
   /// @returns the options as they were given, for a console on stdout.
-  run_options given() const {
+  scenario::run_options given() const {
     auto all = options;
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     if (!out.empty())
       all.out = out;
     if (!quiet)
-      all.show =
-          terminal ? progress::output::terminal : progress::output::plain;
+      all.show = terminal ? recording::progress::output::terminal
+                          : recording::progress::output::plain;
     all.colour = terminal;
     all.version = SOFOF_VERSION;
     return all;
   }
 };
 
-} // namespace sofof
+} // namespace sofof::apps

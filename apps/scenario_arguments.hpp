@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 struct scenario_arguments {
   std::string file;
@@ -32,14 +32,14 @@ struct scenario_arguments {
         ->expected(1);
   }
 
-  scenario_definition load() const {
+  scenario::scenario_definition load() const {
     auto overrides = set;
     if (!seed.empty())
       overrides.push_back("seed=" + seed);
     if (!length.empty())
       overrides.push_back("duration=" + length);
-    return load_scenario(file, overrides);
+    return scenario::load_scenario(file, overrides);
   }
 };
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace sofof {
+namespace sofof::apps {
 
 /// Set by the first of these signals, which shall end the run in good order; a
 /// second one ends it at once.
@@ -28,4 +28,4 @@ inline void catch_hang_up() {
   std::signal(SIGHUP, [](int) { keys_have_changed = true; });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

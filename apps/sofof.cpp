@@ -47,20 +47,20 @@ int obey(int argc, char** argv) {
              "Exit codes: 0 done, 1 the run was unsafe or failed, or a message "
              "is wrong,\n2 wrong input or usage, 130 interrupted.");
   int exit_code = 0;
-  sofof::add_run(app, exit_code);
-  sofof::add_sweep(app, exit_code);
-  sofof::add_bench(app, exit_code);
-  sofof::add_train(app, exit_code);
-  sofof::add_provide(app, exit_code);
-  sofof::add_drive(app, exit_code);
-  sofof::add_reproduce(app, exit_code);
-  sofof::add_report(app, exit_code);
-  sofof::add_check(app, exit_code);
-  sofof::add_policies(app, exit_code);
-  sofof::add_solve(app, exit_code);
-  sofof::add_decode(app, exit_code);
-  sofof::add_encode(app, exit_code);
-  sofof::add_keys(app, exit_code);
+  sofof::apps::add_run(app, exit_code);
+  sofof::apps::add_sweep(app, exit_code);
+  sofof::apps::add_bench(app, exit_code);
+  sofof::apps::add_train(app, exit_code);
+  sofof::apps::add_provide(app, exit_code);
+  sofof::apps::add_drive(app, exit_code);
+  sofof::apps::add_reproduce(app, exit_code);
+  sofof::apps::add_report(app, exit_code);
+  sofof::apps::add_check(app, exit_code);
+  sofof::apps::add_policies(app, exit_code);
+  sofof::apps::add_solve(app, exit_code);
+  sofof::apps::add_decode(app, exit_code);
+  sofof::apps::add_encode(app, exit_code);
+  sofof::apps::add_keys(app, exit_code);
   if (argc > 1)
     check_command(app, argv[1]);
   try {
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   // One arena for malloc: an actor system hands memory from thread to thread,
   // and with an arena per thread it spreads out.
   mallopt(M_ARENA_MAX, 1);
-  sofof::init_messages();
+  sofof::scenario::init_messages();
   try {
     const auto exit_code = obey(argc, argv);
     if (!std::cout.flush())
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const sofof::input_error& e) {
     return complain(e.what(), wrong_input);
-  } catch (const sofof::network_error& e) {
+  } catch (const sofof::network::network_error& e) {
     return complain(e.what(), wrong_input);
   } catch (const std::exception& e) {
     return complain(e.what(), failed);

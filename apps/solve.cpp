@@ -8,13 +8,13 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
 struct arguments {
   std::string file, out, practice;
-  solve_options options;
+  experiments::solve_options options;
 };
 
 } // namespace
@@ -41,11 +41,11 @@ void add_solve(CLI::App& app, int&) {
                   "--out plans.jsonl");
   command->callback([args] {
     if (!args->practice.empty())
-      write_practice(args->file, args->practice);
+      experiments::write_practice(args->file, args->practice);
     if (!args->out.empty())
       args->options.out = args->out;
-    solve_problems(args->file, args->options, std::cout);
+    experiments::solve_problems(args->file, args->options, std::cout);
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

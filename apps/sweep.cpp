@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -20,30 +20,32 @@ struct sweep_command {
   sweep_arguments runs;
 };
 
-int tell_outcome(const sweep_outcome& outcome) {
+int tell_outcome(const experiments::sweep_outcome& outcome) {
   if (outcome.interrupted) {
     std::cout << "interrupted; the same command goes on from here\n";
-    return static_cast<int>(run_outcome::interrupted);
+    return static_cast<int>(scenario::run_outcome::interrupted);
   }
   std::cout << fmt::format("{} good, {} unsafe, {} failed; results in {}\n",
                            outcome.good, outcome.unsafe, outcome.failed,
                            outcome.table.string());
-  return static_cast<int>(outcome.all_good() ? run_outcome::good
-                                             : run_outcome::failed);
+  return static_cast<int>(outcome.all_good() ? scenario::run_outcome::good
+                                             : scenario::run_outcome::failed);
 }
 
 int obey(const sweep_command& args) {
-  const auto plan = load_sweep(args.file, args.set);
+  const auto plan = experiments::load_sweep(args.file, args.set);
   const auto part = args.runs.part();
   const auto how = args.runs.given(plan.name);
   if (args.runs.count) {
-    std::cout << count_runs({&plan, 1}, how.program, interrupted) << '\n';
-    return static_cast<int>(run_outcome::good);
+    std::cout << experiments::count_runs({&plan, 1}, how.program, interrupted)
+              << '\n';
+    return static_cast<int>(scenario::run_outcome::good);
   }
   if (!part)
-    return tell_outcome(sweep(plan, how, interrupted, std::cout));
-  return tell_shard(make_shard({&plan, 1}, how, *part, interrupted, std::cout),
-                    *part, (how.out / (plan.name + ".csv")).string());
+    return tell_outcome(experiments::sweep(plan, how, interrupted, std::cout));
+  return tell_shard(
+      experiments::make_shard({&plan, 1}, how, *part, interrupted, std::cout),
+      *part, (how.out / (plan.name + ".csv")).string());
 }
 
 } // namespace
@@ -70,4 +72,4 @@ void add_sweep(CLI::App& app, int& exit_code) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -18,7 +18,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::apps {
 
 struct sweep_arguments {
   std::string out;
@@ -47,34 +47,35 @@ struct sweep_arguments {
   }
 
   /// @param name  Of the results, if no folder was given.
-  sweep_options given(const std::string& name) const {
+  experiments::sweep_options given(const std::string& name) const {
     // Each thread has a world of its own, so each gets memory of its own.
     mallopt(M_ARENA_MAX, static_cast<int>(jobs) + 1);
-    sweep_options all;
+    experiments::sweep_options all;
     all.out = out.empty() ? "results/" + name : out;
     all.program = this_program();
     if (!quiet)
-      all.show = isatty(STDOUT_FILENO) != 0 ? progress::output::terminal
-                                            : progress::output::plain;
-    all.make = virtual_runs(SOFOF_VERSION);
+      all.show = isatty(STDOUT_FILENO) != 0
+                     ? recording::progress::output::terminal
+                     : recording::progress::output::plain;
+    all.make = experiments::virtual_runs(SOFOF_VERSION);
     all.jobs = jobs;
     return all;
   }
 
   /// @returns the shard that is asked for, if any.
   /// @throws input_error for one that there cannot be, or beside --count.
-  std::optional<shard> part() const {
+  std::optional<experiments::shard> part() const {
     if (!part_text)
       return std::nullopt;
     if (count)
       throw input_error{"--count counts the runs of all shards; leave --shard "
                         "out."};
-    const auto which = parse_shard(*part_text);
+    const auto which = experiments::parse_shard(*part_text);
     if (!which)
       throw input_error{fmt::format(
           "--shard {}: it must be I/N, shard I of N, with whole numbers, "
           "1 <= I <= N <= {}; like --shard 2/7.",
-          *part_text, most_shards)};
+          *part_text, experiments::most_shards)};
     return which;
   }
 };
@@ -82,11 +83,12 @@ struct sweep_arguments {
 /// Says what a shard did, and what to do next.
 /// @param result  What the whole command writes, for people.
 /// @returns the exit code.
-inline int tell_shard(const shard_outcome& done, const shard& which,
+inline int tell_shard(const experiments::shard_outcome& done,
+                      const experiments::shard& which,
                       std::string_view result) {
   if (done.interrupted) {
     std::cout << "interrupted; the same command goes on from here\n";
-    return static_cast<int>(run_outcome::interrupted);
+    return static_cast<int>(scenario::run_outcome::interrupted);
   }
   std::cout << fmt::format(
       "shard {} of {}: {} of {} runs, {} from before; {} good, {} unsafe, {} "
@@ -94,8 +96,8 @@ inline int tell_shard(const shard_outcome& done, const shard& which,
       "writes {}\n",
       which.number, which.of, done.all(), done.of_all, done.found, done.good,
       done.unsafe, done.failed, result);
-  return static_cast<int>(done.all_good() ? run_outcome::good
-                                          : run_outcome::failed);
+  return static_cast<int>(done.all_good() ? scenario::run_outcome::good
+                                          : scenario::run_outcome::failed);
 }
 
-} // namespace sofof
+} // namespace sofof::apps

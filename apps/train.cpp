@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace sofof {
+namespace sofof::apps {
 
 namespace {
 
@@ -18,20 +18,21 @@ struct train_arguments {
   std::vector<std::string> files;
   std::string out;
   bool quiet = false;
-  bench::training_options options;
+  experiments::bench::training_options options;
 
   int obey() {
     options.scenarios.assign(files.begin(), files.end());
     options.out = out.empty() ? options.policy + ".txt" : out;
     if (!quiet)
-      options.show = isatty(STDOUT_FILENO) != 0 ? progress::output::terminal
-                                                : progress::output::plain;
-    if (!bench::train(options, interrupted, std::cout)) {
+      options.show = isatty(STDOUT_FILENO) != 0
+                         ? recording::progress::output::terminal
+                         : recording::progress::output::plain;
+    if (!experiments::bench::train(options, interrupted, std::cout)) {
       std::cout << "interrupted; nothing was written\n";
-      return static_cast<int>(run_outcome::interrupted);
+      return static_cast<int>(scenario::run_outcome::interrupted);
     }
     std::cout << "snapshot in " << options.out.string() << '\n';
-    return static_cast<int>(run_outcome::good);
+    return static_cast<int>(scenario::run_outcome::good);
   }
 };
 
@@ -76,4 +77,4 @@ void add_train(CLI::App& app, int& exit_code) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::apps

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sofof {
+namespace sofof::channel {
 
 namespace {
 
@@ -171,4 +171,4 @@ random_stream result_draws(const random_stream& seed, station_id station,
       .part(results_part);
 }
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// Where a message goes: to the provider, or to the vehicle.
 enum class direction { up, down };
@@ -101,4 +101,4 @@ private:
 random_stream result_draws(const random_stream& seed, station_id station,
                            std::uint32_t provider, std::string_view radio = {});
 
-} // namespace sofof
+} // namespace sofof::channel

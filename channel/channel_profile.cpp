@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace sofof {
+namespace sofof::channel {
 
 using namespace std::chrono_literals;
 
@@ -113,4 +113,4 @@ std::optional<channel_profile> find_channel_profile(std::string_view name) {
   return std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

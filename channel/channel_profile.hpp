@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// Of a trajectory on the air, about: the message that airtimes were fitted
 /// to.
@@ -168,4 +168,4 @@ std::vector<std::string_view> channel_profile_names();
 /// comes without samples.
 std::optional<channel_profile> find_channel_profile(std::string_view name);
 
-} // namespace sofof
+} // namespace sofof::channel

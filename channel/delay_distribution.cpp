@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::channel {
 
 delay_distribution delay_distribution::uniform(duration low, duration high) {
   return {shape::uniform, low, to_seconds(high - low)};
@@ -85,4 +85,4 @@ double delay_distribution::deviation_s() const {
   return 0;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

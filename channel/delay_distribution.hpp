@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// How long something takes, at random: a shift plus one of a few shapes.
 /// The default takes no time at all.
@@ -58,4 +58,4 @@ private:
   double r_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// The third part of a draw's address, beside stream and number. What has a
 /// lane in common has the draw in common.
@@ -17,4 +17,4 @@ enum draw_lane : std::uint32_t {
   spike_length_lane
 };
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::channel {
 
 link_direction::link_direction(channel_draws draws, direction to,
                                std::shared_ptr<multi_server_queue> cell)
@@ -31,4 +31,4 @@ std::optional<time_point> link_direction::arrival(time_point sent,
   return last_arrival_;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

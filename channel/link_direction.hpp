@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// Carries the messages of one vehicle one way. Has one owner; only the cell
 /// may be shared between threads.
@@ -46,4 +46,4 @@ private:
   time_point last_arrival_ = time_point::min();
 };
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::channel {
 
 link_faults::link_faults(random_stream stream,
                          const link_fault_options& options)
@@ -36,4 +36,4 @@ link_faults::fate link_faults::draw(std::uint64_t number) const {
   return result;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

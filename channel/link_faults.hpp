@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// What goes wrong on a link, per message.
 struct link_fault_options {
@@ -42,4 +42,4 @@ private:
   bool is_faultless_;
 };
 
-} // namespace sofof
+} // namespace sofof::channel

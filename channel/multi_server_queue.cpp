@@ -5,7 +5,7 @@
 #include <cassert>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::channel {
 
 multi_server_queue::multi_server_queue(unsigned workers)
     : free_at_(workers, time_point::min()) {
@@ -22,4 +22,4 @@ time_point multi_server_queue::finish(time_point now, duration work) {
   return *first_free;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

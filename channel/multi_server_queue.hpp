@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// First-come-first-served servers: the edge server's workers, or the one
 /// radio cell that all its vehicles share. Safe to share between threads.
@@ -29,4 +29,4 @@ private:
   std::vector<time_point> free_at_; // one per worker
 };
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::channel {
 
 outage_process::outage_process(random_stream stream, delay_distribution quiet,
                                delay_distribution length)
@@ -27,4 +27,4 @@ void outage_process::advance() {
   ++drawn_;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// One interruption.
 struct interruption {
@@ -47,4 +47,4 @@ private:
   time_point end_ = time_point::max();
 };
 
-} // namespace sofof
+} // namespace sofof::channel

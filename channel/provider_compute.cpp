@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::channel {
 
 using namespace std::chrono_literals;
 
@@ -48,4 +48,4 @@ provider_compute compute_measured_with(std::string_view profile) {
   return c;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

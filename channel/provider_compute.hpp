@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// All that tells one provider's computers from another's. Whoever needs the
 /// computing time of a result, or its mean, has it from here.
@@ -45,4 +45,4 @@ struct provider_compute {
 /// only whole round trips are known, one that takes no time.
 provider_compute compute_measured_with(std::string_view profile);
 
-} // namespace sofof
+} // namespace sofof::channel

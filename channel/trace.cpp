@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::channel {
 
 namespace {
 
@@ -119,4 +119,4 @@ double replayed_delay_s(std::span<const trace_sample> samples, double at_s) {
   return after->at_s - t < t - before->at_s ? after->delay_s : before->delay_s;
 }
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// One sample of a measured round-trip file.
 struct trace_sample {
@@ -33,4 +33,4 @@ double replayed_delay_s(std::span<const trace_sample> samples, double at_s);
 /// @returns how long one replay takes, s; 0 for a single sample.
 double replay_length_s(std::span<const trace_sample> samples);
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::channel {
 
 /// @returns the channel with one more outage: nothing gets through between
 /// these times since the start of the run.
@@ -15,4 +15,4 @@ with_outage(channel_profile channel, duration from, duration to) {
   return std::make_shared<const channel_profile>(std::move(channel));
 }
 
-} // namespace sofof
+} // namespace sofof::channel

@@ -2,8 +2,10 @@
 
 # sofof_table(TARGET NAME FOLDER TYPE HEADER [EXCLUDE FILE])
 # Each FOLDER/X.cpp defines `TYPE NAME_X()`, TYPE being declared in HEADER. TARGET
-# finds them as `NAME_table`, sorted, in NAME_table.hpp.
+# finds them as `NAME_table`, sorted, in NAME_table.hpp and in the namespace of
+# the FOLDER's room.
 function(sofof_table target name folder type header)
+  string(REGEX REPLACE "/.*" "" room ${folder})
   cmake_parse_arguments(PARSE_ARGV 5 arg "" "EXCLUDE" "")
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
   if(arg_EXCLUDE)
@@ -21,13 +23,13 @@ function(sofof_table target name folder type header)
 #include \"base/named.hpp\"
 #include \"@header@\"
 
-namespace sofof {
+namespace sofof::@room@ {
 
 @declarations@
 inline constexpr named<@type@> @name@_table[]{
 @entries@};
 
-} // namespace sofof
+} // namespace sofof::@room@
 " @ONLY)
   target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated)
 endfunction()

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 struct handshake_state; // actors/remote/handshake.cpp
 
-} // namespace sofof
+} // namespace sofof::actors
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A hello that a handshake of this process has examined. Nothing else makes
 /// one that holds anything, and none crosses between processes.
@@ -33,13 +33,13 @@ public:
   const content* get() const { return content_.get(); }
 
 private:
-  friend struct handshake_state;
+  friend struct actors::handshake_state;
   explicit admission(content what)
       : content_{std::make_shared<const content>(std::move(what))} {}
 
   std::shared_ptr<const content> content_;
 };
 
-} // namespace sofof
+} // namespace sofof::messages
 
-CAF_ALLOW_UNSAFE_MESSAGE_TYPE(sofof::admission)
+CAF_ALLOW_UNSAFE_MESSAGE_TYPE(sofof::messages::admission)

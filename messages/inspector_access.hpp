@@ -9,7 +9,7 @@
 #include <caf/inspector_access.hpp>
 #include <caf/inspector_access_base.hpp>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// As messages/protocol/inspect.hpp says.
 template <class T>
@@ -20,20 +20,20 @@ struct value_access : caf::inspector_access_base<T> {
   }
 };
 
-} // namespace sofof
+} // namespace sofof::messages
 
 // Specialised for any struct that lists its fields, wherever it is declared:
 // an overload of `inspect` is only found beside its type.
 template <sofof::has_fields T>
-struct caf::inspector_access<T> : sofof::value_access<T> {};
+struct caf::inspector_access<T> : sofof::messages::value_access<T> {};
 
 template <sofof::has_last T>
-struct caf::inspector_access<T> : sofof::value_access<T> {};
+struct caf::inspector_access<T> : sofof::messages::value_access<T> {};
 
 template <>
 struct caf::inspector_access<sofof::time_point>
-    : sofof::value_access<sofof::time_point> {};
+    : sofof::messages::value_access<sofof::time_point> {};
 
 template <class Tag, class Rep>
 struct caf::inspector_access<sofof::strong_id<Tag, Rep>>
-    : sofof::value_access<sofof::strong_id<Tag, Rep>> {};
+    : sofof::messages::value_access<sofof::strong_id<Tag, Rep>> {};

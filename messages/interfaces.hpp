@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 // Words of nothing but their names.
 
@@ -173,7 +173,7 @@ using acceptor_actor = caf::typed_actor<
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<
     // What the driver has to know about the others.
-    reacts_to<perception>,
+    reacts_to<world::perception>,
     // It is on the road now: its place was free.
     reacts_to<begin_atom>>;
 
@@ -191,4 +191,4 @@ using recorder_actor = caf::typed_actor<
     // Something has.
     reacts_to<record>>;
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <initializer_list>
 
-namespace sofof {
+namespace sofof::network {
 
 void leave_signals_to_others() {
   sigset_t signals;
@@ -14,4 +14,4 @@ void leave_signals_to_others() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-} // namespace sofof
+} // namespace sofof::network

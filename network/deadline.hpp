@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace sofof {
+namespace sofof::network {
 
 using deadline_clock = std::chrono::steady_clock;
 using deadline = deadline_clock::time_point;
@@ -20,4 +20,4 @@ inline int milliseconds_until(deadline end, deadline now) {
       std::clamp(left, milliseconds::zero(), longest).count());
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 struct name_lookup::question {
   std::mutex mutex;
@@ -34,4 +34,4 @@ std::optional<std::vector<socket_address>> name_lookup::answer() const {
   return question_->answer;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// How a host becomes addresses; may take as long as it likes.
 using name_resolver =
@@ -33,4 +33,4 @@ private:
   std::shared_ptr<question> question_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::string print_address(const network_address& address) {
   return host.find(':') == host.npos ? host + port : "[" + host + "]" + port;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::network {
 
 struct network_address {
   std::string host; ///< A name, an IPv4 or an IPv6 address.
@@ -22,4 +22,4 @@ std::optional<network_address> parse_address(std::string_view text);
 /// @returns what `parse_address` reads as this address.
 std::string print_address(const network_address& address);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::network {
 
 /// One sentence for the user: what is wrong, where, and what would be right.
 class network_error : public std::runtime_error {
@@ -11,4 +11,4 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -178,4 +178,4 @@ void wake_up::answer() {
   eventfd_read(event_.get(), &count);
 }
 
-} // namespace sofof
+} // namespace sofof::network

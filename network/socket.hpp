@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// An address as the system wants it.
 struct socket_address {
@@ -80,4 +80,4 @@ private:
   descriptor event_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -33,7 +33,7 @@ provider::provider(provider_setup setup, provider_port& port)
 }
 
 const provider::provider_session*
-provider::station_record::find(const service_name& service) const {
+provider::station_record::find(const messages::service_name& service) const {
   const auto i =
       std::ranges::find(sessions, service, [](const provider_session& x) {
         return x.session.service;
@@ -72,7 +72,7 @@ void provider::expire(const station_check& x, time_point now) {
     return;
   const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
   if (now >= deadline)
-    forget(i, end_reason::cam_timeout, now);
+    forget(i, messages::end_reason::cam_timeout, now);
   else
     wake_at(deadline, x);
 }
@@ -94,7 +94,7 @@ void provider::on_sign_of_life(station_id station, peer_id from,
     known->second.heard = now;
 }
 
-void provider::on_cam(const cam& c, peer_id from, time_point now) {
+void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   pass(now);
   const auto known = stations_.find(c.station);
   if (known != stations_.end() && c.at < known->second.latest.at)
@@ -103,7 +103,7 @@ void provider::on_cam(const cam& c, peer_id from, time_point now) {
     return; // all true ones would seem overtaken
   if (!setup_.area.contains(c.position)) {
     if (known != stations_.end())
-      forget(known, end_reason::left_area, now);
+      forget(known, messages::end_reason::left_area, now);
     return;
   }
   auto [i, is_new] = stations_.try_emplace(c.station);
@@ -130,7 +130,7 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
   assert(station.requester != requester);
   if (station.requester) {
     drop_waiting(id);
-    leave(station, end_reason::peer_lost, now);
+    leave(station, messages::end_reason::peer_lost, now);
   }
   assert(station.sessions.empty());
   if (!serves(requester))
@@ -142,7 +142,7 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
 }
 
 // Its requester speaks for the station no longer.
-void provider::leave(station_record& station, end_reason reason,
+void provider::leave(station_record& station, messages::end_reason reason,
                      time_point now) {
   assert(station.requester);
   while (!station.sessions.empty())
@@ -164,7 +164,7 @@ bool provider::serves(peer_id requester) const {
 void provider::offer(station_record& station, time_point now) {
   assert(station.requester);
   assert(now >= station.next_offer);
-  std::vector<service_name> idle;
+  std::vector<messages::service_name> idle;
   for (const auto& service : setup_.services)
     if (!station.find(service.name))
       idle.push_back(service.name);
@@ -173,7 +173,7 @@ void provider::offer(station_record& station, time_point now) {
     return;
   station.next_offer = now + protocol::offer_period;
   port_.send(*station.requester,
-             service_offer{
+             messages::service_offer{
                  .provider = setup_.id,
                  .position = setup_.position,
                  .services = std::move(idle),
@@ -183,7 +183,8 @@ void provider::offer(station_record& station, time_point now) {
                  .created = now});
 }
 
-void provider::forget(stations::iterator i, end_reason reason, time_point now) {
+void provider::forget(stations::iterator i, messages::end_reason reason,
+                      time_point now) {
   leave(i->second, reason, now);
   stations_.erase(i);
 }
@@ -193,7 +194,7 @@ void provider::on_lost(peer_id peer, time_point now) {
   for (auto i = stations_.begin(); i != stations_.end();) {
     const auto next = std::next(i);
     if (i->second.requester == peer)
-      forget(i, end_reason::peer_lost, now);
+      forget(i, messages::end_reason::peer_lost, now);
     i = next;
   }
 }
@@ -201,22 +202,22 @@ void provider::on_lost(peer_id peer, time_point now) {
 void provider::shut_down(time_point now) {
   pass(now);
   while (!stations_.empty())
-    forget(stations_.begin(), end_reason::shutdown, now);
+    forget(stations_.begin(), messages::end_reason::shutdown, now);
 }
 
 // -- the end of a session -----------------------------------------------------
 
-void provider::on_end(const service_end& e, time_point now) {
+void provider::on_end(const messages::service_end& e, time_point now) {
   pass(now);
-  if (e.from != side::requester)
+  if (e.from != messages::side::requester)
     return;
   const auto i = stations_.find(e.session.station);
   if (i != stations_.end())
     end(i->second, e.session, e.reason, false, now);
 }
 
-void provider::on_function_lost(const session_id& session, end_reason why,
-                                time_point now) {
+void provider::on_function_lost(const messages::session_id& session,
+                                messages::end_reason why, time_point now) {
   pass(now);
   const auto i = stations_.find(session.station);
   if (i != stations_.end())
@@ -224,45 +225,47 @@ void provider::on_function_lost(const session_id& session, end_reason why,
 }
 
 // Closes a session, once; one that is not known has been closed before.
-void provider::end(station_record& station, session_id session,
-                   end_reason reason, bool tell, time_point now) {
+void provider::end(station_record& station, messages::session_id session,
+                   messages::end_reason reason, bool tell, time_point now) {
   const auto i =
       std::ranges::find(station.sessions, session, &provider_session::session);
   if (i == station.sessions.end())
     return;
   assert(station.requester);
   assert(i->since <= now);
-  service_end e{session, reason, side::provider};
+  messages::service_end e{session, reason, messages::side::provider};
   port_.end(e);
   if (tell) {
     if (const auto* service = find(session.service))
       e.what = service->here->termination_message(e, now);
     port_.send(*station.requester, e);
   }
-  port_.record(episode_record{.session = session,
-                              .of = side::provider,
-                              .accepted = i->since,
-                              .first_data = i->since,
-                              .got_data = true,
-                              .ended = now,
-                              .reason = reason});
-  setup_.policy->observe(episode_outcome{session.service.view(), setup_.id,
-                                         to_seconds(now - i->since),
-                                         name_of(reason), session.station});
+  port_.record(messages::episode_record{.session = session,
+                                        .of = messages::side::provider,
+                                        .accepted = i->since,
+                                        .first_data = i->since,
+                                        .got_data = true,
+                                        .ended = now,
+                                        .reason = reason});
+  setup_.policy->observe(policies::episode_outcome{
+      session.service.view(), setup_.id, to_seconds(now - i->since),
+      messages::name_of(reason), session.station});
   station.sessions.erase(i);
   station.next_offer = now + protocol::offer_period;
 }
 
 // -- services -----------------------------------------------------------------
 
-const offered_service* provider::find(const service_name& service) const {
+const offered_service*
+provider::find(const messages::service_name& service) const {
   const auto i =
       std::ranges::find(setup_.services, service, &offered_service::name);
   return i == setup_.services.end() ? nullptr : &*i;
 }
 
 // @returns how a service computes, without an offset.
-periodic_task provider::task_of(const offered_service& service) const {
+policies::periodic_task
+provider::task_of(const offered_service& service) const {
   const auto& options = service.options;
   assert(options.period > duration{0});
   assert(options.compute.demand >= 0);
@@ -275,12 +278,13 @@ periodic_task provider::task_of(const offered_service& service) const {
 }
 
 // @returns the share of the workers that a service takes.
-double provider::utilisation_by(const service_name& service) const {
+double provider::utilisation_by(const messages::service_name& service) const {
   const auto* found = find(service);
   if (!found)
     return 0;
-  return worker_share(setup_.computer.mean_s * found->options.compute.demand,
-                      found->options.period, setup_.computer.workers);
+  return policies::worker_share(setup_.computer.mean_s
+                                    * found->options.compute.demand,
+                                found->options.period, setup_.computer.workers);
 }
 
 // @returns what all that runs here takes of them.

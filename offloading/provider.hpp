@@ -32,19 +32,20 @@ struct provider_computer {
 /// What a provider is made of.
 struct provider_setup {
   provider_id id = 0;
-  point position;                         ///< m, east-north.
-  polygon area;                           ///< Stations in it get offers.
-  std::vector<offered_service> services;  ///< With different names.
-  std::unique_ptr<central_policy> policy; ///< Not null.
+  point position;                        ///< m, east-north.
+  polygon area;                          ///< Stations in it get offers.
+  std::vector<offered_service> services; ///< With different names.
+  std::unique_ptr<policies::central_policy> policy; ///< Not null.
   provider_computer computer;
   /// For the policy; not null. Few ask it anything.
-  std::shared_ptr<const road_map> map = std::make_shared<const road_map>();
+  std::shared_ptr<const world::road_map> map =
+      std::make_shared<const world::road_map>();
   random_stream noise{0, ""}; ///< Of this provider.
 };
 
 /// A session that begins.
 struct session_start {
-  session_id session;
+  messages::session_id session;
   peer_id requester{};      ///< It gets the results.
   duration phase{};         ///< Cycles start at phase + k · period.
   bool keeps_phase = false; ///< The first one too.
@@ -60,10 +61,12 @@ class provider_port {
 public:
   virtual ~provider_port() = default;
 
-  virtual void send(peer_id requester, const service_offer& offer) = 0;
+  virtual void send(peer_id requester,
+                    const messages::service_offer& offer) = 0;
   /// The sessions of its accepted verdicts have been started before.
-  virtual void send(peer_id requester, const service_response& response) = 0;
-  virtual void send(peer_id requester, const service_end& end) = 0;
+  virtual void send(peer_id requester,
+                    const messages::service_response& response) = 0;
+  virtual void send(peer_id requester, const messages::service_end& end) = 0;
 
   /// This requester speaks for a station from now on: `on_lost` is to be called
   /// when it cannot be reached any more.
@@ -75,9 +78,9 @@ public:
   /// A function shall run for this session from its first input on.
   virtual void start(const session_start& start) = 0;
   /// It shall end.
-  virtual void end(const service_end& end) = 0;
+  virtual void end(const messages::service_end& end) = 0;
 
-  virtual void record(sofof::record&& x) = 0;
+  virtual void record(messages::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -109,22 +112,23 @@ public:
 
   /// A station tells where it is.
   /// @param from  Where its requester is reached.
-  void on_cam(const cam& c, peer_id from, time_point now);
+  void on_cam(const messages::cam& c, peer_id from, time_point now);
 
   /// A known station has sent something else than a CAM that all may hear (a
   /// CPM): it is not silent. Inputs do not count.
   void on_sign_of_life(station_id station, peer_id from, time_point now);
 
   /// A request with a number that is not above the last one is ignored.
-  void on_request(const service_request& request, peer_id from, time_point now);
+  void on_request(const messages::service_request& request, peer_id from,
+                  time_point now);
 
   /// A requester has ended a session; one that is not known is ignored.
-  void on_end(const service_end& end, time_point now);
+  void on_end(const messages::service_end& end, time_point now);
 
   /// The function of a session runs no longer; one that is not known is
   /// ignored.
-  void on_function_lost(const session_id& session, end_reason why,
-                        time_point now);
+  void on_function_lost(const messages::session_id& session,
+                        messages::end_reason why, time_point now);
 
   /// A requester cannot be reached any more.
   void on_lost(peer_id peer, time_point now);
@@ -150,9 +154,9 @@ private:
   using timer = std::variant<station_check, epoch_end>;
 
   struct provider_session {
-    session_id session;
+    messages::session_id session;
     time_point since;
-    periodic_task task;
+    policies::periodic_task task;
     std::size_t worker = 0;
     std::vector<candidate> candidates; // as the station told
   };
@@ -161,13 +165,13 @@ private:
   struct station_record {
     std::uint64_t number = 0; // so that a timer knows its record
     std::optional<peer_id> requester;
-    cam latest;
+    messages::cam latest;
     time_point heard; // when the latest message came
     time_point next_offer;
     std::uint32_t last_request = 0;
     std::vector<provider_session> sessions;
 
-    const provider_session* find(const service_name& service) const;
+    const provider_session* find(const messages::service_name& service) const;
     /// Whether it has a requester, and no service runs for it twice; between
     /// two calls it always is.
     bool is_consistent() const;
@@ -176,15 +180,16 @@ private:
 
   /// A request that waits for its answer.
   struct open_request {
-    service_request what;
+    messages::service_request what;
     peer_id from{};
   };
 
   /// What the policy is asked about one request, and what it gets for an
   /// answer.
   struct question {
-    std::vector<central_decision> verdicts; // one for each named service
-    std::vector<request_view> asked;
+    std::vector<policies::central_decision>
+        verdicts; // one for each named service
+    std::vector<policies::request_view> asked;
     std::vector<std::size_t> places; // of what is asked, among the services
   };
 
@@ -195,28 +200,32 @@ private:
 
   void meet(station_id id, station_record& station, peer_id requester,
             time_point now);
-  void leave(station_record& station, end_reason reason, time_point now);
+  void leave(station_record& station, messages::end_reason reason,
+             time_point now);
   void offer(station_record& station, time_point now);
-  void forget(stations::iterator i, end_reason reason, time_point now);
+  void forget(stations::iterator i, messages::end_reason reason,
+              time_point now);
   void drop_waiting(station_id station);
 
   void answer(std::vector<open_request> requests, time_point now);
-  void refuse(const service_request& request, peer_id from,
+  void refuse(const messages::service_request& request, peer_id from,
               std::string_view why);
   question question_of(const open_request& open, time_point now);
-  std::vector<central_decision> ask_policy(std::span<const request_view> asked,
-                                           time_point now);
+  std::vector<policies::central_decision>
+  ask_policy(std::span<const policies::request_view> asked, time_point now);
   void respond(const open_request& open,
-               const std::vector<central_decision>& decisions, time_point now);
-  void start(station_record& station, const session_id& session,
-             const open_request& open, const accepted& terms, time_point now);
+               const std::vector<policies::central_decision>& decisions,
+               time_point now);
+  void start(station_record& station, const messages::session_id& session,
+             const open_request& open, const policies::accepted& terms,
+             time_point now);
 
-  void end(station_record& station, session_id session, end_reason reason,
-           bool tell, time_point now);
+  void end(station_record& station, messages::session_id session,
+           messages::end_reason reason, bool tell, time_point now);
 
-  const offered_service* find(const service_name& service) const;
-  periodic_task task_of(const offered_service& service) const;
-  double utilisation_by(const service_name& service) const;
+  const offered_service* find(const messages::service_name& service) const;
+  policies::periodic_task task_of(const offered_service& service) const;
+  double utilisation_by(const messages::service_name& service) const;
   double utilisation() const;
 
   provider_setup setup_;

@@ -10,8 +10,8 @@
 
 namespace sofof::offloading {
 
-void provider::on_request(const service_request& request, peer_id from,
-                          time_point now) {
+void provider::on_request(const messages::service_request& request,
+                          peer_id from, time_point now) {
   pass(now);
   const auto i = stations_.find(request.station);
   if (request.provider != setup_.id || i == stations_.end()) {
@@ -40,9 +40,10 @@ void provider::drop_waiting(station_id station) {
   });
 }
 
-void provider::refuse(const service_request& request, peer_id from,
+void provider::refuse(const messages::service_request& request, peer_id from,
                       std::string_view why) {
-  service_response response{setup_.id, request.station, request.number, {}};
+  messages::service_response response{
+      setup_.id, request.station, request.number, {}};
   for (const auto& name : request.services)
     response.verdicts.push_back(
         {{setup_.id, request.station, name, 0}, false, std::string{why}});
@@ -55,7 +56,7 @@ void provider::answer(std::vector<open_request> requests, time_point now) {
   std::vector<question> questions;
   for (const auto& open : requests)
     questions.push_back(question_of(open, now));
-  std::vector<request_view> asked;
+  std::vector<policies::request_view> asked;
   for (const auto& q : questions)
     asked.insert(asked.end(), q.asked.begin(), q.asked.end());
   const auto decided = ask_policy(asked, now);
@@ -63,9 +64,10 @@ void provider::answer(std::vector<open_request> requests, time_point now) {
   auto next = decided.begin();
   for (auto& q : questions)
     for (const auto place : q.places)
-      q.verdicts[place] = next == decided.end()
-                              ? central_decision{refused{}, "not decided"}
-                              : *next++;
+      q.verdicts[place] =
+          next == decided.end()
+              ? policies::central_decision{policies::refused{}, "not decided"}
+              : *next++;
   for (std::size_t k = 0; k < requests.size(); ++k)
     respond(requests[k], questions[k].verdicts, now);
   std::set<peer_id> answered;
@@ -87,15 +89,16 @@ provider::question provider::question_of(const open_request& open,
     const auto station = stations_.find(request.station);
     const auto* service = find(name);
     if (station == stations_.end()) {
-      all.verdicts.push_back({refused{}, "not in the area"});
+      all.verdicts.push_back({policies::refused{}, "not in the area"});
     } else if (!service) {
-      all.verdicts.push_back({refused{}, "not offered here"});
+      all.verdicts.push_back({policies::refused{}, "not offered here"});
     } else if (std::ranges::find(before, name) != before.end()) {
-      all.verdicts.push_back({refused{}, "named twice"});
+      all.verdicts.push_back({policies::refused{}, "named twice"});
     } else {
       // A station that asks again does not run it: its service_end was lost.
       if (const auto* session = station->second.find(name))
-        end(station->second, session->session, end_reason::no_data, true, now);
+        end(station->second, session->session, messages::end_reason::no_data,
+            true, now);
       all.verdicts.emplace_back();
       all.places.push_back(k);
       all.asked.push_back({.station = request.station,
@@ -114,10 +117,11 @@ provider::question provider::question_of(const open_request& open,
 
 // @returns one decision for each request, or fewer; sessions that the policy
 // wants to be rid of are ended.
-std::vector<central_decision>
-provider::ask_policy(std::span<const request_view> asked, time_point now) {
-  std::vector<session_view> sessions;
-  std::vector<session_id> running;
+std::vector<policies::central_decision>
+provider::ask_policy(std::span<const policies::request_view> asked,
+                     time_point now) {
+  std::vector<policies::session_view> sessions;
+  std::vector<messages::session_id> running;
   for (const auto& [id, station] : stations_)
     for (const auto& x : station.sessions) {
       sessions.push_back({.station = id,
@@ -142,9 +146,10 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
                                         .number = ++decisions_});
   const auto most = asked.size() + running.size();
   for (auto k = asked.size(); k < std::min(decided.size(), most); ++k)
-    if (const auto& session = running[k - asked.size()]; !terms_of(decided[k]))
-      end(stations_.at(session.station), session, end_reason::revoked, true,
-          now);
+    if (const auto& session = running[k - asked.size()];
+        !policies::terms_of(decided[k]))
+      end(stations_.at(session.station), session, messages::end_reason::revoked,
+          true, now);
   if (decided.size() > asked.size())
     decided.resize(asked.size());
   assert(decided.size() <= asked.size());
@@ -152,21 +157,23 @@ provider::ask_policy(std::span<const request_view> asked, time_point now) {
 }
 
 void provider::respond(const open_request& open,
-                       const std::vector<central_decision>& decisions,
+                       const std::vector<policies::central_decision>& decisions,
                        time_point now) {
   const auto& request = open.what;
   assert(decisions.size() == request.services.size());
-  service_response response{setup_.id, request.station, request.number, {}};
+  messages::service_response response{
+      setup_.id, request.station, request.number, {}};
   for (std::size_t k = 0; k < request.services.size(); ++k) {
     const auto& decision = decisions[k];
-    verdict v{.session = {setup_.id, request.station, request.services[k], 0},
-              .why = std::string{decision.why}};
-    if (const auto* terms = terms_of(decision)) {
+    messages::verdict v{
+        .session = {setup_.id, request.station, request.services[k], 0},
+        .why = std::string{decision.why}};
+    if (const auto* terms = policies::terms_of(decision)) {
       v.accepted = true;
       v.session.counter = ++last_session_;
       start(stations_.at(request.station), v.session, open, *terms, now);
     } else {
-      v.instead = std::get<refused>(decision.what).instead;
+      v.instead = std::get<policies::refused>(decision.what).instead;
     }
     response.verdicts.push_back(std::move(v));
   }
@@ -174,8 +181,9 @@ void provider::respond(const open_request& open,
   port_.send(open.from, response);
 }
 
-void provider::start(station_record& station, const session_id& session,
-                     const open_request& open, const accepted& terms,
+void provider::start(station_record& station,
+                     const messages::session_id& session,
+                     const open_request& open, const policies::accepted& terms,
                      time_point now) {
   assert(session.is_remote());
   assert(!station.find(session.service));

@@ -19,7 +19,7 @@ public:
     provider_.emplace(std::move(setup), *this);
   }
 
-  void on_cam(const cam& c, peer_id from, time_point now) {
+  void on_cam(const messages::cam& c, peer_id from, time_point now) {
     begin_call(now);
     provider_->on_cam(c, from, now);
   }
@@ -62,11 +62,11 @@ private:
   /// The function of one session.
   struct session_parts final : cycle_port {
     parts& all;
-    session_id session;
+    messages::session_id session;
     peer_id requester;
     bool fed = false;
     service_cycle cycle;
-    timer_list<service_result> results; // of its cycles
+    timer_list<messages::service_result> results; // of its cycles
 
     session_parts(parts& owner, const session_start& start, cycle_setup setup)
         : all{owner}, session{start.session}, requester{start.requester},
@@ -78,7 +78,7 @@ private:
     void wake_at(time_point t, std::uint64_t number) override {
       wake_at(t, timer_of::function, number);
     }
-    void deliver_at(time_point t, service_result result) override {
+    void deliver_at(time_point t, messages::service_result result) override {
       if (t > all.now_)
         wake_at(t, timer_of::result, results.add(std::move(result)));
       else
@@ -87,7 +87,7 @@ private:
   };
 
   /// @returns null for a session that has ended, or that there never was.
-  session_parts* find(const session_id& session) {
+  session_parts* find(const messages::session_id& session) {
     const auto i = sessions_.find(session.counter);
     const auto runs = i != sessions_.end() && i->second.session == session;
     return runs ? &i->second : nullptr;
@@ -126,36 +126,39 @@ private:
         // The response was lost on its way, or the vehicle has changed its
         // mind.
         if (!session.fed)
-          provider_->on_function_lost(session_id{session.session},
-                                      end_reason::no_data, now_);
+          provider_->on_function_lost(messages::session_id{session.session},
+                                      messages::end_reason::no_data, now_);
     }
   }
 
   // -- what comes over the air --------------------------------------------
 
-  void handle(peer_id from, const service_request& request) {
+  void handle(peer_id from, const messages::service_request& request) {
     provider_->on_request(request, from, now_);
   }
-  void handle(peer_id, const service_end& end) { provider_->on_end(end, now_); }
+  void handle(peer_id, const messages::service_end& end) {
+    provider_->on_end(end, now_);
+  }
   // Only the requester of a session feeds it.
-  void handle(peer_id from, const service_input& input) {
+  void handle(peer_id from, const messages::service_input& input) {
     auto* to = find(input.session);
     if (!to || to->requester != from)
       return;
     to->cycle.on_input(input, now_);
     if (!std::exchange(to->fed, true))
-      to->cycle.on_step(lifecycle_step::activate, now_);
+      to->cycle.on_step(messages::lifecycle_step::activate, now_);
   }
 
   // -- what the provider wants --------------------------------------------
 
-  void send(peer_id requester, const service_offer& offer) override {
+  void send(peer_id requester, const messages::service_offer& offer) override {
     port_.send(requester, offer);
   }
-  void send(peer_id requester, const service_response& response) override {
+  void send(peer_id requester,
+            const messages::service_response& response) override {
     port_.send(requester, response);
   }
-  void send(peer_id requester, const service_end& end) override {
+  void send(peer_id requester, const messages::service_end& end) override {
     port_.send(requester, end);
   }
   void meet(peer_id) override {}
@@ -171,15 +174,15 @@ private:
     const auto [i, is_new] = sessions_.try_emplace(start.session.counter, *this,
                                                    start, std::move(setup));
     assert(is_new);
-    i->second.cycle.on_step(lifecycle_step::configure, now_);
+    i->second.cycle.on_step(messages::lifecycle_step::configure, now_);
     i->second.wake_at(now_ + protocol::start_timeout, timer_of::first_input, 0);
   }
-  void end(const service_end& end) override {
+  void end(const messages::service_end& end) override {
     assert(find(end.session));
     sessions_.erase(end.session.counter);
   }
 
-  void record(sofof::record&& x) override { port_.record(std::move(x)); }
+  void record(messages::record&& x) override { port_.record(std::move(x)); }
 
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::provider, 0, number});
@@ -188,7 +191,7 @@ private:
   provider_side_port& port_;
   time_point now_ = time_point::min(); // of the latest call
   timer_list<timer> timers_;
-  std::map<service_name, offered_service> services_;
+  std::map<messages::service_name, offered_service> services_;
   std::map<std::uint32_t, session_parts> sessions_; // by their counters
   std::optional<provider> provider_;
 };
@@ -198,7 +201,8 @@ provider_side::provider_side(provider_setup setup, provider_side_port& port)
 
 provider_side::~provider_side() = default;
 
-void provider_side::on_cam(const cam& c, peer_id from, time_point now) {
+void provider_side::on_cam(const messages::cam& c, peer_id from,
+                           time_point now) {
   parts_->on_cam(c, from, now);
 }
 

@@ -18,12 +18,12 @@ public:
   virtual void send(peer_id requester, to_vehicle message) = 0;
   /// @returns when a cycle of this session that starts now will be done, not
   /// before `start`; by default at once, as where time is real.
-  virtual time_point finish(const session_id&, time_point start,
+  virtual time_point finish(const messages::session_id&, time_point start,
                             std::uint64_t /*cycle*/) {
     return start;
   }
   /// Records are lost unless this is overridden.
-  virtual void record(sofof::record&&) {}
+  virtual void record(messages::record&&) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };
@@ -42,7 +42,7 @@ public:
 
   /// A station tells where it is.
   /// @param from  Where its requester is reached.
-  void on_cam(const cam& c, peer_id from, time_point now);
+  void on_cam(const messages::cam& c, peer_id from, time_point now);
 
   /// A station has sent something else, a CPM say: it lives.
   void on_sign_of_life(station_id station, peer_id from, time_point now);

@@ -40,15 +40,16 @@ bool requester::is_consistent() const {
   });
 }
 
-service_state* requester::find(const service_name& service) {
+service_state* requester::find(const messages::service_name& service) {
   const auto i = std::ranges::find(
-      services_, service, [](const service_state& x) -> const service_name& {
+      services_, service,
+      [](const service_state& x) -> const messages::service_name& {
         return x.service.name;
       });
   return i == services_.end() ? nullptr : &*i;
 }
 
-requester::found_session requester::find(const session_id& session) {
+requester::found_session requester::find(const messages::session_id& session) {
   auto* service = find(session.service);
   auto* found = service ? service->find(session.provider) : nullptr;
   if (!found || found->at == phase::requested || found->session != session)
@@ -83,7 +84,8 @@ void requester::expire(const request_timeout& x, time_point now) {
 void requester::expire(const start_timeout& x, time_point now) {
   const auto found = find(x.session);
   if (found && found.session->at == phase::starting)
-    end(*found.service, x.session.provider, end_reason::no_data, true, now);
+    end(*found.service, x.session.provider, messages::end_reason::no_data, true,
+        now);
 }
 
 // Cycles on board are told at the pace of the epoch.
@@ -93,7 +95,7 @@ void requester::expire(const epoch_end&, time_point now) {
   for (const auto& x : services_) {
     assert(x.needs.period > duration{0});
     if (!x.is_remote())
-      setup_.policy->observe(cycle_outcome{
+      setup_.policy->observe(policies::cycle_outcome{
           .at = now,
           .service = x.service.name.view(),
           .latency_s = x.on_board.time_s,
@@ -105,10 +107,11 @@ void requester::expire(const epoch_end&, time_point now) {
 
 // -- providers ----------------------------------------------------------------
 
-void requester::on_offer(const service_offer& offer, peer_id from,
+void requester::on_offer(const messages::service_offer& offer, peer_id from,
                          time_point now) {
   pass(now);
-  log(event_type::offer, {offer.provider, setup_.station, {}, 0}, {}, now);
+  log(messages::event_type::offer, {offer.provider, setup_.station, {}, 0}, {},
+      now);
   auto& provider = meet(offer.provider, from);
   assert(provider.offered_at <= now);
   if (provider.peer != from)
@@ -154,7 +157,7 @@ bool requester::is_in_use(provider_id id) const {
 }
 
 // Offers show how good the link is, also while nothing runs there.
-void requester::learn(const service_offer& offer, time_point now) {
+void requester::learn(const messages::service_offer& offer, time_point now) {
   if (!offer.created || *offer.created > now)
     return;
   for (auto& service : services_)
@@ -182,13 +185,13 @@ void requester::on_lost(peer_id peer, time_point now) {
     }
     const auto id = i->first;
     i = providers_.erase(i);
-    log(event_type::peer_lost, {id, setup_.station, {}, 0}, {}, now);
+    log(messages::event_type::peer_lost, {id, setup_.station, {}, 0}, {}, now);
     for (auto& service : services_) {
       const auto* session = service.find(id);
       if (session && session->at == phase::requested)
         refuse(service, id, "peer lost", std::nullopt, now);
       else if (session)
-        end(service, id, end_reason::peer_lost, false, now);
+        end(service, id, messages::end_reason::peer_lost, false, now);
       service.links.erase(id);
     }
     assert(!is_in_use(id));
@@ -203,7 +206,7 @@ template <class Predicate>
 void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
                       time_point now) {
   assert(!offering || providers_.contains(*offering));
-  std::map<provider_id, std::vector<service_name>> wanted;
+  std::map<provider_id, std::vector<messages::service_name>> wanted;
   const auto path = setup_.path_ahead(ego_);
   for (auto& service : services_)
     if (!service.is_moving() && is_due(service))
@@ -221,23 +224,24 @@ void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
 // @returns which shall be asked for the service.
 std::vector<provider_id>
 requester::decide(service_state& service,
-                  std::span<const provider_view> providers,
+                  std::span<const policies::provider_view> providers,
                   std::optional<provider_id> offering,
                   std::span<const point> path, time_point now) {
   assert(service.is_consistent());
   const auto knows = [&](provider_id id) {
-    return std::ranges::find(providers, id, &provider_view::id)
+    return std::ranges::find(providers, id, &policies::provider_view::id)
            != providers.end();
   };
   if (providers.empty() || (offering && !knows(*offering)))
     return {};
   const auto decision = ask_policy(service, providers, path, now);
-  if (std::holds_alternative<come_home>(decision.what)) {
-    leave(service, end_reason::released, now, [](provider_id) { return true; });
+  if (std::holds_alternative<policies::come_home>(decision.what)) {
+    leave(service, messages::end_reason::released, now,
+          [](provider_id) { return true; });
     return {};
   }
-  const auto second = second_of(decision);
-  const auto* there = std::get_if<run_at>(&decision.what);
+  const auto second = policies::second_of(decision);
+  const auto* there = std::get_if<policies::run_at>(&decision.what);
   std::vector<provider_id> wanted;
   const auto want = [&](service_place place) {
     if (place && knows(*place) && !std::ranges::count(wanted, *place))
@@ -251,7 +255,7 @@ requester::decide(service_state& service,
     want(second->provider);
   if (wanted.empty()) {
     if (service.sessions.empty() && offering)
-      log(event_type::stay_local,
+      log(messages::event_type::stay_local,
           {*offering, setup_.station, service.service.name, 0}, decision.why,
           now);
     return {};
@@ -265,10 +269,10 @@ requester::decide(service_state& service,
   return wanted;
 }
 
-local_decision requester::ask_policy(const service_state& service,
-                                     std::span<const provider_view> providers,
-                                     std::span<const point> path,
-                                     time_point now) {
+policies::local_decision
+requester::ask_policy(const service_state& service,
+                      std::span<const policies::provider_view> providers,
+                      std::span<const point> path, time_point now) {
   assert(!providers.empty());
   assert(service.since <= now);
   return setup_.policy->decide({.now = now,
@@ -287,7 +291,7 @@ local_decision requester::ask_policy(const service_state& service,
 
 // The provider that the policy wants beside the first may only stand by.
 void requester::set_standby(service_state& service, duration after) {
-  std::optional<standby> chosen;
+  std::optional<messages::standby> chosen;
   if (after > duration{0})
     chosen = {service.wanted.back(), after};
   if (chosen == service.standing_by)
@@ -296,7 +300,8 @@ void requester::set_standby(service_state& service, duration after) {
   port_.set_standby(service.service.name, chosen);
 }
 
-void requester::request(provider_id id, std::vector<service_name> wanted,
+void requester::request(provider_id id,
+                        std::vector<messages::service_name> wanted,
                         const std::vector<point>& path, time_point now) {
   assert(id != 0);
   assert(!wanted.empty());
@@ -311,11 +316,12 @@ void requester::request(provider_id id, std::vector<service_name> wanted,
     auto* service = find(name);
     assert(!service->find(id));
     service->sessions.push_back({.provider = id});
-    log(event_type::request, {id, setup_.station, name, 0}, {}, now);
+    log(messages::event_type::request, {id, setup_.station, name, 0}, {}, now);
   }
-  port_.send(provider.peer,
-             service_request{id, setup_.station, number, std::move(wanted),
-                             path, ego_.own.speed_mps, std::move(candidates)});
+  port_.send(provider.peer, messages::service_request{id, setup_.station,
+                                                      number, std::move(wanted),
+                                                      path, ego_.own.speed_mps,
+                                                      std::move(candidates)});
   wake_at(now + protocol::request_timeout, request_timeout{id, number});
 }
 

@@ -25,15 +25,15 @@ namespace sofof::offloading {
 /// What a requester is made of.
 struct requester_setup {
   station_id station = 0;
-  std::vector<onboard_service> services; ///< With different names.
-  std::unique_ptr<local_policy> policy;  ///< Not null.
-  computer_options computer{};           ///< The vehicle's.
-  random_stream noise{0, ""};            ///< Of this vehicle.
+  std::vector<onboard_service> services;          ///< With different names.
+  std::unique_ptr<policies::local_policy> policy; ///< Not null.
+  world::computer_options computer{};             ///< The vehicle's.
+  random_stream noise{0, ""};                     ///< Of this vehicle.
   /// The route ahead, m, as decisions and requests need it.
-  std::function<std::vector<point>(const ego_state&)> path_ahead =
-      [](const ego_state&) { return std::vector<point>{}; };
+  std::function<std::vector<point>(const messages::ego_state&)> path_ahead =
+      [](const messages::ego_state&) { return std::vector<point>{}; };
   /// What is to come, where a run can tell; else null.
-  std::shared_ptr<const channel_oracle> future{};
+  std::shared_ptr<const policies::channel_oracle> future{};
 };
 
 /// What a requester makes others do. Nothing of this calls the requester back.
@@ -41,23 +41,24 @@ class requester_port {
 public:
   virtual ~requester_port() = default;
 
-  virtual void send(peer_id provider, const service_request& request) = 0;
-  virtual void send(peer_id provider, const service_end& end) = 0;
+  virtual void send(peer_id provider,
+                    const messages::service_request& request) = 0;
+  virtual void send(peer_id provider, const messages::service_end& end) = 0;
 
   /// The source selector of `session.service` has one more session to feed.
-  virtual void begin(const session_id& session) = 0;
+  virtual void begin(const messages::session_id& session) = 0;
   /// A result of one of its sessions has come.
-  virtual void forward(const service_result& result) = 0;
+  virtual void forward(const messages::service_result& result) = 0;
   /// One of its sessions has ended.
-  virtual void end(const service_end& end) = 0;
+  virtual void end(const messages::service_end& end) = 0;
   /// This provider stands by from now on; nullopt: none does.
-  virtual void set_standby(const service_name& service,
-                           const std::optional<standby>& chosen) = 0;
+  virtual void set_standby(const messages::service_name& service,
+                           const std::optional<messages::standby>& chosen) = 0;
 
   /// Whether any service is run by a provider has perhaps changed.
   virtual void on_placement(bool any_remote) = 0;
 
-  virtual void record(sofof::record&& x) = 0;
+  virtual void record(messages::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -92,26 +93,27 @@ public:
   requester(requester_setup setup, requester_port& port, time_point now);
 
   /// Where the vehicle is and how it moves.
-  void on_motion(const ego_state& ego) { ego_ = ego; }
+  void on_motion(const messages::ego_state& ego) { ego_ = ego; }
 
   /// @param from  Whoever has sent it; an offer in the name of a provider that
   ///              another peer speaks for is ignored.
-  void on_offer(const service_offer& offer, peer_id from, time_point now);
+  void on_offer(const messages::service_offer& offer, peer_id from,
+                time_point now);
 
   /// Verdicts up to the first that cannot be meant for this vehicle count.
-  void on_response(const service_response& response, time_point now);
+  void on_response(const messages::service_response& response, time_point now);
 
   /// A result has come over the air, of whatever session.
-  void on_result(const service_result& result, time_point now);
+  void on_result(const messages::service_result& result, time_point now);
 
   /// The selector uses the first result of a session.
-  void on_first_data(const session_id& session, time_point now);
+  void on_first_data(const messages::session_id& session, time_point now);
 
   /// The watchdog or the selector has found a violation.
-  void on_violation(const qos_violation& violation, time_point now);
+  void on_violation(const messages::qos_violation& violation, time_point now);
 
   /// A provider has ended a session; one that is not known is ignored.
-  void on_end(const service_end& end, time_point now);
+  void on_end(const messages::service_end& end, time_point now);
 
   /// A peer cannot be reached any more.
   void on_lost(peer_id peer, time_point now);
@@ -130,7 +132,7 @@ private:
   };
   /// A session should have given its first data by now.
   struct start_timeout {
-    session_id session;
+    messages::session_id session;
   };
   /// An epoch of the policy is over.
   struct epoch_end {};
@@ -145,28 +147,30 @@ private:
 
   void pass(time_point now);
   bool is_consistent() const;
-  service_state* find(const service_name& service);
-  found_session find(const session_id& session);
+  service_state* find(const messages::service_name& service);
+  found_session find(const messages::session_id& session);
   void wake_at(time_point t, timer what);
   void announce_placement();
 
   known_provider& meet(provider_id id, peer_id peer);
   bool is_in_use(provider_id id) const;
-  void learn(const service_offer& offer, time_point now);
+  void learn(const messages::service_offer& offer, time_point now);
   void distrust_peer_of(provider_id provider, time_point now);
 
   template <class Predicate>
   void weigh(Predicate is_due, std::optional<provider_id> offering,
              time_point now);
-  std::vector<provider_id> decide(service_state& service,
-                                  std::span<const provider_view> providers,
-                                  std::optional<provider_id> offering,
-                                  std::span<const point> path, time_point now);
-  local_decision ask_policy(const service_state& service,
-                            std::span<const provider_view> providers,
-                            std::span<const point> path, time_point now);
+  std::vector<provider_id>
+  decide(service_state& service,
+         std::span<const policies::provider_view> providers,
+         std::optional<provider_id> offering, std::span<const point> path,
+         time_point now);
+  policies::local_decision
+  ask_policy(const service_state& service,
+             std::span<const policies::provider_view> providers,
+             std::span<const point> path, time_point now);
   void set_standby(service_state& service, duration after);
-  void request(provider_id id, std::vector<service_name> wanted,
+  void request(provider_id id, std::vector<messages::service_name> wanted,
                const std::vector<point>& path, time_point now);
 
   void expire(const request_timeout& x, time_point now);
@@ -176,38 +180,39 @@ private:
   void refuse_requested(provider_id provider, std::string_view why,
                         time_point now);
   void accept(service_state& service, requester_session& session,
-              const verdict& v, time_point now);
+              const messages::verdict& v, time_point now);
   void refuse(service_state& service, provider_id provider,
               std::string_view why, std::optional<provider_id> instead,
               time_point now);
-  void complain(const session_id& session, time_point now);
+  void complain(const messages::session_id& session, time_point now);
 
   std::vector<provider_id>
-  leave(service_state& service, end_reason reason, time_point now,
+  leave(service_state& service, messages::end_reason reason, time_point now,
         const std::function<bool(provider_id)>& is_meant);
   void leave_unwanted(service_state& service, time_point now);
   void leave_beside(service_state& service, provider_id violator,
                     time_point now);
-  void end(service_state& service, provider_id provider, end_reason reason,
-           bool tell, time_point now);
+  void end(service_state& service, provider_id provider,
+           messages::end_reason reason, bool tell, time_point now);
   void learn_from(const service_state& service, const requester_session& ended,
-                  end_reason reason, time_point now);
+                  messages::end_reason reason, time_point now);
   void log_end(service_state& service, const requester_session& ended,
-               end_reason reason, time_point now);
-  void send_end(const service_end& end);
+               messages::end_reason reason, time_point now);
+  void send_end(const messages::service_end& end);
 
   void log_verdict(const service_state& service, provider_id provider,
                    std::uint32_t counter, std::string_view why, bool accepted,
                    time_point now);
-  void log_switch(const session_id& session, bool remote, time_point now);
-  void log(event_type what, const session_id& session, std::string_view detail,
-           time_point now);
+  void log_switch(const messages::session_id& session, bool remote,
+                  time_point now);
+  void log(messages::event_type what, const messages::session_id& session,
+           std::string_view detail, time_point now);
 
   requester_setup setup_;
   requester_port& port_;
   std::vector<service_state> services_;
   known_providers providers_;
-  ego_state ego_;
+  messages::ego_state ego_;
   timer_list<timer> timers_;
   std::uint32_t last_request_ = 0;
   std::uint64_t decisions_ = 0;

@@ -11,30 +11,31 @@ namespace sofof::offloading {
 
 namespace {
 
-end_reason reason_of(qos_breach breach) {
+messages::end_reason reason_of(messages::qos_breach breach) {
   switch (breach) {
-    case qos_breach::latency:
-      return end_reason::qos_latency;
-    case qos_breach::gap:
-      return end_reason::qos_gap;
-    case qos_breach::implausible:
+    case messages::qos_breach::latency:
+      return messages::end_reason::qos_latency;
+    case messages::qos_breach::gap:
+      return messages::end_reason::qos_gap;
+    case messages::qos_breach::implausible:
       break;
   }
-  return end_reason::implausible;
+  return messages::end_reason::implausible;
 }
 
 } // namespace
 
 // -- verdicts -----------------------------------------------------------------
 
-void requester::on_response(const service_response& response, time_point now) {
+void requester::on_response(const messages::service_response& response,
+                            time_point now) {
   pass(now);
   const auto i = providers_.find(response.provider);
   const auto expected =
       i != providers_.end() && i->second.open_request == response.number;
   if (expected)
     i->second.open_request.reset();
-  const auto is_sound = [&](const session_id& session) {
+  const auto is_sound = [&](const messages::session_id& session) {
     return session.provider == response.provider
            && session.station == setup_.station && session.is_remote();
   };
@@ -49,7 +50,8 @@ void requester::on_response(const service_response& response, time_point now) {
     else if (open)
       refuse(*service, response.provider, v.why, v.instead, now);
     else if (v.accepted && !find(v.session)) // not just a duplicate
-      send_end({v.session, end_reason::no_data, side::requester});
+      send_end({v.session, messages::end_reason::no_data,
+                messages::side::requester});
   }
   if (expected)
     refuse_requested(response.provider, "not answered", now);
@@ -65,7 +67,7 @@ void requester::refuse_requested(provider_id provider, std::string_view why,
 }
 
 void requester::accept(service_state& service, requester_session& session,
-                       const verdict& v, time_point now) {
+                       const messages::verdict& v, time_point now) {
   assert(session.at == phase::requested);
   assert(v.session.provider == session.provider);
   assert(v.session.is_remote());
@@ -85,8 +87,8 @@ void requester::refuse(service_state& service, provider_id provider,
   assert(service.find(provider));
   assert(service.find(provider)->at == phase::requested);
   log_verdict(service, provider, 0, why, false, now);
-  setup_.policy->observe(
-      refusal_outcome{now, service.service.name.view(), provider, why});
+  setup_.policy->observe(policies::refusal_outcome{
+      now, service.service.name.view(), provider, why});
   service.drop(provider);
   if (!instead)
     return;
@@ -95,7 +97,7 @@ void requester::refuse(service_state& service, provider_id provider,
       || !service.may_ask(other->second, now))
     return;
   auto views = service.views(providers_, instead, now);
-  std::erase_if(views, [&](const provider_view& x) {
+  std::erase_if(views, [&](const policies::provider_view& x) {
     return x.id != *instead && !service.find(x.id);
   });
   const auto path = setup_.path_ahead(ego_);
@@ -105,7 +107,8 @@ void requester::refuse(service_state& service, provider_id provider,
 
 // -- data ---------------------------------------------------------------------
 
-void requester::on_result(const service_result& result, time_point now) {
+void requester::on_result(const messages::service_result& result,
+                          time_point now) {
   pass(now);
   const auto found = find(result.session);
   if (!found) {
@@ -123,17 +126,17 @@ void requester::on_result(const service_result& result, time_point now) {
   else
     link.arrived(result.created, now);
   setup_.policy->observe(
-      cycle_outcome{.at = now,
-                    .service = service.service.name.view(),
-                    .computed_at = provider,
-                    .latency_s = to_seconds(latency),
-                    .missed = latency > service.needs.max_latency,
-                    .energy_j = service.offloaded.energy_j});
+      policies::cycle_outcome{.at = now,
+                              .service = service.service.name.view(),
+                              .computed_at = provider,
+                              .latency_s = to_seconds(latency),
+                              .missed = latency > service.needs.max_latency,
+                              .energy_j = service.offloaded.energy_j});
   port_.forward(result);
 }
 
 // A provider that sends results of no session has missed a service_end.
-void requester::complain(const session_id& session, time_point now) {
+void requester::complain(const messages::session_id& session, time_point now) {
   const auto i = providers_.find(session.provider);
   if (i == providers_.end())
     return;
@@ -141,10 +144,11 @@ void requester::complain(const session_id& session, time_point now) {
   if (last && now - *last < protocol::unknown_result_period)
     return;
   last = now;
-  send_end({session, end_reason::no_data, side::requester});
+  send_end({session, messages::end_reason::no_data, messages::side::requester});
 }
 
-void requester::on_first_data(const session_id& session, time_point now) {
+void requester::on_first_data(const messages::session_id& session,
+                              time_point now) {
   pass(now);
   assert(session.is_remote());
   const auto found = find(session);
@@ -163,7 +167,7 @@ void requester::on_first_data(const session_id& session, time_point now) {
   started.first_data = now;
   announce_placement();
   if (started.joined)
-    log(event_type::joined, session, {}, now);
+    log(messages::event_type::joined, session, {}, now);
   else
     log_switch(session, true, now);
   leave_unwanted(service, now);
@@ -172,37 +176,40 @@ void requester::on_first_data(const session_id& session, time_point now) {
 
 // -- the end of a session -----------------------------------------------------
 
-void requester::on_violation(const qos_violation& violation, time_point now) {
+void requester::on_violation(const messages::qos_violation& violation,
+                             time_point now) {
   pass(now);
   const auto& session = violation.session;
   assert(session.is_remote());
   const auto reason = reason_of(violation.breach);
-  if (violation.breach == qos_breach::implausible) {
+  if (violation.breach == messages::qos_breach::implausible) {
     // Also if the session has ended in the same instant.
-    port_.record(event_record{.at = now,
-                              .what = event_type::implausible,
-                              .station = setup_.station,
-                              .provider = session.provider,
-                              .service = session.service,
-                              .counter = session.counter,
-                              .detail = violation.why,
-                              .check = violation.check});
+    port_.record(
+        messages::event_record{.at = now,
+                               .what = messages::event_type::implausible,
+                               .station = setup_.station,
+                               .provider = session.provider,
+                               .service = session.service,
+                               .counter = session.counter,
+                               .detail = violation.why,
+                               .check = violation.check});
     distrust_peer_of(session.provider, now);
   }
   const auto found = find(session);
   if (!found)
     return;
-  if (violation.breach != qos_breach::implausible)
-    log(event_type::violation, session, name_of(reason), now);
+  if (violation.breach != messages::qos_breach::implausible)
+    log(messages::event_type::violation, session, messages::name_of(reason),
+        now);
   auto& service = *found.service;
-  if (violation.breach != qos_breach::latency)
-    setup_.policy->observe(
-        cycle_outcome{.at = now,
-                      .service = session.service.view(),
-                      .computed_at = session.provider,
-                      .latency_s = std::numeric_limits<double>::infinity(),
-                      .missed = true,
-                      .energy_j = service.offloaded.energy_j});
+  if (violation.breach != messages::qos_breach::latency)
+    setup_.policy->observe(policies::cycle_outcome{
+        .at = now,
+        .service = session.service.view(),
+        .computed_at = session.provider,
+        .latency_s = std::numeric_limits<double>::infinity(),
+        .missed = true,
+        .energy_j = service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, now);
   end(service, session.provider, reason, true, now);
@@ -210,9 +217,10 @@ void requester::on_violation(const qos_violation& violation, time_point now) {
   assert(is_consistent());
 }
 
-void requester::on_end(const service_end& e, time_point now) {
+void requester::on_end(const messages::service_end& e, time_point now) {
   pass(now);
-  if (const auto found = find(e.session); found && e.from == side::provider)
+  if (const auto found = find(e.session);
+      found && e.from == messages::side::provider)
     end(*found.service, e.session.provider, e.reason, false, now);
 }
 
@@ -222,14 +230,16 @@ void requester::shut_down(time_point now) {
     const auto all = service.sessions;
     for (const auto& session : all)
       if (session.at != phase::requested)
-        end(service, session.provider, end_reason::shutdown, true, now);
+        end(service, session.provider, messages::end_reason::shutdown, true,
+            now);
   }
 }
 
 // Ends a service at those of the providers that run it of which that is true.
 // @returns at which.
 std::vector<provider_id>
-requester::leave(service_state& service, end_reason reason, time_point now,
+requester::leave(service_state& service, messages::end_reason reason,
+                 time_point now,
                  const std::function<bool(provider_id)>& is_meant) {
   assert(is_meant);
   std::vector<provider_id> left;
@@ -244,7 +254,7 @@ requester::leave(service_state& service, end_reason reason, time_point now,
 }
 
 void requester::leave_unwanted(service_state& service, time_point now) {
-  const auto left = leave(service, end_reason::handed_over, now,
+  const auto left = leave(service, messages::end_reason::handed_over, now,
                           [&](provider_id id) { return !service.wants(id); });
   if (!left.empty())
     service.since = now;
@@ -253,7 +263,7 @@ void requester::leave_unwanted(service_state& service, time_point now) {
 // Nothing usable has come from the others either; but it is one violation.
 void requester::leave_beside(service_state& service, provider_id violator,
                              time_point now) {
-  const auto left = leave(service, end_reason::released, now,
+  const auto left = leave(service, messages::end_reason::released, now,
                           [&](provider_id id) { return id != violator; });
   for (const auto id : left)
     service.cool_until[id] = now + protocol::cool_down;
@@ -262,13 +272,13 @@ void requester::leave_beside(service_state& service, provider_id violator,
 // Closes a session, once. The selector goes on with the vehicle's own function,
 // unless another provider runs the service too.
 void requester::end(service_state& service, provider_id provider,
-                    end_reason reason, bool tell, time_point now) {
+                    messages::end_reason reason, bool tell, time_point now) {
   assert(service.find(provider));
   const auto ended = *service.find(provider);
   assert(ended.at != phase::requested);
   assert(ended.session.provider == provider);
   service.drop(provider);
-  service_end e{ended.session, reason, side::requester};
+  messages::service_end e{ended.session, reason, messages::side::requester};
   port_.end(e);
   if (tell) {
     e.what = service.service.own->termination_message(e, now, ego_.own);
@@ -285,25 +295,26 @@ void requester::end(service_state& service, provider_id provider,
 }
 
 void requester::log_end(service_state& service, const requester_session& ended,
-                        end_reason reason, time_point now) {
+                        messages::end_reason reason, time_point now) {
   assert(ended.accepted <= now);
   assert(!service.find(ended.provider));
   const auto was_remote = ended.at == phase::remote;
   const auto comes_home = was_remote && !service.is_remote();
-  port_.record(episode_record{.session = ended.session,
-                              .of = side::requester,
-                              .accepted = ended.accepted,
-                              .first_data = was_remote ? ended.first_data
-                                                       : ended.accepted,
-                              .got_data = was_remote,
-                              .ended = now,
-                              .reason = reason,
-                              .fallback = is_fallback(reason) && comes_home});
+  port_.record(messages::episode_record{
+      .session = ended.session,
+      .of = messages::side::requester,
+      .accepted = ended.accepted,
+      .first_data = was_remote ? ended.first_data : ended.accepted,
+      .got_data = was_remote,
+      .ended = now,
+      .reason = reason,
+      .fallback = is_fallback(reason) && comes_home});
   if (comes_home) {
     service.since = now;
     log_switch(ended.session, false, now);
   } else if (was_remote) {
-    log(event_type::left, ended.session, name_of(reason), now);
+    log(messages::event_type::left, ended.session, messages::name_of(reason),
+        now);
     auto& other = *service.find(service.current().value());
     if (!ended.joined && std::exchange(other.joined, false))
       log_switch(other.session, true, now);
@@ -311,18 +322,19 @@ void requester::log_end(service_state& service, const requester_session& ended,
 }
 
 void requester::learn_from(const service_state& service,
-                           const requester_session& ended, end_reason reason,
-                           time_point now) {
+                           const requester_session& ended,
+                           messages::end_reason reason, time_point now) {
   if (ended.at != phase::remote)
     return;
   assert(ended.first_data <= now);
   assert(!service.find(ended.provider));
-  setup_.policy->observe(episode_outcome{
-      service.service.name.view(), ended.provider,
-      to_seconds(now - ended.first_data), name_of(reason), setup_.station});
+  setup_.policy->observe(
+      policies::episode_outcome{service.service.name.view(), ended.provider,
+                                to_seconds(now - ended.first_data),
+                                messages::name_of(reason), setup_.station});
 }
 
-void requester::send_end(const service_end& e) {
+void requester::send_end(const messages::service_end& e) {
   const auto i = providers_.find(e.session.provider);
   if (i != providers_.end())
     port_.send(i->second.peer, e);
@@ -334,32 +346,33 @@ void requester::log_verdict(const service_state& service, provider_id provider,
                             std::uint32_t counter, std::string_view why,
                             bool accepted, time_point now) {
   const auto& name = service.service.name;
-  port_.record(decision_record{now, setup_.station, name, accepted});
-  log(accepted ? event_type::accepted : event_type::refused,
+  port_.record(messages::decision_record{now, setup_.station, name, accepted});
+  log(accepted ? messages::event_type::accepted : messages::event_type::refused,
       {provider, setup_.station, name, counter}, why, now);
 }
 
-void requester::log_switch(const session_id& session, bool remote,
+void requester::log_switch(const messages::session_id& session, bool remote,
                            time_point now) {
-  port_.record(event_record{.at = now,
-                            .what = event_type::switched,
-                            .station = setup_.station,
-                            .provider = session.provider,
-                            .service = session.service,
-                            .counter = session.counter,
-                            .detail = remote ? "remote" : "local",
-                            .remote = remote});
+  port_.record(messages::event_record{.at = now,
+                                      .what = messages::event_type::switched,
+                                      .station = setup_.station,
+                                      .provider = session.provider,
+                                      .service = session.service,
+                                      .counter = session.counter,
+                                      .detail = remote ? "remote" : "local",
+                                      .remote = remote});
 }
 
-void requester::log(event_type what, const session_id& session,
+void requester::log(messages::event_type what,
+                    const messages::session_id& session,
                     std::string_view detail, time_point now) {
-  port_.record(event_record{.at = now,
-                            .what = what,
-                            .station = setup_.station,
-                            .provider = session.provider,
-                            .service = session.service,
-                            .counter = session.counter,
-                            .detail = std::string{detail}});
+  port_.record(messages::event_record{.at = now,
+                                      .what = what,
+                                      .station = setup_.station,
+                                      .provider = session.provider,
+                                      .service = session.service,
+                                      .counter = session.counter,
+                                      .detail = std::string{detail}});
 }
 
 } // namespace sofof::offloading

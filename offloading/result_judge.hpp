@@ -12,7 +12,7 @@ namespace sofof::offloading {
 
 /// What a result that came over the air is to the vehicle.
 struct judged_result {
-  payload what; ///< Empty: it is not used.
+  messages::payload what; ///< Empty: it is not used.
   /// Present: it is implausible, and its provider is not believed any more.
   std::optional<objection> refused{};
   /// Present: why it is of no use. A provider that sends nothing better in time
@@ -31,15 +31,16 @@ public:
   /// @param result  As it came.
   /// @param latest  The vehicle's newest input; `in_use` is the result in use.
   /// @param now     When the result came.
-  virtual judged_result judge(const payload& result,
-                              const service_input& latest, time_point now) = 0;
+  virtual judged_result judge(const messages::payload& result,
+                              const messages::service_input& latest,
+                              time_point now) = 0;
 };
 
 /// @returns a judge that uses results as they are.
 inline std::unique_ptr<result_judge> believe_all() {
   struct believer final : result_judge {
-    judged_result judge(const payload& result, const service_input&,
-                        time_point) override {
+    judged_result judge(const messages::payload& result,
+                        const messages::service_input&, time_point) override {
       return {result};
     }
   };

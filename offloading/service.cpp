@@ -8,12 +8,13 @@
 
 namespace sofof::offloading {
 
-service_options on(const computer_options& computer, service_options options) {
+service_options on(const world::computer_options& computer,
+                   service_options options) {
   assert(computer.clock_ghz > 0);
   assert(options.period >= duration{0});
-  if (computer.clock_ghz == usual_clock_ghz)
+  if (computer.clock_ghz == world::usual_clock_ghz)
     return options;
-  const auto slower = usual_clock_ghz / computer.clock_ghz;
+  const auto slower = world::usual_clock_ghz / computer.clock_ghz;
   const auto scaled = [slower](duration d) {
     return from_seconds(slower * to_seconds(d));
   };
@@ -25,15 +26,16 @@ service_options on(const computer_options& computer, service_options options) {
   return options;
 }
 
-service_input vehicle_service::encode_input(service_input input,
-                                            bool takes_over) const {
+messages::service_input
+vehicle_service::encode_input(messages::service_input input,
+                              bool takes_over) const {
   if (!takes_over)
     input.in_use = {};
   return input;
 }
 
-bool vehicle_service::continues(const payload&, const payload&,
-                                time_point) const {
+bool vehicle_service::continues(const messages::payload&,
+                                const messages::payload&, time_point) const {
   return true;
 }
 
@@ -41,12 +43,15 @@ std::unique_ptr<result_judge> vehicle_service::make_judge() const {
   return believe_all();
 }
 
-payload vehicle_service::termination_message(const service_end&, time_point,
-                                             const cam&) const {
+messages::payload
+vehicle_service::termination_message(const messages::service_end&, time_point,
+                                     const messages::cam&) const {
   return {};
 }
 
-payload provider_service::termination_message(const service_end&, time_point) {
+messages::payload
+provider_service::termination_message(const messages::service_end&,
+                                      time_point) {
   return {};
 }
 

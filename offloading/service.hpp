@@ -18,10 +18,10 @@ namespace sofof::offloading {
 
 /// The options that every service has.
 struct service_options {
-  qos_limits limits;       ///< Of the remote service.
-  duration period{};       ///< Of a cycle, local and remote.
-  duration input_period{}; ///< At least this between two inputs on the air.
-  cycle_options compute;   ///< What a cycle asks of who computes it.
+  messages::qos_limits limits; ///< Of the remote service.
+  duration period{};           ///< Of a cycle, local and remote.
+  duration input_period{};     ///< At least this between two inputs on the air.
+  world::cycle_options compute; ///< What a cycle asks of who computes it.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -40,7 +40,8 @@ struct service_options {
 /// @returns the options with run times as on this computer: in proportion to
 /// its clock, on a slower one at most a period, since a cycle ends before the
 /// next one begins.
-service_options on(const computer_options& computer, service_options options);
+service_options on(const world::computer_options& computer,
+                   service_options options);
 
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
@@ -64,13 +65,14 @@ public:
   /// @param takes_over  Whether the provider is to take over from the source
   ///                    of the result in use.
   /// @returns nothing in `what` if there is nothing to say.
-  virtual service_input encode_input(service_input input,
-                                     bool takes_over) const;
+  virtual messages::service_input encode_input(messages::service_input input,
+                                               bool takes_over) const;
 
   /// Whether results may come from one provider and from another in turns.
   /// @param in_use   The result in use.
   /// @param offered  The first one of another provider.
-  virtual bool continues(const payload& in_use, const payload& offered,
+  virtual bool continues(const messages::payload& in_use,
+                         const messages::payload& offered,
                          time_point now) const;
 
   /// @returns what reads and judges the results of one session; by default
@@ -80,8 +82,9 @@ public:
   /// What tells a provider in the terms of the service that the vehicle ends a
   /// session; by default nothing.
   /// @param own  The vehicle's motion.
-  virtual payload termination_message(const service_end& end, time_point now,
-                                      const cam& own) const;
+  virtual messages::payload
+  termination_message(const messages::service_end& end, time_point now,
+                      const messages::cam& own) const;
 };
 
 /// At which provider parts of a service are made.
@@ -104,13 +107,14 @@ public:
 
   /// What tells a vehicle in the terms of the service that the provider ends a
   /// session; by default nothing.
-  virtual payload termination_message(const service_end& end, time_point now);
+  virtual messages::payload
+  termination_message(const messages::service_end& end, time_point now);
 };
 
 /// A service that vehicles can leave to providers. What it needs of the world
 /// besides its inputs, the functions have captured; each is never null.
 struct service {
-  service_name name;
+  messages::service_name name;
   service_options options;
   std::function<std::shared_ptr<vehicle_service>(const vehicle_context&)>
       in_vehicle;
@@ -120,14 +124,14 @@ struct service {
 
 /// A service that one vehicle has.
 struct onboard_service {
-  service_name name;
+  messages::service_name name;
   service_options options;                    ///< Limits and period > 0.
   std::shared_ptr<const vehicle_service> own; ///< Not null.
 };
 
 /// A service that one provider has.
 struct offered_service {
-  service_name name;
+  messages::service_name name;
   service_options options;                ///< Limits and period > 0.
   std::shared_ptr<provider_service> here; ///< Not null.
 };

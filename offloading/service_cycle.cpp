@@ -43,21 +43,22 @@ service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
   assert(setup_.phase >= duration{0} && setup_.phase < setup_.period);
 }
 
-void service_cycle::on_step(lifecycle_step step, time_point now) {
-  const auto next = after(state_, step);
+void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
+  const auto next = messages::after(state_, step);
   if (!next)
     return;
   state_ = *next;
   stop_timer();
-  if (state_ == lifecycle_state::active)
+  if (state_ == messages::lifecycle_state::active)
     begin(now);
 }
 
-void service_cycle::on_input(const service_input& input, time_point now) {
+void service_cycle::on_input(const messages::service_input& input,
+                             time_point now) {
   newest_ = input;
   if (newest_.standby)
     stop_timer();
-  if (state_ == lifecycle_state::active && !has_timer_)
+  if (state_ == messages::lifecycle_state::active && !has_timer_)
     begin(now);
 }
 

@@ -13,7 +13,7 @@ namespace sofof::offloading {
 
 /// What runs, and when.
 struct cycle_setup {
-  session_id session;                         ///< Stamped on every result.
+  messages::session_id session;               ///< Stamped on every result.
   std::shared_ptr<service_function> function; ///< Not null.
   duration period{};                          ///< > 0.
   duration phase{}; ///< Cycles start at phase + k · period; in [0, period).
@@ -38,7 +38,7 @@ public:
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
   /// The result of a cycle, which is done then.
-  virtual void deliver_at(time_point t, service_result result) = 0;
+  virtual void deliver_at(time_point t, messages::service_result result) = 0;
 };
 
 /// Runs one function period by period, in a life cycle as ROS 2 nodes have it.
@@ -62,15 +62,15 @@ public:
   service_cycle(cycle_setup setup, cycle_port& port);
 
   /// The life cycle takes this step; one that is not possible is ignored.
-  void on_step(lifecycle_step step, time_point now);
+  void on_step(messages::lifecycle_step step, time_point now);
 
   /// The next cycles start from this.
-  void on_input(const service_input& input, time_point now);
+  void on_input(const messages::service_input& input, time_point now);
 
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);
 
-  lifecycle_state state() const { return state_; }
+  messages::lifecycle_state state() const { return state_; }
 
 private:
   void begin(time_point now);
@@ -83,8 +83,8 @@ private:
 
   cycle_setup setup_;
   cycle_port& port_;
-  lifecycle_state state_ = lifecycle_state::unconfigured;
-  service_input newest_;
+  messages::lifecycle_state state_ = messages::lifecycle_state::unconfigured;
+  messages::service_input newest_;
   std::uint64_t timer_ = 0; // the one that counts
   bool has_timer_ = false;
   std::uint64_t after_any_ = 0;      // number after the latest cycle,

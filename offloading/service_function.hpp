@@ -9,12 +9,12 @@ namespace sofof::offloading {
 
 /// What one cycle of a function gives.
 struct service_output {
-  payload what;    ///< The result; empty when there is none (yet).
-  payload about{}; ///< How it came about, for records.
+  messages::payload what;    ///< The result; empty when there is none (yet).
+  messages::payload about{}; ///< How it came about, for records.
 
   service_output() = default;
   // NOLINTNEXTLINE(*-explicit-*): most have nothing to add
-  service_output(payload x, payload notes = {})
+  service_output(messages::payload x, messages::payload notes = {})
       : what{std::move(x)}, about{std::move(notes)} {}
 };
 
@@ -27,7 +27,8 @@ public:
 
   /// @param now    Start of the cycle.
   /// @param input  The newest input; its `what` is not empty.
-  virtual service_output run(time_point now, const service_input& input) = 0;
+  virtual service_output run(time_point now,
+                             const messages::service_input& input) = 0;
 };
 
 } // namespace sofof::offloading

@@ -10,7 +10,7 @@
 
 namespace sofof::offloading {
 
-bool known_provider::offers(const service_name& service) const {
+bool known_provider::offers(const messages::service_name& service) const {
   return std::ranges::find(offer.services, service) != offer.services.end();
 }
 
@@ -22,12 +22,14 @@ constexpr auto in_no_time = std::numeric_limits<double>::infinity();
 } // namespace
 
 service_state::service_state(onboard_service what,
-                             const computer_options& computer, time_point now)
+                             const world::computer_options& computer,
+                             time_point now)
     : service{std::move(what)}, needs{service.options.period,
                                       service.options.limits.max_latency,
                                       service.options.limits.max_interarrival},
-      on_board{on_board_cost(computer, service.options.compute)},
-      offloaded{offloaded_cost(computer, service.options.compute, in_no_time)},
+      on_board{world::on_board_cost(computer, service.options.compute)},
+      offloaded{
+          world::offloaded_cost(computer, service.options.compute, in_no_time)},
       since{now} {
   assert(service.own);
   assert(needs.period > duration{0});
@@ -98,14 +100,15 @@ std::optional<provider_id> service_state::current() const {
   return i->provider;
 }
 
-duration service_state::computing(const service_offer& offer) const {
+duration service_state::computing(const messages::service_offer& offer) const {
   return from_seconds(to_seconds(offer.computing)
                       * service.options.compute.demand);
 }
 
-link_estimator& service_state::link_of(provider_id provider) {
+policies::link_estimator& service_state::link_of(provider_id provider) {
   return links
-      .try_emplace(provider, link_estimator_options{.period = needs.period})
+      .try_emplace(provider,
+                   policies::link_estimator_options{.period = needs.period})
       .first->second;
 }
 
@@ -119,8 +122,8 @@ bool service_state::may_ask(const known_provider& provider,
          && !provider.open_request && !provider.doubted.holds(now);
 }
 
-provider_view service_state::view_of(const known_provider& provider,
-                                     time_point now) {
+policies::provider_view service_state::view_of(const known_provider& provider,
+                                               time_point now) {
   const auto& offer = provider.offer;
   assert(needs.max_latency > duration{0}
          && needs.max_interarrival > duration{0});
@@ -140,11 +143,11 @@ provider_view service_state::view_of(const known_provider& provider,
           .cost = offloaded};
 }
 
-std::vector<provider_view>
+std::vector<policies::provider_view>
 service_state::views(const known_providers& providers,
                      std::optional<provider_id> offering, time_point now) {
   assert(is_consistent());
-  std::vector<provider_view> all;
+  std::vector<policies::provider_view> all;
   for (const auto& session : sessions)
     if (const auto i = providers.find(session.provider); i != providers.end())
       all.push_back(view_of(i->second, now));
@@ -166,28 +169,30 @@ std::vector<candidate>
 service_state::candidates(const known_providers& providers, point from,
                           time_point now) {
   auto all = views(providers, std::nullopt, now);
-  std::erase_if(all, [&](const provider_view& view) { return find(view.id); });
+  std::erase_if(
+      all, [&](const policies::provider_view& view) { return find(view.id); });
   if (all.size() > protocol::most_candidates) {
-    std::ranges::stable_sort(all, {}, [&](const provider_view& view) {
+    std::ranges::stable_sort(all, {}, [&](const policies::provider_view& view) {
       return distance_m(view.at, from);
     });
     all.resize(protocol::most_candidates);
-    std::ranges::sort(all, {}, &provider_view::id);
+    std::ranges::sort(all, {}, &policies::provider_view::id);
   }
   assert(all.size() <= protocol::most_candidates);
   assert(std::ranges::is_sorted(all, {}, &provider_view::id));
   std::vector<candidate> told;
   for (const auto& view : all)
-    told.push_back({view.id, gain(view, on_board, needs), view.utilisation});
+    told.push_back(
+        {view.id, policies::gain(view, on_board, needs), view.utilisation});
   return told;
 }
 
-bool is_fallback(end_reason reason) {
+bool is_fallback(messages::end_reason reason) {
   switch (reason) {
-    case end_reason::left_area:
-    case end_reason::handed_over:
-    case end_reason::released:
-    case end_reason::shutdown:
+    case messages::end_reason::left_area:
+    case messages::end_reason::handed_over:
+    case messages::end_reason::released:
+    case messages::end_reason::shutdown:
       return false;
     default:
       return true;

@@ -20,12 +20,13 @@ struct known_provider {
   peer_id peer{};
   std::optional<std::uint32_t> open_request{};
   std::optional<time_point>
-      last_complaint{};  ///< About results of unknown sessions.
-  service_offer offer{}; ///< The latest, without what was asked for since.
+      last_complaint{}; ///< About results of unknown sessions.
+  messages::service_offer
+      offer{}; ///< The latest, without what was asked for since.
   time_point offered_at{};
   distrust doubted{}; ///< Since its results were implausible.
 
-  bool offers(const service_name& service) const;
+  bool offers(const messages::service_name& service) const;
 };
 
 using known_providers = std::map<provider_id, known_provider>;
@@ -40,7 +41,7 @@ enum class phase {
 struct requester_session {
   provider_id provider = 0;
   phase at = phase::requested;
-  session_id session{}; ///< From acceptance on.
+  messages::session_id session{}; ///< From acceptance on.
   time_point accepted{};
   time_point first_data{};
   bool joined = false; ///< Another provider ran the service already.
@@ -49,19 +50,20 @@ struct requester_session {
 /// What the requester remembers of one service.
 struct service_state {
   onboard_service service;
-  service_needs needs;    ///< Each > 0.
-  cycle_cost on_board{};  ///< Of a cycle in the vehicle.
-  cycle_cost offloaded{}; ///< Time: of the way there alone.
-  time_point since{};     ///< It has been where it is.
+  policies::service_needs needs; ///< Each > 0.
+  world::cycle_cost on_board{};  ///< Of a cycle in the vehicle.
+  world::cycle_cost offloaded{}; ///< Time: of the way there alone.
+  time_point since{};            ///< It has been where it is.
   std::vector<requester_session>
       sessions{};                    ///< The oldest first; empty: it is local.
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.
-  std::optional<standby> standing_by{}; ///< One of them, if any.
+  std::optional<messages::standby> standing_by{}; ///< One of them, if any.
   std::map<provider_id, time_point> cool_until{};
-  std::map<provider_id, link_estimator> links{}; ///< By what came from there.
+  std::map<provider_id, policies::link_estimator>
+      links{}; ///< By what came from there.
 
   /// @param computer  The vehicle's.
-  service_state(onboard_service what, const computer_options& computer,
+  service_state(onboard_service what, const world::computer_options& computer,
                 time_point now);
 
   /// @returns null for a provider that neither runs it nor is asked to.
@@ -82,17 +84,18 @@ struct service_state {
   std::optional<provider_id> current() const;
 
   /// @returns how long a provider computes a result of it.
-  duration computing(const service_offer& offer) const;
-  link_estimator& link_of(provider_id provider);
+  duration computing(const messages::service_offer& offer) const;
+  policies::link_estimator& link_of(provider_id provider);
   /// Whether its offer holds, and nothing speaks against asking.
   bool may_ask(const known_provider& provider, time_point now) const;
-  provider_view view_of(const known_provider& provider, time_point now);
+  policies::provider_view view_of(const known_provider& provider,
+                                  time_point now);
   /// @param offering  The provider whose offer has come just now, if any.
   /// @returns first where it runs, then which may be asked for it: the one that
   /// offers just now, then by id.
-  std::vector<provider_view> views(const known_providers& providers,
-                                   std::optional<provider_id> offering,
-                                   time_point now);
+  std::vector<policies::provider_view>
+  views(const known_providers& providers, std::optional<provider_id> offering,
+        time_point now);
   /// @returns what the vehicle tells of the providers that it could ask: not
   /// where the service runs, which it would not leave for nothing. Of more than
   /// protocol::most_candidates the nearest; by id.
@@ -102,6 +105,6 @@ struct service_state {
 };
 
 /// @returns whether a service that ends so comes home unplanned.
-bool is_fallback(end_reason reason);
+bool is_fallback(messages::end_reason reason);
 
 } // namespace sofof::offloading

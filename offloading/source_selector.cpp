@@ -27,7 +27,7 @@ std::string in_words(const objection& why) {
                      why.limit);
 }
 
-implausibility told(const objection& why) {
+messages::implausibility told(const objection& why) {
   return {in_words(why), std::string{why.check}};
 }
 
@@ -59,7 +59,8 @@ bool source_selector::is_consistent() const {
          && (!is_remote() || std::ranges::any_of(sources_, is_watched));
 }
 
-source_selector::source* source_selector::find(const session_id& session) {
+source_selector::source*
+source_selector::find(const messages::session_id& session) {
   const auto i = std::ranges::find(sources_, session, &source::session);
   return i == sources_.end() ? nullptr : &*i;
 }
@@ -75,7 +76,8 @@ bool source_selector::is_standby(const source& x) const {
 
 // -- input --------------------------------------------------------------------
 
-void source_selector::on_input(const service_input& input, time_point now) {
+void source_selector::on_input(const messages::service_input& input,
+                               time_point now) {
   pass(now);
   newest_ = input;
   port_.feed_local(newest_);
@@ -108,7 +110,8 @@ bool source_selector::feed(source& x, time_point now) {
   return true;
 }
 
-void source_selector::on_session(const session_id& session, time_point now) {
+void source_selector::on_session(const messages::session_id& session,
+                                 time_point now) {
   pass(now);
   assert(session.is_remote());
   assert(!find(session));
@@ -121,7 +124,8 @@ void source_selector::on_session(const session_id& session, time_point now) {
 
 // -- results ------------------------------------------------------------------
 
-void source_selector::on_result(const service_result& result, time_point now) {
+void source_selector::on_result(const messages::service_result& result,
+                                time_point now) {
   pass(now);
   assert(is_consistent());
   if (!result.session.is_remote()) {
@@ -144,12 +148,12 @@ void source_selector::on_result(const service_result& result, time_point now) {
       result.what, {x->session, newest_.at, newest_.what, used_}, now);
   assert(!(judged.refused && judged.useless));
   if (judged.refused || judged.useless)
-    port_.record(cycle_record{.session = result.session,
-                              .cycle = result.cycle,
-                              .created = result.created,
-                              .received = now,
-                              .interarrival = {},
-                              .doubt = result.doubt});
+    port_.record(messages::cycle_record{.session = result.session,
+                                        .cycle = result.cycle,
+                                        .created = result.created,
+                                        .received = now,
+                                        .interarrival = {},
+                                        .doubt = result.doubt});
   if (judged.refused)
     refuse(result.session, *judged.refused, now);
   else if (judged.useless)
@@ -163,31 +167,35 @@ void source_selector::on_result(const service_result& result, time_point now) {
 
 /// A latency is not judged by a clock that is not known well enough: results
 /// are then as good as none.
-bool source_selector::can_judge(source& x, const service_result& result,
+bool source_selector::can_judge(source& x,
+                                const messages::service_result& result,
                                 time_point now) {
   assert(result.session == x.session);
   assert(result.cycle == x.last_cycle);
   const auto can = result.doubt <= options().limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
-    port_.record(event_record{.at = now,
-                              .what = can ? event_type::clock_known
-                                          : event_type::clock_in_doubt,
-                              .station = setup_.station,
-                              .provider = result.session.provider,
-                              .service = setup_.service.name,
-                              .counter = result.session.counter,
-                              .detail = in_ms(result.doubt)});
+    port_.record(messages::event_record{
+        .at = now,
+        .what = can ? messages::event_type::clock_known
+                    : messages::event_type::clock_in_doubt,
+        .station = setup_.station,
+        .provider = result.session.provider,
+        .service = setup_.service.name,
+        .counter = result.session.counter,
+        .detail = in_ms(result.doubt)});
   }
   return can;
 }
 
 /// The session of an implausible result ends in the same turn.
-void source_selector::refuse(const session_id& session, const objection& why,
-                             time_point now) {
-  on_end({session, end_reason::implausible, side::requester}, now);
+void source_selector::refuse(const messages::session_id& session,
+                             const objection& why, time_point now) {
+  on_end(
+      {session, messages::end_reason::implausible, messages::side::requester},
+      now);
   auto found = told(why);
-  port_.report({session, qos_breach::implausible, now, true,
+  port_.report({session, messages::qos_breach::implausible, now, true,
                 std::move(found.why), std::move(found.check)});
 }
 
@@ -199,7 +207,8 @@ void source_selector::leave_out(source& x, const objection& why,
 }
 
 /// @param in_limits  It came in time.
-void source_selector::on_result_of(source& x, const service_result& result,
+void source_selector::on_result_of(source& x,
+                                   const messages::service_result& result,
                                    time_point now, bool in_limits,
                                    std::span<const margin> margins) {
   assert(result.session == x.session);
@@ -242,20 +251,21 @@ void source_selector::on_result_of(source& x, const service_result& result,
 }
 
 void source_selector::record_cycle(const source& x,
-                                   const service_result& result, time_point now,
-                                   bool used, std::span<const margin> margins) {
+                                   const messages::service_result& result,
+                                   time_point now, bool used,
+                                   std::span<const margin> margins) {
   assert(!x.last_received || *x.last_received <= now);
   assert(!used || result.created <= now);
   std::optional<duration> gap; // only while in use every period
   if (x.last_received)
     gap = now - *x.last_received;
-  cycle_record record{.session = result.session,
-                      .cycle = result.cycle,
-                      .created = result.created,
-                      .received = now,
-                      .interarrival = gap,
-                      .used = used,
-                      .doubt = result.doubt};
+  messages::cycle_record record{.session = result.session,
+                                .cycle = result.cycle,
+                                .created = result.created,
+                                .received = now,
+                                .interarrival = gap,
+                                .used = used,
+                                .doubt = result.doubt};
   if (used && setup_.record_margins)
     for (const auto& m : margins)
       record.margins.push_back({std::string{m.name}, m.left});
@@ -264,14 +274,15 @@ void source_selector::record_cycle(const source& x,
 
 /// Two providers may disagree: results of one source are used as long as it
 /// goes on.
-bool source_selector::may_follow(const service_result& result,
+bool source_selector::may_follow(const messages::service_result& result,
                                  time_point now) const {
   return result.session == used_from_
          || now - used_at_ > patience_periods * options().period
          || own().continues(used_, result.what, now);
 }
 
-void source_selector::use(const service_result& result, time_point now) {
+void source_selector::use(const messages::service_result& result,
+                          time_point now) {
   used_ = result.what;
   used_from_ = result.session;
   used_at_ = now;
@@ -280,7 +291,7 @@ void source_selector::use(const service_result& result, time_point now) {
 
 // -- the standby --------------------------------------------------------------
 
-void source_selector::on_standby(std::optional<standby> chosen,
+void source_selector::on_standby(std::optional<messages::standby> chosen,
                                  time_point now) {
   pass(now);
   standby_ = chosen;
@@ -334,9 +345,11 @@ void source_selector::give_up_silent(time_point now) {
     x.given_up = true;
     const auto lies =
         x.useless && now - x.useless_at <= patience_periods * options().period;
-    const auto found = x.useless.value_or(implausibility{});
-    port_.report({x.session, lies ? qos_breach::implausible : qos_breach::gap,
-                  now, true, found.why, lies ? found.check : std::string{}});
+    const auto found = x.useless.value_or(messages::implausibility{});
+    port_.report(
+        {x.session,
+         lies ? messages::qos_breach::implausible : messages::qos_breach::gap,
+         now, true, found.why, lies ? found.check : std::string{}});
   }
 }
 
@@ -356,12 +369,13 @@ void source_selector::begin(source& x, time_point now) {
   assert(is_consistent());
 }
 
-void source_selector::watch(const session_id& session, time_point last) {
+void source_selector::watch(const messages::session_id& session,
+                            time_point last) {
   watched_ = session;
   port_.watch(session, last);
 }
 
-void source_selector::on_end(const service_end& end, time_point now) {
+void source_selector::on_end(const messages::service_end& end, time_point now) {
   pass(now);
   const auto* ended = find(end.session);
   if (!ended)
@@ -373,7 +387,7 @@ void source_selector::on_end(const service_end& end, time_point now) {
     return;
   if (!is_remote()) {
     port_.watch_end(end);
-    if (end.reason == end_reason::implausible)
+    if (end.reason == messages::end_reason::implausible)
       used_ = {}; // the own function does not go on from that
     port_.go_local({{}, newest_.at, newest_.what, used_});
     port_.announce_source(false);

@@ -31,31 +31,31 @@ public:
   virtual ~selector_port() = default;
 
   /// The vehicle's own function has new input, whether it is active or not.
-  virtual void feed_local(const service_input& input) = 0;
+  virtual void feed_local(const messages::service_input& input) = 0;
   /// A provider has new input; `input.session` is the session.
-  virtual void feed_remote(service_input input) = 0;
+  virtual void feed_remote(messages::service_input input) = 0;
   /// The client gets a result.
-  virtual void use(const service_result& result) = 0;
+  virtual void use(const messages::service_result& result) = 0;
 
   /// From now on results come from providers: the own function rests.
   virtual void go_remote() = 0;
   /// The own function plans at once, from this input.
-  virtual void go_local(service_input input) = 0;
+  virtual void go_local(messages::service_input input) = 0;
   /// The client is told that its source has changed.
   virtual void announce_source(bool remote) = 0;
 
   /// The first result of a session is in use.
-  virtual void report_first_data(const session_id& session) = 0;
-  virtual void report(qos_violation violation) = 0;
+  virtual void report_first_data(const messages::session_id& session) = 0;
+  virtual void report(messages::qos_violation violation) = 0;
 
   /// The watchdog watches this session; its last result came at `last`.
-  virtual void watch(const session_id& session, time_point last) = 0;
-  virtual void watch_arrival(const arrival& result) = 0;
-  virtual void watch_useless(const session_id& session,
-                             const implausibility& found) = 0;
-  virtual void watch_end(const service_end& end) = 0;
+  virtual void watch(const messages::session_id& session, time_point last) = 0;
+  virtual void watch_arrival(const messages::arrival& result) = 0;
+  virtual void watch_useless(const messages::session_id& session,
+                             const messages::implausibility& found) = 0;
+  virtual void watch_end(const messages::service_end& end) = 0;
 
-  virtual void record(sofof::record&& x) = 0;
+  virtual void record(messages::record&& x) = 0;
 
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
@@ -81,19 +81,19 @@ public:
   source_selector(selector_setup setup, selector_port& port);
 
   /// The client has new input.
-  void on_input(const service_input& input, time_point now);
+  void on_input(const messages::service_input& input, time_point now);
 
   /// A provider runs the service too. It is fed at once.
-  void on_session(const session_id& session, time_point now);
+  void on_session(const messages::session_id& session, time_point now);
 
   /// Of several providers, this one stands by; nullopt: none does.
-  void on_standby(std::optional<standby> chosen, time_point now);
+  void on_standby(std::optional<messages::standby> chosen, time_point now);
 
   /// A result has come, of the own function (counter 0) or of a provider.
-  void on_result(const service_result& result, time_point now);
+  void on_result(const messages::service_result& result, time_point now);
 
   /// A session has ended; one that is not known is ignored.
-  void on_end(const service_end& end, time_point now);
+  void on_end(const messages::service_end& end, time_point now);
 
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);
@@ -104,7 +104,7 @@ public:
 private:
   /// A session at a provider, waited for or in use.
   struct source {
-    session_id session;
+    messages::session_id session;
     std::unique_ptr<result_judge> judge;
     bool in_use = false;
     bool in_doubt = false; // its latencies cannot be judged
@@ -113,7 +113,8 @@ private:
     std::optional<time_point> last_sent;
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
-    std::optional<implausibility> useless; // of the results since then
+    std::optional<messages::implausibility>
+        useless; // of the results since then
     time_point useless_at;
     bool knows_it_stands_by = false; // by the last input
     int calls_in_vain = 0;
@@ -123,7 +124,7 @@ private:
   bool is_consistent() const;
   const service_options& options() const { return setup_.service.options; }
   const vehicle_service& own() const { return *setup_.service.own; }
-  source* find(const session_id& session);
+  source* find(const messages::session_id& session);
   std::ptrdiff_t in_use() const;
   bool is_standby(const source& x) const;
 
@@ -132,31 +133,34 @@ private:
   void announce_roles(time_point now);
   void await_cycle_after(time_point start);
 
-  bool can_judge(source& x, const service_result& result, time_point now);
-  void refuse(const session_id& session, const objection& why, time_point now);
+  bool can_judge(source& x, const messages::service_result& result,
+                 time_point now);
+  void refuse(const messages::session_id& session, const objection& why,
+              time_point now);
   void leave_out(source& x, const objection& why, time_point now);
-  void on_result_of(source& x, const service_result& result, time_point now,
-                    bool in_limits, std::span<const margin> margins);
-  void record_cycle(const source& x, const service_result& result,
+  void on_result_of(source& x, const messages::service_result& result,
+                    time_point now, bool in_limits,
+                    std::span<const margin> margins);
+  void record_cycle(const source& x, const messages::service_result& result,
                     time_point now, bool used, std::span<const margin> margins);
-  bool may_follow(const service_result& result, time_point now) const;
+  bool may_follow(const messages::service_result& result, time_point now) const;
   void give_up_silent(time_point now);
 
-  void use(const service_result& result, time_point now);
+  void use(const messages::service_result& result, time_point now);
   void begin(source& x, time_point now);
-  void watch(const session_id& session, time_point last);
+  void watch(const messages::session_id& session, time_point last);
 
   selector_setup setup_;
   selector_port& port_;
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them
-  std::optional<standby> standby_;
+  std::optional<messages::standby> standby_;
   time_point began_;        // the latest cycle of a source that is fed always
   std::uint64_t timer_ = 0; // the one that counts
-  session_id watched_;      // by whose name the watchdog watches
-  service_input newest_;
-  payload used_;                       // the last result that the client got,
-  session_id used_from_;               // of which session,
+  messages::session_id watched_; // by whose name the watchdog watches
+  messages::service_input newest_;
+  messages::payload used_;             // the last result that the client got,
+  messages::session_id used_from_;     // of which session,
   time_point used_at_;                 // and when
   time_point now_ = time_point::min(); // of the latest call
 };

@@ -9,7 +9,7 @@ namespace sofof::offloading {
 
 /// @returns whether a provider that runs the service stands by. Without another
 /// one that runs it too, it is an ordinary source.
-inline bool stands_by(const std::optional<standby>& chosen,
+inline bool stands_by(const std::optional<messages::standby>& chosen,
                       provider_id provider, bool another_runs) {
   return chosen && chosen->provider == provider && another_runs;
 }

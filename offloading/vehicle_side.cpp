@@ -25,10 +25,10 @@ public:
       service->start();
   }
 
-  void on_motion(const ego_state& ego) { requester_->on_motion(ego); }
+  void on_motion(const messages::ego_state& ego) { requester_->on_motion(ego); }
 
-  void on_input(const service_name& service, const service_input& input,
-                time_point now) {
+  void on_input(const messages::service_name& service,
+                const messages::service_input& input, time_point now) {
     begin_call(now);
     if (auto* known = find(service))
       known->selector.on_input(input, now);
@@ -78,7 +78,7 @@ private:
     void wake_at(time_point t, std::uint64_t number) override {
       service.wake_at(t, timer_of::own, number);
     }
-    void deliver_at(time_point t, service_result result) override {
+    void deliver_at(time_point t, messages::service_result result) override {
       service.wake_at(t, timer_of::result,
                       service.results.add(std::move(result)));
     }
@@ -87,14 +87,14 @@ private:
   /// A selector, its watchdog, and the vehicle's own function.
   struct service_parts final : selector_port {
     parts& all;
-    service_name name;
+    messages::service_name name;
     source_selector selector;
     watchdog dog;
     std::uint64_t dog_timer = 0; // the one that counts
     own_port wants{*this};
     service_cycle own;
-    timer_list<service_result> results;                // of its cycles
-    std::vector<std::pair<session_id, peer_id>> feeds; // its sessions
+    timer_list<messages::service_result> results; // of its cycles
+    std::vector<std::pair<messages::session_id, peer_id>> feeds; // its sessions
 
     service_parts(parts& owner, const vehicle_side_setup& setup,
                   const onboard_service& service)
@@ -113,8 +113,8 @@ private:
     }
 
     void start() {
-      own.on_step(lifecycle_step::configure, all.now_);
-      own.on_step(lifecycle_step::activate, all.now_);
+      own.on_step(messages::lifecycle_step::configure, all.now_);
+      own.on_step(messages::lifecycle_step::activate, all.now_);
     }
 
     void wake_at(time_point t, timer_of of, std::uint64_t number) {
@@ -123,11 +123,11 @@ private:
 
     // -- what the requester wants ---------------------------------------------
 
-    void begin(const session_id& session, peer_id provider) {
+    void begin(const messages::session_id& session, peer_id provider) {
       feeds.emplace_back(session, provider);
       selector.on_session(session, all.now_);
     }
-    void end(const service_end& end) {
+    void end(const messages::service_end& end) {
       selector.on_end(end, all.now_);
       std::erase_if(feeds,
                     [&](const auto& fed) { return fed.first == end.session; });
@@ -135,46 +135,49 @@ private:
 
     // -- what the selector wants ----------------------------------------------
 
-    void feed_local(const service_input& input) override {
+    void feed_local(const messages::service_input& input) override {
       own.on_input(input, all.now_);
     }
-    void feed_remote(service_input input) override {
-      const auto to = std::ranges::find(feeds, input.session,
-                                        &std::pair<session_id, peer_id>::first);
+    void feed_remote(messages::service_input input) override {
+      const auto to =
+          std::ranges::find(feeds, input.session,
+                            &std::pair<messages::session_id, peer_id>::first);
       assert(to != feeds.end());
       all.port_.send(to->second, std::move(input));
     }
-    void use(const service_result& result) override { all.port_.use(result); }
-    void go_remote() override {
-      own.on_step(lifecycle_step::deactivate, all.now_);
+    void use(const messages::service_result& result) override {
+      all.port_.use(result);
     }
-    void go_local(service_input input) override {
+    void go_remote() override {
+      own.on_step(messages::lifecycle_step::deactivate, all.now_);
+    }
+    void go_local(messages::service_input input) override {
       own.on_input(input, all.now_);
-      own.on_step(lifecycle_step::activate, all.now_);
+      own.on_step(messages::lifecycle_step::activate, all.now_);
     }
     void announce_source(bool remote) override {
       all.port_.on_source(name, remote);
     }
-    void report_first_data(const session_id& session) override {
+    void report_first_data(const messages::session_id& session) override {
       all.reports_.emplace_back(session);
     }
-    void report(qos_violation violation) override {
+    void report(messages::qos_violation violation) override {
       all.reports_.emplace_back(std::move(violation));
     }
 
-    void watch(const session_id& session, time_point last) override {
+    void watch(const messages::session_id& session, time_point last) override {
       dog.arm(session, last);
       set_dog_timer();
     }
-    void watch_arrival(const arrival& result) override {
+    void watch_arrival(const messages::arrival& result) override {
       if (auto late = dog.on_arrival(result, all.now_))
         bark(std::move(*late));
     }
-    void watch_useless(const session_id& session,
-                       const implausibility& found) override {
+    void watch_useless(const messages::session_id& session,
+                       const messages::implausibility& found) override {
       dog.on_useless(session, found);
     }
-    void watch_end(const service_end& end) override {
+    void watch_end(const messages::service_end& end) override {
       if (dog.disarm(end.session))
         ++dog_timer;
     }
@@ -190,24 +193,26 @@ private:
       else
         set_dog_timer();
     }
-    void bark(qos_violation violation) {
+    void bark(messages::qos_violation violation) {
       ++dog_timer;
       report(std::move(violation));
     }
 
-    void record(sofof::record&& x) override { all.port_.record(std::move(x)); }
+    void record(messages::record&& x) override {
+      all.port_.record(std::move(x));
+    }
 
     void wake_at(time_point t, std::uint64_t number) override {
       wake_at(t, timer_of::selector, number);
     }
   };
 
-  service_parts* find(const service_name& service) {
+  service_parts* find(const messages::service_name& service) {
     const auto i = std::ranges::find_if(
         services_, [&](const auto& known) { return known->name == service; });
     return i == services_.end() ? nullptr : i->get();
   }
-  service_parts& at(const service_name& service) {
+  service_parts& at(const messages::service_name& service) {
     auto* known = find(service);
     assert(known);
     return *known;
@@ -231,10 +236,10 @@ private:
     reports_.clear();
   }
 
-  void handle(const session_id& given_first_data) {
+  void handle(const messages::session_id& given_first_data) {
     requester_->on_first_data(given_first_data, now_);
   }
-  void handle(const qos_violation& violation) {
+  void handle(const messages::qos_violation& violation) {
     requester_->on_violation(violation, now_);
   }
 
@@ -261,41 +266,44 @@ private:
 
   // -- what comes over the air --------------------------------------------
 
-  void handle(peer_id from, const service_offer& x) {
+  void handle(peer_id from, const messages::service_offer& x) {
     requester_->on_offer(x, from, now_);
   }
-  void handle(peer_id from, const service_response& x) {
+  void handle(peer_id from, const messages::service_response& x) {
     answering_ = from;
     requester_->on_response(x, now_);
   }
-  void handle(peer_id, const service_result& x) {
+  void handle(peer_id, const messages::service_result& x) {
     requester_->on_result(x, now_);
   }
-  void handle(peer_id, const service_end& x) { requester_->on_end(x, now_); }
+  void handle(peer_id, const messages::service_end& x) {
+    requester_->on_end(x, now_);
+  }
 
   // -- what the requester wants -------------------------------------------
 
-  void send(peer_id provider, const service_request& request) override {
+  void send(peer_id provider,
+            const messages::service_request& request) override {
     port_.send(provider, request);
   }
-  void send(peer_id provider, const service_end& end) override {
+  void send(peer_id provider, const messages::service_end& end) override {
     port_.send(provider, end);
   }
-  void begin(const session_id& session) override {
+  void begin(const messages::session_id& session) override {
     at(session.service).begin(session, answering_);
   }
-  void forward(const service_result& result) override {
+  void forward(const messages::service_result& result) override {
     at(result.session.service).selector.on_result(result, now_);
   }
-  void end(const service_end& end) override {
+  void end(const messages::service_end& end) override {
     at(end.session.service).end(end);
   }
-  void set_standby(const service_name& service,
-                   const std::optional<standby>& chosen) override {
+  void set_standby(const messages::service_name& service,
+                   const std::optional<messages::standby>& chosen) override {
     at(service).selector.on_standby(chosen, now_);
   }
   void on_placement(bool) override {}
-  void record(sofof::record&& x) override { port_.record(std::move(x)); }
+  void record(messages::record&& x) override { port_.record(std::move(x)); }
   void wake_at(time_point t, std::uint64_t number) override {
     wake_at(t, {timer_of::requester, nullptr, number});
   }
@@ -306,7 +314,8 @@ private:
   std::vector<std::unique_ptr<service_parts>> services_;
   std::optional<requester> requester_;
   /// First data and violations that it has not heard of yet.
-  std::vector<std::variant<session_id, qos_violation>> reports_;
+  std::vector<std::variant<messages::session_id, messages::qos_violation>>
+      reports_;
   peer_id answering_{}; // whose response is handled
 };
 
@@ -316,12 +325,13 @@ vehicle_side::vehicle_side(vehicle_side_setup setup, vehicle_port& port,
 
 vehicle_side::~vehicle_side() = default;
 
-void vehicle_side::on_motion(const ego_state& ego) {
+void vehicle_side::on_motion(const messages::ego_state& ego) {
   parts_->on_motion(ego);
 }
 
-void vehicle_side::on_input(const service_name& service,
-                            const service_input& input, time_point now) {
+void vehicle_side::on_input(const messages::service_name& service,
+                            const messages::service_input& input,
+                            time_point now) {
   parts_->on_input(service, input, now);
 }
 

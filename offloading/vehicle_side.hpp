@@ -13,11 +13,14 @@
 namespace sofof::offloading {
 
 /// What crosses the air to a provider, besides the vehicle's CAMs.
-using to_provider = std::variant<service_request, service_input, service_end>;
+using to_provider =
+    std::variant<messages::service_request, messages::service_input,
+                 messages::service_end>;
 
 /// What comes back.
 using to_vehicle =
-    std::variant<service_offer, service_response, service_result, service_end>;
+    std::variant<messages::service_offer, messages::service_response,
+                 messages::service_result, messages::service_end>;
 
 /// What the offloading side of a vehicle is made of.
 struct vehicle_side_setup : requester_setup {
@@ -32,18 +35,19 @@ public:
   /// To be brought to a provider; what does not arrive is lost, no more.
   virtual void send(peer_id provider, to_provider message) = 0;
   /// The vehicle goes by this result from now on.
-  virtual void use(const service_result& result) = 0;
+  virtual void use(const messages::service_result& result) = 0;
   /// The results of a service come from providers now, or from its own function
   /// again.
-  virtual void on_source(const service_name& service, bool remote) = 0;
+  virtual void on_source(const messages::service_name& service,
+                         bool remote) = 0;
   /// @returns when a cycle of the vehicle's own function that starts now will
   /// be done, not before `start`; by default at once, as where time is real.
-  virtual time_point finish(const service_name&, time_point start,
+  virtual time_point finish(const messages::service_name&, time_point start,
                             std::uint64_t /*cycle*/) {
     return start;
   }
   /// Records are lost unless this is overridden.
-  virtual void record(sofof::record&&) {}
+  virtual void record(messages::record&&) {}
   /// `on_timer` is due then, with this number.
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };
@@ -63,11 +67,11 @@ public:
   vehicle_side(vehicle_side_setup setup, vehicle_port& port, time_point now);
   ~vehicle_side();
 
-  void on_motion(const ego_state& ego);
+  void on_motion(const messages::ego_state& ego);
 
   /// New input of a service; of one that is not known it is ignored.
-  void on_input(const service_name& service, const service_input& input,
-                time_point now);
+  void on_input(const messages::service_name& service,
+                const messages::service_input& input, time_point now);
 
   void on_message(peer_id from, const to_vehicle& message, time_point now);
 

@@ -6,7 +6,7 @@
 
 namespace sofof::offloading {
 
-void watchdog::arm(const session_id& session, time_point first) {
+void watchdog::arm(const messages::session_id& session, time_point first) {
   assert(limits_.max_latency > duration{0});
   assert(limits_.max_interarrival > duration{0});
   watched_ = session;
@@ -15,15 +15,15 @@ void watchdog::arm(const session_id& session, time_point first) {
   useless_.reset();
 }
 
-bool watchdog::disarm(const session_id& session) {
+bool watchdog::disarm(const messages::session_id& session) {
   if (watched_ != session)
     return false;
   watched_.reset();
   return true;
 }
 
-std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
-                                                  time_point now) {
+std::optional<messages::qos_violation>
+watchdog::on_arrival(const messages::arrival& result, time_point now) {
   assert(result.session.is_remote());
   assert(result.received <= now);
   if (watched_ != result.session)
@@ -32,10 +32,11 @@ std::optional<qos_violation> watchdog::on_arrival(const arrival& result,
   useless_.reset();
   if (in_time(result.created, result.received, limits_.max_latency))
     return std::nullopt;
-  return found(qos_breach::latency, now);
+  return found(messages::qos_breach::latency, now);
 }
 
-void watchdog::on_useless(const session_id& session, implausibility found) {
+void watchdog::on_useless(const messages::session_id& session,
+                          messages::implausibility found) {
   if (watched_ == session)
     useless_ = std::move(found);
 }
@@ -46,17 +47,18 @@ std::optional<time_point> watchdog::deadline() const {
   return gaps_.deadline();
 }
 
-std::optional<qos_violation> watchdog::on_deadline(time_point now) {
+std::optional<messages::qos_violation> watchdog::on_deadline(time_point now) {
   if (!watched_ || !gaps_.too_long(now))
     return std::nullopt;
-  return found(qos_breach::gap, now);
+  return found(messages::qos_breach::gap, now);
 }
 
-qos_violation watchdog::found(qos_breach breach, time_point now) {
+messages::qos_violation watchdog::found(messages::qos_breach breach,
+                                        time_point now) {
   assert(watched_);
-  qos_violation violation{*watched_, breach, now};
-  if (breach == qos_breach::gap && useless_) {
-    violation.breach = qos_breach::implausible;
+  messages::qos_violation violation{*watched_, breach, now};
+  if (breach == messages::qos_breach::gap && useless_) {
+    violation.breach = messages::qos_breach::implausible;
     violation.why = std::move(useless_->why);
     violation.check = std::move(useless_->check);
     useless_.reset();

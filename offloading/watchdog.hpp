@@ -16,26 +16,27 @@ namespace sofof::offloading {
 class watchdog {
 public:
   /// @param limits  Both of them > 0; results exactly at a limit keep it.
-  explicit watchdog(qos_limits limits) : limits_{limits} {}
+  explicit watchdog(messages::qos_limits limits) : limits_{limits} {}
 
   /// Watches `session` from now on, and no other.
   /// @param first  When its first result came.
-  void arm(const session_id& session, time_point first);
+  void arm(const messages::session_id& session, time_point first);
 
   /// Watches no longer, if it is `session` that it watches.
   /// @returns whether it was.
-  bool disarm(const session_id& session);
+  bool disarm(const messages::session_id& session);
 
   /// A result of the session has come.
   /// @returns the violation if it came late: then the session is watched no
   /// longer. Nullopt for a result of another session.
   /// @param now  When the violation is found, not before the result came.
-  std::optional<qos_violation> on_arrival(const arrival& result,
-                                          time_point now);
+  std::optional<messages::qos_violation>
+  on_arrival(const messages::arrival& result, time_point now);
 
   /// A result of the session has come that cannot be used; the gap goes on.
   /// @param found  For the violation, if no other result comes in time.
-  void on_useless(const session_id& session, implausibility found);
+  void on_useless(const messages::session_id& session,
+                  messages::implausibility found);
 
   /// @returns the first moment at which the gap is too long unless another
   /// result comes; nullopt: nothing is watched.
@@ -44,15 +45,16 @@ public:
   /// @returns the violation if the gap is too long: `implausible`, with a
   /// reason, if results came in it that could not be used, else `gap`. Then
   /// the session is watched no longer.
-  std::optional<qos_violation> on_deadline(time_point now);
+  std::optional<messages::qos_violation> on_deadline(time_point now);
 
 private:
-  qos_violation found(qos_breach breach, time_point now);
+  messages::qos_violation found(messages::qos_breach breach, time_point now);
 
-  qos_limits limits_;
-  std::optional<session_id> watched_;
+  messages::qos_limits limits_;
+  std::optional<messages::session_id> watched_;
   gap_monitor gaps_{duration{0}};
-  std::optional<implausibility> useless_; // of results since the last arrival
+  std::optional<messages::implausibility>
+      useless_; // of results since the last arrival
 };
 
 } // namespace sofof::offloading

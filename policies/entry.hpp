@@ -9,7 +9,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Something that decides, by the name in its notes, which is that of its file.
 template <class Decider>
@@ -45,4 +45,4 @@ std::unique_ptr<central_policy> filtered_by_request() {
   return std::make_unique<filtered_codm>(std::make_unique<Choice>());
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include "base/options/option_helpers.hpp"
 #include "policies/registry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::unique_ptr<central_policy> filtered_codm::clone() const {
   return copy;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

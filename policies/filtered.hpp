@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What both sides have in common. Goes by the name of its choice.
 template <class Policy, class Filter>
@@ -69,4 +69,4 @@ public:
   std::unique_ptr<central_policy> clone() const override;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

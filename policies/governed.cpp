@@ -6,7 +6,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 governed_lodm::governed_lodm(std::unique_ptr<local_policy> whole)
     : whole_{std::move(whole)} {
@@ -67,4 +67,4 @@ std::unique_ptr<local_policy> governed_lodm::clone() const {
   return copy;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Asks the policy, then one governor after the other. Goes by the name of the
 /// policy; without governors it is the policy. Is asked as often as that of its
@@ -36,4 +36,4 @@ private:
   std::vector<std::unique_ptr<governor>> governors_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

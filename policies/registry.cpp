@@ -10,7 +10,7 @@
 #include "local_filter_table.hpp"
 #include "lodm_table.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<std::string_view> governor_names() {
   return names_of(governor_table);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// @returns what is said of each, by name.
 std::vector<policy_info> lodm_notes();
@@ -35,4 +35,4 @@ std::vector<std::string_view> local_filter_names();
 std::vector<std::string_view> central_filter_names();
 std::vector<std::string_view> governor_names();
 
-} // namespace sofof
+} // namespace sofof::policies

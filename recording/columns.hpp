@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// What rows of records need besides: who the provider is, and second 0.
 struct row_context {
@@ -16,36 +16,36 @@ struct row_context {
 };
 
 struct episode_row {
-  const episode_record& x;
+  const messages::episode_record& x;
   row_context in;
 
-  const session_id& id() const { return x.session; }
-  bool by_requester() const { return x.of == side::requester; }
+  const messages::session_id& id() const { return x.session; }
+  bool by_requester() const { return x.of == messages::side::requester; }
   decimal if_data(duration d) const {
     return by_requester() && x.got_data ? seconds(d) : decimal{};
   }
 };
 
 struct cycle_row {
-  const cycle_record& x;
+  const messages::cycle_record& x;
   row_context in;
 
-  const session_id& id() const { return x.session; }
+  const messages::session_id& id() const { return x.session; }
 };
 
 struct margin_row {
-  const cycle_record& x;
-  const cycle_record::margin& of;
+  const messages::cycle_record& x;
+  const messages::cycle_record::margin& of;
   row_context in;
 
-  const session_id& id() const { return x.session; }
+  const messages::session_id& id() const { return x.session; }
 };
 
 struct track_row {
-  const track_record& x;
+  const messages::track_record& x;
   row_context in;
 
-  const cam& own() const { return x.ego.own; }
+  const messages::cam& own() const { return x.ego.own; }
 };
 
 /// How a vehicle drove.
@@ -56,7 +56,7 @@ struct vehicle_row {
 };
 
 struct distribution_row {
-  service_name service;
+  messages::service_name service;
   std::string_view figure;
   distribution::bin bin;
 };
@@ -221,4 +221,4 @@ inline constexpr csv_column<distribution_row> of_distributions[]{
 
 } // namespace columns
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -35,4 +35,4 @@ double energy_j_per_km(double share, double speed_mps,
   return share * percent * power.more_when_busy_w() * m_per_km / speed_mps;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

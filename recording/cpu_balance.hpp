@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// What one vehicle's computer does, percent of one core.
 struct cpu_shares {
@@ -54,4 +54,4 @@ struct core_power {
 double energy_j_per_km(double share, double speed_mps,
                        const core_power& power = {});
 
-} // namespace sofof
+} // namespace sofof::recording

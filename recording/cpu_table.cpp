@@ -7,7 +7,7 @@
 
 #include <set>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -20,17 +20,17 @@ constexpr int places_of_percent = 6;
 
 duration cost_of_a_look() {
   constexpr auto looks = 10'000;
-  const auto began = thread_cpu_time();
+  const auto began = actors::thread_cpu_time();
   for (auto k = 1; k < looks; ++k)
-    thread_cpu_time();
-  return (thread_cpu_time() - began) / looks;
+    actors::thread_cpu_time();
+  return (actors::thread_cpu_time() - began) / looks;
 }
 
 struct sum {
   duration cpu{};
   duration time{};
 
-  void add(const cpu_line& line) {
+  void add(const actors::cpu_line& line) {
     cpu += line.cpu;
     time += line.time;
   }
@@ -62,15 +62,15 @@ std::uint64_t cpu_table::wakes() const {
   return all;
 }
 
-cpu_meter::cpu_meter(cpu_ledger& ledger, time_point now)
+cpu_meter::cpu_meter(actors::cpu_ledger& ledger, time_point now)
     : ledger_{&ledger}, look_{cost_of_a_look()}, began_{now},
-      process_began_{process_cpu_time()} {
+      process_began_{actors::process_cpu_time()} {
   ledger.restart();
 }
 
 cpu_table cpu_meter::read(time_point now) const {
-  return {ledger_->lines(), now - began_, process_cpu_time() - process_began_,
-          look_};
+  return {ledger_->lines(), now - began_,
+          actors::process_cpu_time() - process_began_, look_};
 }
 
 std::optional<double> percent_of_core(duration cpu, duration time) {
@@ -132,4 +132,4 @@ std::string to_csv(const cpu_table& table) {
   return out;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// What was measured.
 struct cpu_table {
-  std::vector<cpu_line> lines;
+  std::vector<actors::cpu_line> lines;
   duration length{};      ///< Of the measurement.
   duration process_cpu{}; ///< Of all threads in it, actors or not.
   /// What one look at the thread's clock takes. Measuring a turn takes two of
@@ -32,12 +32,12 @@ class cpu_meter {
 public:
   /// @param ledger  Of the run; outlives this. It begins anew.
   /// @param now     In the run.
-  cpu_meter(cpu_ledger& ledger, time_point now);
+  cpu_meter(actors::cpu_ledger& ledger, time_point now);
 
   cpu_table read(time_point now) const;
 
 private:
-  cpu_ledger* ledger_;
+  actors::cpu_ledger* ledger_;
   duration look_{};
   time_point began_;
   duration process_began_{};
@@ -69,4 +69,4 @@ std::optional<cpu_figures> figures_of(const cpu_table& table,
 /// @returns the table as cpu.csv; docs/results.md says what it holds.
 std::string to_csv(const cpu_table& table);
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -437,4 +437,4 @@ std::vector<reported_figure> reported_in(report_table table) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

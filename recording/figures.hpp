@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// A count, a number or a time; nothing where a run does not tell it.
 using figure_value = std::variant<bool, std::uint64_t, std::optional<double>,
@@ -119,4 +119,4 @@ struct reported_figure {
 /// services by their names below `services.NAME`.
 std::vector<reported_figure> reported_in(report_table table);
 
-} // namespace sofof
+} // namespace sofof::recording

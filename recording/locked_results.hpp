@@ -14,11 +14,11 @@
 #include <string>
 #include <utility>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Guards `results` for two threads, the recorder's and the console's. What
 /// goes wrong is thrown again to the console's, but for files that may end.
-class locked_results final : public record_sink {
+class locked_results final : public messages::record_sink {
 public:
   /// @param on_failure  What to do about a failure after this call.
   /// @throws input_error when the files cannot be made.
@@ -31,7 +31,7 @@ public:
       : on_failure_{write_failure::ends_the_files}, results_{std::move(run)},
         loss_{std::move(why)} {}
 
-  void on_record(const record& x) override;
+  void on_record(const messages::record& x) override;
 
   /// Calls `use(results&)` while nobody else does; twice if files that may end
   /// cannot be written.
@@ -78,7 +78,7 @@ private:
   std::exception_ptr failure_;
 };
 
-inline void locked_results::on_record(const record& x) {
+inline void locked_results::on_record(const messages::record& x) {
   const std::lock_guard lock{mutex_};
   if (failure_)
     return;
@@ -89,4 +89,4 @@ inline void locked_results::on_record(const record& x) {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::recording

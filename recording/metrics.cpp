@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -51,7 +51,7 @@ std::optional<double> cycle_figures::offloaded_share() const {
   return static_cast<double>(offloaded) / static_cast<double>(all);
 }
 
-void safety_metrics::add(const safety_record& x) {
+void safety_metrics::add(const messages::safety_record& x) {
   driven += x.driven;
   without_fresh_plan += x.without_fresh_plan;
   off_road += x.off_road;
@@ -67,26 +67,26 @@ metrics::metrics(const run_info& run)
     : headline_{run.headline_kind}, names_{run.provider_names},
       costs_{run.energy}, obstacles_{run.obstacles} {
   for (const auto& name : run.services)
-    of(service_name{name});
+    of(messages::service_name{name});
 }
 
-void metrics::on_record(const record& x) {
+void metrics::on_record(const messages::record& x) {
   std::visit([this](const auto& which) { add(which); }, x);
 }
 
-void metrics::add(const event_record& x) {
+void metrics::add(const messages::event_record& x) {
   switch (x.what) {
-    case event_type::offer:
+    case messages::event_type::offer:
       ++offers_;
       break;
-    case event_type::near_miss:
+    case messages::event_type::near_miss:
       ++together_.safety.near_misses;
       break;
-    case event_type::implausible:
+    case messages::event_type::implausible:
       ++of(x.service)
             .implausible[std::string{name_of(x.provider, names_)}][x.check];
       break;
-    case event_type::switched:
+    case messages::event_type::switched:
       source_changed(x);
       break;
     default: // scored by other records, or not at all
@@ -94,7 +94,7 @@ void metrics::add(const event_record& x) {
   }
 }
 
-void metrics::source_changed(const event_record& x) {
+void metrics::source_changed(const messages::event_record& x) {
   const user who{x.service, x.station};
   const auto open = open_.find(who);
   if (!x.remote) {
@@ -117,12 +117,12 @@ void metrics::source_changed(const event_record& x) {
                 straight ? open->second.remote_since : x.at};
 }
 
-void metrics::add(const decision_record& x) {
+void metrics::add(const messages::decision_record& x) {
   auto& service = of(x.service);
   ++(x.accepted ? service.accepted : service.rejected);
 }
 
-void metrics::add(const cycle_record& x) {
+void metrics::add(const messages::cycle_record& x) {
   auto& service = of(x.session.service);
   service.latency.add(x.received - x.created);
   service.results_used += x.used;
@@ -144,9 +144,9 @@ void metrics::add(const cycle_record& x) {
   counts.newest = x.cycle;
 }
 
-void metrics::add(const episode_record& x) {
+void metrics::add(const messages::episode_record& x) {
   auto& service = of(x.session.service);
-  if (x.of == side::provider) {
+  if (x.of == messages::side::provider) {
     service.served_s.add(to_seconds(x.ended - x.accepted));
     ++service.served_until[static_cast<std::size_t>(x.reason)];
     return;
@@ -170,19 +170,19 @@ void metrics::add(const episode_record& x) {
     open_.erase(open);
 }
 
-void metrics::add(const safety_record& x) {
+void metrics::add(const messages::safety_record& x) {
   together_.safety.add(x);
   vehicles_[x.station].safety.add(x);
 }
 
-void metrics::add(const collision_record& x) {
+void metrics::add(const messages::collision_record& x) {
   ++together_.safety.collisions;
   for (const auto station : {x.first, x.second})
     if (!is_obstacle(station, obstacles_))
       ++vehicles_[station].safety.collisions;
 }
 
-void metrics::add(const drive_record& x) {
+void metrics::add(const messages::drive_record& x) {
   for (auto* sum : {&together_, &vehicles_[x.station]}) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
@@ -190,20 +190,20 @@ void metrics::add(const drive_record& x) {
   cycles_[x.station].on_board += x.plans.on_board;
 }
 
-void metrics::add(const air_record& x) {
+void metrics::add(const messages::air_record& x) {
   const auto octets = x.message.view();
-  etsi::bit_reader in{octets};
-  etsi::pdu_header header;
-  etsi::read(in, header);
+  messages::etsi::bit_reader in{octets};
+  messages::etsi::pdu_header header;
+  messages::etsi::read(in, header);
   const auto downwards = is_provider_station(header.station.value);
-  auto& count = header.message_id == etsi::cam::message_id ? air_.cam
-                : header.message_id == etsi::mcm::message_id
+  auto& count = header.message_id == messages::etsi::cam::message_id ? air_.cam
+                : header.message_id == messages::etsi::mcm::message_id
                     ? downwards ? air_.mcm_down : air_.mcm_up
                     : air_.cpm;
   count.add(octets.size());
 }
 
-void metrics::add(const plan_switch_record& x) {
+void metrics::add(const messages::plan_switch_record& x) {
   switches_.d_m.add(x.jump.d_m);
   switches_.curvature_1pm.add(x.jump.curvature_1pm);
   switches_.speed_mps.add(x.jump.speed_mps);
@@ -263,7 +263,7 @@ std::size_t metrics::offloaded_now() const {
       }));
 }
 
-service_metrics& metrics::of(const service_name& name) {
+service_metrics& metrics::of(const messages::service_name& name) {
   const auto found =
       std::ranges::find(services_, name, &service_metrics::service);
   if (found != services_.end())
@@ -273,4 +273,4 @@ service_metrics& metrics::of(const service_name& name) {
   return added;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

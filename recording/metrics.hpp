@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 inline constexpr std::size_t end_reason_count =
-    static_cast<std::size_t>(end_reason::shutdown) + 1;
+    static_cast<std::size_t>(messages::end_reason::shutdown) + 1;
 
 /// Who comes back to a provider so soon has gone in vain.
 inline constexpr duration ping_pong_limit = std::chrono::seconds{5};
@@ -32,7 +32,7 @@ using refusal_counts =
 
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
-  service_name service;
+  messages::service_name service;
   // Pairs of a request and a service that it names; the answer counts.
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0; ///< No answer in time is a rejection too.
@@ -83,7 +83,7 @@ struct safety_metrics {
   std::uint64_t collisions = 0;
   std::uint64_t near_misses = 0; ///< Of all vehicles together only.
 
-  void add(const safety_record& x);
+  void add(const messages::safety_record& x);
 
   /// @returns whether the safety line held all the time.
   bool ok() const;
@@ -108,8 +108,8 @@ struct cycle_figures {
 /// How one vehicle drove, or all together.
 struct drive_metrics {
   safety_metrics safety;
-  plan_figures plans;
-  ride_figures ride;
+  world::plan_figures plans;
+  world::ride_figures ride;
 };
 
 /// How far plans jumped when their source changed, all vehicles together.
@@ -151,7 +151,7 @@ public:
   ///             others follow in the order of their first record.
   explicit metrics(const run_info& run);
 
-  void on_record(const record& x);
+  void on_record(const messages::record& x);
 
   /// The run ends: what is still offloaded counts up to here.
   void finish(time_point end);
@@ -178,7 +178,7 @@ public:
 
 private:
   struct open_episode {
-    session_id session;
+    messages::session_id session;
     time_point since;
     time_point remote_since; ///< Perhaps at other providers before.
   };
@@ -188,7 +188,7 @@ private:
     provider_id provider = 0;
     time_point at;
   };
-  using user = std::pair<service_name, station_id>;
+  using user = std::pair<messages::service_name, station_id>;
   struct cycle_counts {
     std::uint64_t on_board = 0;
     std::uint64_t offloaded = 0;
@@ -196,22 +196,22 @@ private:
     std::uint64_t newest = 0;
   };
 
-  void add(const event_record& x);
-  void add(const decision_record& x);
-  void add(const cycle_record& x);
-  void add(const episode_record& x);
-  void add(const safety_record& x);
-  void add(const collision_record& x);
-  void add(const drive_record& x);
-  void add(const plan_switch_record& x);
-  void add(const air_record& x);
+  void add(const messages::event_record& x);
+  void add(const messages::decision_record& x);
+  void add(const messages::cycle_record& x);
+  void add(const messages::episode_record& x);
+  void add(const messages::safety_record& x);
+  void add(const messages::collision_record& x);
+  void add(const messages::drive_record& x);
+  void add(const messages::plan_switch_record& x);
+  void add(const messages::air_record& x);
   template <class Other>
   void add(const Other&) {}
 
-  service_metrics& of(const service_name& name);
-  void source_changed(const event_record& x);
+  service_metrics& of(const messages::service_name& name);
+  void source_changed(const messages::event_record& x);
 
-  service_name headline_;
+  messages::service_name headline_;
   provider_names names_;
   std::map<station_id, cycle_energy> costs_;
   std::map<station_id, cycle_counts> cycles_;
@@ -226,4 +226,4 @@ private:
   air_metrics air_;
 };
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -30,76 +30,80 @@ void append_octets(std::string& out, std::integral auto x) {
 
 /// What the network layer knows of a message.
 struct envelope {
-  geonet_sender from;
+  messages::geonet_sender from;
   std::uint16_t port = 0;
 };
 
 template <class Position>
-void locate(geonet_sender& from, std::uint8_t type, const Position& at) {
+void locate(messages::geonet_sender& from, std::uint8_t type,
+            const Position& at) {
   from.station_type = type;
   from.latitude = at.latitude;
   from.longitude = at.longitude;
-  from.is_mobile = type != etsi::roadside_unit;
+  from.is_mobile = type != messages::etsi::roadside_unit;
 }
 
 /// What is unavailable goes out as 0: the network layer has no word for it.
-void set_in_motion(geonet_sender& from, std::uint16_t speed,
+void set_in_motion(messages::geonet_sender& from, std::uint16_t speed,
                    std::uint16_t heading) {
-  if (speed != etsi::speed_unavailable)
+  if (speed != messages::etsi::speed_unavailable)
     from.speed_cmps = speed;
-  if (heading != etsi::heading_unavailable)
+  if (heading != messages::etsi::heading_unavailable)
     from.heading = heading;
 }
 
-void describe(envelope& out, const etsi::cam& message) {
+void describe(envelope& out, const messages::etsi::cam& message) {
   const auto& x = message.body.parameters;
-  out.port = btp_port::cam;
+  out.port = messages::btp_port::cam;
   locate(out.from, x.basic.station_type, x.basic.position);
-  if (const auto* motion =
-          std::get_if<etsi::vehicle_high_frequency>(&x.high_frequency.value))
+  if (const auto* motion = std::get_if<messages::etsi::vehicle_high_frequency>(
+          &x.high_frequency.value))
     set_in_motion(out.from, motion->speed.value, motion->heading.value);
 }
 
-void describe(envelope& out, const etsi::tr103562::cpm& message) {
+void describe(envelope& out, const messages::etsi::tr103562::cpm& message) {
   const auto& x = message.body.parameters;
-  out.port = btp_port::cpm;
+  out.port = messages::btp_port::cpm;
   locate(out.from, x.management.station_type, x.management.position);
   if (const auto* sender =
-          x.station_data ? std::get_if<etsi::tr103562::originating_vehicle>(
-              &x.station_data->value)
-                         : nullptr)
+          x.station_data
+              ? std::get_if<messages::etsi::tr103562::originating_vehicle>(
+                  &x.station_data->value)
+              : nullptr)
     set_in_motion(out.from, sender->speed.value, sender->heading.value);
 }
 
-void describe(envelope& out, const etsi::ts103324::cpm& message) {
-  out.port = btp_port::cpm;
-  locate(out.from, etsi::passenger_car, message.body.management.position);
+void describe(envelope& out, const messages::etsi::ts103324::cpm& message) {
+  out.port = messages::btp_port::cpm;
+  locate(out.from, messages::etsi::passenger_car,
+         message.body.management.position);
 }
 
-void describe(envelope& out, const etsi::mcm& message) {
+void describe(envelope& out, const messages::etsi::mcm& message) {
   const auto& x = message.body.parameters;
-  out.port = btp_port::mcm;
+  out.port = messages::btp_port::mcm;
   locate(out.from, x.basic.station_type, x.basic.position);
   if (const auto* user =
-          std::get_if<etsi::road_user_container>(&x.maneuver.value))
+          std::get_if<messages::etsi::road_user_container>(&x.maneuver.value))
     set_in_motion(out.from, user->state.speed, user->state.heading);
 }
 
 template <class Message>
-bool describe_if(envelope& out, const its_pdu& pdu) {
+bool describe_if(envelope& out, const messages::its_pdu& pdu) {
   Message message;
-  if (!etsi::decode(pdu.view(), message))
+  if (!messages::etsi::decode(pdu.view(), message))
     return false;
   out.from.station = message.header.station;
   describe(out, message);
   return true;
 }
 
-envelope envelope_of(const its_pdu& pdu) {
+envelope envelope_of(const messages::its_pdu& pdu) {
   envelope out;
-  describe_if<etsi::cam>(out, pdu) || describe_if<etsi::mcm>(out, pdu)
-      || describe_if<etsi::tr103562::cpm>(out, pdu)
-      || describe_if<etsi::ts103324::cpm>(out, pdu);
+  describe_if<messages::etsi::cam>(out, pdu)
+      || describe_if<messages::etsi::mcm>(out, pdu)
+      || describe_if<messages::etsi::tr103562::cpm>(out, pdu)
+      || describe_if<messages::etsi::ts103324::cpm>(out, pdu);
   return out;
 }
 
@@ -109,7 +113,8 @@ void pcap_file::check(const std::filesystem::path& path) {
   output_file::check(path, other_file);
 }
 
-pcap_file::pcap_file(std::filesystem::path path, etsi::its_clock clock)
+pcap_file::pcap_file(std::filesystem::path path,
+                     messages::etsi::its_clock clock)
     : file_{std::move(path), other_file}, clock_{clock} {
   auto& out = file_.text();
   append_octets(out, with_nanoseconds);
@@ -121,11 +126,11 @@ pcap_file::pcap_file(std::filesystem::path path, etsi::its_clock clock)
   append_octets(out, ethernet);
 }
 
-void pcap_file::write(const air_record& x) {
+void pcap_file::write(const messages::air_record& x) {
   auto to = envelope_of(x.message);
   to.from.at_ms = static_cast<std::uint64_t>(clock_.timestamp(x.at));
   std::string frame;
-  append_frame(frame, to.from, to.port, x.message.view());
+  messages::append_frame(frame, to.from, to.port, x.message.view());
   const auto ns = clock_.unix_time(x.at).count();
   auto& out = file_.text();
   append_octets(out, static_cast<std::uint32_t>(ns / per_second));
@@ -136,4 +141,4 @@ void pcap_file::write(const air_record& x) {
   file_.end_line();
 }
 
-} // namespace sofof
+} // namespace sofof::recording

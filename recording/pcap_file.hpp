@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Messages one after the other as their senders broadcast them: Ethernet,
 /// GeoNetworking, BTP-B; times to the nanosecond.
@@ -20,17 +20,17 @@ public:
 
   /// @param clock  Tells the time of day of the run.
   /// @throws input_error when it cannot be opened.
-  pcap_file(std::filesystem::path path, etsi::its_clock clock);
+  pcap_file(std::filesystem::path path, messages::etsi::its_clock clock);
 
   /// @throws input_error when the disk refuses it.
-  void write(const air_record& x);
+  void write(const messages::air_record& x);
 
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
 private:
   output_file file_;
-  etsi::its_clock clock_;
+  messages::etsi::its_clock clock_;
 };
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::string for_people(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
 }
 
-} // namespace sofof
+} // namespace sofof::recording

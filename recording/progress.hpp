@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Shows one line that stays up to date, a plain line now and then, or
 /// nothing. It reads no clock: the time on the wall is handed in.
@@ -52,4 +52,4 @@ private:
 /// @returns "8 s", "3 min 5 s", or "2 h 7 min".
 std::string for_people(double seconds);
 
-} // namespace sofof
+} // namespace sofof::recording

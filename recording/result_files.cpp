@@ -10,7 +10,7 @@
 #include <chrono>
 #include <utility>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -50,16 +50,16 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
   write_file(folder_ / "config.toml", run.config_toml);
 }
 
-void result_files::on_record(const record& x) {
+void result_files::on_record(const messages::record& x) {
   std::visit([this](const auto& which) { write(which); }, x);
 }
 
-void result_files::write(const event_record& x) {
+void result_files::write(const messages::event_record& x) {
   auto& out = events_.text();
   {
     json_object line{out, json_object::layout::one_line};
     line.member("t_s", seconds(x.at - start_));
-    line.member("what", sofof::name_of(x.what));
+    line.member("what", messages::name_of(x.what));
     line.member("station", x.station.value());
     line.member("provider", name_of(x.provider));
     line.member("provider_id", x.provider.value());
@@ -71,7 +71,7 @@ void result_files::write(const event_record& x) {
   events_.end_line();
 }
 
-void result_files::write(const cycle_record& x) {
+void result_files::write(const messages::cycle_record& x) {
   const auto in = context_of(x.session);
   if (margins_)
     for (const auto& margin : x.margins)
@@ -80,16 +80,16 @@ void result_files::write(const cycle_record& x) {
     cycles_->write({x, in});
 }
 
-void result_files::write(const episode_record& x) {
+void result_files::write(const messages::episode_record& x) {
   episodes_.write({x, context_of(x.session)});
 }
 
-void result_files::write(const track_record& x) {
+void result_files::write(const messages::track_record& x) {
   if (tracks_)
     tracks_->write({x, {"", start_}});
 }
 
-void result_files::write(const air_record& x) {
+void result_files::write(const messages::air_record& x) {
   if (pcap_)
     pcap_->write(x);
 }
@@ -128,10 +128,11 @@ void result_files::finish(const metrics& all, const run_info& run,
 }
 
 std::string_view result_files::name_of(provider_id provider) const {
-  return sofof::name_of(provider, names_);
+  return recording::name_of(provider, names_);
 }
 
-row_context result_files::context_of(const session_id& session) const {
+row_context
+result_files::context_of(const messages::session_id& session) const {
   return {name_of(session.provider), start_};
 }
 
@@ -145,8 +146,8 @@ void result_files::write_vehicles(const metrics& all) const {
 void result_files::write_distributions(const metrics& all) const {
   csv_file<distribution_row> file{folder_ / "distributions.csv",
                                   columns::of_distributions};
-  const auto rows = [&file](const service_name& name, std::string_view figure,
-                            const distribution& x) {
+  const auto rows = [&file](const messages::service_name& name,
+                            std::string_view figure, const distribution& x) {
     for (const auto& bin : x.bins(distribution_width))
       file.write({name, figure, bin});
   };
@@ -173,4 +174,4 @@ void result_files::write_timing(const run_end& end,
   write_file(folder_ / "timing.csv", text);
 }
 
-} // namespace sofof
+} // namespace sofof::recording

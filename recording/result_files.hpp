@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Figures of the wall's clock, which no seed repeats.
 struct figures_of_clock {
@@ -36,7 +36,7 @@ public:
   /// @param folder  Exists.
   result_files(std::filesystem::path folder, const run_info& run);
 
-  void on_record(const record& x);
+  void on_record(const messages::record& x);
 
   /// Brings all files up to date.
   void flush();
@@ -48,16 +48,16 @@ public:
 private:
   using timing = figures_of_clock::timing;
 
-  void write(const event_record& x);
-  void write(const cycle_record& x);
-  void write(const episode_record& x);
-  void write(const track_record& x);
-  void write(const air_record& x);
+  void write(const messages::event_record& x);
+  void write(const messages::cycle_record& x);
+  void write(const messages::episode_record& x);
+  void write(const messages::track_record& x);
+  void write(const messages::air_record& x);
   template <class Other>
   void write(const Other&) {}
 
   std::string_view name_of(provider_id provider) const;
-  row_context context_of(const session_id& session) const;
+  row_context context_of(const messages::session_id& session) const;
   void write_vehicles(const metrics& all) const;
   void write_distributions(const metrics& all) const;
   void write_timing(const run_end& end,
@@ -74,4 +74,4 @@ private:
   output_file events_;
 };
 
-} // namespace sofof
+} // namespace sofof::recording

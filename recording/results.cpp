@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -13,18 +13,20 @@ constexpr int jump_places = 6;
 
 /// What of a record stands in events.jsonl besides events.
 template <class Record>
-std::optional<event_record> event_of(const Record&) {
+std::optional<messages::event_record> event_of(const Record&) {
   return std::nullopt;
 }
 
-std::optional<event_record> event_of(const collision_record& x) {
-  return event_record{.at = x.at,
-                      .what = event_type::collision,
-                      .station = x.first,
-                      .detail = fmt::format("with {}", x.second)};
+std::optional<messages::event_record>
+event_of(const messages::collision_record& x) {
+  return messages::event_record{.at = x.at,
+                                .what = messages::event_type::collision,
+                                .station = x.first,
+                                .detail = fmt::format("with {}", x.second)};
 }
 
-std::optional<event_record> event_of(const plan_switch_record& x) {
+std::optional<messages::event_record>
+event_of(const messages::plan_switch_record& x) {
   const auto& id = x.session;
   std::string detail = x.remote ? "remote" : "local";
   const auto figure = [&detail](std::string_view name, double value) {
@@ -35,13 +37,13 @@ std::optional<event_record> event_of(const plan_switch_record& x) {
   figure(" kappa_1pm=", x.jump.curvature_1pm);
   figure(" v_mps=", x.jump.speed_mps);
   figure(" a_mps2=", x.jump.accel_mps2);
-  return event_record{.at = x.at,
-                      .what = event_type::plan_switch,
-                      .station = id.station,
-                      .provider = id.provider,
-                      .service = id.service,
-                      .counter = id.counter,
-                      .detail = std::move(detail)};
+  return messages::event_record{.at = x.at,
+                                .what = messages::event_type::plan_switch,
+                                .station = id.station,
+                                .provider = id.provider,
+                                .service = id.service,
+                                .counter = id.counter,
+                                .detail = std::move(detail)};
 }
 
 } // namespace
@@ -52,13 +54,13 @@ results::results(std::filesystem::path folder, run_info run)
 
 results::results(run_info run) : run_{std::move(run)}, metrics_{run_} {}
 
-void results::on_record(const record& x) {
+void results::on_record(const messages::record& x) {
   if (auto line = std::visit([](const auto& r) { return event_of(r); }, x))
     keep(std::move(*line));
   keep(x);
 }
 
-void results::keep(const record& x) {
+void results::keep(const messages::record& x) {
   if (files_)
     files_->on_record(x);
   metrics_.on_record(x);
@@ -85,4 +87,4 @@ run_end results::finish(time_point end, double wall_s, bool interrupted) {
   return outcome;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

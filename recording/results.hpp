@@ -12,13 +12,13 @@
 #include <optional>
 #include <string>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Counts every record of a run, and writes it to the files in its folder.
 /// Every member throws `input_error` when the disk refuses to take more; what
 /// was not written has not been counted either, so that it may be taken again
 /// once the files are closed.
-class results final : public record_sink {
+class results final : public messages::record_sink {
 public:
   /// Removes the files of an earlier run and starts new ones.
   /// @param folder  From `make_results_folder`, or any that exists.
@@ -26,7 +26,7 @@ public:
   /// Without files.
   explicit results(run_info run);
 
-  void on_record(const record& x) override;
+  void on_record(const messages::record& x) override;
 
   /// A figure of the wall's clock, for timing.csv.
   /// @param name  With its unit, e.g. "solve_p99_us".
@@ -50,7 +50,7 @@ public:
   run_end finish(time_point end, double wall_s, bool interrupted);
 
 private:
-  void keep(const record& x);
+  void keep(const messages::record& x);
 
   run_info run_;
   metrics metrics_;
@@ -58,4 +58,4 @@ private:
   std::optional<result_files> files_;
 };
 
-} // namespace sofof
+} // namespace sofof::recording

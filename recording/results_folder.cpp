@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace fs = std::filesystem;
 
@@ -125,4 +125,4 @@ void remove_results(const fs::path& folder) {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// Makes the folder of a run: the one asked for, or else the first free one
 /// of results/<scenario>-<seed>, -2, -3, …; two runs never get the same.
@@ -34,4 +34,4 @@ bool same_place(const std::filesystem::path& a, const std::filesystem::path& b);
 /// @throws input_error when one cannot be removed.
 void remove_results(const std::filesystem::path& folder);
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// What a cycle of the headline service costs one vehicle.
 struct cycle_energy {
@@ -48,7 +48,7 @@ struct run_info {
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
-  sofof::provider_names provider_names;
+  recording::provider_names provider_names;
   std::vector<std::string> services; ///< Names, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
@@ -58,7 +58,7 @@ struct run_info {
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
   std::string pcap;     ///< Where to capture all ITS messages; empty: nowhere.
-  etsi::its_clock time_of_day;
+  messages::etsi::its_clock time_of_day;
   time_point start; ///< Second 0 of all files.
 };
 
@@ -74,4 +74,4 @@ struct run_end {
   }
 };
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// A figure that is 0 in a safe run.
 struct safety_criterion {
@@ -35,4 +35,4 @@ bool is_safe(Figure figure) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <variant>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -71,7 +71,8 @@ void write(json_object& to, std::span<const figure<Of>> figures, const Of& of,
 void endings(json_object& to, const end_counts& counts) {
   auto object = to.object("ended_by");
   for (std::size_t i = 0; i < end_reason_count; ++i)
-    object.member(name_of(static_cast<end_reason>(i)), counts[i]);
+    object.member(messages::name_of(static_cast<messages::end_reason>(i)),
+                  counts[i]);
 }
 
 /// Whose results were refused, by check.
@@ -140,4 +141,4 @@ std::string summary_json(const metrics& m, const run_info& run,
   return text;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

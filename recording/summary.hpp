@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// @param m  Finished.
 /// @returns the text of summary.json; absent figures are null. All but the
@@ -14,4 +14,4 @@ namespace sofof {
 std::string summary_json(const metrics& m, const run_info& run,
                          const run_end& end);
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::recording {
 
 namespace {
 
@@ -100,7 +100,9 @@ public:
     for (std::size_t i = 0; i < end_reason_count; ++i) {
       const auto count = [i, of](const auto& x) { return (x.*of)[i]; };
       if (std::ranges::any_of(services_, count))
-        row(fmt::format("  {}", name_of(static_cast<end_reason>(i))), count);
+        row(fmt::format("  {}", messages::name_of(
+                                    static_cast<messages::end_reason>(i))),
+            count);
     }
   }
 
@@ -322,4 +324,4 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   return out;
 }
 
-} // namespace sofof
+} // namespace sofof::recording

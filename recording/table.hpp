@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace sofof {
+namespace sofof::recording {
 
 /// @param m       Finished.
 /// @param folder  Where the files are; empty: they could not be written.
@@ -17,4 +17,4 @@ namespace sofof {
 std::string table(const metrics& m, const run_info& run, const run_end& end,
                   const std::filesystem::path& folder, bool colour);
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -1,7 +1,7 @@
 // What becomes of a run whose results cannot be written: decision 42.
 #pragma once
 
-namespace sofof {
+namespace sofof::recording {
 
 enum class write_failure {
   ends_the_run, ///< With an error: one process that simulates.
@@ -10,4 +10,4 @@ enum class write_failure {
   ends_the_files,
 };
 
-} // namespace sofof
+} // namespace sofof::recording

@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <ranges>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
@@ -38,16 +38,16 @@ constexpr duration last_words = std::chrono::milliseconds{200};
 /// A provider, from one boot to its end, and the radio cell round it.
 struct provider_cell {
   std::uint32_t place; // in the file
-  roadside_provider_actor provider;
+  messages::roadside_provider_actor provider;
   const provider_options* options;
-  std::shared_ptr<const channel_profile> channel;
+  std::shared_ptr<const channel::channel_profile> channel;
 
   bool may_die() const { return options->fails_at.has_value(); }
 
-  std::shared_ptr<multi_server_queue> cell_up =
-      std::make_shared<multi_server_queue>(1);
-  std::shared_ptr<multi_server_queue> cell_down =
-      std::make_shared<multi_server_queue>(1);
+  std::shared_ptr<channel::multi_server_queue> cell_up =
+      std::make_shared<channel::multi_server_queue>(1);
+  std::shared_ptr<channel::multi_server_queue> cell_down =
+      std::make_shared<channel::multi_server_queue>(1);
 };
 
 /// A plan is fresh up to the longest time between two usable ones.
@@ -63,14 +63,14 @@ duration fresh_limit(const scenario_definition& s) {
 
 /// @returns those of providers; none where the cars drive in other processes:
 /// they would tell of an empty road, and speak against every car.
-std::vector<roadside_sensor>
+std::vector<actors::roadside_sensor>
 sensors_beside(const scenario_definition& s,
                const std::vector<provider_cell>& cells,
                const process_share& here) {
   if (here.serves_others)
     return {};
   const auto noise = noise_of(s, "roadside sensors");
-  std::vector<roadside_sensor> beside;
+  std::vector<actors::roadside_sensor> beside;
   for (std::size_t p = 0; p < cells.size(); ++p) {
     const auto& own = cells[p].options->sensors;
     const auto drawn = noise.part(cells[p].place);
@@ -87,23 +87,25 @@ std::vector<oriented_box> obstacles(const scenario_definition& s) {
   return boxes;
 }
 
-antenna connect(caf::actor_system& sys, const scenario_definition& s,
-                station_id station, const provider_cell& at) {
-  const channel_draws draws{at.channel, noise_of(s, "network"), station,
-                            at.place, at.options->radio};
-  return {spawn_network_link(sys, at.provider,
-                             {{draws, direction::up, at.cell_up},
-                              {draws, direction::down, at.cell_down},
-                              std::nullopt}),
+actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
+                        station_id station, const provider_cell& at) {
+  const channel::channel_draws draws{at.channel, noise_of(s, "network"),
+                                     station, at.place, at.options->radio};
+  return {actors::spawn_network_link(
+              sys, at.provider,
+              {{draws, channel::direction::up, at.cell_up},
+               {draws, channel::direction::down, at.cell_down},
+               std::nullopt}),
           at.options->position_m, at.options->range_m};
 }
 
 // Real delays take the place of modelled ones.
-antenna connect(caf::actor_system& sys, const scenario_definition& s,
-                station_id station, const process_share::remote_provider& to,
-                const provider_outbox& outbox) {
-  auto far = spawn_provider_proxy(sys, station, outbox);
-  introduce(outbox, station, far);
+actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
+                        station_id station,
+                        const process_share::remote_provider& to,
+                        const actors::provider_outbox& outbox) {
+  auto far = actors::spawn_provider_proxy(sys, station, outbox);
+  actors::introduce(outbox, station, far);
   const auto& at = s.providers[to.place];
   return {std::move(far), at.position_m, at.range_m};
 }
@@ -134,19 +136,21 @@ void end(const std::vector<Handle>& leaving, runtime& time) {
 class builder {
 public:
   builder(caf::actor_system& sys, const scenario_definition& s,
-          std::shared_ptr<record_sink> sink, etsi::its_clock clock,
-          bool virtual_time, const process_share& here)
+          std::shared_ptr<messages::record_sink> sink,
+          messages::etsi::its_clock clock, bool virtual_time,
+          const process_share& here)
       : sys_{sys}, s_{s}, here_{here}, virtual_time_{virtual_time},
-        where_{std::make_shared<const georeference>(
-            geo_frame{s.world->map.origin()}, clock)},
-        decode_{[where = where_](const its_pdu& message, time_point now) {
-          return decode(message, *where, now);
-        }} {
-    const service_world known{
+        where_{std::make_shared<const messages::georeference>(
+            messages::geo_frame{s.world->map.origin()}, clock)},
+        decode_{
+            [where = where_](const messages::its_pdu& message, time_point now) {
+              return messages::decode(message, *where, now);
+            }} {
+    const actors::service_world known{
         s.world, where_, {}, s.traffic.grants_crossings()};
     for (const auto& type : s.services)
       services_.push_back(type->in(known));
-    world_.recorder = spawn_recorder(sys_, std::move(sink));
+    world_.recorder = actors::spawn_recorder(sys_, std::move(sink));
     name(watched_, world_.recorder, "the recorder");
     world_.has_peers = here.serves_others || !here.remotes.empty();
   }
@@ -176,7 +180,7 @@ private:
     const auto& options = s_.providers[number];
     boot(number, here_.start, s_.channel_to(number));
     if (options.fails_at)
-      world_.power_cuts.push_back(spawn_power_cut(
+      world_.power_cuts.push_back(actors::spawn_power_cut(
           sys_, caf::actor_cast<caf::actor>(world_.providers.back()),
           *options.fails_at));
     else
@@ -185,20 +189,21 @@ private:
     // It lives from the start on, but nothing reaches it.
     if (options.returns_at)
       boot(number, here_.start + 1,
-           with_outage(*s_.channel_to(number), {}, *options.returns_at));
+           channel::with_outage(*s_.channel_to(number), {},
+                                *options.returns_at));
   }
 
   void boot(std::uint32_t number, std::uint64_t start,
-            std::shared_ptr<const channel_profile> channel) {
+            std::shared_ptr<const channel::channel_profile> channel) {
     cells_.push_back({number, spawn_provider(number, start),
                       &s_.providers[number], std::move(channel)});
     world_.providers.push_back(cells_.back().provider);
   }
 
-  roadside_provider_actor spawn_provider(std::uint32_t number,
-                                         std::uint64_t start) {
+  messages::roadside_provider_actor spawn_provider(std::uint32_t number,
+                                                   std::uint64_t start) {
     const auto& options = s_.providers[number];
-    provider_actor_setup setup;
+    actors::provider_actor_setup setup;
     setup.boot = boot_of(number + 1, start);
     setup.position = options.position_m;
     setup.area = options.area();
@@ -213,7 +218,7 @@ private:
     setup.seed = noise_of(s_, "network");
     setup.number = number;
     setup.virtual_time = virtual_time_;
-    return spawn_service_provider(sys_, std::move(setup));
+    return actors::spawn_service_provider(sys_, std::move(setup));
   }
 
   void add_connection(const process_share::remote_provider& to) {
@@ -226,20 +231,20 @@ private:
   // -- vehicles -------------------------------------------------------------
 
   void add_road(const std::vector<placed_vehicle>& placed) {
-    station_routes ways;
+    actors::station_routes ways;
     for (const auto& v : placed)
       ways[v.station] = v.way;
-    world_.road = spawn_road(
-        sys_, {s_.world, std::move(ways), vehicle_params{}, s_.sensors,
+    world_.road = actors::spawn_road(
+        sys_, {s_.world, std::move(ways), world::vehicle_params{}, s_.sensors,
                noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
     name(watched_, world_.road, "the road");
   }
 
   void add_vehicle(const placed_vehicle& v,
-                   std::shared_ptr<const channel_oracle> future) {
+                   std::shared_ptr<const policies::channel_oracle> future) {
     const auto& fleet = s_.fleets[v.fleet];
-    vehicle_setup setup;
+    actors::vehicle_setup setup;
     setup.car = {v.station,
                  v.way,
                  v.start_s_m,
@@ -261,14 +266,14 @@ private:
     setup.road = world_.road;
     setup.recorder = world_.recorder;
     setup.spawn_requester = requester_maker(v, std::move(future));
-    world_.vehicles.push_back(spawn_vehicle(sys_, std::move(setup)));
+    world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
     name(watched_, world_.vehicles.back(),
          fmt::format("vehicle {}", v.station));
   }
 
-  std::vector<antenna> connect_all(station_id station) {
-    std::vector<antenna> all;
-    const auto watch = [&](const antenna& a) {
+  std::vector<actors::antenna> connect_all(station_id station) {
+    std::vector<actors::antenna> all;
+    const auto watch = [&](const actors::antenna& a) {
       name(watched_, a.link, fmt::format("a link of vehicle {}", station));
     };
     for (const auto& at : cells_) {
@@ -285,10 +290,12 @@ private:
   }
 
   // The vehicle calls it later, from its own thread: nothing is borrowed.
-  std::function<onboard_requester_actor(const vehicle_actor&)>
-  requester_maker(const placed_vehicle& v,
-                  std::shared_ptr<const channel_oracle> future) const {
-    std::vector<client_service> services;
+  std::function<
+      messages::onboard_requester_actor(const messages::vehicle_actor&)>
+  requester_maker(
+      const placed_vehicle& v,
+      std::shared_ptr<const policies::channel_oracle> future) const {
+    std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
           {services_[k], [type = s_.services[k]](auto& sys, const auto& car) {
@@ -298,23 +305,23 @@ private:
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
-            future = std::move(future),
-            margins = s_.record.margins](const vehicle_actor& vehicle) {
-      const auto path_ahead = [way](const ego_state& ego) {
+            future = std::move(future), margins = s_.record.margins](
+               const messages::vehicle_actor& vehicle) {
+      const auto path_ahead = [way](const messages::ego_state& ego) {
         return way->waypoints(ego.s_m, protocol::route_ahead_m,
                               protocol::route_spacing_m);
       };
-      return spawn_service_requester(sys, {.station = station,
-                                           .path_ahead = path_ahead,
-                                           .services = services,
-                                           .lodm = lodm->clone(),
-                                           .vehicle = vehicle,
-                                           .recorder = recorder,
-                                           .noise = noise,
-                                           .virtual_time = virtual_time,
-                                           .computer = computer,
-                                           .future = future,
-                                           .record_margins = margins});
+      return actors::spawn_service_requester(sys, {.station = station,
+                                                   .path_ahead = path_ahead,
+                                                   .services = services,
+                                                   .lodm = lodm->clone(),
+                                                   .vehicle = vehicle,
+                                                   .recorder = recorder,
+                                                   .noise = noise,
+                                                   .virtual_time = virtual_time,
+                                                   .computer = computer,
+                                                   .future = future,
+                                                   .record_margins = margins});
     };
   }
 
@@ -322,8 +329,9 @@ private:
   const scenario_definition& s_;
   const process_share& here_;
   bool virtual_time_;
-  georeference_ptr where_;
-  std::function<broadcast(const its_pdu&, time_point)> decode_;
+  messages::georeference_ptr where_;
+  std::function<messages::broadcast(const messages::its_pdu&, time_point)>
+      decode_;
   std::vector<offloading::service> services_; // as in the scenario
   std::vector<provider_cell> cells_;
   names watched_;
@@ -333,15 +341,15 @@ private:
 } // namespace
 
 world_actors build(caf::actor_system& sys, const scenario_definition& s,
-                   std::shared_ptr<record_sink> sink, etsi::its_clock clock,
-                   bool virtual_time,
+                   std::shared_ptr<messages::record_sink> sink,
+                   messages::etsi::its_clock clock, bool virtual_time,
                    std::function<void(const std::string&)> on_loss,
                    const process_share& here) {
   builder all{sys, s, std::move(sink), clock, virtual_time, here};
   auto world = all.build();
   if (on_loss)
-    world.supervisor =
-        spawn_supervisor(sys, std::move(all.watched()), std::move(on_loss));
+    world.supervisor = actors::spawn_supervisor(sys, std::move(all.watched()),
+                                                std::move(on_loss));
   return world;
 }
 
@@ -359,4 +367,4 @@ void dismiss(const world_actors& actors, runtime& time) {
   end(std::vector{actors.recorder}, time);
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

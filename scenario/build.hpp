@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Which part of a scenario lives in this process: without changes, all of it.
 struct process_share {
@@ -28,7 +28,7 @@ struct process_share {
   /// A provider that another process runs.
   struct remote_provider {
     std::size_t place; ///< In the file, counting from 0.
-    std::function<provider_outbox(const recorder_actor&)>
+    std::function<actors::provider_outbox(const messages::recorder_actor&)>
         spawn_provider_connection;
   };
   std::vector<remote_provider> remotes;
@@ -38,12 +38,12 @@ struct process_share {
 
 /// Everything that lives in a run, in the order in which it was spawned.
 struct world_actors {
-  recorder_actor recorder;
-  road_actor road;
-  std::vector<provider_actor> providers;
-  std::vector<link_actor> links;
-  std::vector<provider_outbox> connections;
-  std::vector<vehicle_actor> vehicles;
+  messages::recorder_actor recorder;
+  messages::road_actor road;
+  std::vector<messages::provider_actor> providers;
+  std::vector<messages::link_actor> links;
+  std::vector<actors::provider_outbox> connections;
+  std::vector<messages::vehicle_actor> vehicles;
   std::vector<caf::actor> power_cuts;
   caf::actor supervisor;
   bool has_peers = false; ///< On other hosts.
@@ -60,8 +60,8 @@ struct world_actors {
 /// @param here  What of it.
 /// @param on_loss  Called with a sentence when one of them dies.
 world_actors build(caf::actor_system& sys, const scenario_definition& s,
-                   std::shared_ptr<record_sink> sink, etsi::its_clock clock,
-                   bool virtual_time,
+                   std::shared_ptr<messages::record_sink> sink,
+                   messages::etsi::its_clock clock, bool virtual_time,
                    std::function<void(const std::string&)> on_loss = {},
                    const process_share& here = {});
 
@@ -70,4 +70,4 @@ world_actors build(caf::actor_system& sys, const scenario_definition& s,
 /// last.
 void dismiss(const world_actors& actors, runtime& time);
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
@@ -69,7 +69,8 @@ void check_obstacles(const scenario_definition& all, const toml_file& source) {
                                 highest));
   for (const auto& v : place_vehicles(all)) {
     const auto pose = v.way->path().at(v.start_s_m);
-    const auto box = body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
+    const auto box =
+        world::body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
     for (std::size_t k = 0; k < all.obstacles.size(); ++k)
       if (overlap(box, all.obstacles[k].box()))
         source.refuse(fmt::format("obstacle.{}", k),
@@ -152,8 +153,9 @@ void check_whole(const scenario_definition& all, const toml_file& source) {
   if (all.fleets.empty())
     source.refuse("", "there are no vehicles: add a [[fleet]].");
   if (all.services.empty())
-    source.refuse("", fmt::format("there is no [[service]]; known are {}.",
-                                  fmt::join(service_type_names(), ", ")));
+    source.refuse("",
+                  fmt::format("there is no [[service]]; known are {}.",
+                              fmt::join(actors::service_type_names(), ", ")));
   check_routes(all, source);
   check_stations(all, source);
   check_provider_stations(all, source);
@@ -163,4 +165,4 @@ void check_whole(const scenario_definition& all, const toml_file& source) {
   check_obstacles(all, source);
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -4,7 +4,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/scenario.hpp"
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Refuses a scenario whose parts do not fit together: names that are doubled
 /// or that nothing bears, station ids used twice, vehicles without room.
@@ -13,4 +13,4 @@ namespace sofof {
 /// @throws input_error.
 void check_whole(const scenario_definition& all, const toml_file& source);
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
 template <class Context, class Decision>
 std::shared_ptr<decision_times>
-add_timer(std::shared_ptr<policy<Context, Decision>>& policy) {
+add_timer(std::shared_ptr<policies::policy<Context, Decision>>& policy) {
   auto times = std::make_shared<decision_times>();
   policy =
       std::make_shared<timed_policy<Context, Decision>>(policy->clone(), times);
@@ -55,4 +55,4 @@ deciding_times add_timers(policy_options& policies) {
   return {add_timer(policies.lodm), add_timer(policies.codm)};
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Times of the decisions of all clones of a policy. Any thread may call these.
 class decision_times {
@@ -31,9 +31,9 @@ private:
 /// A policy, and a watch beside it: does, and is called, whatever the policy
 /// does and is. Its clones note their times in the same place.
 template <class Context, class Decision>
-class timed_policy final : public policy<Context, Decision> {
+class timed_policy final : public policies::policy<Context, Decision> {
 public:
-  using whole_policy = policy<Context, Decision>;
+  using whole_policy = policies::policy<Context, Decision>;
 
   timed_policy(std::unique_ptr<whole_policy> what,
                std::shared_ptr<decision_times> times)
@@ -46,9 +46,13 @@ public:
     return decision;
   }
 
-  void observe(const cycle_outcome& x) override { what_->observe(x); }
-  void observe(const refusal_outcome& x) override { what_->observe(x); }
-  void observe(const episode_outcome& x) override { what_->observe(x); }
+  void observe(const policies::cycle_outcome& x) override { what_->observe(x); }
+  void observe(const policies::refusal_outcome& x) override {
+    what_->observe(x);
+  }
+  void observe(const policies::episode_outcome& x) override {
+    what_->observe(x);
+  }
   double epoch_s() const override { return what_->epoch_s(); }
   std::string snapshot() const override { return what_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
@@ -80,4 +84,4 @@ struct deciding_times {
 /// @param policies  Become copies; what others have of them stays as it is.
 deciding_times add_timers(policy_options& policies);
 
-} // namespace sofof
+} // namespace sofof::scenario

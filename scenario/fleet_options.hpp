@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Vehicles with consecutive station ids that share their routes.
 struct fleet_options {
@@ -36,7 +36,7 @@ struct fleet_options {
   /// somebody near its place waits.
   duration appears_at{};
   duration appear_every{};
-  computer_options compute{}; ///< In each of them.
+  world::computer_options compute{}; ///< In each of them.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -93,4 +93,4 @@ struct obstacle_options {
   }
 };
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -22,7 +22,7 @@
 #include <ostream>
 #include <utility>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
@@ -71,7 +71,7 @@ private:
 /// they have changed.
 std::function<std::vector<std::string>()>
 news_of(std::shared_ptr<news_board> board, const host_options& what,
-        std::shared_ptr<key_ring> keys) {
+        std::shared_ptr<network::key_ring> keys) {
   return [board = std::move(board), keys = std::move(keys),
           changed = what.keys_have_changed] {
     if (keys && changed && changed->exchange(false))
@@ -121,19 +121,22 @@ std::size_t find_provider(const scenario_definition& s, std::string_view name,
 }
 
 /// On this machine alone nobody proves anything, and any stations are a peer.
-peer_finding believe(const peer_hello& hello) {
+actors::peer_finding believe(const messages::peer_hello& hello) {
   const std::set<station_id> all{hello.stations.begin(), hello.stations.end()};
-  return {describe(peer_identity{{all.begin(), all.end()}, {}}), {}};
+  return {
+      network::describe(network::peer_identity{{all.begin(), all.end()}, {}}),
+      {}};
 }
 
 /// @param tls  Whom TLS has established.
-peer_finding examine(const credentials& own, const peer_hello& hello,
-                     const std::string& nonce,
-                     const std::optional<peer_identity>& tls) {
+actors::peer_finding examine(const network::credentials& own,
+                             const messages::peer_hello& hello,
+                             const std::string& nonce,
+                             const std::optional<network::peer_identity>& tls) {
   const auto& provider = own.identity().provider;
-  const auto proved =
-      own.prove(hello.certificate, proof_of(nonce, provider, hello.stations),
-                hello.signature);
+  const auto proved = own.prove(
+      hello.certificate, messages::proof_of(nonce, provider, hello.stations),
+      hello.signature);
   if (!proved.who)
     return {{}, proved.refusal};
   if (tls != proved.who)
@@ -141,32 +144,33 @@ peer_finding examine(const credentials& own, const peer_hello& hello,
         {},
         fmt::format("its hello is signed for {}, but its connection is that "
                     "of {}",
-                    describe(*proved.who), tls ? describe(*tls) : "nobody")};
+                    network::describe(*proved.who),
+                    tls ? network::describe(*tls) : "nobody")};
   for (const auto station : hello.stations)
     if (!proved.who->has(station))
       return {{},
               fmt::format("its certificate is for {}, not for station {}",
-                          describe(*proved.who), station)};
-  return {describe(*proved.who), {}};
+                          network::describe(*proved.who), station)};
+  return {network::describe(*proved.who), {}};
 }
 
-void check_identity(const credentials& own, const std::string& folder,
+void check_identity(const network::credentials& own, const std::string& folder,
                     const std::string& provider) {
   if (own.identity().provider != provider)
     throw input_error(fmt::format(
         "the certificate in {} is for {}, not for provider {}; issue one with "
         "`sofof keys issue`",
-        folder, describe(own.identity()), provider));
+        folder, network::describe(own.identity()), provider));
 }
 
-void check_identity(const credentials& own, const std::string& folder,
+void check_identity(const network::credentials& own, const std::string& folder,
                     const std::vector<station_id>& stations) {
   for (const auto station : stations)
     if (!own.identity().has(station))
       throw input_error(fmt::format(
           "the certificate in {} is for {}, not for station {}; choose others "
           "with --station, or issue one with `sofof keys issue`",
-          folder, describe(own.identity()), station));
+          folder, network::describe(own.identity()), station));
 }
 
 void check_stations(const scenario_definition& s,
@@ -201,36 +205,42 @@ std::uint64_t start_of(const runtime& time) {
 }
 
 /// @returns whom a provider lets in; what is of its actors is filled in later.
-acceptor_setup acceptor_of(const scenario_definition& s, std::size_t place,
-                           std::shared_ptr<key_ring> keys,
-                           network_runtime& time,
-                           const std::shared_ptr<news_board>& board) {
-  acceptor_setup setup;
+actors::acceptor_setup acceptor_of(const scenario_definition& s,
+                                   std::size_t place,
+                                   std::shared_ptr<network::key_ring> keys,
+                                   network_runtime& time,
+                                   const std::shared_ptr<news_board>& board) {
+  actors::acceptor_setup setup;
   setup.name = s.providers[place].name;
   setup.world = fingerprint_of_world(s);
   setup.clock = time.clock();
-  setup.draw_nonce = &draw_nonce;
-  setup.examine = [keys = std::move(keys), &time](const peer_hello& hello,
-                                                  const std::string& nonce,
-                                                  const caf::node_id& process) {
+  setup.draw_nonce = &network::draw_nonce;
+  setup.examine = [keys = std::move(keys), &time](
+                      const messages::peer_hello& hello,
+                      const std::string& nonce, const caf::node_id& process) {
     return keys ? examine(keys->now(), hello, nonce, time.identity_of(process))
                 : believe(hello);
   };
   setup.on_peer = [board](const std::set<station_id>& all, bool is_here) {
-    board->log(describe(peer_identity{{all.begin(), all.end()}, {}})
-               + (is_here ? " connected" : " disconnected"));
+    board->log(
+        network::describe(network::peer_identity{{all.begin(), all.end()}, {}})
+        + (is_here ? " connected" : " disconnected"));
   };
   return setup;
 }
 
 /// Lets a connection go through TLS.
 /// @param connector  Outlives the connection.
-void secure(provider_connection_setup& setup, tls_connector& connector,
-            const std::shared_ptr<key_ring>& keys, network_runtime& time) {
-  keys->add_user(
-      [&connector](const credentials& fresh) { connector.renew(fresh); });
-  setup.connect = [&time,
-                   &connector]() -> std::variant<acceptor_actor, std::string> {
+void secure(actors::provider_connection_setup& setup,
+            network::tls_connector& connector,
+            const std::shared_ptr<network::key_ring>& keys,
+            network_runtime& time) {
+  keys->add_user([&connector](const network::credentials& fresh) {
+    connector.renew(fresh);
+  });
+  setup.connect =
+      [&time,
+       &connector]() -> std::variant<messages::acceptor_actor, std::string> {
     auto acceptor = time.connect(connector.port());
     const auto why = connector.last_error();
     if (std::holds_alternative<std::string>(acceptor) && !why.empty())
@@ -238,21 +248,22 @@ void secure(provider_connection_setup& setup, tls_connector& connector,
     return acceptor;
   };
   setup.hang_up = [&connector] { connector.hang_up(); };
-  setup.prove = [keys, provider = setup.provider](peer_hello& hello,
+  setup.prove = [keys, provider = setup.provider](messages::peer_hello& hello,
                                                   const std::string& nonce) {
     const auto own = keys->now();
     hello.certificate = own.certificate_pem();
-    hello.signature = own.sign(proof_of(nonce, provider, hello.stations));
+    hello.signature =
+        own.sign(messages::proof_of(nonce, provider, hello.stations));
   };
 }
 
 /// @returns the connection to one provider, as far as it is like that to any.
-provider_connection_setup
+actors::provider_connection_setup
 connection_to(const scenario_definition& s, std::size_t place,
               const drive_options& what,
               const std::vector<station_id>& stations,
               const std::shared_ptr<news_board>& board) {
-  provider_connection_setup setup;
+  actors::provider_connection_setup setup;
   setup.provider = s.providers[place].name;
   setup.stations = stations;
   setup.world = fingerprint_of_world(s);
@@ -261,7 +272,7 @@ connection_to(const scenario_definition& s, std::size_t place,
   setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
                     .part(place)
                     .part(stations.empty() ? 0 : stations.front().value());
-  setup.prove = [](peer_hello&, const std::string&) {};
+  setup.prove = [](messages::peer_hello&, const std::string&) {};
   setup.on_connected = [board] { board->connected(); };
   setup.on_refusal = [board](const std::string& why) { board->refuse(why); };
   setup.on_news = [board](const std::string& news) { board->log(news); };
@@ -280,14 +291,15 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
                                   "of one process; remove it, and end this "
                                   "process instead",
                                   name));
-  const auto keys = load_keys(
-      what.listen, what.keys, "--listen",
-      [&](const credentials& own) { check_identity(own, what.keys, name); });
+  const auto keys = load_keys(what.listen, what.keys, "--listen",
+                              [&](const network::credentials& own) {
+                                check_identity(own, what.keys, name);
+                              });
   secure_listener listener{keys, what.listen};
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
-  options.when_unwritable = write_failure::ends_the_files;
+  options.when_unwritable = recording::write_failure::ends_the_files;
   options.network = "real";
   options.whose = name;
   options.news = news_of(board, what, keys);
@@ -301,7 +313,7 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
     setup.provider = actors.providers.front();
     setup.boot = boot_of(static_cast<std::uint32_t>(place + 1), here.start);
     setup.recorder = actors.recorder;
-    filter_setup filter;
+    actors::filter_setup filter;
     if (keys)
       filter.identify = [&listener](std::uint16_t port) {
         return listener.peers().find(port);
@@ -310,15 +322,17 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
     filter.recorder = setup.recorder;
     filter.on_refusal = [board](const std::string& why) { board->log(why); };
     time->filter(std::move(filter));
-    const auto acceptor = spawn_acceptor(time->system(), std::move(setup));
-    watch_as_well(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
-                  "the acceptor");
+    const auto acceptor =
+        actors::spawn_acceptor(time->system(), std::move(setup));
+    actors::watch_as_well(actors.supervisor,
+                          caf::actor_cast<caf::actor>(acceptor),
+                          "the acceptor");
     const auto at =
         listener.open(*time, acceptor, [board](const std::string& why) {
           board->log("refused: " + why);
         });
     console << fmt::format("provider {} listens on {}{}", name,
-                           print_address(at),
+                           network::print_address(at),
                            keys ? "" : ", for this machine alone")
             << std::endl;
   };
@@ -335,16 +349,16 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
   };
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
-  std::shared_ptr<key_ring> keys;
-  std::vector<std::unique_ptr<tls_connector>>
+  std::shared_ptr<network::key_ring> keys;
+  std::vector<std::unique_ptr<network::tls_connector>>
       connectors; // outlive what uses them
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;
-  options.when_unwritable = write_failure::ends_the_files;
+  options.when_unwritable = recording::write_failure::ends_the_files;
   options.network = "real";
   options.whose = "cars";
-  filter_setup filter;
+  actors::filter_setup filter;
   filter.stations = stations.size();
   filter.on_refusal = [board](const std::string& why) { board->log(why); };
   time->filter(std::move(filter));
@@ -358,17 +372,17 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
                                     s.providers[place].name));
     if (!keys)
       keys = load_keys(to.at, what.keys, "--provider",
-                       [&](const credentials& own) {
+                       [&](const network::credentials& own) {
                          check_identity(own, what.keys, stations);
                        });
     auto setup = connection_to(s, place, what, stations, board);
-    setup.address = print_address(to.at);
+    setup.address = network::print_address(to.at);
     setup.clock = time->clock();
     if (keys) {
       const auto own = keys->now();
-      connectors.push_back(std::make_unique<tls_connector>(
-          &own,
-          connector_options{.remote = to.at, .provider = setup.provider}));
+      connectors.push_back(std::make_unique<network::tls_connector>(
+          &own, network::connector_options{.remote = to.at,
+                                           .provider = setup.provider}));
       secure(setup, *connectors.back(), keys, *time);
     } else {
       setup.connect = [&time = *time, port = to.at.port] {
@@ -376,10 +390,12 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
       };
     }
     here.remotes.push_back(
-        {place, [&time = *time, setup](const recorder_actor& recorder) {
+        {place,
+         [&time = *time, setup](const messages::recorder_actor& recorder) {
            auto with = setup;
            with.recorder = recorder;
-           return spawn_provider_connection(time.system(), std::move(with));
+           return actors::spawn_provider_connection(time.system(),
+                                                    std::move(with));
          }});
   }
   options.news = news_of(board, what, keys);
@@ -389,4 +405,4 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
   return outcome;
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -12,26 +12,27 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// What both sides have in common.
 struct host_options {
   std::string keys; ///< Folder with certificate and key; empty on loopback.
   /// Once true, the folder is read again, and this is false again; null: never.
   std::atomic<bool>* keys_have_changed = nullptr;
-  clock_error clock; ///< For tests: how far the own clock is off, ...
-  std::uint32_t protocol = remote_protocol; ///< ... and what it speaks.
+  actors::clock_error clock; ///< For tests: how far the own clock is off, ...
+  std::uint32_t protocol =
+      messages::remote_protocol; ///< ... and what it speaks.
 };
 
 struct provide_options : host_options {
   std::string name; ///< Of the provider; empty: the only one.
-  network_address listen;
+  network::network_address listen;
 };
 
 struct drive_options : host_options {
   struct provider {
     std::string name; ///< Empty: the only one.
-    network_address at;
+    network::network_address at;
   };
   std::vector<provider> providers;
   std::set<station_id> stations; ///< Empty: all.
@@ -49,4 +50,4 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console);
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -13,7 +13,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace fs = std::filesystem;
 
@@ -31,11 +31,11 @@ std::string read_named(const fs::path& file, std::string_view key,
 
 /// Streets never change, so a thread that loads one map again and again, for a
 /// sweep, parses it once.
-streets_ptr known_map(const std::string& text, const fs::path& file) {
+world::streets_ptr known_map(const std::string& text, const fs::path& file) {
   struct parsed_map {
     std::string text;
     fs::path file;
-    streets_ptr streets;
+    world::streets_ptr streets;
   };
   thread_local parsed_map last;
   if (!last.streets || last.text != text || last.file != file)
@@ -52,7 +52,7 @@ void load_world(scenario_definition& all, const fs::path& folder,
                       : "there are no streets: add map = \"FILE\" or a table "
                         "[street_grid].");
   if (all.grid) {
-    all.world = make_street_grid(all.grid_params);
+    all.world = world::make_street_grid(all.grid_params);
     return;
   }
   const auto file = folder / all.map_file;
@@ -69,18 +69,19 @@ void load_trace(scenario_definition& all, const fs::path& folder,
   try {
     all.trace_text = read_named(file, key, source);
     all.read_from.push_back(file);
-    filled.trace = parse_trace(all.trace_text);
+    filled.trace = channel::parse_trace(all.trace_text);
   } catch (const std::invalid_argument& problem) {
     source.refuse(key, fmt::format("{}, {}.", file.string(), problem.what()));
   }
   all.network.channel =
-      std::make_shared<const channel_profile>(std::move(filled));
+      std::make_shared<const channel::channel_profile>(std::move(filled));
 }
 
 /// Gives everybody a channel, and computers as they fit to it.
 void complete_networks(scenario_definition& all) {
   const auto share = [](network_options& network) {
-    network.channel = std::make_shared<const channel_profile>(network.profile);
+    network.channel =
+        std::make_shared<const channel::channel_profile>(network.profile);
   };
   share(all.network);
   for (auto& p : all.providers) {
@@ -133,4 +134,4 @@ scenario_definition load_scenario(const fs::path& file,
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Reads a scenario, its map and its trace; checks everything that can be
 /// known before the run.
@@ -27,4 +27,4 @@ scenario_definition parse_scenario(std::string_view text,
                                    const std::filesystem::path& file,
                                    std::span<const std::string> overrides = {});
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -11,13 +11,13 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
 constexpr option_visitor::range positive{1e-3, 1e6};
 
-struct zone_entry : speed_zone {
+struct zone_entry : world::speed_zone {
   void visit_options(option_visitor& s) {
     s.field("from_m", from_m, {0, positive.max});
     s.field("limit_mps", limit_mps, {0.1, 100});
@@ -25,7 +25,7 @@ struct zone_entry : speed_zone {
 };
 
 struct lane_entry {
-  lane is;
+  world::lane is;
 
   void visit_options(option_visitor& s) {
     s.field("name", is.name);
@@ -44,7 +44,7 @@ struct lane_entry {
 };
 
 struct building_entry {
-  building is;
+  world::building is;
   bool invented = false; // for the reader of the file
 
   void visit_options(option_visitor& s) {
@@ -71,7 +71,7 @@ struct route_entry {
 /// The file, as it is written.
 struct map_entries {
   std::string name = "map";
-  geo_origin origin;
+  world::geo_origin origin;
   std::vector<lane_entry> lanes;
   std::vector<building_entry> buildings;
   std::vector<route_entry> routes;
@@ -96,8 +96,8 @@ struct map_entries {
 };
 
 /// @returns a lane by itself, or with those that follow it, as a small map.
-road_map part_of(const map_entries& all, std::size_t i, bool with_next) {
-  std::vector<lane> lanes{all.lanes[i].is};
+world::road_map part_of(const map_entries& all, std::size_t i, bool with_next) {
+  std::vector<world::lane> lanes{all.lanes[i].is};
   const auto next = std::exchange(lanes[0].next, {});
   if (with_next) {
     for (std::size_t j = 0; j < all.lanes.size(); ++j) {
@@ -128,11 +128,11 @@ road_map part_of(const map_entries& all, std::size_t i, bool with_next) {
   source.refuse("", problem.what());
 }
 
-road_map build_map(const map_entries& all, const toml_file& source) {
-  std::vector<lane> lanes;
+world::road_map build_map(const map_entries& all, const toml_file& source) {
+  std::vector<world::lane> lanes;
   for (const auto& entry : all.lanes)
     lanes.push_back(entry.is);
-  std::vector<building> buildings;
+  std::vector<world::building> buildings;
   for (const auto& entry : all.buildings)
     buildings.push_back(entry.is);
   try {
@@ -144,14 +144,14 @@ road_map build_map(const map_entries& all, const toml_file& source) {
 
 } // namespace
 
-streets_ptr parse_map(std::string_view text,
-                      const std::filesystem::path& file) {
+world::streets_ptr parse_map(std::string_view text,
+                             const std::filesystem::path& file) {
   toml_file source{text, file.string()};
   map_entries all;
   source.read([&](option_visitor& s) { all.visit_options(s); });
   if (all.lanes.empty())
     source.refuse("", "the map has no [[lane]].");
-  streets result{build_map(all, source), {}};
+  world::streets result{build_map(all, source), {}};
   for (std::size_t i = 0; i < all.routes.size(); ++i) {
     const auto& [name, lanes, closed] = all.routes[i];
     const auto key = fmt::format("route.{}.", i);
@@ -163,7 +163,7 @@ streets_ptr parse_map(std::string_view text,
       source.refuse(key + "lanes", problem.what());
     }
   }
-  return std::make_shared<const streets>(std::move(result));
+  return std::make_shared<const world::streets>(std::move(result));
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Reads a map file; docs/scenarios.md describes it.
 /// @param file  What to call it in errors.
 /// @throws input_error with file, line and column.
-streets_ptr parse_map(std::string_view text, const std::filesystem::path& file);
+world::streets_ptr parse_map(std::string_view text,
+                             const std::filesystem::path& file);
 
-} // namespace sofof
+} // namespace sofof::scenario

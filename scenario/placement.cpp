@@ -7,14 +7,14 @@
 #include <iterator>
 #include <map>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
 /// @param place  Of a vehicle among those of its fleet on this way: 0, 1, ...
 /// @param count  How many these are.
-double start_of_m(const fleet_options& fleet, const route& way, double place,
-                  double count) {
+double start_of_m(const fleet_options& fleet, const world::route& way,
+                  double place, double count) {
   const auto length_m = way.length_m();
   const auto room_m = length_m - (way.closed() ? 0 : fleet.start_m);
   const auto ahead_m = fleet.placement == "convoy" ? -place * fleet.spacing_m
@@ -26,9 +26,9 @@ double start_of_m(const fleet_options& fleet, const route& way, double place,
   return lap_m < length_m ? lap_m : 0; // rounding
 }
 
-std::vector<route_ptr> ways_of(const fleet_options& fleet,
-                               const streets& world) {
-  std::vector<route_ptr> ways;
+std::vector<world::route_ptr> ways_of(const fleet_options& fleet,
+                                      const world::streets& world) {
+  std::vector<world::route_ptr> ways;
   for (const auto& name : fleet.routes)
     std::ranges::copy(find_routes(world, name), std::back_inserter(ways));
   return ways;
@@ -37,18 +37,18 @@ std::vector<route_ptr> ways_of(const fleet_options& fleet,
 /// The room that nobody else may stand in: half the gap at both ends.
 oriented_box room(const placed_vehicle& v) {
   const auto pose = v.way->path().at(v.start_s_m);
-  auto box = body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
+  auto box = world::body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
   box.length_m += min_start_gap_m;
   return box;
 }
 
 } // namespace
 
-std::vector<route_ptr> find_routes(const streets& world,
-                                   std::string_view name) {
+std::vector<world::route_ptr> find_routes(const world::streets& world,
+                                          std::string_view name) {
   const auto any = name.ends_with('*');
   const auto begin = name.substr(0, name.size() - (any ? 1 : 0));
-  std::vector<route_ptr> found;
+  std::vector<world::route_ptr> found;
   for (const auto& r : world.routes)
     if (any ? r->name().starts_with(begin) : r->name() == name)
       found.push_back(r);
@@ -62,7 +62,7 @@ std::vector<placed_vehicle> place_vehicles(const scenario_definition& all) {
     const auto& fleet = all.fleets[f];
     const auto ways = ways_of(fleet, *all.world);
     assert(!ways.empty());
-    const auto way_of = [&](std::int64_t i) -> const route_ptr& {
+    const auto way_of = [&](std::int64_t i) -> const world::route_ptr& {
       return ways[static_cast<std::size_t>(i) % ways.size()];
     };
     std::map<std::string_view, double> sharing, standing; // by way
@@ -100,4 +100,4 @@ find_too_near(std::span<const placed_vehicle> vehicles) {
   return std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

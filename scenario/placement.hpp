@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// A vehicle before the run: its rear axle stands at `start_s_m` on its way.
 struct placed_vehicle {
   station_id station = 0;
   std::size_t fleet = 0; ///< Index into the scenario's fleets.
-  route_ptr way;
+  world::route_ptr way;
   double start_s_m = 0; ///< On a closed route in [0, length).
   duration appears{};   ///< When; zero: it is there from the start on.
 
@@ -31,7 +31,8 @@ inline constexpr double min_start_gap_m = 3;
 /// @param name  A fleet's: of one route, or a beginning and `*`, which stands
 ///              for all routes that begin so, in the order of the map.
 /// @returns none for an unknown name.
-std::vector<route_ptr> find_routes(const streets& world, std::string_view name);
+std::vector<world::route_ptr> find_routes(const world::streets& world,
+                                          std::string_view name);
 
 /// Places all vehicles, fleet by fleet, in the order of their stations. Those
 /// of a fleet that share a route are
@@ -47,4 +48,4 @@ std::vector<placed_vehicle> place_vehicles(const scenario_definition& all);
 std::optional<std::pair<std::size_t, std::size_t>>
 find_too_near(std::span<const placed_vehicle> vehicles);
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -15,16 +15,16 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// A sensor at the roadside.
 struct roadside_options {
   point position_m;
   double heading_deg = 0; ///< Of the middle of its field of view.
-  sensor_params can{.range_m = 120};
+  world::sensor_params can{.range_m = 120};
 
   /// @param noise  A stream of its own.
-  sensor make(random_stream noise) const;
+  world::sensor make(random_stream noise) const;
 
   void visit_options(option_visitor& s) {
     s.field("position_m", position_m);
@@ -36,12 +36,13 @@ struct roadside_options {
 /// The channel between vehicles and providers.
 struct network_options {
   /// The profile that the file names, with what it changes in it.
-  channel_profile profile = *find_channel_profile("paper_sim");
+  channel::channel_profile profile =
+      *channel::find_channel_profile("paper_sim");
   /// File with measured delays, for the profile "trace"; relative to the
   /// scenario file.
   std::string trace;
   /// The profile as all use it, with its trace; a loaded scenario has one.
-  std::shared_ptr<const channel_profile> channel;
+  std::shared_ptr<const channel::channel_profile> channel;
 
   void visit_options(option_visitor& s);
 };
@@ -69,7 +70,7 @@ struct compute_options {
   void complete(const std::string& profile);
 
   /// @returns the computers. Precondition: it is complete.
-  provider_compute computers() const;
+  channel::provider_compute computers() const;
 };
 
 /// Where a provider is, and what it offers.
@@ -151,4 +152,4 @@ struct provider_options {
   }
 };
 
-} // namespace sofof
+} // namespace sofof::scenario

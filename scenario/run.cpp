@@ -22,7 +22,7 @@
 #include <system_error>
 #include <utility>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
@@ -39,18 +39,20 @@ constexpr double flush_every_real_s = 0.5;
 constexpr duration settling = 1s;
 
 /// What a cycle of a service costs with this computer.
-cycle_energy energy_of(const scenario_definition& s, std::string_view service,
-                       const computer_options& computer) {
+recording::cycle_energy energy_of(const scenario_definition& s,
+                                  std::string_view service,
+                                  const world::computer_options& computer) {
   for (const auto& k : s.services)
     if (k->name() == service)
-      return {on_board_cost(computer, k->options.compute).energy_j,
-              offloaded_cost(computer, k->options.compute).energy_j};
+      return {world::on_board_cost(computer, k->options.compute).energy_j,
+              world::offloaded_cost(computer, k->options.compute).energy_j};
   return {};
 }
 
-run_info describe(const scenario_definition& s, const run_options& options,
-                  const process_share& here) {
-  run_info info;
+recording::run_info describe(const scenario_definition& s,
+                             const run_options& options,
+                             const process_share& here) {
+  recording::run_info info;
   info.scenario = s.name;
   info.version = options.version;
   info.clock = options.realtime ? "wall" : "virtual";
@@ -85,7 +87,7 @@ run_info describe(const scenario_definition& s, const run_options& options,
   return info;
 }
 
-void tell_news(const run_options& options, progress& shown,
+void tell_news(const run_options& options, recording::progress& shown,
                std::ostream& console) {
   for (const auto& line : options.news()) {
     shown.clear();
@@ -96,8 +98,8 @@ void tell_news(const run_options& options, progress& shown,
 /// Tells once that files are no longer written.
 class loss_teller {
 public:
-  void look_at(const locked_results& keeper, progress& shown,
-               std::ostream& console) {
+  void look_at(const recording::locked_results& keeper,
+               recording::progress& shown, std::ostream& console) {
     if (is_told_)
       return;
     const auto why = keeper.loss();
@@ -117,9 +119,9 @@ struct stage {
   const run_options& options;
   const std::atomic<bool>& interrupted;
   std::ostream& console;
-  locked_results& keeper;
+  recording::locked_results& keeper;
   loss_teller losses{};
-  progress shown{console, options.show};
+  recording::progress shown{console, options.show};
   stopwatch watch{};
 };
 
@@ -141,7 +143,7 @@ time_point advance(runtime& time, time_point end, stage& on) {
     const auto flush = wall_s - flushed_s > flush_s;
     if (flush)
       flushed_s = wall_s;
-    const auto offloaded = on.keeper.with([flush](results& r) {
+    const auto offloaded = on.keeper.with([flush](recording::results& r) {
       if (flush)
         r.flush();
       return r.so_far().offloaded_now();
@@ -166,17 +168,20 @@ void check_capture(const scenario_definition& s, const run_options& options) {
                                   options.pcap, why));
   };
   for (const auto& input : s.read_from)
-    if (same_place(file, input))
+    if (recording::same_place(file, input))
       refuse("the run reads this file");
   const auto& out = options.out;
-  if (out && (same_place(file, *out) || is_result(file, *out)))
+  if (out
+      && (recording::same_place(file, *out)
+          || recording::is_result(file, *out)))
     refuse("the run writes its results there");
   constexpr auto anything = "x";
   const auto in_results =
       options.out
-      && same_place(file.parent_path() / anything, *options.out / anything);
+      && recording::same_place(file.parent_path() / anything,
+                               *options.out / anything);
   if (!in_results) // else its folder may be made yet
-    pcap_file::check(file);
+    recording::pcap_file::check(file);
 }
 
 /// Removes the results of a run that has not begun, as far as that is possible.
@@ -184,7 +189,7 @@ void discard(const std::filesystem::path& folder, bool was_there) {
   if (folder.empty())
     return;
   try {
-    remove_results(folder);
+    recording::remove_results(folder);
   } catch (const input_error&) { // why it has not begun is more important
     return;
   }
@@ -195,27 +200,28 @@ void discard(const std::filesystem::path& folder, bool was_there) {
 
 struct kept_results {
   std::filesystem::path folder; ///< Empty: none could be made.
-  std::shared_ptr<locked_results> keeper;
+  std::shared_ptr<recording::locked_results> keeper;
 };
 
 kept_results make_keeper(const std::string& name, std::int64_t seed,
-                         const run_info& info, const run_options& options) {
+                         const recording::run_info& info,
+                         const run_options& options) {
   try {
     const auto folder =
-        make_results_folder(options.out, name, seed, options.force);
-    return {folder, std::make_shared<locked_results>(folder, info,
-                                                     options.when_unwritable)};
+        recording::make_results_folder(options.out, name, seed, options.force);
+    return {folder, std::make_shared<recording::locked_results>(
+                        folder, info, options.when_unwritable)};
   } catch (const storage_error& full) {
-    if (options.when_unwritable == write_failure::ends_the_run)
+    if (options.when_unwritable == recording::write_failure::ends_the_run)
       throw;
-    return {{}, std::make_shared<locked_results>(info, full.what())};
+    return {{}, std::make_shared<recording::locked_results>(info, full.what())};
   }
 }
 
 /// What a run leaves when its actors have gone.
 struct played {
   time_point ended;
-  std::optional<cpu_table> computed;
+  std::optional<recording::cpu_table> computed;
   std::vector<std::pair<std::string, double>> decisions; ///< For timing.csv.
 };
 
@@ -226,7 +232,7 @@ struct played {
 /// then, too, and `has_begun` tells whether there are results.
 played play(const scenario_definition& s, const process_share& here,
             runtime& time, time_point end,
-            const std::shared_ptr<locked_results>& keeper, stage& on,
+            const std::shared_ptr<recording::locked_results>& keeper, stage& on,
             const std::function<void(const world_actors&)>& on_start,
             bool& has_begun) {
   auto timed = s;
@@ -242,8 +248,8 @@ played play(const scenario_definition& s, const process_share& here,
     if (on_start)
       on_start(actors);
     has_begun = true;
-    std::optional<cpu_meter> meter;
-    if (auto* ledger = ledger_of(time.system())) {
+    std::optional<recording::cpu_meter> meter;
+    if (auto* ledger = actors::ledger_of(time.system())) {
       time.run_until(std::min(start + settling, end));
       meter.emplace(*ledger, time.now());
     }
@@ -265,10 +271,10 @@ played play(const scenario_definition& s, const process_share& here,
 }
 
 /// Closes the files, and says how it was.
-run_outcome finish(const played& run, const run_info& info,
+run_outcome finish(const played& run, const recording::run_info& info,
                    const std::filesystem::path& folder, bool is_cut,
                    stage& on) {
-  const auto last = on.keeper.with([&](results& r) {
+  const auto last = on.keeper.with([&](recording::results& r) {
     if (run.computed)
       r.add_cpu(*run.computed);
     for (const auto& [name, value] : run.decisions)
@@ -277,10 +283,10 @@ run_outcome finish(const played& run, const run_info& info,
   });
   on.losses.look_at(on.keeper, on.shown, on.console);
   const auto is_lost = on.keeper.loss().has_value();
-  const auto is_safe = on.keeper.with([&](const results& r) {
-    if (on.options.show != progress::output::quiet)
-      on.console << table(r.so_far(), info, last, is_lost ? "" : folder,
-                          on.options.colour);
+  const auto is_safe = on.keeper.with([&](const recording::results& r) {
+    if (on.options.show != recording::progress::output::quiet)
+      on.console << recording::table(r.so_far(), info, last,
+                                     is_lost ? "" : folder, on.options.colour);
     return r.so_far().safety().ok();
   });
   if (is_lost)
@@ -345,4 +351,4 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
                 on);
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

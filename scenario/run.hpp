@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
@@ -25,12 +25,13 @@ struct run_options {
   std::string whose;
   std::string pcap;   ///< Where to capture all ITS messages, if asked for.
   bool force = false; ///< Write into a folder that is not empty.
-  write_failure when_unwritable = write_failure::ends_the_run;
+  recording::write_failure when_unwritable =
+      recording::write_failure::ends_the_run;
   bool realtime = false; ///< On the wall clock instead of in virtual time.
   /// Keep accounts of computing time, for cpu.csv; on the wall clock only.
   bool cpu = false;
   bool time_decisions = true; ///< For timing.csv, by the wall's clock.
-  progress::output show = progress::output::quiet;
+  recording::progress::output show = recording::progress::output::quiet;
   bool colour = false;  ///< The console is a terminal.
   bool endless = false; ///< Until it is interrupted, which is a good end.
   std::string version;
@@ -77,4 +78,4 @@ run_part(const scenario_definition& s, const run_options& options,
          const std::atomic<bool>& interrupted, std::ostream& console,
          const std::function<void(const world_actors&)>& on_start = {});
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -19,12 +19,12 @@
 #include <chrono>
 #include <thread>
 
-namespace sofof {
+namespace sofof::scenario {
 
 namespace {
 
 struct virtual_config : caf::actor_system_config {
-  virtual_config() { load<des_scheduler>(); }
+  virtual_config() { load<actors::des_scheduler>(); }
 };
 
 class virtual_runtime final : public runtime {
@@ -33,7 +33,9 @@ public:
   time_point now() const override {
     return time_point{scheduler_.clock().now().time_since_epoch()};
   }
-  etsi::its_clock clock() const override { return etsi::its_clock{}; }
+  messages::etsi::its_clock clock() const override {
+    return messages::etsi::its_clock{};
+  }
   void run_until(time_point end) override { scheduler_.run_until(end); }
   void await_end(const std::vector<caf::actor>&) override {
     scheduler_.run_ready();
@@ -42,20 +44,21 @@ public:
 private:
   virtual_config config_;
   caf::actor_system system_{config_};
-  des_scheduler& scheduler_ = dynamic_cast<des_scheduler&>(system_.scheduler());
+  actors::des_scheduler& scheduler_ =
+      dynamic_cast<actors::des_scheduler&>(system_.scheduler());
 };
 
 /// The machine's clocks, and how far the one of the run is off.
 template <class Runtime>
 class on_the_wall : public Runtime {
 public:
-  explicit on_the_wall(const clock_error& error = {}) : error_{error} {}
+  explicit on_the_wall(const actors::clock_error& error = {}) : error_{error} {}
 
   time_point now() const override {
     return error_.shown(
         time_point{std::chrono::steady_clock::now().time_since_epoch()});
   }
-  etsi::its_clock clock() const override { return clock_; }
+  messages::etsi::its_clock clock() const override { return clock_; }
   void run_until(time_point end) override {
     std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
         error_.meant(end).time_since_epoch()});
@@ -74,16 +77,16 @@ private:
     return std::chrono::round<milliseconds>(day - run).count();
   }
 
-  clock_error error_;
-  etsi::its_clock clock_{epoch_unix_ms()};
+  actors::clock_error error_;
+  messages::etsi::its_clock clock_{epoch_unix_ms()};
 };
 
 struct wall_clock_config : caf::actor_system_config {
-  wall_clock_config() { load<sharing_scheduler>(); }
+  wall_clock_config() { load<actors::sharing_scheduler>(); }
 };
 
 struct accounting_config : caf::actor_system_config {
-  accounting_config() { load<accounting_scheduler>(); }
+  accounting_config() { load<actors::accounting_scheduler>(); }
 };
 
 template <class Config>
@@ -97,8 +100,8 @@ private:
 };
 
 struct network_config : caf::actor_system_config {
-  explicit network_config(const clock_error& error) {
-    host_scheduler::install(*this, error);
+  explicit network_config(const actors::clock_error& error) {
+    actors::host_scheduler::install(*this, error);
     load<caf::io::middleman>();
     set("caf.middleman.heartbeat-interval",
         caf::timespan{2 * protocol::life_sign_period});
@@ -109,7 +112,7 @@ struct network_config : caf::actor_system_config {
 
 class connected_runtime final : public on_the_wall<network_runtime> {
 public:
-  explicit connected_runtime(const clock_error& error)
+  explicit connected_runtime(const actors::clock_error& error)
       : on_the_wall{error}, config_{error} {}
 
   ~connected_runtime() override {
@@ -120,16 +123,16 @@ public:
 
   caf::actor_system& system() override { return system_; }
 
-  void filter(filter_setup setup) override {
-    filter_connections(system_.middleman(), std::move(setup), peers_);
+  void filter(actors::filter_setup setup) override {
+    actors::filter_connections(system_.middleman(), std::move(setup), peers_);
   }
 
-  std::optional<peer_identity>
+  std::optional<network::peer_identity>
   identity_of(const caf::node_id& process) const override {
     return peers_->find(process);
   }
 
-  std::uint16_t publish(const acceptor_actor& acceptor,
+  std::uint16_t publish(const messages::acceptor_actor& acceptor,
                         std::uint16_t port) override {
     constexpr auto reuse = true; // soon after another one, which was killed
     const auto open =
@@ -145,10 +148,10 @@ public:
     return *open;
   }
 
-  std::variant<acceptor_actor, std::string>
+  std::variant<messages::acceptor_actor, std::string>
   connect(std::uint16_t port) override {
-    auto acceptor =
-        system_.middleman().remote_actor<acceptor_actor>(this_machine, port);
+    auto acceptor = system_.middleman().remote_actor<messages::acceptor_actor>(
+        this_machine, port);
     if (!acceptor)
       return explain(acceptor.error());
     return std::move(*acceptor);
@@ -172,7 +175,8 @@ private:
 
   static constexpr auto this_machine = "127.0.0.1";
 
-  const std::shared_ptr<peer_nodes> peers_ = std::make_shared<peer_nodes>();
+  const std::shared_ptr<actors::peer_nodes> peers_ =
+      std::make_shared<actors::peer_nodes>();
   network_config config_;
   caf::actor_system system_{config_};
   std::vector<caf::actor> acceptors_;
@@ -192,7 +196,8 @@ std::unique_ptr<runtime> make_accounting_runtime() {
   return std::make_unique<wall_clock_runtime<accounting_config>>();
 }
 
-std::unique_ptr<network_runtime> make_network_runtime(clock_error clock) {
+std::unique_ptr<network_runtime>
+make_network_runtime(actors::clock_error clock) {
   clock.from = time_point{std::chrono::steady_clock::now().time_since_epoch()};
   return std::make_unique<connected_runtime>(clock);
 }
@@ -203,4 +208,4 @@ void init_messages() {
   caf::core::init_global_meta_objects();
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

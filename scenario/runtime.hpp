@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Owns an actor system and moves its time. Call everything from one thread.
 class runtime {
@@ -31,7 +31,7 @@ public:
   virtual time_point now() const = 0;
 
   /// @returns the time of day of the run's time.
-  virtual etsi::its_clock clock() const = 0;
+  virtual messages::etsi::its_clock clock() const = 0;
 
   /// Returns when it is `end`: virtual time gets there as fast as it can.
   virtual void run_until(time_point end) = 0;
@@ -45,24 +45,24 @@ class network_runtime : public runtime {
 public:
   /// Filters what comes from other processes; before anything is published or
   /// connected.
-  virtual void filter(filter_setup setup) = 0;
+  virtual void filter(actors::filter_setup setup) = 0;
 
   /// @returns whom TLS has established behind a process that is connected;
   /// nothing where that is not known.
-  virtual std::optional<peer_identity>
+  virtual std::optional<network::peer_identity>
   identity_of(const caf::node_id& process) const = 0;
 
   /// Makes an acceptor public on this machine alone.
   /// @param port  0: any.
   /// @returns the port.
   /// @throws input_error when that is not possible.
-  virtual std::uint16_t publish(const acceptor_actor& acceptor,
+  virtual std::uint16_t publish(const messages::acceptor_actor& acceptor,
                                 std::uint16_t port) = 0;
 
   /// May take a while; for several threads.
   /// @param port  On this machine.
   /// @returns the acceptor, or why there is none.
-  virtual std::variant<acceptor_actor, std::string>
+  virtual std::variant<messages::acceptor_actor, std::string>
   connect(std::uint16_t port) = 0;
 };
 
@@ -77,9 +77,10 @@ std::unique_ptr<runtime> make_accounting_runtime();
 
 /// The same, for one process of several.
 /// @param clock  For tests: how far its clock is off, from now on.
-std::unique_ptr<network_runtime> make_network_runtime(clock_error clock = {});
+std::unique_ptr<network_runtime>
+make_network_runtime(actors::clock_error clock = {});
 
 /// Makes CAF know our messages; once per process, before any runtime.
 void init_messages();
 
-} // namespace sofof
+} // namespace sofof::scenario

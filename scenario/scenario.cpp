@@ -14,7 +14,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::scenario {
 
 using namespace std::chrono_literals;
 
@@ -27,11 +27,11 @@ double to_rad(double angle_deg) {
 /// @returns where a name belongs that is no policy of the side where it stands;
 /// nothing for one that nobody has.
 std::string right_place(std::string_view name) {
-  if (make_lodm(name))
+  if (policies::make_lodm(name))
     return fmt::format("It is an LODM: lodm = \"{}\".", name);
-  if (make_codm(name))
+  if (policies::make_codm(name))
     return fmt::format("It is a CODM: codm = \"{}\".", name);
-  if (make_governor(name))
+  if (policies::make_governor(name))
     return fmt::format(
         "It is a governor: lodm = {{ name = \"location\", govern = "
         "[{{ name = \"{}\" }}] }}.",
@@ -41,7 +41,7 @@ std::string right_place(std::string_view name) {
 
 /// Lists the name of a channel profile; hyphens were once in some.
 void visit_profile(option_visitor& s, std::string_view key, std::string& name) {
-  const auto known = channel_profile_names();
+  const auto known = channel::channel_profile_names();
   s.field(key, name);
   auto now = name;
   std::ranges::replace(now, '-', '_');
@@ -60,7 +60,7 @@ oriented_box obstacle_options::box() const {
   return {position_m, to_rad(heading_deg), length_m, width_m};
 }
 
-sensor roadside_options::make(random_stream noise) const {
+world::sensor roadside_options::make(random_stream noise) const {
   return {can, noise, position_m, to_rad(heading_deg), std::nullopt};
 }
 
@@ -80,7 +80,7 @@ void network_options::visit_options(option_visitor& s) {
   auto name = profile.name;
   visit_profile(s, "profile", name);
   if (name != profile.name)
-    profile = find_channel_profile(name).value_or(profile);
+    profile = channel::find_channel_profile(name).value_or(profile);
   if (s.has("trace", !trace.empty())) {
     s.field("trace", trace);
     if (!profile.replays)
@@ -113,39 +113,43 @@ compute_options compute_options::for_own_network() const {
 }
 
 void compute_options::complete(const std::string& profile) {
-  const auto measured = compute_measured_with(model.value_or(profile));
+  const auto measured = channel::compute_measured_with(model.value_or(profile));
   model = measured.model;
   workers = workers.value_or(measured.workers);
   more_computing = more_computing.value_or(measured.more_computing);
 }
 
-provider_compute compute_options::computers() const {
-  auto all = compute_measured_with(model.value());
+channel::provider_compute compute_options::computers() const {
+  auto all = channel::compute_measured_with(model.value());
   all.workers = workers.value();
   all.more_computing = more_computing.value();
   return all;
 }
 
 policy_options::policy_options()
-    : lodm{make_lodm("location")}, codm{make_codm("location")} {}
+    : lodm{policies::make_lodm("location")}, codm{policies::make_codm(
+                                                 "location")} {}
 
 void policy_options::visit_options(option_visitor& s) {
   s.table("lodm", [this](option_visitor& t) {
-    visit_choice(t, lodm, make_lodm, "LODM policy", lodm_names(), right_place);
+    visit_choice(t, lodm, policies::make_lodm, "LODM policy",
+                 policies::lodm_names(), right_place);
   });
   s.table("codm", [this](option_visitor& t) {
-    visit_choice(t, codm, make_codm, "CODM policy", codm_names(), right_place);
+    visit_choice(t, codm, policies::make_codm, "CODM policy",
+                 policies::codm_names(), right_place);
   });
 }
 
-const std::shared_ptr<const channel_profile>&
+const std::shared_ptr<const channel::channel_profile>&
 scenario_definition::channel_to(std::size_t place) const {
   assert(place < providers.size());
   const auto& own = providers[place].network;
   return own ? own->channel : network.channel;
 }
 
-provider_compute scenario_definition::compute_of(std::size_t place) const {
+channel::provider_compute
+scenario_definition::compute_of(std::size_t place) const {
   assert(place < providers.size());
   const auto& own = providers[place].compute;
   return (own ? *own : compute).computers();
@@ -190,14 +194,14 @@ void scenario_definition::visit_options(option_visitor& s) {
            [this](std::size_t i, option_visitor& t) {
              if (i == services.size())
                services.emplace_back();
-             visit_choice(t, services[i], make_service_type, "kind of service",
-                          service_type_names());
+             visit_choice(t, services[i], actors::make_service_type,
+                          "kind of service", actors::service_type_names());
            });
   s.table("policies", [this](option_visitor& t) { policies.visit_options(t); });
   s.table("record", [this](option_visitor& t) { record.visit_options(t); });
 }
 
-const service_type* planning_service(const scenario_definition& s) {
+const actors::service_type* planning_service(const scenario_definition& s) {
   const auto i = std::ranges::find_if(
       s.services, [](const auto& type) { return type->plans() != nullptr; });
   return i == s.services.end() ? nullptr : i->get();
@@ -207,4 +211,4 @@ std::string to_toml(scenario_definition what) {
   return print_options([&](option_visitor& s) { what.visit_options(s); });
 }
 
-} // namespace sofof
+} // namespace sofof::scenario

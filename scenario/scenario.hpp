@@ -22,12 +22,13 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// How offloading is decided.
 struct policy_options {
-  std::shared_ptr<local_policy> lodm;   ///< Prototype; everybody has a clone.
-  std::shared_ptr<central_policy> codm; ///< Prototype.
+  std::shared_ptr<policies::local_policy>
+      lodm; ///< Prototype; everybody has a clone.
+  std::shared_ptr<policies::central_policy> codm; ///< Prototype.
 
   policy_options(); ///< The paper's: "location" for both.
   void visit_options(option_visitor& s);
@@ -59,21 +60,21 @@ struct scenario_definition {
   std::int64_t seed = 1;
   std::string map_file; ///< `map`; relative to the scenario file.
   bool grid = false;    ///< A generated street grid instead.
-  street_grid_params grid_params;
+  world::street_grid_params grid_params;
   traffic_options traffic;
   std::vector<fleet_options> fleets;
   std::vector<obstacle_options> obstacles; ///< `obstacle` in the file.
-  sensor_params sensors;                   ///< Of every vehicle.
+  world::sensor_params sensors;            ///< Of every vehicle.
   std::vector<provider_options> providers;
   network_options network;
-  compute_options compute; ///< Of providers that have none of their own.
-  v2x_options v2x;         ///< What vehicles tell everybody.
-  std::vector<service_type_ptr> services;
+  compute_options compute;   ///< Of providers that have none of their own.
+  messages::v2x_options v2x; ///< What vehicles tell everybody.
+  std::vector<actors::service_type_ptr> services;
   policy_options policies;
   record_options record;
 
-  streets_ptr world;    ///< The map, loaded.
-  std::string map_text; ///< What the map's file says; empty for a grid.
+  world::streets_ptr world; ///< The map, loaded.
+  std::string map_text;     ///< What the map's file says; empty for a grid.
   /// What the trace's file says; empty for none. There is at most one file.
   std::string trace_text;
   /// The files that all this was read from.
@@ -81,12 +82,12 @@ struct scenario_definition {
   std::vector<option_note> notes; ///< On the scenario's file.
 
   /// @returns the channel between vehicles and a provider, by its place.
-  const std::shared_ptr<const channel_profile>&
+  const std::shared_ptr<const channel::channel_profile>&
   channel_to(std::size_t place) const;
 
   /// @returns the computers of a provider, by its place. Precondition: the
   /// scenario was loaded.
-  provider_compute compute_of(std::size_t place) const;
+  channel::provider_compute compute_of(std::size_t place) const;
 
   /// @returns the names of the profiles in use, each once, by commas.
   std::string profiles() const;
@@ -96,10 +97,10 @@ struct scenario_definition {
 };
 
 /// @returns the service that plans how vehicles drive; null if there is none.
-const service_type* planning_service(const scenario_definition& s);
+const actors::service_type* planning_service(const scenario_definition& s);
 
 /// @returns the effective configuration, defaults included, as a scenario
 /// file; file names in it stay as they were given.
 std::string to_toml(scenario_definition what);
 
-} // namespace sofof
+} // namespace sofof::scenario

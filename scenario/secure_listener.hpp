@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::scenario {
 
 /// Reads the keys without which nothing may cross to another host.
 /// @param option  Of the command line, that gave the address.
@@ -20,10 +20,10 @@ namespace sofof {
 /// @returns what to show to others; null on this machine alone, unless it is
 /// asked for.
 /// @throws input_error, network_error, and what `check` throws.
-std::shared_ptr<key_ring> load_keys(const network_address& at,
-                                    const std::string& folder,
-                                    std::string_view option,
-                                    key_ring::user check);
+std::shared_ptr<network::key_ring> load_keys(const network::network_address& at,
+                                             const std::string& folder,
+                                             std::string_view option,
+                                             network::key_ring::user check);
 
 /// Where the octets of an acceptor come in. It listens without TLS, on this
 /// machine alone; before it, if it is secured, is a tls_acceptor.
@@ -31,21 +31,24 @@ class secure_listener {
 public:
   /// @param keys  Null: it is not secured. Keys that are read again hold for
   ///              handshakes that begin later.
-  secure_listener(std::shared_ptr<key_ring> keys, network_address listen);
+  secure_listener(std::shared_ptr<network::key_ring> keys,
+                  network::network_address listen);
 
   /// @returns who is behind the connections that come by TLS.
-  const peer_register& peers() const { return *peers_; }
+  const network::peer_register& peers() const { return *peers_; }
 
   /// @returns the address that others reach the acceptor at.
   /// @throws input_error, network_error.
-  network_address open(network_runtime& time, const acceptor_actor& acceptor,
-                       std::function<void(const std::string&)> on_refusal);
+  network::network_address
+  open(network_runtime& time, const messages::acceptor_actor& acceptor,
+       std::function<void(const std::string&)> on_refusal);
 
 private:
-  std::shared_ptr<key_ring> keys_;
-  network_address listen_;
-  std::shared_ptr<peer_register> peers_ = std::make_shared<peer_register>();
-  std::optional<tls_acceptor> tls_;
+  std::shared_ptr<network::key_ring> keys_;
+  network::network_address listen_;
+  std::shared_ptr<network::peer_register> peers_ =
+      std::make_shared<network::peer_register>();
+  std::optional<network::tls_acceptor> tls_;
 };
 
-} // namespace sofof
+} // namespace sofof::scenario

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Who is told of all that one provider hears and sees.
 class broadcast_listener {
@@ -18,17 +18,18 @@ public:
 
   /// A CAM has come, from anybody near enough to be heard: in the area or not,
   /// perhaps with no service, perhaps overtaken by a later one on its way.
-  virtual void on_cam(const cam& c, sender_id from) = 0;
+  virtual void on_cam(const messages::cam& c, sender_id from) = 0;
 
   /// A CPM has come, likewise.
-  virtual void on_objects(const object_list& told, sender_id from) = 0;
+  virtual void on_objects(const messages::object_list& told,
+                          sender_id from) = 0;
 
   /// One of the provider's sensors at the roadside has looked at the road.
-  virtual void on_detections(const roadside_detections& view) = 0;
+  virtual void on_detections(const messages::roadside_detections& view) = 0;
 
   /// @returns which stations have come to be doubted or believed again since
   /// the last call, the oldest first.
-  virtual std::vector<station_doubt> take_doubts() { return {}; }
+  virtual std::vector<planners::station_doubt> take_doubts() { return {}; }
 };
 
 /// A service that listens at its provider.
@@ -45,4 +46,4 @@ inline broadcast_listener* listener_of(offloading::provider_service& service) {
   return listens ? listens->listener() : nullptr;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

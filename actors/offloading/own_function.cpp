@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 offloading::cycle_setup
 own_function(const requester_actor_setup& vehicle,
@@ -38,4 +38,4 @@ rules_of(requester_actor_setup vehicle,
           .future = std::move(vehicle.future)};
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns the cycle of the vehicle's own function of a service. In virtual
 /// time it takes a drawn run time.
@@ -20,4 +20,4 @@ offloading::requester_setup
 rules_of(requester_actor_setup vehicle,
          std::vector<offloading::onboard_service> services);
 
-} // namespace sofof
+} // namespace sofof::actors

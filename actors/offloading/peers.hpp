@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Handles of one kind by number, and numbers by address.
 template <class Handle>
@@ -46,4 +46,4 @@ private:
   std::uint64_t last_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -11,22 +11,22 @@
 #include <cassert>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 void provider_links::on_down(const caf::down_msg& down,
                              offloading::provider& rules) {
   if (const auto session = session_of(down.source)) {
     // A manager that was never fed gives up; any other has died.
     const auto why = down.reason == caf::exit_reason::user_shutdown
-                         ? end_reason::no_data
-                         : end_reason::peer_lost;
+                         ? messages::end_reason::no_data
+                         : messages::end_reason::peer_lost;
     rules.on_function_lost(*session, why, now(self_));
   } else if (const auto peer = requesters_.find(down.source)) {
     rules.on_lost(*peer, now(self_));
   }
 }
 
-std::optional<session_id>
+std::optional<messages::session_id>
 provider_links::session_of(const caf::actor_addr& manager) const {
   const auto i = std::ranges::find(managers_, manager, [](const auto& entry) {
     return entry.second.address();
@@ -36,20 +36,22 @@ provider_links::session_of(const caf::actor_addr& manager) const {
   return i->first;
 }
 
-void provider_links::send(offloading::peer_id to, const service_offer& offer) {
+void provider_links::send(offloading::peer_id to,
+                          const messages::service_offer& offer) {
   self_->send(requesters_.at(to), offer);
 }
 
 void provider_links::send(offloading::peer_id to,
-                          const service_response& response) {
-  std::vector<provider_manager_actor> started;
+                          const messages::service_response& response) {
+  std::vector<messages::provider_manager_actor> started;
   for (const auto& v : response.verdicts)
     if (v.accepted)
       started.push_back(managers_.at(v.session));
   self_->send(requesters_.at(to), response, std::move(started));
 }
 
-void provider_links::send(offloading::peer_id to, const service_end& end) {
+void provider_links::send(offloading::peer_id to,
+                          const messages::service_end& end) {
   note_on_air(self_, recorder_, end.what);
   self_->send(requesters_.at(to), end);
 }
@@ -71,19 +73,19 @@ void provider_links::start(const offloading::session_start& start) {
   managers_.emplace(start.session, std::move(manager));
 }
 
-void provider_links::end(const service_end& end) {
+void provider_links::end(const messages::service_end& end) {
   const auto manager = managers_.extract(end.session);
   assert(!manager.empty());
   self_->demonitor(manager.mapped());
   self_->send(manager.mapped(), end);
 }
 
-void provider_links::record(sofof::record&& x) {
+void provider_links::record(messages::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 
 void provider_links::wake_at(time_point t, std::uint64_t number) {
-  send_at(self_, self_, t, tick_atom_v, number);
+  send_at(self_, self_, t, messages::tick_atom_v, number);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -8,21 +8,21 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
-using provider_manager_impl = provider_manager_actor::extend<
+using provider_manager_impl = messages::provider_manager_actor::extend<
     // Has the first input come by now?
-    reacts_to<tick_atom>>;
+    messages::reacts_to<messages::tick_atom>>;
 
 struct manager_state {
   static inline const char* name = "provider_manager";
   provider_manager_impl::stateful_pointer<manager_state> self = nullptr;
   caf::actor_addr provider;
-  instance_actor instance;
-  requester_actor requester;
-  recorder_actor recorder;
+  messages::instance_actor instance;
+  messages::requester_actor requester;
+  messages::recorder_actor recorder;
   bool fed = false;
 
   // A provider lives long, and does not forget by itself who watched it.
@@ -31,10 +31,10 @@ struct manager_state {
       self->demonitor(provider);
   }
 
-  void feed(service_input& input) {
+  void feed(messages::service_input& input) {
     self->send(instance, std::move(input));
     if (!std::exchange(fed, true))
-      self->send(instance, lifecycle_step::activate);
+      self->send(instance, messages::lifecycle_step::activate);
   }
 
   // The response was lost on its way, or the vehicle has changed its mind.
@@ -44,8 +44,8 @@ struct manager_state {
   }
 
   void end() {
-    self->send(instance, lifecycle_step::deactivate);
-    self->send(instance, lifecycle_step::shut_down);
+    self->send(instance, messages::lifecycle_step::deactivate);
+    self->send(instance, messages::lifecycle_step::shut_down);
     self->quit();
   }
 };
@@ -64,24 +64,24 @@ manager(provider_manager_impl::stateful_pointer<manager_state> self,
   self->monitor(setup.provider);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
-  self->send(state.instance, lifecycle_step::configure);
-  send_after(self, self, protocol::start_timeout, tick_atom_v);
+  self->send(state.instance, messages::lifecycle_step::configure);
+  send_after(self, self, protocol::start_timeout, messages::tick_atom_v);
   return {
-      [self](service_result& result) {
+      [self](messages::service_result& result) {
         note_on_air(self, self->state.recorder, result.what);
         self->send(self->state.requester, std::move(result));
       },
-      [self](service_input& input) { self->state.feed(input); },
-      [self](const service_end&) { self->state.end(); },
-      [self](tick_atom) { self->state.check(); },
+      [self](messages::service_input& input) { self->state.feed(input); },
+      [self](const messages::service_end&) { self->state.end(); },
+      [self](messages::tick_atom) { self->state.check(); },
   };
 }
 
 } // namespace
 
-provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
-                                              provider_manager_setup setup) {
+messages::provider_manager_actor
+spawn_provider_manager(caf::actor_system& sys, provider_manager_setup setup) {
   return sys.spawn(manager, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr double doubts_at_once = 50;
 provider_services::provider_services(const provider_actor_setup& setup,
                                      std::function<time_point()> clock)
     : id_{setup.boot}, compute_{setup.compute},
-      workers_{std::make_shared<multi_server_queue>(
+      workers_{std::make_shared<channel::multi_server_queue>(
           static_cast<unsigned>(compute_.workers))},
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
@@ -46,19 +46,22 @@ provider_services::computing_time(const offloading::service_options& options,
                                   station_id station) const {
   if (!virtual_time_)
     return [](time_point start, std::uint64_t) { return start; };
-  return [draws = result_draws(seed_, station, number_), compute = compute_,
-          demand = options.compute.demand,
+  return [draws = channel::result_draws(seed_, station, number_),
+          compute = compute_, demand = options.compute.demand,
           queue = workers_](time_point start, std::uint64_t cycle) {
     return queue->finish(start, compute.computing_time(draws, cycle, demand));
   };
 }
 
-event_record provider_services::record_of(const station_doubt& x) const {
-  const auto why = x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
-                                          name_of(x.check), x.value, x.limit)
-                            : std::string{};
+messages::event_record
+provider_services::record_of(const planners::station_doubt& x) const {
+  const auto why =
+      x.begins ? fmt::format("{} value={:.3f} limit={:.3f}",
+                             planners::name_of(x.check), x.value, x.limit)
+               : std::string{};
   return {.at = x.at,
-          .what = x.begins ? event_type::doubted : event_type::believed,
+          .what = x.begins ? messages::event_type::doubted
+                           : messages::event_type::believed,
           .station = x.station,
           .provider = id_,
           .detail = why};
@@ -78,4 +81,4 @@ offloading::provider_setup rules_of(provider_actor_setup setup,
           .noise = setup.seed};
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// The services of one provider, and what their sessions run by.
 class provider_services {
@@ -34,8 +34,8 @@ public:
   /// @returns what is to be recorded of the stations that are doubted or
   /// believed again since; a limited number, however many are made up.
   template <class Function>
-  std::vector<event_record> tell_listeners(Function tell) {
-    std::vector<event_record> records;
+  std::vector<messages::event_record> tell_listeners(Function tell) {
+    std::vector<messages::event_record> records;
     for (auto* listener : listeners_) {
       tell(*listener);
       for (const auto& doubt : listener->take_doubts())
@@ -49,22 +49,22 @@ private:
   std::function<time_point(time_point, std::uint64_t)>
   computing_time(const offloading::service_options& options,
                  station_id station) const;
-  event_record record_of(const station_doubt& doubt) const;
+  messages::event_record record_of(const planners::station_doubt& doubt) const;
 
   provider_id id_;
   std::vector<offloading::offered_service> services_;
   std::vector<broadcast_listener*> listeners_; // of some of them
-  provider_compute compute_;
-  std::shared_ptr<multi_server_queue> workers_;
+  channel::provider_compute compute_;
+  std::shared_ptr<channel::multi_server_queue> workers_;
   random_stream seed_;
   std::uint32_t number_;
   bool virtual_time_;
   std::function<time_point()> clock_;
-  token_bucket doubts_;
+  network::token_bucket doubts_;
 };
 
 /// @returns what the rules of a provider are made of.
 offloading::provider_setup rules_of(provider_actor_setup setup,
                                     const provider_services& services);
 
-} // namespace sofof
+} // namespace sofof::actors

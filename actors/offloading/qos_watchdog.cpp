@@ -11,28 +11,28 @@
 #include <string>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
-using watchdog_impl =
-    watchdog_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+using watchdog_impl = messages::watchdog_actor::extend<
+    messages::reacts_to<messages::tick_atom, std::uint64_t>>;
 
 struct watchdog_state {
   static inline const char* name = "qos_watchdog";
 
   watchdog_impl::stateful_pointer<watchdog_state> self;
   std::optional<offloading::watchdog> rules;
-  onboard_requester_actor requester;
+  messages::onboard_requester_actor requester;
   std::uint64_t epoch = 0; // of the one timer that counts
 
-  void arm(const session_id& session, time_point first) {
+  void arm(const messages::session_id& session, time_point first) {
     rules->arm(session, first);
     ++epoch;
     set_timer();
   }
 
-  void disarm(const session_id& session) {
+  void disarm(const messages::session_id& session) {
     if (rules->disarm(session))
       ++epoch;
   }
@@ -49,10 +49,11 @@ struct watchdog_state {
   }
 
   void set_timer() {
-    send_at(self, self, rules->deadline().value(), tick_atom_v, epoch);
+    send_at(self, self, rules->deadline().value(), messages::tick_atom_v,
+            epoch);
   }
 
-  void report(qos_violation violation) {
+  void report(messages::qos_violation violation) {
     self->send(requester, std::move(violation));
     ++epoch;
   }
@@ -60,32 +61,39 @@ struct watchdog_state {
 
 watchdog_impl::behavior_type
 watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
-         qos_limits limits, onboard_requester_actor requester) {
+         messages::qos_limits limits,
+         messages::onboard_requester_actor requester) {
   self->state.self = self;
   self->state.rules.emplace(limits);
   self->state.requester = std::move(requester);
   return {
-      [self](const session_id& session, time_point first) {
+      [self](const messages::session_id& session, time_point first) {
         self->state.arm(session, first);
       },
-      [self](const arrival& result) {
+      [self](const messages::arrival& result) {
         if (auto late = self->state.rules->on_arrival(result, now(self)))
           self->state.report(std::move(*late));
       },
-      [self](const session_id& session, std::string& why, std::string& check) {
+      [self](const messages::session_id& session, std::string& why,
+             std::string& check) {
         self->state.rules->on_useless(session,
                                       {std::move(why), std::move(check)});
       },
-      [self](const service_end& end) { self->state.disarm(end.session); },
-      [self](tick_atom, std::uint64_t epoch) { self->state.on_timer(epoch); },
+      [self](const messages::service_end& end) {
+        self->state.disarm(end.session);
+      },
+      [self](messages::tick_atom, std::uint64_t epoch) {
+        self->state.on_timer(epoch);
+      },
   };
 }
 
 } // namespace
 
-watchdog_actor spawn_qos_watchdog(caf::actor_system& sys, qos_limits limits,
-                                  onboard_requester_actor requester) {
+messages::watchdog_actor
+spawn_qos_watchdog(caf::actor_system& sys, messages::qos_limits limits,
+                   messages::onboard_requester_actor requester) {
   return sys.spawn(watchdog, limits, std::move(requester));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -9,14 +9,15 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
-void requester_links::add(const service_name& service,
-                          requester_manager_actor manager) {
+void requester_links::add(const messages::service_name& service,
+                          messages::requester_manager_actor manager) {
   managers_.emplace(service, std::move(manager));
 }
 
-offloading::peer_id requester_links::peer_of(const provider_actor& who) {
+offloading::peer_id
+requester_links::peer_of(const messages::provider_actor& who) {
   if (const auto known = providers_.find(who.address()))
     return *known;
   self_->monitor(who);
@@ -24,8 +25,8 @@ offloading::peer_id requester_links::peer_of(const provider_actor& who) {
 }
 
 void requester_links::take_up(
-    service_response& response,
-    const std::vector<provider_manager_actor>& given) {
+    messages::service_response& response,
+    const std::vector<messages::provider_manager_actor>& given) {
   accepted_.clear();
   auto manager = given.begin();
   auto v = response.verdicts.begin();
@@ -39,34 +40,36 @@ void requester_links::take_up(
 }
 
 void requester_links::send(offloading::peer_id to,
-                           const service_request& request) {
-  self_->send(providers_.at(to), request, requester_actor{self_});
+                           const messages::service_request& request) {
+  self_->send(providers_.at(to), request, messages::requester_actor{self_});
 }
 
-void requester_links::send(offloading::peer_id to, const service_end& end) {
+void requester_links::send(offloading::peer_id to,
+                           const messages::service_end& end) {
   note_on_air(self_, recorder_, end.what);
   self_->send(providers_.at(to), end);
 }
 
-void requester_links::begin(const session_id& session) {
+void requester_links::begin(const messages::session_id& session) {
   self_->send(managers_.at(session.service), session, accepted_.at(session));
 }
 
-void requester_links::forward(const service_result& result) {
+void requester_links::forward(const messages::service_result& result) {
   self_->send(managers_.at(result.session.service), result);
 }
 
-void requester_links::end(const service_end& end) {
+void requester_links::end(const messages::service_end& end) {
   self_->send(managers_.at(end.session.service), end);
 }
 
-void requester_links::set_standby(const service_name& service,
-                                  const std::optional<standby>& chosen) {
+void requester_links::set_standby(
+    const messages::service_name& service,
+    const std::optional<messages::standby>& chosen) {
   const auto& manager = managers_.at(service);
   if (chosen)
     self_->send(manager, *chosen);
   else
-    self_->send(manager, no_standby_atom_v);
+    self_->send(manager, messages::no_standby_atom_v);
 }
 
 // For whom it works, in case accounts are kept.
@@ -74,12 +77,12 @@ void requester_links::on_placement(bool any_remote) {
   charge(self_->system(), self_->id(), {station_, {}, any_remote});
 }
 
-void requester_links::record(sofof::record&& x) {
+void requester_links::record(messages::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 
 void requester_links::wake_at(time_point t, std::uint64_t number) {
-  send_at(self_, self_, t, tick_atom_v, number);
+  send_at(self_, self_, t, messages::tick_atom_v, number);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

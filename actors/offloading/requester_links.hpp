@@ -9,51 +9,54 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// SR itself; besides its interface: its timer with this number.
-using requester_impl =
-    onboard_requester_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+using requester_impl = messages::onboard_requester_actor::extend<
+    messages::reacts_to<messages::tick_atom, std::uint64_t>>;
 
 /// Turns what the rules want into messages of their actor.
 class requester_links : public offloading::requester_port {
 public:
   /// @param self  Outlives the links.
   requester_links(requester_impl::pointer self, station_id station,
-                  recorder_actor recorder)
+                  messages::recorder_actor recorder)
       : self_{self}, station_{station}, recorder_{std::move(recorder)} {}
 
-  void add(const service_name& service, requester_manager_actor manager);
+  void add(const messages::service_name& service,
+           messages::requester_manager_actor manager);
 
   /// @returns the number of a provider; from its first message on it is
   /// monitored.
-  offloading::peer_id peer_of(const provider_actor& who);
-  peers<provider_actor>& providers() { return providers_; }
+  offloading::peer_id peer_of(const messages::provider_actor& who);
+  peers<messages::provider_actor>& providers() { return providers_; }
 
   /// Takes up the managers of a response, one for each accepted service, in
   /// their order. A verdict of a broken peer that has none, and all after that,
   /// are taken away.
-  void take_up(service_response& response,
-               const std::vector<provider_manager_actor>& given);
+  void take_up(messages::service_response& response,
+               const std::vector<messages::provider_manager_actor>& given);
 
-  void send(offloading::peer_id to, const service_request& request) override;
-  void send(offloading::peer_id to, const service_end& end) override;
-  void begin(const session_id& session) override;
-  void forward(const service_result& result) override;
-  void end(const service_end& end) override;
-  void set_standby(const service_name& service,
-                   const std::optional<standby>& chosen) override;
+  void send(offloading::peer_id to,
+            const messages::service_request& request) override;
+  void send(offloading::peer_id to, const messages::service_end& end) override;
+  void begin(const messages::session_id& session) override;
+  void forward(const messages::service_result& result) override;
+  void end(const messages::service_end& end) override;
+  void set_standby(const messages::service_name& service,
+                   const std::optional<messages::standby>& chosen) override;
   void on_placement(bool any_remote) override;
-  void record(sofof::record&& x) override;
+  void record(messages::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:
   requester_impl::pointer self_;
   station_id station_;
-  recorder_actor recorder_;
-  std::map<service_name, requester_manager_actor> managers_;
-  std::map<session_id, provider_manager_actor> accepted_; // by this response
-  peers<provider_actor> providers_;
+  messages::recorder_actor recorder_;
+  std::map<messages::service_name, messages::requester_manager_actor> managers_;
+  std::map<messages::session_id, messages::provider_manager_actor>
+      accepted_; // by this response
+  peers<messages::provider_actor> providers_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

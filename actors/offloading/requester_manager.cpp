@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -29,12 +29,13 @@ struct requester_manager_state {
     links->start(std::move(setup));
   }
 
-  void on_session(const session_id& session, provider_manager_actor manager) {
+  void on_session(const messages::session_id& session,
+                  messages::provider_manager_actor manager) {
     links->add(session, std::move(manager));
     selector->on_session(session, now(self));
   }
 
-  void on_end(const service_end& end) {
+  void on_end(const messages::service_end& end) {
     selector->on_end(end, now(self));
     links->forget(end.session);
   }
@@ -46,23 +47,24 @@ requester_manager_impl::behavior_type requester_manager(
   self->state.self = self;
   self->state.start(std::move(setup));
   return {
-      [self](const service_result& result) {
+      [self](const messages::service_result& result) {
         self->state.selector->on_result(result, now(self));
       },
-      [self](const service_input& input) {
+      [self](const messages::service_input& input) {
         self->state.selector->on_input(input, now(self));
       },
-      [self](const session_id& session, provider_manager_actor& manager) {
+      [self](const messages::session_id& session,
+             messages::provider_manager_actor& manager) {
         self->state.on_session(session, std::move(manager));
       },
-      [self](const standby& chosen) {
+      [self](const messages::standby& chosen) {
         self->state.selector->on_standby(chosen, now(self));
       },
-      [self](no_standby_atom) {
+      [self](messages::no_standby_atom) {
         self->state.selector->on_standby(std::nullopt, now(self));
       },
-      [self](const service_end& end) { self->state.on_end(end); },
-      [self](tick_atom, std::uint64_t number) {
+      [self](const messages::service_end& end) { self->state.on_end(end); },
+      [self](messages::tick_atom, std::uint64_t number) {
         self->state.selector->on_timer(number, now(self));
       },
   };
@@ -70,9 +72,9 @@ requester_manager_impl::behavior_type requester_manager(
 
 } // namespace
 
-requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
-                                                requester_manager_setup setup) {
+messages::requester_manager_actor
+spawn_requester_manager(caf::actor_system& sys, requester_manager_setup setup) {
   return sys.spawn(requester_manager, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 selector_links::selector_links(requester_manager_impl::pointer self,
                                const requester_manager_setup& setup)
@@ -25,9 +25,9 @@ void selector_links::start(requester_manager_setup setup) {
                                  requester_);
   self_->link_to(watchdog_);
   charge_all(false);
-  self_->send(local_, lifecycle_step::configure);
-  self_->send(local_, lifecycle_step::activate);
-  self_->send(client_, requester_manager_actor{self_});
+  self_->send(local_, messages::lifecycle_step::configure);
+  self_->send(local_, messages::lifecycle_step::activate);
+  self_->send(client_, messages::requester_manager_actor{self_});
 }
 
 // For whom they work, in case accounts are kept.
@@ -37,71 +37,72 @@ void selector_links::charge_all(bool remote) {
     charge(self_->system(), who, to);
 }
 
-void selector_links::add(const session_id& session,
-                         provider_manager_actor manager) {
+void selector_links::add(const messages::session_id& session,
+                         messages::provider_manager_actor manager) {
   managers_[session] = std::move(manager);
 }
 
-void selector_links::feed_local(const service_input& input) {
+void selector_links::feed_local(const messages::service_input& input) {
   self_->send(local_, input);
 }
 
-void selector_links::feed_remote(service_input input) {
+void selector_links::feed_remote(messages::service_input input) {
   note_on_air(self_, recorder_, input.what);
   const auto& manager = managers_.at(input.session);
   self_->send(manager, std::move(input));
 }
 
-void selector_links::use(const service_result& result) {
+void selector_links::use(const messages::service_result& result) {
   self_->send(client_, result);
 }
 
 void selector_links::go_remote() {
   charge_all(true);
-  self_->send(local_, lifecycle_step::deactivate);
+  self_->send(local_, messages::lifecycle_step::deactivate);
 }
 
-void selector_links::go_local(service_input input) {
+void selector_links::go_local(messages::service_input input) {
   charge_all(false);
   self_->send(local_, std::move(input));
-  self_->send(local_, lifecycle_step::activate);
+  self_->send(local_, messages::lifecycle_step::activate);
 }
 
 void selector_links::announce_source(bool remote) {
-  self_->send(client_, source_change{service_, remote});
+  self_->send(client_, messages::source_change{service_, remote});
 }
 
-void selector_links::report_first_data(const session_id& session) {
+void selector_links::report_first_data(const messages::session_id& session) {
   self_->send(requester_, session);
 }
 
-void selector_links::report(qos_violation violation) {
+void selector_links::report(messages::qos_violation violation) {
   self_->send(requester_, std::move(violation));
 }
 
-void selector_links::watch(const session_id& session, time_point last) {
+void selector_links::watch(const messages::session_id& session,
+                           time_point last) {
   self_->send(watchdog_, session, last);
 }
 
-void selector_links::watch_arrival(const arrival& result) {
+void selector_links::watch_arrival(const messages::arrival& result) {
   self_->send(watchdog_, result);
 }
 
-void selector_links::watch_useless(const session_id& session,
-                                   const implausibility& found) {
+void selector_links::watch_useless(const messages::session_id& session,
+                                   const messages::implausibility& found) {
   self_->send(watchdog_, session, found.why, found.check);
 }
 
-void selector_links::watch_end(const service_end& end) {
+void selector_links::watch_end(const messages::service_end& end) {
   self_->send(watchdog_, end);
 }
 
-void selector_links::record(sofof::record&& x) {
+void selector_links::record(messages::record&& x) {
   self_->send(recorder_, std::move(x));
 }
 
 void selector_links::wake_at(time_point t, std::uint64_t number) {
-  send_at(self_, self_, t, tick_atom_v, number);
+  send_at(self_, self_, t, messages::tick_atom_v, number);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -8,12 +8,12 @@
 #include <map>
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A manager itself; besides its interface: the selector's timer with this
 /// number.
-using requester_manager_impl =
-    requester_manager_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+using requester_manager_impl = messages::requester_manager_actor::extend<
+    messages::reacts_to<messages::tick_atom, std::uint64_t>>;
 
 /// Turns what the rules want into messages of their actor.
 class selector_links : public offloading::selector_port {
@@ -26,23 +26,24 @@ public:
   /// where inputs are wanted.
   void start(requester_manager_setup setup);
 
-  void add(const session_id& session, provider_manager_actor manager);
-  void forget(const session_id& session) { managers_.erase(session); }
+  void add(const messages::session_id& session,
+           messages::provider_manager_actor manager);
+  void forget(const messages::session_id& session) { managers_.erase(session); }
 
-  void feed_local(const service_input& input) override;
-  void feed_remote(service_input input) override;
-  void use(const service_result& result) override;
+  void feed_local(const messages::service_input& input) override;
+  void feed_remote(messages::service_input input) override;
+  void use(const messages::service_result& result) override;
   void go_remote() override;
-  void go_local(service_input input) override;
+  void go_local(messages::service_input input) override;
   void announce_source(bool remote) override;
-  void report_first_data(const session_id& session) override;
-  void report(qos_violation violation) override;
-  void watch(const session_id& session, time_point last) override;
-  void watch_arrival(const arrival& result) override;
-  void watch_useless(const session_id& session,
-                     const implausibility& found) override;
-  void watch_end(const service_end& end) override;
-  void record(sofof::record&& x) override;
+  void report_first_data(const messages::session_id& session) override;
+  void report(messages::qos_violation violation) override;
+  void watch(const messages::session_id& session, time_point last) override;
+  void watch_arrival(const messages::arrival& result) override;
+  void watch_useless(const messages::session_id& session,
+                     const messages::implausibility& found) override;
+  void watch_end(const messages::service_end& end) override;
+  void record(messages::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;
 
 private:
@@ -50,13 +51,13 @@ private:
 
   requester_manager_impl::pointer self_;
   station_id station_;
-  service_name service_;
-  client_actor client_;
-  onboard_requester_actor requester_;
-  recorder_actor recorder_;
-  instance_actor local_;
-  watchdog_actor watchdog_;
-  std::map<session_id, provider_manager_actor> managers_;
+  messages::service_name service_;
+  messages::client_actor client_;
+  messages::onboard_requester_actor requester_;
+  messages::recorder_actor recorder_;
+  messages::instance_actor local_;
+  messages::watchdog_actor watchdog_;
+  std::map<messages::session_id, messages::provider_manager_actor> managers_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

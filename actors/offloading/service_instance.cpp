@@ -10,31 +10,31 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
 // Besides its interface: the cycle's timer with this number.
-using instance_impl =
-    instance_actor::extend<reacts_to<tick_atom, std::uint64_t>>;
+using instance_impl = messages::instance_actor::extend<
+    messages::reacts_to<messages::tick_atom, std::uint64_t>>;
 
 struct instance_state : offloading::cycle_port {
   static inline const char* name = "service_instance";
 
   instance_impl::stateful_pointer<instance_state> self;
-  result_actor results;
+  messages::result_actor results;
   std::optional<offloading::service_cycle> cycle;
 
-  void on_step(lifecycle_step step) {
+  void on_step(messages::lifecycle_step step) {
     cycle->on_step(step, now(self));
-    if (cycle->state() == lifecycle_state::finalized)
+    if (cycle->state() == messages::lifecycle_state::finalized)
       self->quit();
   }
 
   void wake_at(time_point t, std::uint64_t number) override {
-    send_at(self, self, t, tick_atom_v, number);
+    send_at(self, self, t, messages::tick_atom_v, number);
   }
-  void deliver_at(time_point t, service_result result) override {
+  void deliver_at(time_point t, messages::service_result result) override {
     send_at(self, results, t, std::move(result));
   }
 };
@@ -46,11 +46,11 @@ instance(instance_impl::stateful_pointer<instance_state> self,
   self->state.results = std::move(setup.results);
   self->state.cycle.emplace(std::move(setup.cycle), self->state);
   return {
-      [self](lifecycle_step step) { self->state.on_step(step); },
-      [self](const service_input& input) {
+      [self](messages::lifecycle_step step) { self->state.on_step(step); },
+      [self](const messages::service_input& input) {
         self->state.cycle->on_input(input, now(self));
       },
-      [self](tick_atom, std::uint64_t number) {
+      [self](messages::tick_atom, std::uint64_t number) {
         self->state.cycle->on_timer(number, now(self));
       },
   };
@@ -58,8 +58,9 @@ instance(instance_impl::stateful_pointer<instance_state> self,
 
 } // namespace
 
-instance_actor spawn_instance(caf::actor_system& sys, instance_setup setup) {
+messages::instance_actor spawn_instance(caf::actor_system& sys,
+                                        instance_setup setup) {
   return sys.spawn(instance, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -6,15 +6,16 @@
 
 #include <caf/actor_system.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What runs, and for whom.
 struct instance_setup {
   offloading::cycle_setup cycle;
-  result_actor results; ///< Gets the result when the cycle is done.
+  messages::result_actor results; ///< Gets the result when the cycle is done.
 };
 
 /// Runs by the rules of offloading/service_cycle. Quits when finalized.
-instance_actor spawn_instance(caf::actor_system& sys, instance_setup setup);
+messages::instance_actor spawn_instance(caf::actor_system& sys,
+                                        instance_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

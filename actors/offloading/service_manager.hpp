@@ -9,16 +9,16 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Service management in the vehicle, for one service.
 struct requester_manager_setup {
   station_id station = 0;
   offloading::onboard_service service;
   offloading::cycle_setup local; ///< Of the vehicle's own function.
-  client_actor client;
-  onboard_requester_actor requester;
-  recorder_actor recorder;
+  messages::client_actor client;
+  messages::onboard_requester_actor requester;
+  messages::recorder_actor recorder;
   bool record_margins = false; ///< With the cycles, those of used results.
 };
 
@@ -32,22 +32,22 @@ struct requester_manager_setup {
 /// run the service, the first result of each planning cycle is used, if the
 /// plan in use may be followed by it; a provider that has not been in time for
 /// a second is given up (`qos_violation::others_hold`).
-requester_manager_actor spawn_requester_manager(caf::actor_system& sys,
-                                                requester_manager_setup setup);
+messages::requester_manager_actor
+spawn_requester_manager(caf::actor_system& sys, requester_manager_setup setup);
 
 /// Service management at the provider, for one accepted service.
 struct provider_manager_setup {
   offloading::cycle_setup cycle;
-  requester_actor requester;
-  provider_actor provider;
-  recorder_actor recorder;
+  messages::requester_actor requester;
+  messages::provider_actor provider;
+  messages::recorder_actor recorder;
 };
 
 /// Configures the instance, activates it at the first input, and sends its
 /// results to `requester`. Finalises the instance and quits at service_end;
 /// quits (user_shutdown) when no input has come within protocol::start_timeout.
 /// Does not outlive `provider`.
-provider_manager_actor spawn_provider_manager(caf::actor_system& sys,
-                                              provider_manager_setup setup);
+messages::provider_manager_actor
+spawn_provider_manager(caf::actor_system& sys, provider_manager_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -21,8 +21,9 @@ struct provider_state {
   static inline const char* name = "service_provider";
 
   provider_impl::stateful_pointer<provider_state> self;
-  recorder_actor recorder;
-  std::function<broadcast(const its_pdu&, time_point)> decode;
+  messages::recorder_actor recorder;
+  std::function<messages::broadcast(const messages::its_pdu&, time_point)>
+      decode;
   std::optional<provider_services> services;
   std::optional<provider_links> links;
   std::optional<offloading::provider> rules;
@@ -35,14 +36,15 @@ struct provider_state {
     rules.emplace(rules_of(std::move(setup), *services), *links);
   }
 
-  void on_broadcast(const its_pdu& message, const requester_actor& requester) {
+  void on_broadcast(const messages::its_pdu& message,
+                    const messages::requester_actor& requester) {
     const auto heard = decode(message, now(self));
-    if (const auto* c = std::get_if<cam>(&heard)) {
+    if (const auto* c = std::get_if<messages::cam>(&heard)) {
       const auto sender = sender_of(message, c->station);
       tell([&](broadcast_listener& x) { x.on_cam(*c, sender); });
       links->with(requester, *rules,
                   [&](auto from) { rules->on_cam(*c, from, now(self)); });
-    } else if (const auto* seen = std::get_if<object_list>(&heard)) {
+    } else if (const auto* seen = std::get_if<messages::object_list>(&heard)) {
       const auto sender = sender_of(message, seen->from);
       tell([&](broadcast_listener& x) { x.on_objects(*seen, sender); });
       links->with(requester, *rules, [&](auto from) {
@@ -51,15 +53,16 @@ struct provider_state {
     }
   }
 
-  void on_request(const service_request& request,
-                  const requester_actor& requester) {
+  void on_request(const messages::service_request& request,
+                  const messages::requester_actor& requester) {
     links->with(requester, *rules, [&](auto from) {
       rules->on_request(request, from, now(self));
     });
   }
 
   // A station that is alone in its process stands for itself.
-  static sender_id sender_of(const its_pdu& message, station_id station) {
+  static sender_id sender_of(const messages::its_pdu& message,
+                             station_id station) {
     return message.sender.value_or(sender_id{station.value()});
   }
 
@@ -83,19 +86,21 @@ provider(provider_impl::stateful_pointer<provider_state> self,
     self->quit(exit.reason);
   });
   return {
-      [self](const its_pdu& message, const requester_actor& requester) {
+      [self](const messages::its_pdu& message,
+             const messages::requester_actor& requester) {
         self->state.on_broadcast(message, requester);
       },
-      [self](const service_request& request, const requester_actor& requester) {
+      [self](const messages::service_request& request,
+             const messages::requester_actor& requester) {
         self->state.on_request(request, requester);
       },
-      [self](const service_end& end) {
+      [self](const messages::service_end& end) {
         self->state.rules->on_end(end, now(self));
       },
-      [self](const roadside_detections& view) {
+      [self](const messages::roadside_detections& view) {
         self->state.tell([&](broadcast_listener& x) { x.on_detections(view); });
       },
-      [self](tick_atom, std::uint64_t number) {
+      [self](messages::tick_atom, std::uint64_t number) {
         self->state.rules->on_timer(number, now(self));
       },
   };
@@ -103,9 +108,9 @@ provider(provider_impl::stateful_pointer<provider_state> self,
 
 } // namespace
 
-roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
-                                               provider_actor_setup setup) {
+messages::roadside_provider_actor
+spawn_service_provider(caf::actor_system& sys, provider_actor_setup setup) {
   return sys.spawn(provider, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

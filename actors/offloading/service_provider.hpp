@@ -14,20 +14,21 @@
 #include <memory>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What a provider is made of.
 struct provider_actor_setup {
   provider_id boot = 0;
   point position; ///< m, east-north.
   polygon area;
-  std::shared_ptr<const road_map> map; ///< For the policy; not null.
+  std::shared_ptr<const world::road_map> map; ///< For the policy; not null.
   /// Reads what vehicles tell everybody.
-  std::function<broadcast(const its_pdu&, time_point now)> decode;
+  std::function<messages::broadcast(const messages::its_pdu&, time_point now)>
+      decode;
   std::vector<offloading::service> services; ///< With different names.
-  std::unique_ptr<central_policy> codm;
-  recorder_actor recorder;
-  provider_compute compute;
+  std::unique_ptr<policies::central_policy> codm;
+  messages::recorder_actor recorder;
+  channel::provider_compute compute;
   random_stream seed{0, ""};
   std::uint32_t number = 0; ///< Of the provider, for its draws.
   bool virtual_time = true; ///< Model computing times.
@@ -37,7 +38,7 @@ struct provider_actor_setup {
 /// of each service is told all CAMs and CPMs and all that the provider's
 /// sensors see. ITS messages that cannot be read are as if they had not come.
 /// On exit it closes what still runs (shutdown).
-roadside_provider_actor spawn_service_provider(caf::actor_system& sys,
-                                               provider_actor_setup setup);
+messages::roadside_provider_actor
+spawn_service_provider(caf::actor_system& sys, provider_actor_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -21,7 +21,7 @@ struct requester_state {
   static inline const char* name = "service_requester";
 
   requester_impl::stateful_pointer<requester_state> self;
-  vehicle_actor vehicle;
+  messages::vehicle_actor vehicle;
   std::optional<requester_links> links;
   std::optional<offloading::requester> rules;
 
@@ -50,8 +50,9 @@ struct requester_state {
     return service;
   }
 
-  void on_response(service_response& response,
-                   const std::vector<provider_manager_actor>& managers) {
+  void
+  on_response(messages::service_response& response,
+              const std::vector<messages::provider_manager_actor>& managers) {
     links->take_up(response, managers);
     rules->on_response(response, now(self));
   }
@@ -79,31 +80,31 @@ requester(requester_impl::stateful_pointer<requester_state> self,
     self->quit(exit.reason);
   });
   return {
-      [self](const service_result& result) {
+      [self](const messages::service_result& result) {
         self->state.rules->on_result(result, now(self));
       },
-      [self](const service_offer& offer) {
+      [self](const messages::service_offer& offer) {
         const auto from =
-            caf::actor_cast<provider_actor>(self->current_sender());
+            caf::actor_cast<messages::provider_actor>(self->current_sender());
         if (from)
           self->state.rules->on_offer(offer, self->state.links->peer_of(from),
                                       now(self));
       },
-      [self](service_response& response,
-             const std::vector<provider_manager_actor>& managers) {
+      [self](messages::service_response& response,
+             const std::vector<messages::provider_manager_actor>& managers) {
         self->state.on_response(response, managers);
       },
-      [self](const service_end& end) {
+      [self](const messages::service_end& end) {
         self->state.rules->on_end(end, now(self));
       },
-      [self](const ego_state& ego) { self->state.rules->on_motion(ego); },
-      [self](const session_id& session) {
+      [self](const messages::ego_state& x) { self->state.rules->on_motion(x); },
+      [self](const messages::session_id& session) {
         self->state.rules->on_first_data(session, now(self));
       },
-      [self](const qos_violation& violation) {
+      [self](const messages::qos_violation& violation) {
         self->state.rules->on_violation(violation, now(self));
       },
-      [self](tick_atom, std::uint64_t number) {
+      [self](messages::tick_atom, std::uint64_t number) {
         self->state.rules->on_timer(number, now(self));
       },
   };
@@ -111,9 +112,9 @@ requester(requester_impl::stateful_pointer<requester_state> self,
 
 } // namespace
 
-onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
-                                                requester_actor_setup setup) {
+messages::onboard_requester_actor
+spawn_service_requester(caf::actor_system& sys, requester_actor_setup setup) {
   return sys.spawn(requester, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

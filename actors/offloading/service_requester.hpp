@@ -13,33 +13,35 @@
 #include <memory>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A service, and who asks it and uses its results.
 struct client_service {
   offloading::service service;
   /// By default the vehicle itself.
-  std::function<client_actor(caf::actor_system&, const vehicle_actor& vehicle)>
-      spawn_client = [](caf::actor_system&, const vehicle_actor& vehicle) {
-        return client_actor{vehicle};
-      };
+  std::function<messages::client_actor(caf::actor_system&,
+                                       const messages::vehicle_actor& vehicle)>
+      spawn_client =
+          [](caf::actor_system&, const messages::vehicle_actor& vehicle) {
+            return messages::client_actor{vehicle};
+          };
 };
 
 /// What one vehicle's requester is made of.
 struct requester_actor_setup {
   station_id station = 0;
   /// The route ahead, m, as decisions and requests need it.
-  std::function<std::vector<point>(const ego_state&)> path_ahead =
-      [](const ego_state&) { return std::vector<point>{}; };
+  std::function<std::vector<point>(const messages::ego_state&)> path_ahead =
+      [](const messages::ego_state&) { return std::vector<point>{}; };
   std::vector<client_service> services; ///< With different names.
-  std::unique_ptr<local_policy> lodm;
-  vehicle_actor vehicle;
-  recorder_actor recorder;
+  std::unique_ptr<policies::local_policy> lodm;
+  messages::vehicle_actor vehicle;
+  messages::recorder_actor recorder;
   random_stream noise{0, ""}; ///< Of this vehicle.
   bool virtual_time = true;   ///< Model run times instead of taking time.
-  computer_options computer = {};
+  world::computer_options computer = {};
   /// What is to come, where a run can tell; else null.
-  std::shared_ptr<const channel_oracle> future{};
+  std::shared_ptr<const policies::channel_oracle> future{};
   bool record_margins = false; ///< Of results that are used.
 };
 
@@ -55,7 +57,7 @@ struct requester_actor_setup {
 /// It spawns a manager and a client for each kind. At a violation, or when
 /// the provider is lost or ends the service, the local service is activated
 /// at the same time. On exit it closes what still runs (shutdown).
-onboard_requester_actor spawn_service_requester(caf::actor_system& sys,
-                                                requester_actor_setup setup);
+messages::onboard_requester_actor
+spawn_service_requester(caf::actor_system& sys, requester_actor_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

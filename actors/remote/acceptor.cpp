@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -32,7 +32,7 @@ struct pending_peer {
 struct acceptor_state {
   static inline const char* name = "acceptor";
 
-  acceptor_actor::stateful_pointer<acceptor_state> self;
+  messages::acceptor_actor::stateful_pointer<acceptor_state> self;
   std::shared_ptr<const acceptor_setup> setup;
   admissions_actor admissions;
   std::vector<pending_peer> pending; // the oldest first
@@ -77,8 +77,8 @@ struct acceptor_state {
   }
 };
 
-acceptor_actor::behavior_type
-acceptor(acceptor_actor::stateful_pointer<acceptor_state> self,
+messages::acceptor_actor::behavior_type
+acceptor(messages::acceptor_actor::stateful_pointer<acceptor_state> self,
          acceptor_setup setup) {
   auto& s = self->state;
   s.self = self;
@@ -98,8 +98,9 @@ acceptor(acceptor_actor::stateful_pointer<acceptor_state> self,
 
 } // namespace
 
-acceptor_actor spawn_acceptor(caf::actor_system& sys, acceptor_setup setup) {
+messages::acceptor_actor spawn_acceptor(caf::actor_system& sys,
+                                        acceptor_setup setup) {
   return sys.spawn(acceptor, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Who a peer is, or why it must not speak for its stations.
 struct peer_finding {
@@ -22,17 +22,18 @@ struct peer_finding {
 
 /// What an acceptor is made of. The functions are called from its threads.
 struct acceptor_setup {
-  provider_actor provider;
+  messages::provider_actor provider;
   provider_id boot = 0;
   std::string name;        ///< Of the provider.
   std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
-  etsi::its_clock clock;
-  recorder_actor recorder;
+  messages::etsi::its_clock clock;
+  messages::recorder_actor recorder;
   /// @returns a number that nobody can guess, new every time. What it throws
   /// refuses the one who needs it.
   std::function<std::string()> draw_nonce;
   /// Asks whether a hello, signed over this number, may come from this process.
-  std::function<peer_finding(const peer_hello&, const std::string& nonce,
+  std::function<peer_finding(const messages::peer_hello&,
+                             const std::string& nonce,
                              const caf::node_id& process)>
       examine;
   /// Told who has come in, and who has gone; of many a second, not of all.
@@ -44,6 +45,7 @@ struct acceptor_setup {
 /// handshake, at which it introduces itself. A process has a limit of
 /// handshakes, so that it does not keep others out. All that a process
 /// publishes.
-acceptor_actor spawn_acceptor(caf::actor_system& sys, acceptor_setup setup);
+messages::acceptor_actor spawn_acceptor(caf::actor_system& sys,
+                                        acceptor_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

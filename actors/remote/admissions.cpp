@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -39,7 +39,7 @@ constexpr duration refusal_period = std::chrono::seconds{1};
 
 /// A peer that has been let in.
 struct admitted_peer {
-  provider_endpoint_actor endpoint;
+  messages::provider_endpoint_actor endpoint;
   std::string name;
   std::set<station_id> stations;
 };
@@ -54,8 +54,8 @@ sender_id sender_of(const std::string& name) {
   return std::hash<std::string>{}(name) | no_station;
 }
 
-using admissions_impl =
-    admissions_actor::extend<reacts_to<tick_atom, handshake_actor>>;
+using admissions_impl = admissions_actor::extend<
+    messages::reacts_to<messages::tick_atom, messages::handshake_actor>>;
 
 struct admissions_state {
   static inline const char* name = "admissions";
@@ -63,12 +63,12 @@ struct admissions_state {
   admissions_impl::stateful_pointer<admissions_state> self;
   std::shared_ptr<const acceptor_setup> setup;
   std::vector<admitted_peer> peers;
-  std::map<std::string, token_bucket> arrivals; // by name
-  token_bucket chatter{news_per_second, news_at_once};
-  sampled_log refusals{refusal_period};
+  std::map<std::string, network::token_bucket> arrivals; // by name
+  network::token_bucket chatter{news_per_second, news_at_once};
+  network::sampled_log refusals{refusal_period};
 
-  caf::result<peer_welcome, provider_endpoint_actor>
-  on_admission(const admission& given) {
+  caf::result<messages::peer_welcome, messages::provider_endpoint_actor>
+  on_admission(const messages::admission& given) {
     const auto* who = given.get();
     if (!who)
       return caf::make_error(caf::sec::invalid_argument);
@@ -86,12 +86,13 @@ struct admissions_state {
                       who->name, there));
     const auto endpoint = spawn_provider_endpoint(
         self->system(), {setup->provider, who->peer, stations, setup->clock,
-                         etsi::its_clock{who->hello.epoch_unix_ms},
+                         messages::etsi::its_clock{who->hello.epoch_unix_ms},
                          setup->recorder, sender_of(who->name)});
     self->monitor(endpoint);
     peers.push_back({endpoint, who->name, stations});
     publish(stations, true);
-    return {peer_welcome{setup->boot, setup->clock.epoch_unix_ms()}, endpoint};
+    return {messages::peer_welcome{setup->boot, setup->clock.epoch_unix_ms()},
+            endpoint};
   }
 
   /// Ends what speaks for one of these stations by the same certificate.
@@ -139,11 +140,12 @@ struct admissions_state {
   void on_refusal(const std::string& why) {
     const auto t = now(self);
     if (auto line = refusals.add(printable(why), t))
-      send_record(self, setup->recorder,
-                  event_record{.at = t,
-                               .what = event_type::peer_refused,
-                               .provider = setup->boot,
-                               .detail = std::move(*line)});
+      send_record(
+          self, setup->recorder,
+          messages::event_record{.at = t,
+                                 .what = messages::event_type::peer_refused,
+                                 .provider = setup->boot,
+                                 .detail = std::move(*line)});
   }
 };
 
@@ -156,15 +158,15 @@ admissions(admissions_impl::stateful_pointer<admissions_state> self,
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->state.on_down(down.source); });
   return {
-      [self](const admission& given) {
+      [self](const messages::admission& given) {
         return self->state.on_admission(given);
       },
       [self](const std::string& why) { self->state.on_refusal(why); },
-      [self](const handshake_actor& opened) {
-        send_after(self, self, protocol::introduction_timeout, tick_atom_v,
-                   opened);
+      [self](const messages::handshake_actor& opened) {
+        send_after(self, self, protocol::introduction_timeout,
+                   messages::tick_atom_v, opened);
       },
-      [self](tick_atom, const handshake_actor& opened) {
+      [self](messages::tick_atom, const messages::handshake_actor& opened) {
         self->send_exit(opened, caf::exit_reason::user_shutdown);
       },
   };
@@ -177,4 +179,4 @@ admissions_actor spawn_admissions(caf::actor_system& sys,
   return sys.spawn(admissions, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

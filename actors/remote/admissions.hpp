@@ -8,18 +8,19 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Knows all connections. Its handle never leaves the process.
 using admissions_actor = caf::typed_actor<
     // A peer has proved who it is: it gets an endpoint, or an error that says
     // why not.
-    caf::result<peer_welcome, provider_endpoint_actor>(admission),
+    caf::result<messages::peer_welcome, messages::provider_endpoint_actor>(
+        messages::admission),
     // A peer was refused for this reason.
-    reacts_to<std::string>,
+    messages::reacts_to<std::string>,
     // This handshake has opened; it is closed protocol::introduction_timeout
     // later.
-    reacts_to<handshake_actor>>;
+    messages::reacts_to<messages::handshake_actor>>;
 
 /// Gives each peer an endpoint of its own. One that comes in again with a
 /// station takes the place of the endpoint of its name that spoke for it; a
@@ -28,4 +29,4 @@ using admissions_actor = caf::typed_actor<
 admissions_actor spawn_admissions(caf::actor_system& sys,
                                   std::shared_ptr<const acceptor_setup> setup);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -3,22 +3,23 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
 /// @param what  Of an input or a result: an ITS message or anything else.
-payload on_our_clock(payload what, const heartbeat& peer,
-                     const clock_offset& clock) {
-  if (const auto message = what.as<its_pdu>())
-    return payload::of(its_pdu{message->octets, peer.time_of_day(clock)});
+messages::payload on_our_clock(messages::payload what, const heartbeat& peer,
+                               const network::clock_offset& clock) {
+  if (const auto message = what.as<messages::its_pdu>())
+    return messages::payload::of(
+        messages::its_pdu{message->octets, peer.time_of_day(clock)});
   return what;
 }
 
 } // namespace
 
-service_offer on_our_clock(service_offer offer, const heartbeat& peer,
-                           time_point now) {
+messages::service_offer on_our_clock(messages::service_offer offer,
+                                     const heartbeat& peer, time_point now) {
   const auto clock = peer.clock(now);
   if (clock && offer.created)
     *offer.created -= clock->ahead;
@@ -27,16 +28,18 @@ service_offer on_our_clock(service_offer offer, const heartbeat& peer,
   return offer;
 }
 
-std::optional<its_pdu> on_our_clock(const its_pdu& message,
-                                    const heartbeat& peer, time_point now) {
+std::optional<messages::its_pdu> on_our_clock(const messages::its_pdu& message,
+                                              const heartbeat& peer,
+                                              time_point now) {
   const auto clock = peer.clock(now);
   if (!clock)
     return std::nullopt;
-  return its_pdu{message.octets, peer.time_of_day(*clock)};
+  return messages::its_pdu{message.octets, peer.time_of_day(*clock)};
 }
 
-std::optional<service_input>
-on_our_clock(service_input input, const heartbeat& peer, time_point now) {
+std::optional<messages::service_input>
+on_our_clock(messages::service_input input, const heartbeat& peer,
+             time_point now) {
   const auto clock = peer.clock(now);
   if (!clock)
     return std::nullopt;
@@ -45,8 +48,9 @@ on_our_clock(service_input input, const heartbeat& peer, time_point now) {
   return input;
 }
 
-std::optional<service_result>
-on_our_clock(service_result result, const heartbeat& peer, time_point now) {
+std::optional<messages::service_result>
+on_our_clock(messages::service_result result, const heartbeat& peer,
+             time_point now) {
   const auto clock = peer.clock(now);
   if (!clock)
     return std::nullopt;
@@ -58,4 +62,4 @@ on_our_clock(service_result result, const heartbeat& peer, time_point now) {
   return result;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

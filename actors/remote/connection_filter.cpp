@@ -14,7 +14,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -26,7 +26,7 @@ struct shared_setup {
   filter_setup given;
   std::shared_ptr<peer_nodes> nodes;
   frame_allowances allowances{};
-  token_bucket reports{reports_s, reports_at_once};
+  network::token_bucket reports{reports_s, reports_at_once};
   std::uint64_t left_out = 0;
 
   void report(std::string why, time_point at) {
@@ -39,16 +39,17 @@ struct shared_setup {
     given.on_refusal(why);
     if (given.recorder)
       caf::anon_send(given.recorder,
-                     record{event_record{.at = at,
-                                         .what = event_type::peer_disconnected,
-                                         .detail = std::move(why)}});
+                     messages::record{messages::event_record{
+                         .at = at,
+                         .what = messages::event_type::peer_disconnected,
+                         .detail = std::move(why)}});
   }
 };
 
 class connection_filter final : public caf::io::basp::frame_filter {
 public:
   connection_filter(bool is_accepted, std::shared_ptr<shared_setup> setup,
-                    std::optional<peer_identity> peer)
+                    std::optional<network::peer_identity> peer)
       : setup_{std::move(setup)}, peer_{std::move(peer)},
         check_{is_accepted,
                is_accepted ? messages_to_provider() : messages_to_vehicles()} {}
@@ -92,7 +93,7 @@ public:
       why_ = "its process is connected already";
     setup_->report(
         fmt::format("{} was disconnected: {}",
-                    peer_ ? describe(*peer_) : "a peer",
+                    peer_ ? network::describe(*peer_) : "a peer",
                     why_.empty() ? "its frame cannot be read" : why_),
         now_);
   }
@@ -102,8 +103,9 @@ private:
     if (!allowance_) {
       const auto bounds =
           bounds_for(peer_ ? peer_->stations.size() : setup_->given.stations);
-      allowance_ = peer_ ? setup_->allowances.of(describe(*peer_), bounds, now_)
-                         : std::make_shared<frame_allowance>(bounds);
+      allowance_ =
+          peer_ ? setup_->allowances.of(network::describe(*peer_), bounds, now_)
+                : std::make_shared<frame_allowance>(bounds);
     }
     return *allowance_;
   }
@@ -118,7 +120,7 @@ private:
   }
 
   std::shared_ptr<shared_setup> setup_;
-  std::optional<peer_identity> peer_;
+  std::optional<network::peer_identity> peer_;
   std::shared_ptr<frame_allowance> allowance_; // from the first frame on
   frame_check check_;
   bool is_known_ = false;                   // to the others, by its node
@@ -129,7 +131,8 @@ private:
 
 } // namespace
 
-bool peer_nodes::add(const std::string& node, const peer_identity& who) {
+bool peer_nodes::add(const std::string& node,
+                     const network::peer_identity& who) {
   const std::lock_guard lock{mutex_};
   return by_node_.try_emplace(node, who).second;
 }
@@ -139,7 +142,8 @@ void peer_nodes::remove(const std::string& node) {
   by_node_.erase(node);
 }
 
-std::optional<peer_identity> peer_nodes::find(const caf::node_id& node) const {
+std::optional<network::peer_identity>
+peer_nodes::find(const caf::node_id& node) const {
   caf::byte_buffer octets;
   caf::binary_serializer sink{nullptr, octets};
   if (!sink.apply(node))
@@ -160,7 +164,7 @@ void filter_connections(caf::io::middleman& middleman, filter_setup setup,
            shared_setup{std::move(setup), std::move(nodes)})](
           bool is_accepted,
           std::uint16_t port) -> std::unique_ptr<caf::io::basp::frame_filter> {
-    std::optional<peer_identity> peer;
+    std::optional<network::peer_identity> peer;
     if (is_accepted && setup->given.identify) {
       peer = setup->given.identify(port);
       if (!peer)
@@ -171,4 +175,4 @@ void filter_connections(caf::io::middleman& middleman, filter_setup setup,
   };
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double frames_per_station_s = 400;
 constexpr double octets_per_station_s = 512 * 1024;
 constexpr std::chrono::seconds backlog{2};
 
-token_bucket limit_of(double per_second) {
+network::token_bucket limit_of(double per_second) {
   return {per_second, per_second * to_seconds(backlog)};
 }
 
@@ -52,4 +52,4 @@ std::shared_ptr<frame_allowance> frame_allowances::of(const std::string& peer,
   return allowance;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What is bounded for one peer, per second.
 struct frame_bounds {
@@ -37,8 +37,8 @@ public:
   bool is_whole(time_point now) const;
 
 private:
-  token_bucket frames_;
-  token_bucket octets_;
+  network::token_bucket frames_;
+  network::token_bucket octets_;
   time_point last_ = time_point::min();
 };
 
@@ -59,4 +59,4 @@ private:
   std::map<std::string, std::shared_ptr<frame_allowance>> by_peer_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -149,4 +149,4 @@ frame_check::objection_to_message(const frame_header& header,
   return unknown;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

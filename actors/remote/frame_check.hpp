@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// The header of a frame, as BASP has it.
 struct frame_header {
@@ -74,4 +74,4 @@ private:
   std::string node_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

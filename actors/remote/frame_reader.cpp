@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::actors {
 
 std::optional<std::uint16_t> frame_reader::number(std::size_t octets) {
   assert(octets == 1 || octets == 2);
@@ -48,4 +48,4 @@ bool element_types::are(std::span<const std::uint16_t> others) const {
   return std::ranges::equal(std::span{types_}.first(count_), others);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

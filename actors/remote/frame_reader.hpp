@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Reads a payload from its beginning on, and nothing past its end.
 class frame_reader {
@@ -45,4 +45,4 @@ private:
   std::size_t count_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

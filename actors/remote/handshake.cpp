@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// For how many stations a peer can speak.
 constexpr std::size_t most_claims = 10'000;
@@ -19,7 +19,7 @@ constexpr std::size_t most_claims = 10'000;
 struct handshake_state {
   static inline const char* name = "handshake";
 
-  handshake_actor::stateful_pointer<handshake_state> self = nullptr;
+  messages::handshake_actor::stateful_pointer<handshake_state> self = nullptr;
   admissions_actor admissions;
   std::shared_ptr<const acceptor_setup> setup;
   caf::node_id process;
@@ -32,8 +32,9 @@ struct handshake_state {
       self->demonitor(admissions);
   }
 
-  caf::result<peer_welcome, provider_endpoint_actor>
-  on_hello(const peer_hello& hello, const vehicle_endpoint_actor& peer) {
+  caf::result<messages::peer_welcome, messages::provider_endpoint_actor>
+  on_hello(const messages::peer_hello& hello,
+           const messages::vehicle_endpoint_actor& peer) {
     // Actor ids can be guessed: another process must not use it up.
     const auto& sender = self->current_sender();
     if (!sender || sender->node() != process)
@@ -47,12 +48,14 @@ struct handshake_state {
     }
     is_used = true;
     auto promise =
-        self->make_response_promise<peer_welcome, provider_endpoint_actor>();
+        self->make_response_promise<messages::peer_welcome,
+                                    messages::provider_endpoint_actor>();
     self->request(admissions, caf::infinite,
-                  admission{{hello, peer, found.name}})
+                  messages::admission{{hello, peer, found.name}})
         .then(
-            [this, promise](const peer_welcome& welcome,
-                            const provider_endpoint_actor& endpoint) mutable {
+            [this, promise](
+                const messages::peer_welcome& welcome,
+                const messages::provider_endpoint_actor& endpoint) mutable {
               promise.deliver(welcome, endpoint);
               self->quit();
             },
@@ -63,15 +66,16 @@ struct handshake_state {
     return promise;
   }
 
-  peer_finding look_at(const peer_hello& hello,
-                       const vehicle_endpoint_actor& peer) const {
+  peer_finding look_at(const messages::peer_hello& hello,
+                       const messages::vehicle_endpoint_actor& peer) const {
     if (const auto why = objection(hello, peer))
       return {{}, why};
     return setup->examine(hello, nonce, process);
   }
 
   std::optional<std::string>
-  objection(const peer_hello& hello, const vehicle_endpoint_actor& peer) const {
+  objection(const messages::peer_hello& hello,
+            const messages::vehicle_endpoint_actor& peer) const {
     if (is_used)
       return "introduces itself twice";
     // It must not let an endpoint of ours speak to our own actors.
@@ -82,7 +86,7 @@ struct handshake_state {
     if (hello.stations.empty() || hello.stations.size() > most_claims)
       return fmt::format("speaks for {} stations; 1 to {} are possible",
                          hello.stations.size(), most_claims);
-    if (!is_time_of_day(hello.epoch_unix_ms))
+    if (!messages::is_time_of_day(hello.epoch_unix_ms))
       return "its clock shows no time of day";
     if (hello.world != setup->world)
       return fmt::format("provider {} has another map or other services; start "
@@ -94,8 +98,8 @@ struct handshake_state {
 
 namespace {
 
-handshake_actor::behavior_type
-handshake(handshake_actor::stateful_pointer<handshake_state> self,
+messages::handshake_actor::behavior_type
+handshake(messages::handshake_actor::stateful_pointer<handshake_state> self,
           const admissions_actor& admissions,
           std::shared_ptr<const acceptor_setup> setup, caf::node_id process,
           std::string nonce) {
@@ -110,7 +114,8 @@ handshake(handshake_actor::stateful_pointer<handshake_state> self,
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   self->set_default_handler(caf::drop); // what no interface has
   return {
-      [self](const peer_hello& hello, const vehicle_endpoint_actor& peer) {
+      [self](const messages::peer_hello& hello,
+             const messages::vehicle_endpoint_actor& peer) {
         return self->state.on_hello(hello, peer);
       },
   };
@@ -118,12 +123,12 @@ handshake(handshake_actor::stateful_pointer<handshake_state> self,
 
 } // namespace
 
-handshake_actor spawn_handshake(caf::actor_system& sys,
-                                const admissions_actor& admissions,
-                                std::shared_ptr<const acceptor_setup> setup,
-                                caf::node_id process, std::string nonce) {
+messages::handshake_actor
+spawn_handshake(caf::actor_system& sys, const admissions_actor& admissions,
+                std::shared_ptr<const acceptor_setup> setup,
+                caf::node_id process, std::string nonce) {
   return sys.spawn(handshake, admissions, std::move(setup), std::move(process),
                    std::move(nonce));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

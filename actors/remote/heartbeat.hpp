@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// One side of a connection; both ask and answer alike.
 class heartbeat {
@@ -19,12 +19,12 @@ public:
   heartbeat(time_point now, duration time_of_day_gap)
       : alive_{now}, time_of_day_gap_{time_of_day_gap} {}
 
-  ping beat(time_point now) { return {++beats_, now}; }
-  static pong answer(const ping& sign, time_point now) {
+  messages::ping beat(time_point now) { return {++beats_, now}; }
+  static messages::pong answer(const messages::ping& sign, time_point now) {
     return {sign, now, now};
   }
 
-  void on_pong(const pong& echo, time_point now) {
+  void on_pong(const messages::pong& echo, time_point now) {
     // It lived when the ping came, and no pong is older than its ping.
     alive_ = std::max(alive_, std::min(echo.of.sent, now));
     clocks_.add({echo.of.sent, echo.received, echo.answered, now});
@@ -38,12 +38,12 @@ public:
   }
 
   /// @returns how far the peer's clock is ahead of ours; nothing at first.
-  std::optional<clock_offset> clock(time_point now) const {
+  std::optional<network::clock_offset> clock(time_point now) const {
     return clocks_.at(now);
   }
 
   /// @returns how far its time of day is ahead of ours, given the former.
-  duration time_of_day(const clock_offset& clock) const {
+  duration time_of_day(const network::clock_offset& clock) const {
     return clock.ahead + time_of_day_gap_;
   }
 
@@ -51,7 +51,7 @@ private:
   time_point alive_;
   duration time_of_day_gap_;
   std::uint64_t beats_ = 0;
-  clock_estimate clocks_;
+  network::clock_estimate clocks_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

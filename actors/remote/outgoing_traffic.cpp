@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -40,20 +40,24 @@ void outgoing_traffic::close() {
 }
 
 std::optional<outgoing_traffic::message>
-outgoing_traffic::offer(station_id station, const its_pdu& x, time_point now) {
-  const auto stream = stream_of(station, x);
-  if (stream.of == stream_id::what::cam)
+outgoing_traffic::offer(station_id station, const messages::its_pdu& x,
+                        time_point now) {
+  const auto stream = messages::stream_of(station, x);
+  if (stream.of == messages::stream_id::what::cam)
     cams_.insert_or_assign(station, last_cam{x, now});
   return offer(stream, its_message{station, x}, now);
 }
 
 std::optional<outgoing_traffic::message>
-outgoing_traffic::offer(const service_input& input, time_point now) {
-  return offer(stream_of(input.session, stream_id::what::input), input, now);
+outgoing_traffic::offer(const messages::service_input& input, time_point now) {
+  return offer(
+      messages::stream_of(input.session, messages::stream_id::what::input),
+      input, now);
 }
 
 std::optional<outgoing_traffic::message>
-outgoing_traffic::offer(const stream_id& stream, message x, time_point now) {
+outgoing_traffic::offer(const messages::stream_id& stream, message x,
+                        time_point now) {
   if (!is_open_ || is_waiting(stream.station))
     return std::nullopt;
   return queue_.offer(stream, std::move(x), now);
@@ -69,16 +73,18 @@ outgoing_traffic::begin(station_id station, time_point now) {
   if (last == cams_.end() || now - last->second.made > protocol::cam_timeout)
     return std::nullopt;
   const auto& cam = last->second.content;
-  return offer(stream_of(station, cam), its_message{station, cam}, now);
+  return offer(messages::stream_of(station, cam), its_message{station, cam},
+               now);
 }
 
 std::optional<outgoing_traffic::message>
-outgoing_traffic::acknowledge(const stream_id& stream, time_point now) {
+outgoing_traffic::acknowledge(const messages::stream_id& stream,
+                              time_point now) {
   return queue_.acknowledge(stream, now);
 }
 
-void outgoing_traffic::forget(const session_id& ended) {
-  queue_.forget(stream_of(ended, stream_id::what::input));
+void outgoing_traffic::forget(const messages::session_id& ended) {
+  queue_.forget(messages::stream_of(ended, messages::stream_id::what::input));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// CAMs, CPMs and inputs of the vehicles of one process. Of each stream one
 /// message is under way and one waits, the latest. Nothing goes out before the
@@ -22,9 +22,9 @@ public:
   /// A CAM or a CPM.
   struct its_message {
     station_id station = 0; ///< Who sends it.
-    its_pdu content;
+    messages::its_pdu content;
   };
-  using message = std::variant<its_message, service_input>;
+  using message = std::variant<its_message, messages::service_input>;
 
   /// When a station may begin.
   struct turn {
@@ -54,10 +54,11 @@ public:
   /// A station has a CAM or a CPM. It is kept: a CAM that was made before the
   /// station's turn goes out then.
   /// @returns what is to be sent now.
-  std::optional<message> offer(station_id station, const its_pdu& x,
+  std::optional<message> offer(station_id station, const messages::its_pdu& x,
                                time_point now);
   /// The same for the input of a running service.
-  std::optional<message> offer(const service_input& input, time_point now);
+  std::optional<message> offer(const messages::service_input& input,
+                               time_point now);
 
   /// A station's turn has come, unless it is one of an earlier connection.
   /// @returns its latest CAM, to be sent now, for the next one may be a second
@@ -66,25 +67,26 @@ public:
 
   /// The latest message of a stream has come.
   /// @returns the one that waited, to be sent now.
-  std::optional<message> acknowledge(const stream_id& stream, time_point now);
+  std::optional<message> acknowledge(const messages::stream_id& stream,
+                                     time_point now);
 
   /// A running service has ended: none of its inputs waits.
-  void forget(const session_id& ended);
+  void forget(const messages::session_id& ended);
 
 private:
-  std::optional<message> offer(const stream_id& stream, message x,
+  std::optional<message> offer(const messages::stream_id& stream, message x,
                                time_point now);
 
   struct last_cam {
-    its_pdu content;
+    messages::its_pdu content;
     time_point made;
   };
 
   std::vector<station_id> stations_;
-  conflating_queue<stream_id, message> queue_;
+  network::conflating_queue<messages::stream_id, message> queue_;
   std::map<station_id, last_cam> cams_;
   std::map<station_id, time_point> turns_; // those that have not come
   bool is_open_ = false;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -3,7 +3,7 @@
 
 #include "base/protocol.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr std::size_t longest_route = 1000;
 constexpr std::size_t most_services = 64;
 
 /// @returns a full bucket.
-token_bucket two_seconds_of(double per_second) {
+network::token_bucket two_seconds_of(double per_second) {
   return {per_second, burst_s * per_second};
 }
 
@@ -45,7 +45,7 @@ std::string_view peer_rules::objection_to_sender(station_id station) const {
 }
 
 std::string_view peer_rules::objection_to(station_id station,
-                                          const its_pdu& message,
+                                          const messages::its_pdu& message,
                                           time_point now) {
   if (const auto why = objection_to_rate(station, now); !why.empty())
     return why;
@@ -53,12 +53,13 @@ std::string_view peer_rules::objection_to(station_id station,
                                       : "carries another station's message";
 }
 
-std::string_view peer_rules::objection_to(const service_input& input,
+std::string_view peer_rules::objection_to(const messages::service_input& input,
                                           time_point now) {
   return objection_to_rate(input.session.station, now);
 }
 
-std::string_view peer_rules::objection_to(const service_request& request) {
+std::string_view
+peer_rules::objection_to(const messages::service_request& request) {
   const auto is_small =
       request.route.size() <= longest_route
       && request.services.size() <= most_services
@@ -71,4 +72,4 @@ std::string_view peer_rules::objection_to_rate(station_id station,
   return by_station_.at(station).try_spend(now) ? "" : "says too much";
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -9,7 +9,7 @@
 #include <set>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A peer speaks for its own stations only, and each of them may send so much
 /// a second: CAMs, CPMs and inputs at 10 Hz or 20, several times over. All that
@@ -31,20 +31,23 @@ public:
   std::string_view objection_to_sender(station_id station) const;
 
   /// To the contents of an ITS message of this station, which is the peer's.
-  std::string_view objection_to(station_id station, const its_pdu& message,
+  std::string_view objection_to(station_id station,
+                                const messages::its_pdu& message,
                                 time_point now);
 
   /// To an input of a station of the peer's.
-  std::string_view objection_to(const service_input& input, time_point now);
+  std::string_view objection_to(const messages::service_input& input,
+                                time_point now);
 
   /// To the size of a request.
-  static std::string_view objection_to(const service_request& request);
+  static std::string_view
+  objection_to(const messages::service_request& request);
 
 private:
   std::string_view objection_to_rate(station_id station, time_point now);
 
-  token_bucket all_; // for all that the peer sends
-  std::map<station_id, token_bucket> by_station_;
+  network::token_bucket all_; // for all that the peer sends
+  std::map<station_id, network::token_bucket> by_station_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

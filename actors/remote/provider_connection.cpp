@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -18,51 +18,52 @@ provider_connection_impl::behavior_type provider_connection(
       [self](const caf::down_msg& down) { self->state.on_down(down.source); });
   return {
       // Of the provider:
-      [self](station_id::rep station, const service_offer& offer) {
+      [self](station_id::rep station, const messages::service_offer& offer) {
         if (self->state.is_from_connection())
           self->state.on_offer(station, offer);
       },
-      [self](const service_response& response) {
+      [self](const messages::service_response& response) {
         if (self->state.is_from_connection())
           self->state.on_response(response);
       },
-      [self](const service_result& result) {
+      [self](const messages::service_result& result) {
         if (self->state.is_from_connection())
           self->state.on_result(result);
       },
-      [self](const service_end& e) { // or of a vehicle
-        if (e.from == side::requester)
+      [self](const messages::service_end& e) { // or of a vehicle
+        if (e.from == messages::side::requester)
           self->state.on_requester_end(e);
         else if (self->state.is_from_connection())
           self->state.on_provider_end(e);
       },
-      [self](const ping& sign) {
+      [self](const messages::ping& sign) {
         if (self->state.is_from_connection())
           self->state.on_ping(sign);
       },
-      [self](const pong& echo) {
+      [self](const messages::pong& echo) {
         if (self->state.is_from_connection())
           self->state.on_pong(echo);
       },
-      [self](const stream_id& stream) {
+      [self](const messages::stream_id& stream) {
         if (self->state.is_from_connection())
           self->state.on_acknowledgement(stream);
       },
       // Of vehicles:
-      [self](station_id::rep station, const its_pdu& message) {
+      [self](station_id::rep station, const messages::its_pdu& message) {
         self->state.on_its_message(station, message);
       },
-      [self](const service_request& request) {
-        self->state.on_request(request);
-      },
-      [self](const service_input& input) { self->state.on_input(input); },
-      [self](station_id::rep station, const link_actor& vehicle) {
+      [self](const messages::service_request& x) { self->state.on_request(x); },
+      [self](const messages::service_input& x) { self->state.on_input(x); },
+      [self](station_id::rep station, const messages::link_actor& vehicle) {
         self->state.vehicles.insert_or_assign(station, vehicle);
       },
       // Of its own timers, connections and attempts at one:
-      [self](tick_atom) { self->state.on_tick(); },
-      [self](tick_atom, station_id::rep of) { self->state.on_turn(of); },
-      [self](const peer_welcome& welcome, const provider_endpoint_actor& peer) {
+      [self](messages::tick_atom) { self->state.on_tick(); },
+      [self](messages::tick_atom, station_id::rep of) {
+        self->state.on_turn(of);
+      },
+      [self](const messages::peer_welcome& welcome,
+             const messages::provider_endpoint_actor& peer) {
         if (self->state.is_from_connection())
           self->state.on_welcome(welcome, peer);
       },
@@ -70,10 +71,10 @@ provider_connection_impl::behavior_type provider_connection(
         if (self->state.is_from_connection())
           self->state.on_refusal(why, for_ever);
       },
-      [self](tick_atom, const acceptor_actor& acceptor) {
+      [self](messages::tick_atom, const messages::acceptor_actor& acceptor) {
         self->state.on_acceptor(acceptor);
       },
-      [self](tick_atom, const std::string& why) {
+      [self](messages::tick_atom, const std::string& why) {
         self->state.on_attempt_failed(why);
       },
   };
@@ -87,9 +88,9 @@ provider_outbox spawn_provider_connection(caf::actor_system& sys,
 }
 
 void introduce(const provider_outbox& outbox, station_id station,
-               const link_actor& provider_proxy) {
+               const messages::link_actor& provider_proxy) {
   caf::anon_send(caf::actor_cast<provider_connection_impl>(outbox),
                  station.value(), provider_proxy);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What a connection is made of. Its functions are called from any thread.
 struct provider_connection_setup {
@@ -21,21 +21,21 @@ struct provider_connection_setup {
   std::string address;  ///< For people.
   std::vector<station_id> stations;
   std::uint64_t world = 0; ///< Fingerprint that the provider must have as well.
-  etsi::its_clock clock;
-  recorder_actor recorder;
+  messages::etsi::its_clock clock;
+  messages::recorder_actor recorder;
   random_stream noise{0, ""}; ///< For the pauses between attempts.
   duration rest{};            ///< Before the first vehicle sends anything.
   /// Connects, which may take a while.
   /// @returns the acceptor, or why there is none.
-  std::function<std::variant<acceptor_actor, std::string>()> connect;
+  std::function<std::variant<messages::acceptor_actor, std::string>()> connect;
   /// Closes what may be left of a connection that is given up.
   std::function<void()> hang_up = [] {};
   /// Carries an attempt out, which calls `connect`; empty: on a thread of its
   /// own.
   std::function<void(std::function<void()> attempt)> aside;
-  std::uint32_t protocol = remote_protocol;
+  std::uint32_t protocol = messages::remote_protocol;
   /// Adds the proof that we may speak for our stations, where one is needed.
-  std::function<void(peer_hello&, const std::string& nonce)> prove;
+  std::function<void(messages::peer_hello&, const std::string& nonce)> prove;
   /// Called whenever the provider has let us in.
   std::function<void()> on_connected = [] {};
   /// Called with a sentence when we will never be let in: before the first
@@ -57,6 +57,6 @@ provider_outbox spawn_provider_connection(caf::actor_system& sys,
 
 /// Tells a connection which proxy stands for the provider at a station.
 void introduce(const provider_outbox& outbox, station_id station,
-               const link_actor& provider_proxy);
+               const messages::link_actor& provider_proxy);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -11,7 +11,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -37,7 +37,7 @@ void provider_connection_state::on_tick() {
     send_to_provider(life->beat(t));
   else if (attempts->is_due(t))
     attempt();
-  send_after(self, self, protocol::life_sign_period, tick_atom_v);
+  send_after(self, self, protocol::life_sign_period, messages::tick_atom_v);
 }
 
 void provider_connection_state::attempt() {
@@ -45,10 +45,11 @@ void provider_connection_state::attempt() {
   auto helper = [connect = setup->connect,
                  owner = provider_connection_impl{self}] {
     const auto found = connect();
-    if (const auto* acceptor = std::get_if<acceptor_actor>(&found))
-      caf::send_as(owner, owner, tick_atom_v, *acceptor);
+    if (const auto* acceptor = std::get_if<messages::acceptor_actor>(&found))
+      caf::send_as(owner, owner, messages::tick_atom_v, *acceptor);
     else
-      caf::send_as(owner, owner, tick_atom_v, std::get<std::string>(found));
+      caf::send_as(owner, owner, messages::tick_atom_v,
+                   std::get<std::string>(found));
   };
   if (setup->aside)
     setup->aside(std::move(helper));
@@ -65,7 +66,8 @@ void provider_connection_state::on_attempt_failed(const std::string& why) {
                       setup->provider, setup->address, why));
 }
 
-void provider_connection_state::on_acceptor(const acceptor_actor& found) {
+void provider_connection_state::on_acceptor(
+    const messages::acceptor_actor& found) {
   if (!endpoint) // else another attempt was faster
     endpoint = spawn_vehicle_endpoint(
         self->system(), found, setup,
@@ -91,7 +93,8 @@ void provider_connection_state::on_refusal(const std::string& why,
 }
 
 void provider_connection_state::on_welcome(
-    const peer_welcome& welcome, const provider_endpoint_actor& with) {
+    const messages::peer_welcome& welcome,
+    const messages::provider_endpoint_actor& with) {
   attempts->end();
   was_connected = true;
   setup->on_connected();
@@ -102,7 +105,7 @@ void provider_connection_state::on_welcome(
   self->monitor(peer);
   send_to_provider(life->beat(t));
   boot = welcome.boot;
-  log_event(event_type::provider_connected, setup->address);
+  log_event(messages::event_type::provider_connected, setup->address);
   publish(fmt::format("connected to provider {} at {}", setup->provider,
                       setup->address));
 }
@@ -118,9 +121,10 @@ void provider_connection_state::disconnect(std::string_view why) {
   attempts->pause(now(self));
   for (const auto& x : running)
     send_to_vehicle(x.station,
-                    service_end{x, end_reason::peer_lost, side::provider});
+                    messages::service_end{x, messages::end_reason::peer_lost,
+                                          messages::side::provider});
   running.clear();
-  log_event(event_type::provider_lost, why);
+  log_event(messages::event_type::provider_lost, why);
   publish(fmt::format("lost provider {} at {}: {}; vehicles plan for "
                       "themselves",
                       setup->provider, setup->address, why));
@@ -142,13 +146,13 @@ void provider_connection_state::publish(const std::string& sentence) {
     setup->on_news(sentence);
 }
 
-void provider_connection_state::log_event(event_type what,
+void provider_connection_state::log_event(messages::event_type what,
                                           std::string_view detail) {
   send_record(self, setup->recorder,
-              event_record{.at = now(self),
-                           .what = what,
-                           .provider = boot,
-                           .detail = std::string{detail}});
+              messages::event_record{.at = now(self),
+                                     .what = what,
+                                     .provider = boot,
+                                     .detail = std::string{detail}});
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -19,39 +19,41 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A connection, as it sees itself; this handle never leaves the process. It is
 /// a provider_outbox, too.
 using provider_connection_impl = vehicle_endpoint_owner::extend<
-    reacts_to<station_id::rep, its_pdu>, reacts_to<service_request>,
-    reacts_to<service_input>,
+    messages::reacts_to<station_id::rep, messages::its_pdu>,
+    messages::reacts_to<messages::service_request>,
+    messages::reacts_to<messages::service_input>,
     // This station's messages go there.
-    reacts_to<station_id::rep, link_actor>,
+    messages::reacts_to<station_id::rep, messages::link_actor>,
     // Something may be due.
-    reacts_to<tick_atom>,
+    messages::reacts_to<messages::tick_atom>,
     // It is this station's turn to begin.
-    reacts_to<tick_atom, station_id::rep>,
+    messages::reacts_to<messages::tick_atom, station_id::rep>,
     // An attempt has got through, or has failed for this reason.
-    reacts_to<tick_atom, acceptor_actor>, reacts_to<tick_atom, std::string>>;
+    messages::reacts_to<messages::tick_atom, messages::acceptor_actor>,
+    messages::reacts_to<messages::tick_atom, std::string>>;
 
 struct provider_connection_state {
   static inline const char* name = "provider_connection";
 
   provider_connection_impl::stateful_pointer<provider_connection_state> self;
   std::shared_ptr<const provider_connection_setup> setup;
-  std::map<station_id, link_actor> vehicles;
-  std::optional<dial_schedule> attempts;
+  std::map<station_id, messages::link_actor> vehicles;
+  std::optional<network::dial_schedule> attempts;
   std::optional<outgoing_traffic> traffic;
-  news_filter news;
+  network::news_filter news;
   time_point began;
   bool was_connected = false;
-  provider_id boot = 0;            // of the provider, the last one
-  vehicle_endpoint_actor endpoint; // from our introduction on
+  provider_id boot = 0;                      // of the provider, the last one
+  messages::vehicle_endpoint_actor endpoint; // from our introduction on
   // While connected:
-  provider_endpoint_actor peer;
+  messages::provider_endpoint_actor peer;
   std::optional<heartbeat> life;
-  std::set<session_id> running;
+  std::set<messages::session_id> running;
 
   void start(provider_connection_setup with);
   void on_tick();
@@ -59,9 +61,9 @@ struct provider_connection_state {
   // -- connecting -----------------------------------------------------------
 
   void on_attempt_failed(const std::string& why);
-  void on_acceptor(const acceptor_actor& found);
-  void on_welcome(const peer_welcome& welcome,
-                  const provider_endpoint_actor& with);
+  void on_acceptor(const messages::acceptor_actor& found);
+  void on_welcome(const messages::peer_welcome& welcome,
+                  const messages::provider_endpoint_actor& with);
   void on_refusal(const std::string& why, bool for_ever);
   void on_down(const caf::actor_addr& who);
 
@@ -71,28 +73,28 @@ struct provider_connection_state {
 
   // -- what vehicles send ---------------------------------------------------
 
-  void on_its_message(station_id station, const its_pdu& message);
-  void on_input(const service_input& input);
+  void on_its_message(station_id station, const messages::its_pdu& message);
+  void on_input(const messages::service_input& input);
   void on_turn(station_id station);
-  void on_request(const service_request& request);
-  void on_requester_end(const service_end& e);
+  void on_request(const messages::service_request& request);
+  void on_requester_end(const messages::service_end& e);
 
   // -- what the provider sends ----------------------------------------------
 
-  void on_ping(const ping& sign);
-  void on_pong(const pong& echo);
-  void on_acknowledgement(const stream_id& stream);
-  void on_offer(station_id station, const service_offer& offer);
-  void on_response(const service_response& response);
-  void on_result(const service_result& result);
-  void on_provider_end(const service_end& e);
+  void on_ping(const messages::ping& sign);
+  void on_pong(const messages::pong& echo);
+  void on_acknowledgement(const messages::stream_id& stream);
+  void on_offer(station_id station, const messages::service_offer& offer);
+  void on_response(const messages::service_response& response);
+  void on_result(const messages::service_result& result);
+  void on_provider_end(const messages::service_end& e);
 
 private:
   void attempt();
   void disconnect(std::string_view why);
-  void forget(const session_id& ended);
+  void forget(const messages::session_id& ended);
   void publish(const std::string& sentence);
-  void log_event(event_type what, std::string_view detail);
+  void log_event(messages::event_type what, std::string_view detail);
 
   template <class... Ts>
   void send_to_provider(const Ts&... xs) {
@@ -107,4 +109,4 @@ private:
   }
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -5,16 +5,17 @@
 
 #include <caf/typed_event_based_actor.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
-provider_endpoint_actor::behavior_type
-provider_endpoint(provider_endpoint_actor::pointer self,
+messages::provider_endpoint_actor::behavior_type
+provider_endpoint(messages::provider_endpoint_actor::pointer self,
                   vehicle_connection_setup setup) {
   const auto peer = caf::actor_cast<caf::strong_actor_ptr>(setup.peer);
-  const auto connection = spawn_vehicle_connection(
-      self->system(), std::move(setup), provider_endpoint_actor{self});
+  const auto connection =
+      spawn_vehicle_connection(self->system(), std::move(setup),
+                               messages::provider_endpoint_actor{self});
   self->link_to(connection); // they end together
   // What no interface has is dropped.
   self->set_default_handler(caf::drop);
@@ -26,27 +27,27 @@ provider_endpoint(provider_endpoint_actor::pointer self,
       self->send(connection, std::string{"a stranger speaks"});
   };
   return {
-      [=](station_id::rep station, const its_pdu& message) {
+      [=](station_id::rep station, const messages::its_pdu& message) {
         pass_on(station, message);
       },
-      [=](const service_request& request) { pass_on(request); },
-      [=](const service_input& input) { pass_on(input); },
-      [=](const service_end& end) {
-        if (end.from == side::requester)
+      [=](const messages::service_request& request) { pass_on(request); },
+      [=](const messages::service_input& input) { pass_on(input); },
+      [=](const messages::service_end& end) {
+        if (end.from == messages::side::requester)
           pass_on(end);
       },
-      [=](const ping& sign) { pass_on(sign); },
-      [=](const pong& echo) { pass_on(echo); },
-      [=](const stream_id& stream) { pass_on(stream); },
+      [=](const messages::ping& sign) { pass_on(sign); },
+      [=](const messages::pong& echo) { pass_on(echo); },
+      [=](const messages::stream_id& stream) { pass_on(stream); },
   };
 }
 
 } // namespace
 
-provider_endpoint_actor
+messages::provider_endpoint_actor
 spawn_provider_endpoint(caf::actor_system& sys,
                         vehicle_connection_setup setup) {
   return sys.spawn(provider_endpoint, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

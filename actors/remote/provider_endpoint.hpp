@@ -10,16 +10,16 @@
 #include <set>
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What a connection is made of.
 struct vehicle_connection_setup {
-  provider_actor provider;
-  vehicle_endpoint_actor peer;
-  std::set<station_id> stations; ///< For which the peer may speak.
-  etsi::its_clock clock;         ///< Ours.
-  etsi::its_clock peer_clock;    ///< As the peer has told it.
-  recorder_actor recorder;
+  messages::provider_actor provider;
+  messages::vehicle_endpoint_actor peer;
+  std::set<station_id> stations;        ///< For which the peer may speak.
+  messages::etsi::its_clock clock;      ///< Ours.
+  messages::etsi::its_clock peer_clock; ///< As the peer has told it.
+  messages::recorder_actor recorder;
   std::optional<sender_id> sender{}; ///< Of its certificate, if any.
 };
 
@@ -30,7 +30,7 @@ struct vehicle_connection_setup {
 /// Ends when the peer does, when it is sent an exit, or when the peer has
 /// answered no ping for protocol::silence_limit; the provider then sees
 /// all its stations lost.
-provider_endpoint_actor spawn_provider_endpoint(caf::actor_system& sys,
-                                                vehicle_connection_setup setup);
+messages::provider_endpoint_actor
+spawn_provider_endpoint(caf::actor_system& sys, vehicle_connection_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

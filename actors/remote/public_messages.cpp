@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -30,12 +30,13 @@ message_form form_of() {
     return (std::is_same_v<T, Ts> || ...);
   };
   auto longest = longest_plain_message;
-  if (has(std::type_identity<peer_hello>{}))
+  if (has(std::type_identity<messages::peer_hello>{}))
     longest = longest_hello;
-  if (has(std::type_identity<service_request>{}))
+  if (has(std::type_identity<messages::service_request>{}))
     longest = longest_request;
-  if (has(std::type_identity<ping>{}) || has(std::type_identity<pong>{})
-      || has(std::type_identity<stream_id>{}))
+  if (has(std::type_identity<messages::ping>{})
+      || has(std::type_identity<messages::pong>{})
+      || has(std::type_identity<messages::stream_id>{}))
     longest = longest_ping;
   return {{caf::type_id_v<Ts>...}, longest};
 }
@@ -73,9 +74,9 @@ void add_answers(message_forms& to, caf::detail::type_list<Signatures...>) {
 const message_forms& messages_to_provider() {
   static const auto forms = [] {
     message_forms all;
-    add_messages(all, acceptor_actor::signatures{});
-    add_messages(all, handshake_actor::signatures{});
-    add_messages(all, provider_endpoint_actor::signatures{});
+    add_messages(all, messages::acceptor_actor::signatures{});
+    add_messages(all, messages::handshake_actor::signatures{});
+    add_messages(all, messages::provider_endpoint_actor::signatures{});
     return all;
   }();
   return forms;
@@ -84,9 +85,9 @@ const message_forms& messages_to_provider() {
 const message_forms& messages_to_vehicles() {
   static const auto forms = [] {
     message_forms all;
-    add_answers(all, acceptor_actor::signatures{});
-    add_answers(all, handshake_actor::signatures{});
-    add_messages(all, vehicle_endpoint_actor::signatures{});
+    add_answers(all, messages::acceptor_actor::signatures{});
+    add_answers(all, messages::handshake_actor::signatures{});
+    add_messages(all, messages::vehicle_endpoint_actor::signatures{});
     all.error_type = caf::type_id_v<caf::error>;
     all.string_type = caf::type_id_v<std::string>;
     all.error_categories = {caf::type_id_v<caf::sec>,
@@ -96,4 +97,4 @@ const message_forms& messages_to_vehicles() {
   return forms;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

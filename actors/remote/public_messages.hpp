@@ -3,7 +3,7 @@
 
 #include "actors/remote/frame_check.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns what a process of vehicles may send to a provider's: what the
 /// interfaces of acceptor, handshake and provider endpoint take.
@@ -14,4 +14,4 @@ const message_forms& messages_to_provider();
 /// answer.
 const message_forms& messages_to_vehicles();
 
-} // namespace sofof
+} // namespace sofof::actors

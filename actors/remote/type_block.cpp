@@ -7,7 +7,7 @@
 #include <caf/detail/meta_object.hpp>
 #include <fmt/format.h>
 
-namespace sofof {
+namespace sofof::actors {
 
 std::uint64_t fingerprint_of_types() {
   std::string names;
@@ -24,4 +24,4 @@ std::string spoken(std::uint32_t protocol, std::uint64_t types) {
   return fmt::format("protocol {} with messages {:016x}", protocol, types);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns a fingerprint of the names of all our types, in their order: an id
 /// on the wire is a position in it.
@@ -13,4 +13,4 @@ std::uint64_t fingerprint_of_types();
 /// @returns how a program says which messages it speaks.
 std::string spoken(std::uint32_t protocol, std::uint64_t types);
 
-} // namespace sofof
+} // namespace sofof::actors

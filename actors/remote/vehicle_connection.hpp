@@ -8,22 +8,23 @@
 
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What its endpoint takes from the peer, and what the provider sends: it is a
 /// vehicle_outbox, too. This handle never leaves the process.
-using vehicle_connection_actor = provider_endpoint_actor::extend<
-    reacts_to<station_id::rep, service_offer>,
-    reacts_to<service_response, std::vector<provider_manager_actor>>,
-    reacts_to<service_result>,
+using vehicle_connection_actor = messages::provider_endpoint_actor::extend<
+    messages::reacts_to<station_id::rep, messages::service_offer>,
+    messages::reacts_to<messages::service_response,
+                        std::vector<messages::provider_manager_actor>>,
+    messages::reacts_to<messages::service_result>,
     // Something that came by the connection was dropped for this reason.
-    reacts_to<std::string>>;
+    messages::reacts_to<std::string>>;
 
 /// Stands for all vehicles of one peer, as spawn_provider_endpoint says.
 /// @param endpoint  Passes on what the peer sends; answers are sent in its
 ///                  name.
 vehicle_connection_actor
 spawn_vehicle_connection(caf::actor_system& sys, vehicle_connection_setup setup,
-                         const provider_endpoint_actor& endpoint);
+                         const messages::provider_endpoint_actor& endpoint);
 
-} // namespace sofof
+} // namespace sofof::actors

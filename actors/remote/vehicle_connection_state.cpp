@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -21,8 +21,9 @@ constexpr std::size_t results_per_station = 8; // under way
 
 } // namespace
 
-void vehicle_connection_state::start(vehicle_connection_setup with,
-                                     const provider_endpoint_actor& by) {
+void vehicle_connection_state::start(
+    vehicle_connection_setup with,
+    const messages::provider_endpoint_actor& by) {
   setup = std::move(with);
   endpoint = by;
   life.emplace(now(self),
@@ -33,7 +34,7 @@ void vehicle_connection_state::start(vehicle_connection_setup with,
                   protocol::silence_limit);
   self->monitor(setup.peer);
   self->monitor(setup.provider);
-  log_event(event_type::peer_connected, 0, stations());
+  log_event(messages::event_type::peer_connected, 0, stations());
   on_tick();
 }
 
@@ -48,7 +49,7 @@ void vehicle_connection_state::on_tick() {
     return;
   }
   send_to_peer(life->beat(t));
-  send_after(self, self, protocol::life_sign_period, tick_atom_v);
+  send_after(self, self, protocol::life_sign_period, messages::tick_atom_v);
 }
 
 void vehicle_connection_state::on_down(const caf::down_msg& down) {
@@ -60,22 +61,25 @@ void vehicle_connection_state::on_down(const caf::down_msg& down) {
 }
 
 void vehicle_connection_state::leave(std::string_view why) {
-  log_event(event_type::peer_lost, 0, fmt::format("{}: {}", stations(), why));
+  log_event(messages::event_type::peer_lost, 0,
+            fmt::format("{}: {}", stations(), why));
   self->quit(caf::exit_reason::remote_link_unreachable);
 }
 
 /// @returns e.g. "stations 101-106".
 std::string vehicle_connection_state::stations() const {
-  return describe({{setup.stations.begin(), setup.stations.end()}, {}});
+  return network::describe(
+      {{setup.stations.begin(), setup.stations.end()}, {}});
 }
 
-void vehicle_connection_state::log_event(event_type what, station_id station,
+void vehicle_connection_state::log_event(messages::event_type what,
+                                         station_id station,
                                          std::string_view detail) {
   send_record(self, setup.recorder,
-              event_record{.at = now(self),
-                           .what = what,
-                           .station = station,
-                           .detail = std::string{detail}});
+              messages::event_record{.at = now(self),
+                                     .what = what,
+                                     .station = station,
+                                     .detail = std::string{detail}});
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -17,27 +17,30 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A connection, as it sees itself.
 using vehicle_connection_impl =
-    vehicle_connection_actor::extend<reacts_to<tick_atom>>;
+    vehicle_connection_actor::extend<messages::reacts_to<messages::tick_atom>>;
 
 struct vehicle_connection_state {
   static inline const char* name = "vehicle_connection";
 
   vehicle_connection_impl::stateful_pointer<vehicle_connection_state> self;
   vehicle_connection_setup setup;
-  provider_endpoint_actor endpoint; // what the peer knows of us
+  messages::provider_endpoint_actor endpoint; // what the peer knows of us
   std::optional<peer_rules> rules;
   std::optional<heartbeat> life;
-  std::map<station_id, requester_actor> requesters;
-  std::map<session_id, provider_manager_actor> managers;
-  std::optional<conflating_queue<stream_id, service_result>> results;
+  std::map<station_id, messages::requester_actor> requesters;
+  std::map<messages::session_id, messages::provider_manager_actor> managers;
+  std::optional<
+      network::conflating_queue<messages::stream_id, messages::service_result>>
+      results;
   std::optional<time_point> ends_at; // once the provider has
-  sampled_log dropped{std::chrono::seconds{1}};
+  network::sampled_log dropped{std::chrono::seconds{1}};
 
-  void start(vehicle_connection_setup with, const provider_endpoint_actor& by);
+  void start(vehicle_connection_setup with,
+             const messages::provider_endpoint_actor& by);
   void on_tick();
   void on_down(const caf::down_msg& down);
   /// Its endpoint has ended: the stations were let in anew.
@@ -45,35 +48,36 @@ struct vehicle_connection_state {
 
   // -- what the peer sends --------------------------------------------------
 
-  void on_its_message(station_id station, const its_pdu& message);
-  void on_input(const service_input& input);
-  void on_request(const service_request& request);
-  void on_requester_end(const service_end& e);
-  void on_ping(const ping& sign);
-  void on_pong(const pong& echo);
-  void on_acknowledgement(const stream_id& stream);
+  void on_its_message(station_id station, const messages::its_pdu& message);
+  void on_input(const messages::service_input& input);
+  void on_request(const messages::service_request& request);
+  void on_requester_end(const messages::service_end& e);
+  void on_ping(const messages::ping& sign);
+  void on_pong(const messages::pong& echo);
+  void on_acknowledgement(const messages::stream_id& stream);
   /// Its endpoint has dropped something for this reason.
   void on_dropped(const std::string& why) { is_dropped(0, why); }
 
   // -- what the provider sends ----------------------------------------------
 
-  void on_offer(station_id station, const service_offer& offer);
-  void on_response(const service_response& response,
-                   const std::vector<provider_manager_actor>& given);
-  void on_result(const service_result& result);
-  void on_provider_end(const service_end& e);
+  void on_offer(station_id station, const messages::service_offer& offer);
+  void on_response(const messages::service_response& response,
+                   const std::vector<messages::provider_manager_actor>& given);
+  void on_result(const messages::service_result& result);
+  void on_provider_end(const messages::service_end& e);
 
 private:
   bool is_heard();
   bool is_heard(station_id station);
   bool is_dropped(station_id station, std::string_view objection);
-  void pass_on(station_id station, const its_pdu& message);
-  void pass_on(const service_input& input);
-  const requester_actor& requester_of(station_id station);
-  void forget(const session_id& ended);
+  void pass_on(station_id station, const messages::its_pdu& message);
+  void pass_on(const messages::service_input& input);
+  const messages::requester_actor& requester_of(station_id station);
+  void forget(const messages::session_id& ended);
   void leave(std::string_view why);
   std::string stations() const;
-  void log_event(event_type what, station_id station, std::string_view detail);
+  void log_event(messages::event_type what, station_id station,
+                 std::string_view detail);
 
   template <class... Ts>
   void send_to_peer(const Ts&... xs) {
@@ -81,4 +85,4 @@ private:
   }
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -12,7 +12,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -20,13 +20,13 @@ struct vehicle_endpoint_state {
   static inline const char* name = "vehicle_endpoint";
   static constexpr auto closed = "it has closed the connection meanwhile";
 
-  vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state> self =
-      nullptr;
-  acceptor_actor acceptor;
+  messages::vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state>
+      self = nullptr;
+  messages::acceptor_actor acceptor;
   std::shared_ptr<const provider_connection_setup> setup;
   vehicle_endpoint_owner owner;
   std::uint64_t types = fingerprint_of_types();
-  provider_endpoint_actor peer; // once we are let in
+  messages::provider_endpoint_actor peer; // once we are let in
 
   // The owner lives long, and does not forget by itself who watched it.
   ~vehicle_endpoint_state() {
@@ -60,23 +60,24 @@ struct vehicle_endpoint_state {
     else if (!in)
       not_now("it lets nobody in now");
     else
-      introduce_at(caf::actor_cast<handshake_actor>(in), nonce);
+      introduce_at(caf::actor_cast<messages::handshake_actor>(in), nonce);
   }
 
-  void introduce_at(const handshake_actor& handshake,
+  void introduce_at(const messages::handshake_actor& handshake,
                     const std::string& nonce) {
-    peer_hello hello{setup->provider,
-                     setup->stations,
-                     setup->world,
-                     setup->clock.epoch_unix_ms(),
-                     {},
-                     {}};
+    messages::peer_hello hello{setup->provider,
+                               setup->stations,
+                               setup->world,
+                               setup->clock.epoch_unix_ms(),
+                               {},
+                               {}};
     setup->prove(hello, nonce);
     self->request(handshake, protocol::introduction_timeout, std::move(hello),
-                  vehicle_endpoint_actor{self})
+                  messages::vehicle_endpoint_actor{self})
         .then(
-            [this, at = handshake.node()](const peer_welcome& welcome,
-                                          const provider_endpoint_actor& with) {
+            [this, at = handshake.node()](
+                const messages::peer_welcome& welcome,
+                const messages::provider_endpoint_actor& with) {
               on_welcome(welcome, with, at);
             },
             [this](const caf::error& error) {
@@ -88,14 +89,14 @@ struct vehicle_endpoint_state {
   }
 
   /// @param process  That of the handshake.
-  void on_welcome(const peer_welcome& welcome,
-                  const provider_endpoint_actor& with,
+  void on_welcome(const messages::peer_welcome& welcome,
+                  const messages::provider_endpoint_actor& with,
                   const caf::node_id& process) {
     if (!with || with.node() != process) {
       not_now("it has no end of its own");
       return;
     }
-    if (!is_time_of_day(welcome.epoch_unix_ms)) {
+    if (!messages::is_time_of_day(welcome.epoch_unix_ms)) {
       refused("its clock shows no time of day");
       return;
     }
@@ -137,9 +138,10 @@ struct vehicle_endpoint_state {
   }
 };
 
-vehicle_endpoint_actor::behavior_type vehicle_endpoint(
-    vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state> self,
-    const acceptor_actor& acceptor,
+messages::vehicle_endpoint_actor::behavior_type vehicle_endpoint(
+    messages::vehicle_endpoint_actor::stateful_pointer<vehicle_endpoint_state>
+        self,
+    const messages::acceptor_actor& acceptor,
     std::shared_ptr<const provider_connection_setup> setup,
     const vehicle_endpoint_owner& owner) {
   auto& s = self->state;
@@ -152,30 +154,35 @@ vehicle_endpoint_actor::behavior_type vehicle_endpoint(
   self->set_default_handler(caf::drop); // what no interface has
   s.begin();
   return {
-      [self](station_id::rep station, const service_offer& offer) {
+      [self](station_id::rep station, const messages::service_offer& offer) {
         self->state.pass_on(station, offer);
       },
-      [self](const service_response& response) {
+      [self](const messages::service_response& response) {
         self->state.pass_on(response);
       },
-      [self](const service_result& result) { self->state.pass_on(result); },
-      [self](const service_end& end) {
-        if (end.from == side::provider)
+      [self](const messages::service_result& result) {
+        self->state.pass_on(result);
+      },
+      [self](const messages::service_end& end) {
+        if (end.from == messages::side::provider)
           self->state.pass_on(end);
       },
-      [self](const ping& sign) { self->state.pass_on(sign); },
-      [self](const pong& echo) { self->state.pass_on(echo); },
-      [self](const stream_id& stream) { self->state.pass_on(stream); },
+      [self](const messages::ping& sign) { self->state.pass_on(sign); },
+      [self](const messages::pong& echo) { self->state.pass_on(echo); },
+      [self](const messages::stream_id& stream) {
+        self->state.pass_on(stream);
+      },
   };
 }
 
 } // namespace
 
-vehicle_endpoint_actor
-spawn_vehicle_endpoint(caf::actor_system& sys, const acceptor_actor& acceptor,
+messages::vehicle_endpoint_actor
+spawn_vehicle_endpoint(caf::actor_system& sys,
+                       const messages::acceptor_actor& acceptor,
                        std::shared_ptr<const provider_connection_setup> setup,
                        const vehicle_endpoint_owner& owner) {
   return sys.spawn(vehicle_endpoint, acceptor, std::move(setup), owner);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

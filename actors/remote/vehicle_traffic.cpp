@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 // -- what the peer sends ----------------------------------------------------
 
@@ -25,29 +25,30 @@ bool vehicle_connection_state::is_dropped(station_id station,
   if (objection.empty())
     return false;
   if (const auto line = dropped.add(objection, now(self)))
-    log_event(event_type::peer_ignored, station, *line);
+    log_event(messages::event_type::peer_ignored, station, *line);
   return true;
 }
 
 // What is dropped for its contents is acknowledged, too: its stream would stop
 // for a while. What is passed on goes first.
-void vehicle_connection_state::on_its_message(station_id station,
-                                              const its_pdu& message) {
+void vehicle_connection_state::on_its_message(
+    station_id station, const messages::its_pdu& message) {
   if (!is_heard(station))
     return;
   pass_on(station, message);
-  send_to_peer(stream_of(station, message));
+  send_to_peer(messages::stream_of(station, message));
 }
 
-void vehicle_connection_state::on_input(const service_input& input) {
+void vehicle_connection_state::on_input(const messages::service_input& input) {
   if (!is_heard(input.session.station))
     return;
   pass_on(input);
-  send_to_peer(stream_of(input.session, stream_id::what::input));
+  send_to_peer(
+      messages::stream_of(input.session, messages::stream_id::what::input));
 }
 
 void vehicle_connection_state::pass_on(station_id station,
-                                       const its_pdu& message) {
+                                       const messages::its_pdu& message) {
   const auto t = now(self);
   if (is_dropped(station, rules->objection_to(station, message, t)))
     return;
@@ -58,7 +59,7 @@ void vehicle_connection_state::pass_on(station_id station,
   self->send(setup.provider, std::move(*here), requester_of(station));
 }
 
-void vehicle_connection_state::pass_on(const service_input& input) {
+void vehicle_connection_state::pass_on(const messages::service_input& input) {
   const auto t = now(self);
   if (is_dropped(input.session.station, rules->objection_to(input, t)))
     return;
@@ -69,30 +70,33 @@ void vehicle_connection_state::pass_on(const service_input& input) {
     self->send(manager->second, std::move(*here));
 }
 
-void vehicle_connection_state::on_request(const service_request& request) {
+void vehicle_connection_state::on_request(
+    const messages::service_request& request) {
   if (is_heard(request.station)
       && !is_dropped(request.station, rules->objection_to(request)))
     self->send(setup.provider, request, requester_of(request.station));
 }
 
-void vehicle_connection_state::on_requester_end(const service_end& e) {
+void vehicle_connection_state::on_requester_end(
+    const messages::service_end& e) {
   if (!is_heard(e.session.station))
     return;
   forget(e.session);
   self->send(setup.provider, e);
 }
 
-void vehicle_connection_state::on_ping(const ping& sign) {
+void vehicle_connection_state::on_ping(const messages::ping& sign) {
   if (is_heard())
     send_to_peer(heartbeat::answer(sign, now(self)));
 }
 
-void vehicle_connection_state::on_pong(const pong& echo) {
+void vehicle_connection_state::on_pong(const messages::pong& echo) {
   if (is_heard())
     life->on_pong(echo, now(self));
 }
 
-void vehicle_connection_state::on_acknowledgement(const stream_id& stream) {
+void vehicle_connection_state::on_acknowledgement(
+    const messages::stream_id& stream) {
   if (!is_heard())
     return;
   if (const auto next = results->acknowledge(stream, now(self)))
@@ -100,7 +104,7 @@ void vehicle_connection_state::on_acknowledgement(const stream_id& stream) {
 }
 
 /// @returns whom the provider knows as this station's requester.
-const requester_actor&
+const messages::requester_actor&
 vehicle_connection_state::requester_of(station_id station) {
   auto& requester = requesters[station];
   if (!requester)
@@ -112,13 +116,13 @@ vehicle_connection_state::requester_of(station_id station) {
 // -- what the provider sends ------------------------------------------------
 
 void vehicle_connection_state::on_offer(station_id station,
-                                        const service_offer& offer) {
+                                        const messages::service_offer& offer) {
   send_to_peer(station.value(), offer);
 }
 
 void vehicle_connection_state::on_response(
-    const service_response& response,
-    const std::vector<provider_manager_actor>& given) {
+    const messages::service_response& response,
+    const std::vector<messages::provider_manager_actor>& given) {
   auto manager = given.begin();
   for (const auto& v : response.verdicts)
     if (v.accepted && manager != given.end())
@@ -126,20 +130,23 @@ void vehicle_connection_state::on_response(
   send_to_peer(response);
 }
 
-void vehicle_connection_state::on_result(const service_result& result) {
-  const auto stream = stream_of(result.session, stream_id::what::result);
+void vehicle_connection_state::on_result(
+    const messages::service_result& result) {
+  const auto stream =
+      messages::stream_of(result.session, messages::stream_id::what::result);
   if (const auto next = results->offer(stream, result, now(self)))
     send_to_peer(*next);
 }
 
-void vehicle_connection_state::on_provider_end(const service_end& e) {
+void vehicle_connection_state::on_provider_end(const messages::service_end& e) {
   forget(e.session);
   send_to_peer(e);
 }
 
-void vehicle_connection_state::forget(const session_id& ended) {
+void vehicle_connection_state::forget(const messages::session_id& ended) {
   managers.erase(ended);
-  results->forget(stream_of(ended, stream_id::what::result));
+  results->forget(
+      messages::stream_of(ended, messages::stream_id::what::result));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

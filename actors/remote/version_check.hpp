@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What an acceptor answers: version and types of its own, a number to sign and
 /// the handshake; without these two when the peer's are others, or nobody is
@@ -27,10 +27,10 @@ version_answer check_version(std::uint32_t protocol, std::uint64_t types,
                              Begin begin_handshake) {
   static const auto own_types = fingerprint_of_types();
   std::pair<std::string, caf::strong_actor_ptr> in;
-  if (protocol == remote_protocol && types == own_types)
+  if (protocol == messages::remote_protocol && types == own_types)
     in = begin_handshake();
-  return {remote_protocol, own_types, std::move(in.first),
+  return {messages::remote_protocol, own_types, std::move(in.first),
           std::move(in.second)};
 }
 
-} // namespace sofof
+} // namespace sofof::actors

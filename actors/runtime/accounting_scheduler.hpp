@@ -11,7 +11,7 @@
 #include <caf/resumable.hpp>
 #include <caf/scheduler/coordinator.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Work sharing, with a look at the thread's own clock before and after each
 /// turn. There is one per worker, and one worker per thread.
@@ -66,4 +66,4 @@ public:
   static void add_module_options(caf::actor_system_config&) {}
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -3,7 +3,7 @@
 
 #include "base/time.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 /// The difference between the clock of a host and the one that its machine has:
 /// for tests of runs on several hosts, whose clocks never quite agree. None by
@@ -28,4 +28,4 @@ struct clock_error {
   }
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -3,7 +3,7 @@
 
 #include "actors/runtime/accounting_scheduler.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 cpu_ledger* ledger_of(caf::actor_system& sys) {
   auto* scheduler = dynamic_cast<accounting_scheduler*>(&sys.scheduler());
@@ -15,4 +15,4 @@ void charge(caf::actor_system& sys, caf::actor_id who, const cpu_account& to) {
     ledger->charge(who, to);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

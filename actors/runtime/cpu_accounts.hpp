@@ -5,7 +5,7 @@
 
 #include <caf/fwd.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns the ledger of a system with an accounting scheduler; else null.
 cpu_ledger* ledger_of(caf::actor_system& sys);
@@ -14,4 +14,4 @@ cpu_ledger* ledger_of(caf::actor_system& sys);
 /// turning points, not for every message.
 void charge(caf::actor_system& sys, caf::actor_id who, const cpu_account& to);
 
-} // namespace sofof
+} // namespace sofof::actors

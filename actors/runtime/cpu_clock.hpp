@@ -7,7 +7,7 @@
 #include <chrono>
 #include <ctime>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace detail {
 
@@ -29,4 +29,4 @@ inline duration process_cpu_time() {
   return detail::read_cpu_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -1,7 +1,7 @@
 // A ledger of computing time: which actors took how much of it, for what.
 #include "actors/runtime/cpu_ledger.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 void cpu_ledger::charge(std::uint64_t actor, const cpu_account& to) {
   const std::lock_guard lock{mutex_};
@@ -69,4 +69,4 @@ void cpu_ledger::settle(const holder& of, time_point until, all_sums& into) {
   sum.wakes += of.wakes;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -15,12 +15,12 @@
 #include <unordered_map>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// For what an actor works: offloading in a vehicle, or something else.
 struct cpu_account {
   std::optional<station_id> station{}; ///< The vehicle, if it is one's work.
-  service_name service;                ///< Empty: all of the vehicle's.
+  messages::service_name service;      ///< Empty: all of the vehicle's.
   bool remote = false; ///< Whether it (or any of all) is remote meanwhile.
 
   auto operator<=>(const cpu_account&) const = default;
@@ -84,4 +84,4 @@ private:
   all_sums settled_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Shows the time of another clock with an error, and leaves the timers to it.
 /// It derives from CAF's clock for the type alone: no thread of its own starts.
@@ -71,4 +71,4 @@ private:
   host_clock clock_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

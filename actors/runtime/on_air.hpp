@@ -5,21 +5,21 @@
 #include "actors/runtime/time.hpp"
 #include "messages/type_ids.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 /// An ITS message leaves now.
 template <class Self>
-void note_on_air(Self* self, const recorder_actor& recorder,
-                 const its_pdu& message) {
-  send_record(self, recorder, air_record{now(self), message});
+void note_on_air(Self* self, const messages::recorder_actor& recorder,
+                 const messages::its_pdu& message) {
+  send_record(self, recorder, messages::air_record{now(self), message});
 }
 
 /// The same, if it is one.
 template <class Self>
-void note_on_air(Self* self, const recorder_actor& recorder,
-                 const payload& what) {
-  if (const auto message = what.as<its_pdu>())
+void note_on_air(Self* self, const messages::recorder_actor& recorder,
+                 const messages::payload& what) {
+  if (const auto message = what.as<messages::its_pdu>())
     note_on_air(self, recorder, *message);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

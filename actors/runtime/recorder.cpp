@@ -4,20 +4,22 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
-recorder_actor::behavior_type
-recorder(recorder_actor::pointer, const std::shared_ptr<record_sink>& sink) {
-  return {[sink](const record& x) { sink->on_record(x); }};
+messages::recorder_actor::behavior_type
+recorder(messages::recorder_actor::pointer,
+         const std::shared_ptr<messages::record_sink>& sink) {
+  return {[sink](const messages::record& x) { sink->on_record(x); }};
 }
 
 } // namespace
 
-recorder_actor spawn_recorder(caf::actor_system& sys,
-                              std::shared_ptr<record_sink> sink) {
+messages::recorder_actor
+spawn_recorder(caf::actor_system& sys,
+               std::shared_ptr<messages::record_sink> sink) {
   return sys.spawn(recorder, std::move(sink));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -8,16 +8,18 @@
 #include <memory>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @param sink  Used by this actor only, until it has quit.
-recorder_actor spawn_recorder(caf::actor_system& sys,
-                              std::shared_ptr<record_sink> sink);
+messages::recorder_actor
+spawn_recorder(caf::actor_system& sys,
+               std::shared_ptr<messages::record_sink> sink);
 
 /// Tells it from an actor what has happened.
 template <class Self>
-void send_record(Self* self, const recorder_actor& recorder, record what) {
+void send_record(Self* self, const messages::recorder_actor& recorder,
+                 messages::record what) {
   self->send(recorder, std::move(what));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -8,7 +8,7 @@
 
 #include <mutex>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// First come, first served. A thread that has nothing to do sleeps; it is
 /// woken for what comes from outside, and for what a thread at work leaves
@@ -45,4 +45,4 @@ public:
   static void add_module_options(caf::actor_system_config&) {}
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -9,7 +9,7 @@
 
 #include <map>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -56,4 +56,4 @@ void watch_as_well(const caf::actor& supervisor, const caf::actor& actor,
   caf::anon_send(supervisor, actor, name);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @param watched  Actors and what they are called.
 /// @param on_loss  Called with a sentence for each one that ends otherwise
@@ -23,4 +23,4 @@ spawn_supervisor(caf::actor_system& sys,
 void watch_as_well(const caf::actor& supervisor, const caf::actor& actor,
                    const std::string& name);
 
-} // namespace sofof
+} // namespace sofof::actors

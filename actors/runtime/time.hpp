@@ -9,7 +9,7 @@
 #include <functional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns the time of the run that `self` lives in.
 template <class Self>
@@ -42,4 +42,4 @@ void send_after(Self* self, const Receiver& receiver, duration d, Ts&&... xs) {
   send_at(self, receiver, now(self) + d, std::forward<Ts>(xs)...);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -18,14 +18,14 @@ public:
   explicit climate_function(const climate_options& options)
       : options_{options} {}
 
-  offloading::service_output run(time_point,
-                                 const service_input& input) override {
+  offloading::service_output
+  run(time_point, const messages::service_input& input) override {
     const auto ask = input.what.as<climate_request>();
     if (!ask)
       return {};
-    return payload::of(climate_power{
-        climate_power_w({ask->air_c, ask->mass_c}, ask->outside_c,
-                        ask->set_point_c, options_.horizon_s, options_.cabin)});
+    return messages::payload::of(climate_power{world::climate_power_w(
+        {ask->air_c, ask->mass_c}, ask->outside_c, ask->set_point_c,
+        options_.horizon_s, options_.cabin)});
   }
 
 private:
@@ -37,8 +37,8 @@ class power_judge final : public offloading::result_judge {
 public:
   explicit power_judge(const climate_options& options) : options_{options} {}
 
-  offloading::judged_result judge(const payload& result,
-                                  const service_input& latest,
+  offloading::judged_result judge(const messages::payload& result,
+                                  const messages::service_input& latest,
                                   time_point) override {
     const auto ask = latest.what.as<climate_request>();
     const auto answer = result.as<climate_power>();
@@ -46,13 +46,15 @@ public:
       return {};
     if (!answer)
       return {{}, objection{"readable", 0, 1}};
-    const judged_climate x{{ask->air_c, ask->mass_c},
-                           ask->outside_c,
-                           ask->set_point_c,
-                           options_.horizon_s};
-    if (const auto why = judge_climate(answer->power_w, x, options_.cabin))
+    const planners::judged_climate x{{ask->air_c, ask->mass_c},
+                                     ask->outside_c,
+                                     ask->set_point_c,
+                                     options_.horizon_s};
+    if (const auto why =
+            planners::judge_climate(answer->power_w, x, options_.cabin))
       return {{}, why};
-    left_ = {"comfort_w", climate_margin_w(answer->power_w, x, options_.cabin)};
+    left_ = {"comfort_w",
+             planners::climate_margin_w(answer->power_w, x, options_.cabin)};
     return {result, {}, {}, {&left_, 1}};
   }
 
@@ -126,8 +128,9 @@ public:
                 }};
   }
 
-  client_actor spawn_client(caf::actor_system& sys,
-                            const vehicle_actor&) const override {
+  messages::client_actor
+  spawn_client(caf::actor_system& sys,
+               const messages::vehicle_actor&) const override {
     return spawn_cabin(sys, climate_, options.period);
   }
 
@@ -141,4 +144,4 @@ service_type_ptr service_cabin_climate() {
   return std::make_shared<cabin_climate>();
 }
 
-} // namespace sofof
+} // namespace sofof::actors

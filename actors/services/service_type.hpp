@@ -16,13 +16,13 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What services may know of the world that they run in.
 struct service_world {
-  streets_ptr streets;
-  georeference_ptr where; ///< Where that is on Earth.
-  vehicle_params car{};   ///< Each vehicle.
+  world::streets_ptr streets;
+  messages::georeference_ptr where; ///< Where that is on Earth.
+  world::vehicle_params car{};      ///< Each vehicle.
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
 };
@@ -42,8 +42,9 @@ public:
 
   /// @param vehicle  The vehicle that the client belongs to. It is itself the
   ///                 client of the service that has `plans`, and of no other.
-  virtual client_actor spawn_client(caf::actor_system& sys,
-                                    const vehicle_actor& vehicle) const = 0;
+  virtual messages::client_actor
+  spawn_client(caf::actor_system& sys,
+               const messages::vehicle_actor& vehicle) const = 0;
 
   /// @returns how vehicles ask it for plans to drive by; null for a service
   /// that makes none.
@@ -60,4 +61,4 @@ service_type_ptr make_service_type(std::string_view name);
 /// @returns the names of all services, sorted.
 std::vector<std::string_view> service_type_names();
 
-} // namespace sofof
+} // namespace sofof::actors

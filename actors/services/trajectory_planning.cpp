@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -53,8 +53,9 @@ public:
                 }};
   }
 
-  client_actor spawn_client(caf::actor_system&,
-                            const vehicle_actor& vehicle) const override {
+  messages::client_actor
+  spawn_client(caf::actor_system&,
+               const messages::vehicle_actor& vehicle) const override {
     return vehicle;
   }
 
@@ -72,4 +73,4 @@ service_type_ptr service_trajectory_planning() {
   return std::make_shared<trajectory_planning>();
 }
 
-} // namespace sofof
+} // namespace sofof::actors

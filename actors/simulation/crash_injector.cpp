@@ -9,14 +9,14 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
 caf::behavior crash_injector(caf::event_based_actor* self,
                              const caf::actor& victim, duration after) {
-  send_after(self, self, after, tick_atom_v);
-  return {[self, victim](tick_atom) {
+  send_after(self, self, after, messages::tick_atom_v);
+  return {[self, victim](messages::tick_atom) {
     self->send_exit(victim, caf::exit_reason::kill);
     self->quit();
   }};
@@ -29,4 +29,4 @@ caf::actor spawn_power_cut(caf::actor_system& sys, caf::actor victim,
   return sys.spawn(crash_injector, std::move(victim), after);
 }
 
-} // namespace sofof
+} // namespace sofof::actors

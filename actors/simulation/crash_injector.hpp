@@ -7,7 +7,7 @@
 #include <caf/actor.hpp>
 #include <caf/actor_system.hpp>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @param victim  Is killed: it tells nobody, but whoever monitors it hears.
 /// @param after   From now on. The actor that is returned waits for that; once
@@ -15,4 +15,4 @@ namespace sofof {
 caf::actor spawn_power_cut(caf::actor_system& sys, caf::actor victim,
                            duration after);
 
-} // namespace sofof
+} // namespace sofof::actors

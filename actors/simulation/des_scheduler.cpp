@@ -10,7 +10,7 @@
 #include <cassert>
 #include <iostream>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -122,4 +122,4 @@ void des_scheduler::stop() {
   run_ready();
 }
 
-} // namespace sofof
+} // namespace sofof::actors

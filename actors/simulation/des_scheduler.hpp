@@ -15,7 +15,7 @@
 #include <deque>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A clock that moves only when told to; entries of the same time fire in the
 /// order in which they were made.
@@ -97,4 +97,4 @@ private:
   worker worker_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -7,13 +7,13 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Told of every plan and every step, it measures both.
 class drive_figures {
 public:
   /// The vehicle stands, or drives already: on a plan of its own to go on so.
-  drive_figures(station_id station, const vehicle_params& car,
+  drive_figures(station_id station, const world::vehicle_params& car,
                 double start_speed_mps = 0)
       : station_{station}, stops_{start_speed_mps <= 0}, ride_{
                                                              car.wheelbase_m,
@@ -25,27 +25,29 @@ public:
   /// @param report   How `next` came about.
   /// @param running  Who made `next`; counter 0 is the vehicle itself.
   /// @returns the jump, if `in_use` is from another source.
-  std::optional<plan_switch_record>
-  on_plan(const trajectory& in_use, const trajectory& next,
-          const plan_report& report, const session_id& running, time_point now);
+  std::optional<messages::plan_switch_record>
+  on_plan(const world::trajectory& in_use, const world::trajectory& next,
+          const planners::plan_report& report,
+          const messages::session_id& running, time_point now);
 
   /// A plan of the vehicle's own to stop takes over. It is a safe stop unless
   /// the vehicle stops already, or has not set off.
   void stop_safely();
 
   /// @param x  The car after a step of protocol::control_period.
-  void on_step(const vehicle_state& x) { ride_.add(x, emergency_); }
+  void on_step(const world::vehicle_state& x) { ride_.add(x, emergency_); }
 
   /// @returns the figures since the last call.
-  drive_record flush();
+  messages::drive_record flush();
 
 private:
   station_id station_;
-  std::optional<session_id> source_; // none: a plan of its own is in use
-  bool stops_;                       // by a plan of its own, or has not set off
-  bool emergency_ = false;           // so is the plan in use
-  plan_figures plans_;
-  ride_comfort ride_;
+  std::optional<messages::session_id>
+      source_;             // none: a plan of its own is in use
+  bool stops_;             // by a plan of its own, or has not set off
+  bool emergency_ = false; // so is the plan in use
+  world::plan_figures plans_;
+  world::ride_comfort ride_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -45,8 +45,8 @@ driven_car::driven_car(car_setup setup)
 void driven_car::appear(time_point now) {
   at_ = plan_created_ = now;
   figures_.emplace(setup_.station, setup_.car, car_.speed_mps);
-  plan_ = std::make_shared<const trajectory>(
-      keep_speed(*setup_.way, now, s_m_, car_.speed_mps));
+  plan_ = std::make_shared<const world::trajectory>(
+      planners::keep_speed(*setup_.way, now, s_m_, car_.speed_mps));
 }
 
 // -- moving -----------------------------------------------------------------
@@ -56,9 +56,9 @@ driven_car::due driven_car::move() {
   const auto next = at_ + protocol::control_period;
   if (plan_->end() - next < reserve)
     stop_safely(next);
-  const auto command = follow(car_, *plan_, next, setup_.car);
+  const auto command = world::follow(car_, *plan_, next, setup_.car);
   const auto dt_s = to_seconds(protocol::control_period);
-  car_ = step(car_, command, setup_.car, dt_s);
+  car_ = world::step(car_, command, setup_.car, dt_s);
   at_ = next;
   const auto place = setup_.way->path().project(
       car_.at, s_m_ + car_.speed_mps * dt_s, window_m);
@@ -104,13 +104,13 @@ bool driven_car::ends(duration period, std::uint64_t step) const {
 
 void driven_car::stop_safely(time_point from) {
   figures_->stop_safely();
-  plan_ = std::make_shared<const trajectory>(
-      safe_stop(*setup_.way, from, measured()));
+  plan_ = std::make_shared<const world::trajectory>(
+      planners::safe_stop(*setup_.way, from, measured()));
 }
 
-std::optional<plan_switch_record> driven_car::use(const received_plan& next,
-                                                  const service_result& from,
-                                                  time_point now) {
+std::optional<messages::plan_switch_record>
+driven_car::use(const received_plan& next, const messages::service_result& from,
+                time_point now) {
   assert(has_appeared() && next.plan);
   if (from.created < plan_created_ || !next.plan->is_sound())
     return std::nullopt;
@@ -124,18 +124,18 @@ std::optional<plan_switch_record> driven_car::use(const received_plan& next,
   return jump;
 }
 
-planning_input driven_car::plan_from(time_point now) const {
+planners::planning_input driven_car::plan_from(time_point now) const {
   assert(has_appeared());
   const auto p = plan_->at(now);
   if (distance_m(p.at, car_.at) > followed_m
       || std::abs(p.speed_mps - car_.speed_mps) > followed_mps)
     return measured();
-  auto from = seen_from(*setup_.way, p);
+  auto from = planners::seen_from(*setup_.way, p);
   from.at = now;
   return from;
 }
 
-planning_input driven_car::measured() const {
+planners::planning_input driven_car::measured() const {
   const auto& path = setup_.way->path();
   const auto place = path.project(car_.at, s_m_, window_m);
   return {at_,
@@ -150,13 +150,13 @@ planning_input driven_car::measured() const {
 
 // -- what others see of it --------------------------------------------------
 
-ego_state driven_car::ego() const {
+messages::ego_state driven_car::ego() const {
   return {{setup_.station, at_, car_.at, car_.heading_rad, car_.speed_mps,
            car_.accel_mps2, std::tan(car_.steer_rad) / setup_.car.wheelbase_m},
           s_m_};
 }
 
-track_record driven_car::track(bool remote) const {
+messages::track_record driven_car::track(bool remote) const {
   return {at_, ego(), lateral_m_, at_ - plan_created_, remote};
 }
 
@@ -180,8 +180,8 @@ void driven_car::count_safety() {
     safety_.without_fresh_plan += protocol::control_period;
 }
 
-safety_record driven_car::flush_safety() {
+messages::safety_record driven_car::flush_safety() {
   return std::exchange(safety_, {.station = setup_.station});
 }
 
-} // namespace sofof
+} // namespace sofof::actors

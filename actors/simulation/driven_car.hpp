@@ -13,15 +13,15 @@
 #include <memory>
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Where and as what a car starts.
 struct car_setup {
   station_id station = 0;
-  route_ptr way;
+  world::route_ptr way;
   double start_s_m = 0;
   double start_speed_mps = 0;
-  vehicle_params car;
+  world::vehicle_params car;
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
 };
@@ -56,46 +56,49 @@ public:
 
   /// Goes by another plan, if it is sound, newer, and of now.
   /// @returns the jump, if the plan so far is from another source.
-  std::optional<plan_switch_record>
-  use(const received_plan& next, const service_result& from, time_point now);
+  std::optional<messages::plan_switch_record>
+  use(const received_plan& next, const messages::service_result& from,
+      time_point now);
 
   /// Where to plan from: the point of the plan in use if the car is there, so
   /// that plans join without a jolt, else the car.
-  planning_input plan_from(time_point now) const;
+  planners::planning_input plan_from(time_point now) const;
 
-  motion_report report() const { return {setup_.station, s_m_, car_}; }
-  ego_state ego() const;
+  messages::motion_report report() const {
+    return {setup_.station, s_m_, car_};
+  }
+  messages::ego_state ego() const;
   /// @param remote  Whether its plans come from a provider.
-  track_record track(bool remote) const;
+  messages::track_record track(bool remote) const;
   point position() const { return car_.at; }
 
   /// A step of protocol::sensor_period ends: counts it if the car is off its
   /// road.
   void count_off_road();
   /// @returns the figures since the last call.
-  safety_record flush_safety();
-  drive_record flush_figures() {
+  messages::safety_record flush_safety();
+  messages::drive_record flush_figures() {
     assert(has_appeared());
     return figures_->flush();
   }
 
 private:
-  planning_input measured() const;
+  planners::planning_input measured() const;
   bool ends(duration period, std::uint64_t step) const;
   bool is_tracked(std::uint64_t step) const;
   void stop_safely(time_point from);
   void count_safety();
 
   car_setup setup_;
-  vehicle_state car_;
+  world::vehicle_state car_;
   double s_m_ = 0;       // of the rear axle on the route,
   double lateral_m_ = 0; // and beside it
   time_point at_;
   std::uint64_t steps_ = 0;
-  std::shared_ptr<const trajectory> plan_;
+  std::shared_ptr<const world::trajectory> plan_;
   time_point plan_created_;
-  safety_record safety_;
+  messages::safety_record safety_;
   std::optional<drive_figures> figures_; // from when it appears on
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -12,46 +12,47 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
 /// What a message takes on the air: an ITS message with what the layers below
 /// add to it, anything else as our own protocol has it.
-std::size_t octets_on_air(const its_pdu& message) {
-  return message.octets.size() + geonet_octets;
+std::size_t octets_on_air(const messages::its_pdu& message) {
+  return message.octets.size() + messages::geonet_octets;
 }
 
 template <class Message>
 std::size_t octets_on_air(const Message& message) {
   if constexpr (requires { message.what.type(); })
-    if (const auto pdu = message.what.template as<its_pdu>())
+    if (const auto pdu = message.what.template as<messages::its_pdu>())
       return octets_on_air(*pdu);
-  return octets_of(message);
+  return messages::octets_of(message);
 }
 
 struct link_state {
   static inline const char* name = "network_link";
 
-  link_actor::pointer self = nullptr;
-  provider_actor far;
-  requester_actor near;
+  messages::link_actor::pointer self = nullptr;
+  messages::provider_actor far;
+  messages::requester_actor near;
   std::optional<link_setup> setup;
   // Who feeds the running services at the far end.
-  std::vector<std::pair<session_id, provider_manager_actor>> managers;
+  std::vector<std::pair<messages::session_id, messages::provider_manager_actor>>
+      managers;
   std::uint64_t carried = 0;
 
   template <class Receiver, class Message, class... Ts>
   void up(const Receiver& receiver, const Message& message, Ts&&... xs) {
-    carry(setup->up, message_class::other, time_number(message), receiver,
-          message, std::forward<Ts>(xs)...);
+    carry(setup->up, channel::message_class::other, time_number(message),
+          receiver, message, std::forward<Ts>(xs)...);
   }
 
   template <class Message, class... Ts>
   void down(const Message& message, Ts&&... xs) {
     if (near)
-      carry(setup->down, message_class::other, time_number(message), near,
-            message, std::forward<Ts>(xs)...);
+      carry(setup->down, channel::message_class::other, time_number(message),
+            near, message, std::forward<Ts>(xs)...);
   }
 
   // They are numbered by the time they are sent at, so that the noise of one
@@ -60,7 +61,7 @@ struct link_state {
     return static_cast<std::uint64_t>(now(self).time_since_epoch().count());
   }
   // Those that are sent together do not share their noise.
-  std::uint64_t time_number(const its_pdu& message) const {
+  std::uint64_t time_number(const messages::its_pdu& message) const {
     constexpr std::size_t id = 1; // the octet of the message's id
     const auto of_its_kind =
         message.octets.size() > id
@@ -70,7 +71,7 @@ struct link_state {
   }
 
   template <class Receiver, class Message, class... Ts>
-  void carry(link_direction& direction, message_class kind,
+  void carry(channel::link_direction& direction, channel::message_class kind,
              std::uint64_t number, const Receiver& receiver,
              const Message& message, Ts&&... xs) {
     const auto t =
@@ -89,7 +90,7 @@ struct link_state {
       send_at(self, receiver, *t + *fate.copy_after, message, xs...);
   }
 
-  void meet(const requester_actor& requester) {
+  void meet(const messages::requester_actor& requester) {
     if (requester == near)
       return;
     if (near)
@@ -98,41 +99,44 @@ struct link_state {
     self->monitor(near);
   }
 
-  void on_response(const service_response& response,
-                   const std::vector<provider_manager_actor>& given) {
+  void on_response(const messages::service_response& response,
+                   const std::vector<messages::provider_manager_actor>& given) {
     auto manager = given.begin();
     for (const auto& v : response.verdicts)
       if (v.accepted && manager != given.end())
         managers.emplace_back(v.session, *manager++);
-    const std::vector<provider_manager_actor> me(
-        given.size(), provider_manager_actor{link_actor{self}});
+    const std::vector<messages::provider_manager_actor> me(
+        given.size(),
+        messages::provider_manager_actor{messages::link_actor{self}});
     down(response, me);
   }
 
-  void on_input(const service_input& input) {
+  void on_input(const messages::service_input& input) {
     auto i = std::ranges::find(managers, input.session,
                                &decltype(managers)::value_type::first);
     if (i != managers.end())
       up(i->second, input);
   }
 
-  void on_result(const service_result& result) {
+  void on_result(const messages::service_result& result) {
     if (near)
-      carry(setup->down, message_class::result, result.cycle, near, result);
+      carry(setup->down, channel::message_class::result, result.cycle, near,
+            result);
   }
 
-  void on_end(const service_end& end) {
+  void on_end(const messages::service_end& end) {
     std::erase_if(managers,
                   [&](const auto& m) { return m.first == end.session; });
-    if (end.from == side::provider)
+    if (end.from == messages::side::provider)
       down(end);
     else
       up(far, end);
   }
 };
 
-link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
-                               provider_actor far, link_setup setup) {
+messages::link_actor::behavior_type
+link(messages::link_actor::stateful_pointer<link_state> self,
+     messages::provider_actor far, link_setup setup) {
   auto& state = self->state;
   state.self = self;
   state.far = std::move(far);
@@ -144,32 +148,39 @@ link_actor::behavior_type link(link_actor::stateful_pointer<link_state> self,
     self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);
   });
   return {
-      [self](const its_pdu& message, const requester_actor& requester) {
+      [self](const messages::its_pdu& message,
+             const messages::requester_actor& requester) {
         self->state.meet(requester);
         self->state.up(self->state.far, message,
-                       requester_actor{link_actor{self}});
+                       messages::requester_actor{messages::link_actor{self}});
       },
-      [self](const service_request& request, const requester_actor& requester) {
+      [self](const messages::service_request& request,
+             const messages::requester_actor& requester) {
         self->state.meet(requester);
         self->state.up(self->state.far, request,
-                       requester_actor{link_actor{self}});
+                       messages::requester_actor{messages::link_actor{self}});
       },
-      [self](const service_end& end) { self->state.on_end(end); },
-      [self](const service_result& result) { self->state.on_result(result); },
-      [self](const service_offer& offer) { self->state.down(offer); },
-      [self](const service_response& response,
-             const std::vector<provider_manager_actor>& managers) {
+      [self](const messages::service_end& end) { self->state.on_end(end); },
+      [self](const messages::service_result& result) {
+        self->state.on_result(result);
+      },
+      [self](const messages::service_offer& offer) { self->state.down(offer); },
+      [self](const messages::service_response& response,
+             const std::vector<messages::provider_manager_actor>& managers) {
         self->state.on_response(response, managers);
       },
-      [self](const service_input& input) { self->state.on_input(input); },
+      [self](const messages::service_input& input) {
+        self->state.on_input(input);
+      },
   };
 }
 
 } // namespace
 
-link_actor spawn_network_link(caf::actor_system& sys, provider_actor far,
-                              link_setup setup) {
+messages::link_actor spawn_network_link(caf::actor_system& sys,
+                                        messages::provider_actor far,
+                                        link_setup setup) {
   return sys.spawn(link, std::move(far), std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

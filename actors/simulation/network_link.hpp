@@ -10,13 +10,13 @@
 #include <memory>
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// How a link carries what it is given.
 struct link_setup {
-  link_direction up;
-  link_direction down;
-  std::optional<link_faults> faults; ///< For tests.
+  channel::link_direction up;
+  channel::link_direction down;
+  std::optional<channel::link_faults> faults; ///< For tests.
 };
 
 /// A proxy that looks like the far end to both sides: it delays and loses
@@ -24,7 +24,8 @@ struct link_setup {
 /// handle that crosses it. In a distributed run the remote handle takes its
 /// place. Quits when the provider does, so the requester sees its peer lost;
 /// dies with the requester, so the provider sees the same.
-link_actor spawn_network_link(caf::actor_system& sys, provider_actor far,
-                              link_setup setup);
+messages::link_actor spawn_network_link(caf::actor_system& sys,
+                                        messages::provider_actor far,
+                                        link_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -10,12 +10,12 @@
 #include <memory>
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A plan, and how it came about.
 struct received_plan {
-  std::shared_ptr<const trajectory> plan; ///< Not null.
-  plan_report report;
+  std::shared_ptr<const world::trajectory> plan; ///< Not null.
+  planners::plan_report report;
 };
 
 /// A service that plans how vehicles drive, as they see it. Without state: all
@@ -28,12 +28,14 @@ public:
   /// @param seen  By the vehicle, and granted to it.
   /// @param own   Its motion as its CAMs tell it.
   /// @returns the input of the service.
-  virtual payload ask(const route& way, const planning_input& from,
-                      const perception& seen, const cam& own) const = 0;
+  virtual messages::payload ask(const world::route& way,
+                                const planners::planning_input& from,
+                                const world::perception& seen,
+                                const messages::cam& own) const = 0;
 
   /// @returns nullopt for what is no plan.
   virtual std::optional<received_plan>
-  read(const service_result& result) const = 0;
+  read(const messages::service_result& result) const = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

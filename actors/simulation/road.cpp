@@ -17,14 +17,16 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
-using road_impl = road_actor::extend<reacts_to<tick_atom>>;
+using road_impl =
+    messages::road_actor::extend<messages::reacts_to<messages::tick_atom>>;
 
-std::vector<road_body> standing(const std::vector<oriented_box>& obstacles) {
-  std::vector<road_body> bodies;
+std::vector<world::road_body>
+standing(const std::vector<oriented_box>& obstacles) {
+  std::vector<world::road_body> bodies;
   for (std::uint32_t k = 0; k < obstacles.size(); ++k)
     bodies.push_back({obstacle_id(k), obstacles[k], 0, 0});
   return bodies;
@@ -35,19 +37,22 @@ struct road_state {
 
   road_impl::stateful_pointer<road_state> self;
   road_setup setup;
-  std::optional<traffic> users;
-  scene visible;
-  std::map<station_id, vehicle_actor> vehicles;
-  std::map<station_id, std::pair<motion_report, vehicle_actor>> waiting;
+  std::optional<world::traffic> users;
+  world::scene visible;
+  std::map<station_id, messages::vehicle_actor> vehicles;
+  std::map<station_id,
+           std::pair<messages::motion_report, messages::vehicle_actor>>
+      waiting;
   std::vector<std::pair<station_id, station_id>> touching;
-  near_miss_watch conflict_sides;
+  world::near_miss_watch conflict_sides;
 
-  void on_report(const motion_report& report, const vehicle_actor& vehicle) {
+  void on_report(const messages::motion_report& report,
+                 const messages::vehicle_actor& vehicle) {
     const auto way = setup.ways.find(report.station);
     if (way == setup.ways.end())
       return;
     vehicles.try_emplace(report.station, vehicle);
-    road_user user;
+    world::road_user user;
     user.station = report.station;
     user.on = way->second;
     user.s_m = report.s_m;
@@ -55,7 +60,7 @@ struct road_state {
     user.accel_mps2 = report.state.accel_mps2;
     user.front_m = setup.car.front_m;
     user.rear_m = setup.car.rear_m;
-    user.body = body(report.state, setup.car);
+    user.body = world::body(report.state, setup.car);
     users->report(user);
   }
 
@@ -69,31 +74,31 @@ struct road_state {
     if (waiting.empty())
       return;
     const auto all = users->bodies();
-    std::vector<road_body> present{all.begin(), all.end()};
+    std::vector<world::road_body> present{all.begin(), all.end()};
     std::erase_if(waiting, [&](const auto& entry) {
       const auto& [report, vehicle] = entry.second;
-      const auto place = body(report.state, setup.car);
+      const auto place = world::body(report.state, setup.car);
       const auto speed_mps = report.state.speed_mps;
-      if (!is_free(place, speed_mps, present))
+      if (!world::is_free(place, speed_mps, present))
         return false;
       present.push_back({report.station, place, speed_mps, 0});
       on_report(report, vehicle);
-      self->send(vehicle, begin_atom_v);
+      self->send(vehicle, messages::begin_atom_v);
       return true;
     });
   }
 
   void tick() {
     const auto t = now(self);
-    send_at(self, self, t + protocol::sensor_period, tick_atom_v);
+    send_at(self, self, t + protocol::sensor_period, messages::tick_atom_v);
     let_in();
     users->update(t);
     visible.place(users->bodies());
     show_vehicles(t);
     for (std::uint32_t k = 0; k < setup.beside.size(); ++k) {
       const auto& [provider, is] = setup.beside[k];
-      self->send(provider,
-                 roadside_detections{t, visible.seen_by(is, t), k, is.view()});
+      self->send(provider, messages::roadside_detections{
+                               t, visible.seen_by(is, t), k, is.view()});
     }
     record_collisions(t);
     record_near_misses(t);
@@ -118,7 +123,7 @@ struct road_state {
     for (const auto& pair : touch)
       if (!std::ranges::binary_search(touching, pair))
         send_record(self, setup.recorder,
-                    collision_record{t, pair.first, pair.second});
+                    messages::collision_record{t, pair.first, pair.second});
     touching = std::move(touch);
   }
 
@@ -127,13 +132,13 @@ struct road_state {
     const auto all = users->bodies();
     for (const auto& x :
          conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
-      send_record(
-          self, setup.recorder,
-          event_record{.at = t,
-                       .what = event_type::near_miss,
-                       .station = x.first,
-                       .detail = fmt::format("with {} ttc_s={:.3f}", x.second,
-                                             x.time_to_collision_s)});
+      send_record(self, setup.recorder,
+                  messages::event_record{
+                      .at = t,
+                      .what = messages::event_type::near_miss,
+                      .station = x.first,
+                      .detail = fmt::format("with {} ttc_s={:.3f}", x.second,
+                                            x.time_to_collision_s)});
   }
 };
 
@@ -143,26 +148,27 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
   state.self = self;
   state.users.emplace(setup.world->map, standing(setup.obstacles),
                       setup.grants_crossings);
-  state.visible = scene{setup.world->map.buildings()};
+  state.visible = world::scene{setup.world->map.buildings()};
   state.setup = std::move(setup);
-  self->send(self, tick_atom_v);
+  self->send(self, messages::tick_atom_v);
   return {
-      [self](const motion_report& report, const vehicle_actor& vehicle) {
+      [self](const messages::motion_report& report,
+             const messages::vehicle_actor& vehicle) {
         self->state.on_report(report, vehicle);
       },
-      [self](begin_atom, const motion_report& report,
-             const vehicle_actor& vehicle) {
+      [self](messages::begin_atom, const messages::motion_report& report,
+             const messages::vehicle_actor& vehicle) {
         self->state.waiting.try_emplace(report.station, report, vehicle);
       },
       [self](station_id::rep station) { self->state.forget(station); },
-      [self](tick_atom) { self->state.tick(); },
+      [self](messages::tick_atom) { self->state.tick(); },
   };
 }
 
 } // namespace
 
-road_actor spawn_road(caf::actor_system& sys, road_setup setup) {
+messages::road_actor spawn_road(caf::actor_system& sys, road_setup setup) {
   return sys.spawn(road, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -12,28 +12,29 @@
 #include <map>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Which way each station goes.
-using station_routes = std::map<station_id, route_ptr>;
+using station_routes = std::map<station_id, world::route_ptr>;
 
 /// A provider's sensor at the roadside.
 struct roadside_sensor {
-  roadside_provider_actor provider;
-  sensor is;
+  messages::roadside_provider_actor provider;
+  world::sensor is;
 };
 
 /// What the road is made of.
 struct road_setup {
-  streets_ptr world;
+  world::streets_ptr world;
   station_routes ways;
-  vehicle_params car;         ///< Every vehicle's.
-  sensor_params sensors;      ///< Of every vehicle, in the middle of its body.
+  world::vehicle_params car; ///< Every vehicle's.
+  world::sensor_params
+      sensors;                ///< Of every vehicle, in the middle of its body.
   random_stream noise{0, ""}; ///< Of the vehicles' sensors.
   std::vector<roadside_sensor> beside; ///< Sensors of providers.
   std::vector<oriented_box> obstacles; ///< Stand on the road. The k-th
                                        ///< collides as `obstacle_id(k)`.
-  recorder_actor recorder;
+  messages::recorder_actor recorder;
   bool grants_crossings = true; ///< As `traffic` takes it.
 };
 
@@ -41,6 +42,6 @@ struct road_setup {
 /// them what it perceives, and providers what their sensors see, each sensor
 /// by a message of its own. It records collisions, each pair once as long as
 /// it touches, and near misses of vehicles, each encounter once.
-road_actor spawn_road(caf::actor_system& sys, road_setup setup);
+messages::road_actor spawn_road(caf::actor_system& sys, road_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

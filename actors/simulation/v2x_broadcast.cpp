@@ -5,7 +5,7 @@
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/perception.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -13,37 +13,39 @@ namespace {
 /// Source: TimeOfMeasurement, TR 103 562 V2.1.1.
 constexpr duration oldest_sight = std::chrono::milliseconds{1500};
 
-told_motion motion_of(const cam& own) {
+messages::told_motion motion_of(const messages::cam& own) {
   return {own.position, own.heading_rad, own.speed_mps};
 }
 
-perceived_object object_of(const track& x) {
+world::perceived_object object_of(const planners::track& x) {
   return {x.centre(),   x.heading_rad, x.speed_mps(),
           x.accel_mps2, x.length_m,    x.width_m};
 }
 
 } // namespace
 
-v2x_broadcast::v2x_broadcast(const v2x_options& options,
-                             const vehicle_params& car,
-                             const sensor_params& sensor,
-                             georeference_ptr where)
+v2x_broadcast::v2x_broadcast(const messages::v2x_options& options,
+                             const world::vehicle_params& car,
+                             const world::sensor_params& sensor,
+                             messages::georeference_ptr where)
     : options_{options}, car_{car}, sensor_{sensor}, where_{std::move(where)},
       cam_due_{options.cam_rule()}, cpm_due_{options.cpm_rule()} {}
 
-std::optional<its_pdu> v2x_broadcast::awareness(const cam& own) {
-  been_.pass(own.at, front_of(own, car_));
+std::optional<messages::its_pdu>
+v2x_broadcast::awareness(const messages::cam& own) {
+  been_.pass(own.at, messages::front_of(own, car_));
   const auto due = cam_due_.check(own.at, motion_of(own));
   if (!due.send)
     return std::nullopt;
-  auto message = make_cam(own, car_, *where_);
+  auto message = messages::make_cam(own, car_, *where_);
   if (due.low_frequency)
-    add_path(message, own, been_, *where_);
-  return encoded(message);
+    messages::add_path(message, own, been_, *where_);
+  return messages::encoded(message);
 }
 
-std::optional<its_pdu> v2x_broadcast::perceived(const cam& own,
-                                                const perception& seen) {
+std::optional<messages::its_pdu>
+v2x_broadcast::perceived(const messages::cam& own,
+                         const world::perception& seen) {
   if (!options_.sends_cpms())
     return std::nullopt;
   model_.update(seen.at, seen.objects);
@@ -58,11 +60,14 @@ std::optional<its_pdu> v2x_broadcast::perceived(const cam& own,
   told_.clear();
   for (const auto i : due.objects)
     told_.push_back(known_[i]);
-  const perceived_scene scene{own, seen.at, told_, known_.size(),
-                              due.sensor_information ? &sensor_ : nullptr};
+  const messages::perceived_scene scene{own, seen.at, told_, known_.size(),
+                                        due.sensor_information ? &sensor_
+                                                               : nullptr};
   return options_.is_release_2()
-             ? encoded(make_cpm_ts103324(scene, car_, *where_))
-             : encoded(make_cpm_tr103562(scene, car_, *where_));
+             ? messages::encoded(
+                 messages::make_cpm_ts103324(scene, car_, *where_))
+             : messages::encoded(
+                 messages::make_cpm_tr103562(scene, car_, *where_));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

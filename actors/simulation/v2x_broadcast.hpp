@@ -16,35 +16,38 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Decides what is due and encodes it. Objects keep their names in CPMs as
 /// long as an environment model of the vehicle's own recognises them; what is
 /// told of them is what the model makes of all sightings.
 class v2x_broadcast {
 public:
-  v2x_broadcast(const v2x_options& options, const vehicle_params& car,
-                const sensor_params& sensor, georeference_ptr where);
+  v2x_broadcast(const messages::v2x_options& options,
+                const world::vehicle_params& car,
+                const world::sensor_params& sensor,
+                messages::georeference_ptr where);
 
   /// The vehicle is here now; every protocol::ego_period.
   /// @returns its CAM, if one is due.
-  std::optional<its_pdu> awareness(const cam& own);
+  std::optional<messages::its_pdu> awareness(const messages::cam& own);
 
   /// @param own   The vehicle's motion now.
   /// @param seen  What it saw last.
   /// @returns its CPM, if one is due.
-  std::optional<its_pdu> perceived(const cam& own, const perception& seen);
+  std::optional<messages::its_pdu> perceived(const messages::cam& own,
+                                             const world::perception& seen);
 
 private:
-  v2x_options options_;
-  vehicle_params car_;
-  sensor_params sensor_;
-  georeference_ptr where_;
-  cam_trigger cam_due_;
-  cpm_trigger cpm_due_;
-  path_history been_;
-  object_tracker model_;
-  std::vector<known_object> known_, told_; // one after the other
+  messages::v2x_options options_;
+  world::vehicle_params car_;
+  world::sensor_params sensor_;
+  messages::georeference_ptr where_;
+  messages::cam_trigger cam_due_;
+  messages::cpm_trigger cpm_due_;
+  messages::path_history been_;
+  planners::object_tracker model_;
+  std::vector<messages::known_object> known_, told_; // one after the other
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -25,10 +25,10 @@ struct vehicle_actor_state {
   vehicle_setup setup;
   std::optional<vehicle_links> links;
   std::optional<driven_car> car;
-  onboard_requester_actor requester;
-  requester_manager_actor planning; // gets the inputs
+  messages::onboard_requester_actor requester;
+  messages::requester_manager_actor planning; // gets the inputs
   std::optional<v2x_broadcast> broadcast;
-  perception newest; // of what it perceives
+  world::perception newest; // of what it perceives
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
@@ -37,7 +37,7 @@ struct vehicle_actor_state {
     links.emplace(self, setup);
     car.emplace(setup.car);
     if (setup.appears_after > 0ms)
-      send_after(self, self, setup.appears_after, tick_atom_v);
+      send_after(self, self, setup.appears_after, messages::tick_atom_v);
     else
       on_place();
   }
@@ -52,11 +52,11 @@ struct vehicle_actor_state {
 
   void on_place() {
     if (setup.appears_after > 0ms)
-      links->log_event(event_type::appeared);
+      links->log_event(messages::event_type::appeared);
     car->appear(now(self));
     if (setup.v2x)
       broadcast.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
-    requester = setup.spawn_requester(vehicle_actor{self});
+    requester = setup.spawn_requester(messages::vehicle_actor{self});
     self->monitor(requester); // the car outlives it, and stops safely
     links->report(*car);
     go_on();
@@ -79,7 +79,7 @@ struct vehicle_actor_state {
   // At the end of an open route: makes room for others.
   void arrive() {
     has_arrived = true;
-    links->log_event(event_type::arrived);
+    links->log_event(messages::event_type::arrived);
     links->record_figures(*car);
     links->leave_road();
     if (requester)
@@ -91,7 +91,7 @@ struct vehicle_actor_state {
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
-      links->log_event(event_type::requester_lost);
+      links->log_event(messages::event_type::requester_lost);
   }
 
   // -- moving -------------------------------------------------------------
@@ -99,7 +99,7 @@ struct vehicle_actor_state {
   void go_on() {
     catch_up();
     if (!has_arrived)
-      send_at(self, self, car->next_report(), tick_atom_v);
+      send_at(self, self, car->next_report(), messages::tick_atom_v);
   }
 
   // Moves up to now. Nobody sees the car between its reports, so it does so
@@ -129,7 +129,7 @@ struct vehicle_actor_state {
       links->record_figures(*car);
   }
 
-  void on_perception(perception& others) {
+  void on_perception(world::perception& others) {
     newest = std::move(others); // a report of this moment tells of it
     catch_up();
     if (!planning || !setup.plans || has_arrived)
@@ -137,10 +137,11 @@ struct vehicle_actor_state {
     const auto from = car->plan_from(now(self));
     auto question =
         setup.plans->ask(*setup.car.way, from, newest, car->ego().own);
-    self->send(planning, service_input{{}, from.at, std::move(question)});
+    self->send(planning,
+               messages::service_input{{}, from.at, std::move(question)});
   }
 
-  void on_result(const service_result& result) {
+  void on_result(const messages::service_result& result) {
     catch_up();
     const auto next = setup.plans ? setup.plans->read(result) : std::nullopt;
     if (!next)
@@ -149,7 +150,7 @@ struct vehicle_actor_state {
       links->record(*jump);
   }
 
-  void on_source(const source_change& change) {
+  void on_source(const messages::source_change& change) {
     catch_up();
     remote = change.remote;
   }
@@ -178,21 +179,22 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
   self->set_exit_handler(
       [self](const caf::exit_msg& exit) { self->state.on_exit(exit.reason); });
   return {
-      [self](const service_result& result) { self->state.on_result(result); },
-      [self](const source_change& change) { self->state.on_source(change); },
-      [self](const requester_manager_actor& manager) {
+      [self](const messages::service_result& x) { self->state.on_result(x); },
+      [self](const messages::source_change& x) { self->state.on_source(x); },
+      [self](const messages::requester_manager_actor& manager) {
         self->state.planning = manager;
       },
-      [self](perception& others) { self->state.on_perception(others); },
-      [self](begin_atom) { self->state.on_place(); },
-      [self](tick_atom) { self->state.on_tick(); },
+      [self](world::perception& others) { self->state.on_perception(others); },
+      [self](messages::begin_atom) { self->state.on_place(); },
+      [self](messages::tick_atom) { self->state.on_tick(); },
   };
 }
 
 } // namespace
 
-vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup) {
+messages::vehicle_actor spawn_vehicle(caf::actor_system& sys,
+                                      vehicle_setup setup) {
   return sys.spawn(vehicle, std::move(setup));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -14,11 +14,11 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A provider that hears this vehicle while it is near enough.
 struct antenna {
-  link_actor link;
+  messages::link_actor link;
   point position; ///< Of the provider, m, east-north.
   double range_m = 0;
 };
@@ -31,21 +31,24 @@ struct vehicle_setup {
   duration appears_after{};
   /// The service that plans how it drives; null: none does.
   std::shared_ptr<const plan_client> plans;
-  sensor_params sensor; ///< As its CPMs tell it.
+  world::sensor_params sensor; ///< As its CPMs tell it.
   /// What it tells everybody; nothing if it is not connected.
-  std::optional<v2x_options> v2x;
-  georeference_ptr where; ///< Where the map is on Earth.
+  std::optional<messages::v2x_options> v2x;
+  messages::georeference_ptr where; ///< Where the map is on Earth.
   std::vector<antenna> antennas;
-  road_actor road;
-  recorder_actor recorder;
+  messages::road_actor road;
+  messages::recorder_actor recorder;
   /// Makes the vehicle's requester.
-  std::function<onboard_requester_actor(const vehicle_actor&)> spawn_requester;
+  std::function<messages::onboard_requester_actor(
+      const messages::vehicle_actor&)>
+      spawn_requester;
 };
 
 /// A `driven_car` that tells the road where it is, its requester and everybody
 /// near what it does, and asks the manager that it is given for plans whenever
 /// it has perceived the others. At the end of an open route it leaves the
 /// streets.
-vehicle_actor spawn_vehicle(caf::actor_system& sys, vehicle_setup setup);
+messages::vehicle_actor spawn_vehicle(caf::actor_system& sys,
+                                      vehicle_setup setup);
 
-} // namespace sofof
+} // namespace sofof::actors

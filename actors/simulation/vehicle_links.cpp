@@ -9,42 +9,44 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 void vehicle_links::ask_for_place(const driven_car& car) {
-  self_->send(setup_.road, begin_atom_v, car.report(), vehicle_actor{self_});
+  self_->send(setup_.road, messages::begin_atom_v, car.report(),
+              messages::vehicle_actor{self_});
 }
 
 void vehicle_links::report(const driven_car& car) {
-  self_->send(setup_.road, car.report(), vehicle_actor{self_});
+  self_->send(setup_.road, car.report(), messages::vehicle_actor{self_});
 }
 
 void vehicle_links::leave_road() {
   self_->send(setup_.road, setup_.car.station.value());
 }
 
-void vehicle_links::broadcast(const std::optional<its_pdu>& message, point from,
-                              const onboard_requester_actor& requester) {
+void vehicle_links::broadcast(
+    const std::optional<messages::its_pdu>& message, point from,
+    const messages::onboard_requester_actor& requester) {
   if (!message || message->octets.empty())
     return;
   note_on_air(self_, setup_.recorder, *message);
   for (const auto& a : setup_.antennas)
     if (distance_m(from, a.position) <= a.range_m)
-      self_->send(a.link, *message, requester_actor{requester});
+      self_->send(a.link, *message, messages::requester_actor{requester});
 }
 
-void vehicle_links::log_event(event_type what) {
+void vehicle_links::log_event(messages::event_type what) {
   send_record(self_, setup_.recorder,
-              event_record{.at = now(self_),
-                           .what = what,
-                           .station = setup_.car.station});
+              messages::event_record{.at = now(self_),
+                                     .what = what,
+                                     .station = setup_.car.station});
 }
 
 void vehicle_links::record(const driven_car& car, bool remote) {
   send_record(self_, setup_.recorder, car.track(remote));
 }
 
-void vehicle_links::record(const plan_switch_record& jump) {
+void vehicle_links::record(const messages::plan_switch_record& jump) {
   send_record(self_, setup_.recorder, jump);
 }
 
@@ -53,4 +55,4 @@ void vehicle_links::record_figures(driven_car& car) {
   send_record(self_, setup_.recorder, car.flush_figures());
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -5,10 +5,11 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// A vehicle itself; besides its interface: its timer.
-using vehicle_impl = vehicle_actor::extend<reacts_to<tick_atom>>;
+using vehicle_impl =
+    messages::vehicle_actor::extend<messages::reacts_to<messages::tick_atom>>;
 
 /// Turns what a vehicle does into messages of its actor.
 class vehicle_links {
@@ -26,12 +27,12 @@ public:
 
   /// To all providers that are near enough; nothing if there is no message.
   /// @param requester  Who gets what they answer.
-  void broadcast(const std::optional<its_pdu>& message, point from,
-                 const onboard_requester_actor& requester);
+  void broadcast(const std::optional<messages::its_pdu>& message, point from,
+                 const messages::onboard_requester_actor& requester);
 
-  void log_event(event_type what);
+  void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
-  void record(const plan_switch_record& jump);
+  void record(const messages::plan_switch_record& jump);
   void record_figures(driven_car& car);
 
 private:
@@ -39,4 +40,4 @@ private:
   const vehicle_setup& setup_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

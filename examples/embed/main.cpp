@@ -11,7 +11,9 @@
 #include <map>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::offloading;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 
 // -- the service: its input and its result are a number -----------------------
@@ -25,7 +27,8 @@ void visit_fields(auto& v, number& x) {
 }
 
 template <>
-inline constexpr std::string_view sofof::payload_name<number> = "number";
+inline constexpr std::string_view sofof::messages::payload_name<number> =
+    "number";
 
 struct square_root final : service_function {
   service_output run(time_point, const service_input& input) override {

@@ -24,7 +24,7 @@
 #include <system_error>
 #include <utility>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -97,7 +97,8 @@ public:
     for (const auto& one : options.entrants)
       expected_.entrants.push_back(one.name);
     for (const auto& file : options.scenarios) // before any run
-      baselines_.push_back(baseline_of(load_scenario(file, options.set)));
+      baselines_.push_back(
+          baseline_of(scenario::load_scenario(file, options.set)));
   }
 
   bench_outcome carry_out() {
@@ -153,9 +154,9 @@ private:
       for (const auto* run : study::those(runs, 0, entrant))
         timed.folders.push_back(run->folder);
     }
-    if (how.show != progress::output::quiet)
+    if (how.show != recording::progress::output::quiet)
       console_ << fmt::format("{}: {} runs, {}\n", plan.name, runs.size(),
-                              for_people(watch.elapsed_s()))
+                              recording::for_people(watch.elapsed_s()))
                << std::flush;
     return true;
   }
@@ -208,4 +209,4 @@ bench_outcome bench(const bench_options& options,
   return bench_at_work{options, interrupted, console}.carry_out();
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

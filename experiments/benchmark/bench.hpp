@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 struct bench_options {
   std::vector<std::filesystem::path> scenarios; ///< At least one.
@@ -50,4 +50,4 @@ bench_outcome bench(const bench_options& options,
                     const std::atomic<bool>& interrupted,
                     std::ostream& console);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -253,4 +253,4 @@ report::document board_page(std::span<const leaderboard> boards,
   return all;
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 /// @param x, y  Of as many points; less x and more y is better.
 /// @returns the numbers of those that no other point beats, by ascending x; of
@@ -26,4 +26,4 @@ report::document board_page(std::span<const leaderboard> boards,
                             std::span<const entrant> entrants,
                             std::string subtitle);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

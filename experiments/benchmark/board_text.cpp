@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string board_text(const leaderboard& board,
   return text;
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

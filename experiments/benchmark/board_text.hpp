@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 /// @param colour  The console is a terminal: the best of each column in bold.
 /// @returns a table with a line for each entrant; columns of which nobody has a
@@ -15,4 +15,4 @@ namespace sofof::bench {
 std::string board_text(const leaderboard& board,
                        std::span<const decision_cost> costs, bool colour);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

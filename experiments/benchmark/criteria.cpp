@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -245,15 +245,15 @@ constexpr criterion all_criteria[]{
      }},
 };
 
-provider_capacity capacity_of(const scenario_definition& s,
-                              const provider_compute& compute) {
+provider_capacity capacity_of(const scenario::scenario_definition& s,
+                              const channel::provider_compute& compute) {
   const auto workers = static_cast<std::size_t>(compute.workers);
   provider_capacity capacity{static_cast<double>(workers), {}};
   for (const auto& type : s.services)
     capacity.utilisation_by.emplace(
         type->name(),
-        worker_share(compute.mean_s() * type->options.compute.demand,
-                     type->options.period, workers));
+        policies::worker_share(compute.mean_s() * type->options.compute.demand,
+                               type->options.period, workers));
   return capacity;
 }
 
@@ -263,7 +263,7 @@ std::span<const criterion> criteria() {
   return all_criteria;
 }
 
-baseline baseline_of(const scenario_definition& s) {
+baseline baseline_of(const scenario::scenario_definition& s) {
   baseline by;
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     by.providers.push_back(capacity_of(s, s.compute_of(k)));
@@ -287,8 +287,8 @@ judged_run judge(const study::measured_run& measured, const baseline& by) {
   for (const auto& one : criteria())
     if (const auto value = one.of ? one.of(run, by) : std::nullopt)
       judged.values.emplace(one.name, *value);
-  judged.safe =
-      is_safe([&run](const std::string& name) { return run.must(name); });
+  judged.safe = recording::is_safe(
+      [&run](const std::string& name) { return run.must(name); });
   return judged;
 }
 
@@ -298,4 +298,4 @@ void compare_scores(std::vector<judged_run>& runs) {
       compare(runs, one.with, one.name);
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 enum class better { more, less, neither };
 
@@ -57,7 +57,7 @@ struct baseline {
 };
 
 /// @param s  Loaded, so that it has trajectory planning.
-baseline baseline_of(const scenario_definition& s);
+baseline baseline_of(const scenario::scenario_definition& s);
 
 /// A run of an entrant, judged.
 struct judged_run {
@@ -78,4 +78,4 @@ judged_run judge(const study::measured_run& run, const baseline& by);
 /// percent of theirs: so noise that they have in common does not count.
 void compare_scores(std::vector<judged_run>& runs);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -11,7 +11,7 @@
 #include <map>
 #include <string_view>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::string to_csv(std::span<const decision_cost> costs) {
   return text;
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

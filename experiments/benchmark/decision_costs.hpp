@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 /// Where the runs of an entrant in a scenario lie.
 struct timed_runs {
@@ -42,4 +42,4 @@ std::optional<double> slowest_p99_us(std::span<const decision_cost> costs,
 /// @returns a CSV file.
 std::string to_csv(std::span<const decision_cost> costs);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

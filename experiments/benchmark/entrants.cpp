@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -79,8 +79,9 @@ void check_name(std::string_view name, const std::string& place) {
 }
 
 /// Reads them as a scenario would, and finds mistakes where they stand.
-policy_options read_policies(toml::node& line, std::string_view file) {
-  policy_options policies;
+scenario::policy_options read_policies(toml::node& line,
+                                       std::string_view file) {
+  scenario::policy_options policies;
   std::vector<option_note> notes; // no option of policies has moved
   toml_options reader{line, file, notes};
   policies.visit_options(reader);
@@ -89,9 +90,9 @@ policy_options read_policies(toml::node& line, std::string_view file) {
 }
 
 /// @returns whether they are those of a scenario that says nothing.
-bool are_usual(policy_options policies) {
-  policy_options usual;
-  const auto text = [](policy_options& x) {
+bool are_usual(scenario::policy_options policies) {
+  scenario::policy_options usual;
+  const auto text = [](scenario::policy_options& x) {
     return print_options([&x](option_visitor& s) { x.visit_options(s); });
   };
   return text(policies) == text(usual);
@@ -105,11 +106,11 @@ sweep_axis::value entrant::as_value() const {
 
 std::vector<entrant> plain_entrants() {
   std::vector<entrant> all;
-  for (const auto name : lodm_names()) {
+  for (const auto name : policies::lodm_names()) {
     const auto codm = name == best_possible ? best_shared_out : beside;
     all.push_back({std::string{name}, std::string{name}, std::string{codm}});
   }
-  for (const auto name : codm_names()) {
+  for (const auto name : policies::codm_names()) {
     if (name == beside) // with itself: there already
       continue;
     const auto taken = is_among(name, all);
@@ -194,4 +195,4 @@ std::vector<entrant> chosen_from(const std::vector<entrant>& all,
   return chosen;
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 struct entrant {
   std::string name;
@@ -54,4 +54,4 @@ void add_own_entrants(std::vector<entrant>& to,
 std::vector<entrant> chosen_from(const std::vector<entrant>& all,
                                  std::string_view wanted);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

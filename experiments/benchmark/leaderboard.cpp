@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -171,4 +171,4 @@ std::string to_csv(std::span<const leaderboard> boards,
   return text;
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

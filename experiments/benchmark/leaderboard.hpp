@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 /// An entrant in one scenario, or in all together.
 struct standing {
@@ -62,4 +62,4 @@ const study::interval* best_of(const leaderboard& all, const criterion& by);
 std::string to_csv(std::span<const leaderboard> boards,
                    std::span<const entrant> entrants);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -19,7 +19,7 @@
 #include <ostream>
 #include <utility>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 namespace {
 
@@ -28,22 +28,25 @@ constexpr duration a_moment = std::chrono::seconds{1};
 /// @returns the names of those that learn.
 std::vector<std::string> learners() {
   std::vector<std::string> names;
-  for (const auto& notes : lodm_notes())
-    if (std::ranges::find(notes.parameters, "learning", &option_info::name)
+  for (const auto& notes : policies::lodm_notes())
+    if (std::ranges::find(notes.parameters, "learning",
+                          &policies::option_info::name)
         != notes.parameters.end())
       names.emplace_back(notes.name);
   return names;
 }
 
 /// Drives until the end, or until it is interrupted.
-void drive(const scenario_definition& s, const std::atomic<bool>& interrupted) {
-  const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, std::make_shared<no_records>(),
-                            time->clock(), true);
+void drive(const scenario::scenario_definition& s,
+           const std::atomic<bool>& interrupted) {
+  const auto time = scenario::make_virtual_runtime();
+  const auto actors = scenario::build(time->system(), s,
+                                      std::make_shared<messages::no_records>(),
+                                      time->clock(), true);
   const auto end = time->now() + s.length;
   while (time->now() < end && !interrupted)
     time->run_until(std::min(time->now() + a_moment, end));
-  dismiss(actors, *time);
+  scenario::dismiss(actors, *time);
 }
 
 class school_days {
@@ -86,15 +89,15 @@ public:
 private:
   static constexpr std::string_view choose = "another file with --out";
 
-  scenario_definition lesson(const std::filesystem::path& file,
-                             std::int64_t seed) const {
+  scenario::scenario_definition lesson(const std::filesystem::path& file,
+                                       std::int64_t seed) const {
     std::vector<std::string> set{
         "record.tracks=false", "record.cycles=false",
         fmt::format("policies.lodm={{name=\"{}\"}}", options_.policy)};
     std::ranges::copy(options_.set, std::back_inserter(set));
     set.push_back(fmt::format("seed={}", seed));
     set.emplace_back("policies.lodm.learning=true");
-    auto s = load_scenario(file, set);
+    auto s = scenario::load_scenario(file, set);
     if (s.policies.lodm->name() != options_.policy)
       throw input_error{
           fmt::format("--set policies.lodm: it is {} that learns, "
@@ -114,9 +117,10 @@ private:
 
   const training_options& options_;
   const std::atomic<bool>& interrupted_;
-  progress shown_;
+  recording::progress shown_;
   stopwatch watch_;
-  std::shared_ptr<local_policy> pupil_; ///< Its clones share its mind.
+  std::shared_ptr<policies::local_policy>
+      pupil_; ///< Its clones share its mind.
 };
 
 } // namespace
@@ -127,4 +131,4 @@ bool train(const training_options& options,
   return school_days{options, interrupted, console}.carry_out();
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 /// Seeds from here on are for training: policies are judged by those from 1 on.
 inline constexpr std::int64_t first_training_seed = 1000;
@@ -22,7 +22,7 @@ struct training_options {
   std::vector<std::string> set; ///< "KEY=VALUE", in all drives.
   std::size_t seeds = 1;        ///< From `first_training_seed` on, >= 1.
   std::filesystem::path out;    ///< Gets the snapshot.
-  progress::output show = progress::output::quiet;
+  recording::progress::output show = recording::progress::output::quiet;
 };
 
 /// Drives all scenarios with the first seed, then all with the next one, in
@@ -34,4 +34,4 @@ struct training_options {
 bool train(const training_options& options,
            const std::atomic<bool>& interrupted, std::ostream& console);
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

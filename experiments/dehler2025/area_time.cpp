@@ -9,14 +9,14 @@
 #include <cstdint>
 #include <map>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
 /// How long each stay of a run was, added up.
 group stays_in_area(const measured_run& run) {
   const auto config = run.folder / "config.toml";
-  const auto what = parse_scenario(require_text(config), config);
+  const auto what = scenario::parse_scenario(require_text(config), config);
   const auto area = what.providers.at(0).area();
   struct whereabouts {
     bool inside = false;
@@ -57,4 +57,4 @@ mean_time_in_area_s(std::span<const measured_run* const> runs) {
   return all.sum / all.count;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

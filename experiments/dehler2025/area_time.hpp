@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// @param runs  With tracks.
 /// @returns the mean time from entering the first provider's area to leaving
@@ -15,4 +15,4 @@ namespace sofof::study {
 std::optional<double>
 mean_time_in_area_s(std::span<const measured_run* const> runs);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::optional<interval> bootstrap(std::span<const group> groups,
                   place(1 - outside_each_side)};
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

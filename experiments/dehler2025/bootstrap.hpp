@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// A mean of all values together, and where it lies with 95 % confidence.
 struct interval {
@@ -30,4 +30,4 @@ struct group {
 std::optional<interval> bootstrap(std::span<const group> groups,
                                   const random_stream& noise);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -15,17 +15,19 @@ std::string percent(std::optional<double> share) {
   return share ? fmt::format("{:.2f} %", 100 * *share) : "never";
 }
 
-std::vector<std::string> row(const std::string& whose, const cpu_shares& c) {
+std::vector<std::string> row(const std::string& whose,
+                             const recording::cpu_shares& c) {
   return {whose,
           fmt::format("{:.3f}", c.active),
           fmt::format("{:.3f}", c.inactive),
           fmt::format("{:.3f}", c.requester),
           fmt::format("{:.3f}", c.requester_remote),
-          percent(break_even_share(c))};
+          percent(recording::break_even_share(c))};
 }
 
 /// A planner as dear as the paper's, with our requester and our deactivation.
-cpu_shares with_their_planner(cpu_shares ours, const cpu_shares& theirs) {
+recording::cpu_shares with_their_planner(recording::cpu_shares ours,
+                                         const recording::cpu_shares& theirs) {
   ours.active = theirs.active - theirs.inactive + ours.inactive;
   return ours;
 }
@@ -50,8 +52,9 @@ report::table shares(const paper_runs& e, const report_text& text) {
       "break_even",
       {{"printed_20_hz", fmt::format("{}", paper::printed_share_20_hz)},
        {"printed_100_hz", fmt::format("{}", paper::printed_share_100_hz)},
-       {"own_20_hz", percent(break_even_share(paper::cpu_20_hz))},
-       {"own_100_hz", percent(break_even_share(paper::cpu_100_hz))}});
+       {"own_20_hz", percent(recording::break_even_share(paper::cpu_20_hz))},
+       {"own_100_hz",
+        percent(recording::break_even_share(paper::cpu_100_hz))}});
   return t;
 }
 
@@ -60,12 +63,13 @@ report::table balance(const paper_runs& e, const report_text& text) {
   t.title = "With and without offloading, for the share of time of these runs";
   t.columns = {"at what rate", "vehicles",  "t_d / t_total",
                "c_without, %", "c_with, %", "measuring itself, %"};
-  const auto add = [&t](const char* rate, const cpu_figures& c) {
+  const auto add = [&t](const char* rate, const recording::cpu_figures& c) {
     const auto offloaded = c.inactive_s / (c.active_s + c.inactive_s);
     t.rows.push_back(
         {rate, std::to_string(c.vehicles), percent(offloaded),
-         fmt::format("{:.3f}", share_without_offloading(c.shares)),
-         fmt::format("{:.3f}", share_with_offloading(c.shares, offloaded)),
+         fmt::format("{:.3f}", recording::share_without_offloading(c.shares)),
+         fmt::format("{:.3f}",
+                     recording::share_with_offloading(c.shares, offloaded)),
          fmt::format("{:.3f}", c.overhead)});
   };
   add("20 Hz", e.cpu_20_hz.figures);
@@ -82,12 +86,13 @@ report::table energy(const paper_runs& e, const report_text& text) {
   const auto add = [&t](const char* rate, const measured_cpu& c) {
     constexpr double third = 1.0 / 3;
     const auto cell = [&c](double share) {
-      return fmt::format("{:.3f}", energy_j_per_km(share, c.speed_mps));
+      return fmt::format("{:.3f}",
+                         recording::energy_j_per_km(share, c.speed_mps));
     };
     const auto& shares = c.figures.shares;
-    t.rows.push_back({rate, cell(share_without_offloading(shares)),
-                      cell(share_with_offloading(shares, third)),
-                      cell(share_with_offloading(shares, 1))});
+    t.rows.push_back({rate, cell(recording::share_without_offloading(shares)),
+                      cell(recording::share_with_offloading(shares, third)),
+                      cell(recording::share_with_offloading(shares, 1))});
   };
   add("20 Hz", e.cpu_20_hz);
   add("100 Hz", e.cpu_100_hz);
@@ -95,13 +100,14 @@ report::table energy(const paper_runs& e, const report_text& text) {
       "energy",
       {{"speed_20_hz", fmt::format("{:.1f}", e.cpu_20_hz.speed_mps)},
        {"speed_100_hz", fmt::format("{:.1f}", e.cpu_100_hz.speed_mps)},
-       {"core_w", fmt::format("{:.2f}", core_power{}.more_when_busy_w())}});
+       {"core_w",
+        fmt::format("{:.2f}", recording::core_power{}.more_when_busy_w())}});
   return t;
 }
 
-std::string verdict(const cpu_figures& c, const char* rate,
+std::string verdict(const recording::cpu_figures& c, const char* rate,
                     const report_text& text) {
-  const auto share = break_even_share(c.shares);
+  const auto share = recording::break_even_share(c.shares);
   if (share && *share < 1)
     return text.fill("pays", {{"rate", rate}, {"share", percent(share)}});
   return text.fill(
@@ -129,4 +135,4 @@ report::section cpu_cost(const paper_runs& e) {
   return s;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -13,20 +13,20 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 /// @returns the figures of trajectory planning.
-std::optional<cpu_figures> figures_in(const fs::path& file) {
+std::optional<recording::cpu_figures> figures_in(const fs::path& file) {
   enum { station, actor, service, source, cpu_s, time_s, wakes };
   constexpr std::string_view columns[] = {
       "station", "actor", "service", "source", "cpu_s", "time_s", "wakes"};
   csv_reader rows{file, columns};
   std::deque<std::string> names; // which the table's lines refer to
-  cpu_table table;
+  recording::cpu_table table;
   while (rows.next()) {
     const auto turns = rows.whole(wakes);
     const auto cpu = from_seconds(rows.number(cpu_s));
@@ -34,34 +34,35 @@ std::optional<cpu_figures> figures_in(const fs::path& file) {
       table.look = cpu / (2 * static_cast<std::int64_t>(turns));
     if (rows.text(station).empty())
       continue;
-    table.lines.push_back(
-        {{static_cast<station_id>(rows.whole(station)),
-          service_name{rows.text(service)}, rows.text(source) == "remote"},
-         names.emplace_back(rows.text(actor)),
-         cpu,
-         from_seconds(rows.number(time_s)),
-         turns});
+    table.lines.push_back({{static_cast<station_id>(rows.whole(station)),
+                            messages::service_name{rows.text(service)},
+                            rows.text(source) == "remote"},
+                           names.emplace_back(rows.text(actor)),
+                           cpu,
+                           from_seconds(rows.number(time_s)),
+                           turns});
   }
-  return figures_of(table, planning);
+  return recording::figures_of(table, planning);
 }
 
 } // namespace
 
 fs::path make_cpu_run(const cpu_run& which, const run_store& store,
                       const std::atomic<bool>& interrupted) {
-  const auto s = load_scenario(which.scenario, which.given);
+  const auto s = scenario::load_scenario(which.scenario, which.given);
   const auto name =
       fmt::format("{}-{}", which.name, name_of_run(s, which.program));
   if (store.summary_of(name))
     return store.folder_of(name);
   store.add(name, [&](const fs::path& folder) {
-    run_options how;
+    scenario::run_options how;
     how.out = folder;
     how.realtime = true;
     how.cpu = true;
     how.version = which.version;
     std::ostream nowhere{nullptr};
-    if (run(s, how, interrupted, nowhere) == run_outcome::failed)
+    if (scenario::run(s, how, interrupted, nowhere)
+        == scenario::run_outcome::failed)
       throw std::runtime_error{fmt::format(
           "the run {} on the wall's clock was unsafe; it needs an idle "
           "machine. The same command tries it again.",
@@ -81,4 +82,4 @@ measured_cpu read_cpu_run(const fs::path& folder) {
           drove.figure("virtual_s")};
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

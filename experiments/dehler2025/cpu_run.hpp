@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// Which run: config/paper/cpu.toml, changed.
 struct cpu_run {
@@ -34,4 +34,4 @@ std::filesystem::path make_cpu_run(const cpu_run& which, const run_store& store,
 ///         no vehicle was both local and offloaded.
 measured_cpu read_cpu_run(const std::filesystem::path& folder);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -65,4 +65,4 @@ curve_claims claims_of(const paper_runs& e) {
   return c;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

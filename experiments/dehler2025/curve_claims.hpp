@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// A curve rises at the shortest limit, ms, at which it has half of its height:
 /// the mean offloading time at the longest limit.
@@ -39,4 +39,4 @@ double ms_of(const std::string& duration_text);
 /// The longest limit of the plot, where curves have their height.
 inline constexpr auto longest_limit = "150ms";
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

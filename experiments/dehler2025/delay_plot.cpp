@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -143,4 +143,4 @@ report::section delay_plot(const paper_runs& e) {
   return s;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

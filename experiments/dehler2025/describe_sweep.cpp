@@ -14,7 +14,7 @@
 #include <optional>
 #include <set>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -217,4 +217,4 @@ report::document describe_sweeps(const fs::path& folder,
   return all;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// @returns whether `sofof sweep` or `sofof reproduce` has written a folder.
 bool is_sweep_folder(const std::filesystem::path& folder);
@@ -18,4 +18,4 @@ bool is_sweep_folder(const std::filesystem::path& folder);
 report::document describe_sweeps(const std::filesystem::path& folder,
                                  std::string_view version);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -78,4 +78,4 @@ deviation deviation_between(const measured_run& offloaded,
   return d;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -3,7 +3,7 @@
 
 #include "experiments/dehler2025/measured_run.hpp"
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// At the same places of the way, where the first run was offloaded; all
 /// vehicles together.
@@ -21,4 +21,4 @@ struct deviation {
 deviation deviation_between(const measured_run& offloaded,
                             const measured_run& local);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

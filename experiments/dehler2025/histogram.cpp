@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 void histogram::add(const histogram& other) {
   for (const auto& [up_to_ms, count] : other.bins_)
@@ -55,4 +55,4 @@ histogram read_histogram(const std::filesystem::path& folder,
   return all;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

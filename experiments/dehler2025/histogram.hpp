@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// Counts of durations by their upper bounds, ms, as distributions.csv has
 /// them.
@@ -36,4 +36,4 @@ private:
 histogram read_histogram(const std::filesystem::path& folder,
                          std::string_view service, std::string_view figure);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

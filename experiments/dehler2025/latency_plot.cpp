@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -270,4 +270,4 @@ report::section latency_plot(const paper_runs& e) {
   return s;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

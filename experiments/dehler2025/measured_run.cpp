@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 double measured_run::figure(const std::string& name) const {
   const auto found = figures.find(name);
@@ -102,4 +102,4 @@ spread pooled(std::span<const measured_run* const> runs,
           count};
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// The service that studies are about.
 inline constexpr auto planning = "trajectory_planning";
@@ -71,4 +71,4 @@ struct spread {
 spread pooled(std::span<const measured_run* const> runs,
               const std::string& name);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

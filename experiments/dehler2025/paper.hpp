@@ -5,7 +5,7 @@
 
 #include "recording/cpu_balance.hpp"
 
-namespace sofof::study::paper {
+namespace sofof::experiments::study::paper {
 
 /// Figure "delay plot": latency of one vehicle's trajectories, ms.
 inline constexpr double latency_mean_ms = 10.54;
@@ -20,8 +20,8 @@ inline constexpr double real_latency_deviation_ms = 2.98;
 inline constexpr int real_early_ends = 2;
 
 /// Table of CPU time, percent of one core: simulation at 20 Hz, real at 100 Hz.
-inline constexpr cpu_shares cpu_20_hz{19.5, 8.5, 0.96, 0.96};
-inline constexpr cpu_shares cpu_100_hz{116.1, 28.3, 2.61, 2.61};
+inline constexpr recording::cpu_shares cpu_20_hz{19.5, 8.5, 0.96, 0.96};
+inline constexpr recording::cpu_shares cpu_100_hz{116.1, 28.3, 2.61, 2.61};
 
 /// The break-even shares as it prints them, percent. Its own table gives 8.73
 /// and 2.97.
@@ -32,4 +32,4 @@ inline constexpr double printed_share_100_hz = 6.15;
 inline constexpr double max_latency_ms = 50;
 inline constexpr double max_interarrival_ms = 100;
 
-} // namespace sofof::study::paper
+} // namespace sofof::experiments::study::paper

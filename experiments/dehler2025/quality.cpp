@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -133,4 +133,4 @@ report::section quality(const paper_runs& e) {
   return s;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

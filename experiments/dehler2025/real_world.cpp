@@ -11,7 +11,7 @@
 #include <limits>
 #include <map>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -170,4 +170,4 @@ report::section real_world(const paper_runs& e) {
   return s;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

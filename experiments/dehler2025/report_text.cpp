@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", in_words(count), noun, count == 1 ? "" : "s");
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// Figures as they are to be read, by the names that a text has for them.
 using named_figures = std::map<std::string_view, std::string>;
@@ -52,4 +52,4 @@ std::string counted(std::uint64_t count, std::string_view noun);
 /// such file.
 std::string_view template_of(std::string_view name);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

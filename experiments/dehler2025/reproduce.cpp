@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -40,7 +40,7 @@ std::vector<cpu_run> cpu_runs(const reproduction_options& options) {
 
 void say(const reproduction_options& options, std::ostream& console,
          const std::string& line) {
-  if (options.runs.show != progress::output::quiet)
+  if (options.runs.show != recording::progress::output::quiet)
     console << line << std::endl;
 }
 
@@ -58,7 +58,7 @@ make_cpu_runs(const reproduction_options& options,
       throw interruption{};
     say(options, console,
         fmt::format("{}: {} on the wall's clock", which.name,
-                    for_people(watch.elapsed_s())));
+                    recording::for_people(watch.elapsed_s())));
   }
   return folders;
 }
@@ -104,7 +104,7 @@ private:
     auto runs = study::runs_of(plan, outcome);
     say(options_, console_,
         fmt::format("{}: {} runs, {}", plan.name, runs.size(),
-                    for_people(watch.elapsed_s())));
+                    recording::for_people(watch.elapsed_s())));
     return runs;
   }
 
@@ -157,4 +157,4 @@ bool reproduce(const reproduction_options& options,
   return true;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 struct reproduction_options {
   std::filesystem::path sweeps; ///< The folder of the paper's sweep files.
@@ -38,4 +38,4 @@ shard_outcome reproduce_shard(const reproduction_options& options,
 bool reproduce(const reproduction_options& options,
                const std::atomic<bool>& interrupted, std::ostream& console);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// What a run on the wall's clock cost.
 struct measured_cpu {
-  cpu_figures figures;
+  recording::cpu_figures figures;
   double speed_mps = 0; ///< Mean of its vehicles.
   double length_s = 0;
 };
@@ -47,4 +47,4 @@ report::section cpu_cost(const paper_runs& e);
 /// What offloading does to the driving.
 report::section quality(const paper_runs& e);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

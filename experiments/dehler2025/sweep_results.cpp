@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 namespace {
 
@@ -77,4 +77,4 @@ sweep_results read_swept(const std::filesystem::path& table) {
   return all;
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 /// What a sweep has left: its axes by name, and its runs.
 struct sweep_results {
@@ -33,4 +33,4 @@ bool is_sweep_table(const std::filesystem::path& file);
 /// @throws input_error when it is no such table, or a run is missing.
 sweep_results read_swept(const std::filesystem::path& table);
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

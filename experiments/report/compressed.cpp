@@ -6,7 +6,7 @@
 #include <new>
 #include <zlib.h>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::string compressed(std::string_view text) {
   return base64(bytes);
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

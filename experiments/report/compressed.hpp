@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @returns the text in zlib's format, in Base64: a browser inflates it by
 /// `DecompressionStream("deflate")`.
 std::string compressed(std::string_view text);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

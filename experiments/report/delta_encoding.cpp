@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -83,4 +83,4 @@ nlohmann::json delta_encoding(std::span<const double> values) {
   return delta_encoding(values, std::min(digits - before_point, most_places));
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// Writes numbers as whole multiples of 10^-places, or their differences (of
 /// order 1 or 2, the numbers before the first being 0) where these are smaller:
@@ -20,4 +20,4 @@ nlohmann::json delta_encoding(std::span<const double> values, int places);
 /// The same with as many decimals as give seven digits to the largest value.
 nlohmann::json delta_encoding(std::span<const double> values);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -14,7 +14,7 @@
 #include <cassert>
 #include <string>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -170,4 +170,4 @@ document describe(std::span<const fs::path> folders, std::string_view version) {
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// A run by itself: its drive, key figures, the remote results of each
 /// service, episodes, vehicles, configuration.
@@ -29,4 +29,4 @@ std::vector<section> compare_runs(const std::filesystem::path& first,
 document describe(std::span<const std::filesystem::path> folders,
                   std::string_view version);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// A few sentences. `code` is the only mark-up.
 struct paragraph {
@@ -91,4 +91,4 @@ struct document {
   std::vector<section> sections;
 };
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

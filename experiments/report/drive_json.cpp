@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -26,22 +26,25 @@ constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
 
 /// What befell an offloading or a vehicle: shown on the map when it happens.
-constexpr event_type alarming[]{
-    event_type::violation,     event_type::collision,
-    event_type::near_miss,     event_type::peer_lost,
-    event_type::provider_lost, event_type::requester_lost};
+constexpr messages::event_type alarming[]{
+    messages::event_type::violation,     messages::event_type::collision,
+    messages::event_type::near_miss,     messages::event_type::peer_lost,
+    messages::event_type::provider_lost, messages::event_type::requester_lost};
 /// What else is worth a line.
-constexpr event_type notable[]{
-    event_type::refused, event_type::clock_in_doubt, event_type::clock_known,
-    event_type::provider_connected, event_type::arrived};
+constexpr messages::event_type notable[]{
+    messages::event_type::refused, messages::event_type::clock_in_doubt,
+    messages::event_type::clock_known, messages::event_type::provider_connected,
+    messages::event_type::arrived};
 
-bool is_one_of(std::span<const event_type> types, std::string_view name) {
-  return std::ranges::any_of(
-      types, [name](event_type x) { return name_of(x) == name; });
+bool is_one_of(std::span<const messages::event_type> types,
+               std::string_view name) {
+  return std::ranges::any_of(types, [name](messages::event_type x) {
+    return messages::name_of(x) == name;
+  });
 }
 
 json car_json() {
-  const vehicle_params car;
+  const world::vehicle_params car;
   return {{"front", car.front_m}, {"rear", car.rear_m}, {"width", car.width_m}};
 }
 
@@ -88,7 +91,7 @@ std::vector<offloading> switched(std::span<const event_line> events,
   std::vector<offloading> all;
   std::map<std::pair<std::uint64_t, std::string>, std::size_t> open;
   for (const auto& event : events) {
-    if (event.what != name_of(event_type::switched))
+    if (event.what != messages::name_of(messages::event_type::switched))
       continue;
     const std::pair key{event.of.station, event.of.service};
     if (const auto found = open.find(key); found != open.end()) {
@@ -162,4 +165,4 @@ json drive_json(const std::filesystem::path& folder) {
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

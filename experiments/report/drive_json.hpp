@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// Reads a results folder. Without tracks there are no vehicles in it; where
 /// no vehicle ran, offloadings are those that the provider served.
 /// @throws input_error when it is no results folder, or broken.
 nlohmann::json drive_json(const std::filesystem::path& folder);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -118,4 +118,4 @@ table episode_table(const recorded_run& run) {
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -4,10 +4,10 @@
 #include "experiments/report/document.hpp"
 #include "experiments/report/recorded_run.hpp"
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @returns episodes as the vehicles closed them; where no vehicle ran, as the
 /// provider did. No title.
 table episode_table(const recorded_run& run);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

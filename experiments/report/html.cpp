@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -133,4 +133,4 @@ void write_html(const document& what, const std::filesystem::path& file,
   write_file(file, html(what), choose);
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

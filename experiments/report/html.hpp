@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @returns the page: what apps/report/dist holds, with the document in it as
 /// JSON. A drive's folder is read.
@@ -21,4 +21,4 @@ std::string html(const document& what);
 void write_html(const document& what, const std::filesystem::path& file,
                 std::string_view choose = "another file with -o");
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -28,7 +28,8 @@ public:
       table_.columns.emplace_back("difference");
   }
 
-  void add(const reported_figure& x, const std::string& prefix = "") {
+  void add(const recording::reported_figure& x,
+           const std::string& prefix = "") {
     add(prefix + std::string{x.name}, x.how.title, x.how.decimals, x.how.scale);
   }
 
@@ -69,9 +70,9 @@ private:
 };
 
 void add_table(std::vector<table>& all, std::span<const recorded_run> runs,
-               std::string title, report_table which) {
+               std::string title, recording::report_table which) {
   figure_table shown{runs, std::move(title)};
-  for (const auto& figure : reported_in(which))
+  for (const auto& figure : recording::reported_in(which))
     shown.add(figure);
   std::move(shown).finish(all);
 }
@@ -110,19 +111,20 @@ void add_refusals(figure_table& to, std::span<const recorded_run> runs,
 
 std::vector<table> key_figures(std::span<const recorded_run> runs) {
   std::vector<table> all;
-  add_table(all, runs, "The run", report_table::run);
+  add_table(all, runs, "The run", recording::report_table::run);
   for (const auto& service : services_of(runs)) {
     const auto prefix = "services." + service + '.';
     figure_table shown{runs, "Offloading of " + service};
-    for (const auto& figure : reported_in(report_table::service))
+    for (const auto& figure :
+         recording::reported_in(recording::report_table::service))
       shown.add(figure, prefix);
     add_endings(shown, runs, prefix + "ended_by.");
     add_refusals(shown, runs, prefix + "implausible.");
     std::move(shown).finish(all);
   }
-  add_table(all, runs, "Safety and comfort", report_table::safety);
-  add_table(all, runs, "On the air", report_table::air);
+  add_table(all, runs, "Safety and comfort", recording::report_table::safety);
+  add_table(all, runs, "On the air", recording::report_table::air);
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @param runs  Columns; of two the difference follows. Where a run has no
 ///              figure there is a dash; figures that no run has are left out.
@@ -15,4 +15,4 @@ namespace sofof::report {
 /// comfort, one for what was on the air; none of no rows.
 std::vector<table> key_figures(std::span<const recorded_run> runs);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::string markdown(const document& what) {
   return out;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -5,10 +5,10 @@
 
 #include <string>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @returns the document as Markdown: figures as tables of their points where
 /// these are few, else by their names; drives and listings are left out.
 std::string markdown(const document& what);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -64,4 +64,4 @@ table differing_options(std::string_view first, std::string_view second) {
   return differing;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// HTML with `%title%` and `%document%` where these belong.
 extern const std::string_view page;
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

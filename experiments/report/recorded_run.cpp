@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -44,7 +44,7 @@ recorded_run open_run(const fs::path& folder) {
   run.label = name_of(folder);
   // What a run has written is not to be changed: notes on it are not told.
   run.config_toml = require_text(config);
-  run.what = parse_scenario(run.config_toml, config);
+  run.what = scenario::parse_scenario(run.config_toml, config);
   run.episodes = read_episodes(folder);
   run.cycles = read_cycles(folder);
   if (auto summary = read_summary(folder)) {
@@ -75,4 +75,4 @@ std::vector<std::string> services_of(std::span<const recorded_run> runs) {
   return names;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

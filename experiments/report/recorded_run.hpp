@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 struct recorded_run {
   std::filesystem::path folder;
-  std::string label;        ///< What a reader knows it by: the folder's name.
-  scenario_definition what; ///< From config.toml.
+  std::string label; ///< What a reader knows it by: the folder's name.
+  scenario::scenario_definition what; ///< From config.toml.
   std::string config_toml;
   /// What summary.json says, by dotted names ("latency_ms.mean"), without
   /// what is null; nothing when the run was killed before it wrote any.
@@ -42,4 +42,4 @@ open_runs(std::span<const std::filesystem::path> folders);
 /// @returns the names of all services that these runs know, in their order.
 std::vector<std::string> services_of(std::span<const recorded_run> runs);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -18,16 +18,16 @@ struct quantity {
   std::string_view name;
   std::string_view axis;
   std::optional<double> (*of)(const cycle_line&);
-  duration qos_limits::*limit;
+  duration messages::qos_limits::*limit;
 };
 
 constexpr quantity quantities[]{
     {"Latency", "latency, ms",
      [](const cycle_line& x) { return std::optional{x.latency_ms}; },
-     &qos_limits::max_latency},
+     &messages::qos_limits::max_latency},
     {"Inter-arrival time", "inter-arrival time, ms",
      [](const cycle_line& x) { return x.interarrival_ms; },
-     &qos_limits::max_interarrival},
+     &messages::qos_limits::max_interarrival},
 };
 
 /// One run's values in the order of their time.
@@ -164,4 +164,4 @@ std::vector<figure> remote_results(std::span<const recorded_run> runs,
   return figures;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @param runs  Each is a curve; what it has not recorded is left out.
 /// @returns latency and inter-arrival time by time and as cumulative
@@ -17,4 +17,4 @@ namespace sofof::report {
 std::vector<figure> remote_results(std::span<const recorded_run> runs,
                                    std::string_view service);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

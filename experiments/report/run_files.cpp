@@ -12,7 +12,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -213,4 +213,4 @@ std::vector<event_line> read_events(const fs::path& folder) {
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// Which offloading, in all files.
 struct session_key {
@@ -84,4 +84,4 @@ read_cycles(const std::filesystem::path& folder);
 std::optional<std::vector<track_line>>
 read_tracks(const std::filesystem::path& folder);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -38,10 +38,10 @@ std::array<point, 4> corners_of(const oriented_box& box) {
 }
 
 /// Points of a lane's smooth line, closer together where it bends.
-std::vector<point> line_of(const lane& of) {
+std::vector<point> line_of(const world::lane& of) {
   constexpr double bend_rad = 0.05; // between two points
   constexpr double most_pieces = 32;
-  const path smooth{of.centre};
+  const world::path smooth{of.centre};
   const auto knots = smooth.knots_m();
   std::vector<point> points{smooth.at(knots.front()).at};
   for (std::size_t i = 1; i < knots.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<point> line_of(const lane& of) {
   return points;
 }
 
-json lanes_json(const road_map& map) {
+json lanes_json(const world::road_map& map) {
   std::vector<double> counts, half_widths_m, x_m, y_m;
   for (const auto& one : map.lanes()) {
     const auto points = line_of(one);
@@ -74,21 +74,21 @@ json lanes_json(const road_map& map) {
           {"y", delta_encoding(y_m, street_places)}};
 }
 
-json houses_json(const scenario_definition& what) {
+json houses_json(const scenario::scenario_definition& what) {
   auto all = json::array();
   for (const auto& house : what.world->map.buildings())
     all.push_back(corners_json(house.corners));
   return all;
 }
 
-json obstacles_json(const scenario_definition& what) {
+json obstacles_json(const scenario::scenario_definition& what) {
   auto all = json::array();
   for (const auto& one : what.obstacles)
     all.push_back(corners_json(corners_of(one.box())));
   return all;
 }
 
-json providers_json(const scenario_definition& what) {
+json providers_json(const scenario::scenario_definition& what) {
   auto all = json::array();
   for (const auto& one : what.providers) {
     auto sensors = json::array();
@@ -104,11 +104,11 @@ json providers_json(const scenario_definition& what) {
 
 } // namespace
 
-json scenery_json(const scenario_definition& what) {
+json scenery_json(const scenario::scenario_definition& what) {
   return {{"lanes", lanes_json(what.world->map)},
           {"houses", houses_json(what)},
           {"obstacles", obstacles_json(what)},
           {"providers", providers_json(what)}};
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @param what  Loaded.
 /// @returns lanes, houses, obstacles, and providers with their areas and
 /// sensors.
-nlohmann::json scenery_json(const scenario_definition& what);
+nlohmann::json scenery_json(const scenario::scenario_definition& what);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 namespace {
 
@@ -59,4 +59,4 @@ table vehicle_table(const recorded_run& run) {
   return all;
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

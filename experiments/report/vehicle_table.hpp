@@ -4,11 +4,11 @@
 #include "experiments/report/document.hpp"
 #include "experiments/report/recorded_run.hpp"
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 /// @returns how each vehicle drove; nothing for a run that was killed before
 /// it told. No title.
 /// @throws input_error with the place of what is wrong in vehicles.csv.
 table vehicle_table(const recorded_run& run);
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

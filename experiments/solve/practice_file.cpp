@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -33,7 +33,7 @@ ordered_json numbers(std::span<const double> values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-ordered_json as_json(const path_problem& p) {
+ordered_json as_json(const planners::path_problem& p) {
   ordered_json lo = ordered_json::array(), hi = ordered_json::array();
   for (std::size_t k = 0; k < p.wanted_m.size(); ++k) {
     ordered_json low = ordered_json::array(), high = ordered_json::array();
@@ -51,7 +51,7 @@ ordered_json as_json(const path_problem& p) {
           {"hi", hi}};
 }
 
-ordered_json as_json(const velocity_problem& p) {
+ordered_json as_json(const planners::velocity_problem& p) {
   const auto& l = p.limits;
   return {{"x0", {p.start.t_s, p.start.w_m2ps2, p.start.accel_mps2}},
           {"limits",
@@ -69,9 +69,9 @@ ordered_json as_json(const velocity_problem& p) {
 
 ordered_json path_drive() {
   constexpr auto drive = 120;
-  slalom road;
-  const auto solver = std::make_unique<path_ocp>();
-  path_state x;
+  planners::slalom road;
+  const auto solver = std::make_unique<planners::path_ocp>();
+  planners::path_state x;
   ordered_json file{{"problem", "path"}};
   ordered_json list = ordered_json::array();
   for (int k = 0; k < drive; ++k) {
@@ -95,7 +95,7 @@ ordered_json path_drive() {
     }
     list.push_back(as_json(p));
     solver->shift(k > 0 ? 1 : 0);
-    solver->solve(p, ocp::start::warm);
+    solver->solve(p, planners::ocp::start::warm);
     // Noise that repeats without a generator: a slow wobble.
     const auto noise = std::sin(2.4 * k);
     x = {solver->offset_m()[1] + 0.02 * noise,
@@ -107,15 +107,15 @@ ordered_json path_drive() {
 }
 
 ordered_json velocity_drives() {
-  using event = practice_road::event;
+  using event = planners::practice_road::event;
   constexpr auto steps = 30, stride = 2;
   ordered_json file{{"problem", "velocity"}};
   ordered_json list = ordered_json::array();
-  const auto solver = std::make_unique<velocity_ocp>();
+  const auto solver = std::make_unique<planners::velocity_ocp>();
   for (const auto what : {event::free_flow, event::slow_leader,
                           event::stop_line, event::crossing}) {
-    practice_road road{what};
-    velocity_state x{.t_s = 0, .w_m2ps2 = 60, .accel_mps2 = 0};
+    planners::practice_road road{what};
+    planners::velocity_state x{.t_s = 0, .w_m2ps2 = 60, .accel_mps2 = 0};
     auto now_s = 0.;
     for (int step = 0; step < steps; ++step) {
       const auto& p = road.at(stride * step, now_s, x);
@@ -123,7 +123,7 @@ ordered_json velocity_drives() {
       if (list.empty())
         file.update({{"N", p.steps},
                      {"ds_m", p.ds_m},
-                     {"eps_mps", ocp::crawl_mps},
+                     {"eps_mps", planners::ocp::crawl_mps},
                      {"k_a_tot", p.limits.total_from},
                      {"weights",
                       {{"v", w.speed},
@@ -135,7 +135,8 @@ ordered_json velocity_drives() {
       instance["continues"] = step > 0;
       list.push_back(instance);
       solver->shift(step > 0 ? stride : 0);
-      solver->solve(p, step > 0 ? ocp::start::warm : ocp::start::cold);
+      solver->solve(p, step > 0 ? planners::ocp::start::warm
+                                : planners::ocp::start::cold);
       const auto noise = std::sin(2.4 * step);
       now_s += solver->t_s()[stride];
       const auto w2 = solver->w_m2ps2()[stride];
@@ -158,4 +159,4 @@ void write_practice(const std::filesystem::path& file, std::string_view kind) {
   write_file(file, all.dump() + '\n');
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

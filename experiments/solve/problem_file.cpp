@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -230,4 +230,4 @@ problem_file load_problems(const std::filesystem::path& path) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

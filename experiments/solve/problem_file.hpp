@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// What is known to be right about an instance.
 struct reference_solution {
@@ -30,15 +30,15 @@ struct instance_info {
 /// A problem with the numbers that it looks at.
 struct path_instance {
   instance_info info;
-  path_problem problem;
+  planners::path_problem problem;
   std::vector<double> curvature, wanted;
   std::vector<std::vector<double>> lo, hi; ///< By discs.
-  std::vector<disc_corridor> discs;
+  std::vector<planners::disc_corridor> discs;
 };
 
 struct velocity_instance {
   instance_info info;
-  velocity_problem problem;
+  planners::velocity_problem problem;
   std::vector<double> w_max, wanted, curvature, earliest, latest;
 };
 
@@ -59,4 +59,4 @@ struct problem_file {
 /// or a field is of the wrong type.
 problem_file load_problems(const std::filesystem::path& file);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -17,12 +17,12 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
 struct answer {
-  ocp::solve_report report;
+  planners::ocp::solve_report report;
   double time_us = 0;
   std::vector<double> controls; ///< Empty when nothing was solved.
 };
@@ -32,7 +32,7 @@ struct kind_of;
 
 template <>
 struct kind_of<path_instance> {
-  using solver = path_ocp;
+  using solver = planners::path_ocp;
   static constexpr int knots_a_step = 1; ///< How far the vehicle drives on.
   static constexpr std::array<std::string_view, 6> rows{
       "disc 0", "disc 1", "disc 2", "disc 3", "curvature", "rate"};
@@ -41,7 +41,7 @@ struct kind_of<path_instance> {
 
 template <>
 struct kind_of<velocity_instance> {
-  using solver = velocity_ocp;
+  using solver = planners::velocity_ocp;
   static constexpr int knots_a_step = 2;
   static constexpr std::array<std::string_view, 5> rows{
       "time", "speed", "accel", "total", "jerk"};
@@ -67,8 +67,9 @@ public:
       solver.shift(kind::knots_a_step * std::max(0, info.step - step_));
     answer a;
     const cpu_stopwatch watch;
-    a.report = solver.solve(instance.problem,
-                            warm ? ocp::start::warm : ocp::start::cold);
+    a.report =
+        solver.solve(instance.problem, warm ? planners::ocp::start::warm
+                                            : planners::ocp::start::cold);
     a.time_us = watch.elapsed_us();
     if (a.report.iterations > 0) {
       const auto u = kind::controls(solver);
@@ -125,7 +126,7 @@ std::string line(const answer& a, std::span<const std::string_view> rows) {
 
 bool is_ok(const answer& a, const reference_solution& known,
            const problem_file& file) {
-  using enum ocp::solve_status;
+  using enum planners::ocp::solve_status;
   const auto& r = a.report;
   if (!known.feasible)
     return r.status == soft_infeasible;
@@ -223,4 +224,4 @@ void solve_problems(const std::filesystem::path& file,
       problems.list);
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <optional>
 
-namespace sofof {
+namespace sofof::experiments {
 
 struct solve_options {
   bool cold = false; ///< Without the plan before.
@@ -21,4 +21,4 @@ struct solve_options {
 void solve_problems(const std::filesystem::path& file,
                     const solve_options& options, std::ostream& screen);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -6,7 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::experiments {
 
 file_lock::file_lock(const std::filesystem::path& file)
     : file_{::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)} {
@@ -23,4 +23,4 @@ bool file_lock::is_taken() const {
   return error_ == EWOULDBLOCK;
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// A lock on a file of its own, held while this object lives. On a shared
 /// folder it may hold on one machine only, or not at all: that depends on the
@@ -24,4 +24,4 @@ private:
   int error_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -19,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -43,7 +43,7 @@ public:
 
   /// @returns how many the store had before.
   std::size_t make_all() {
-    progress shown{console_, how_.show};
+    recording::progress shown{console_, how_.show};
     const stopwatch watch;
     std::vector<std::thread> threads;
     working_ = std::min<std::size_t>(how_.jobs, waiting_.size());
@@ -91,7 +91,7 @@ private:
     try {
       if (!store_.summary_of(run.name))
         store_.add(run.name, [&](const auto& folder) {
-          how_.make(load_scenario(run.scenario, run.given), folder,
+          how_.make(scenario::load_scenario(run.scenario, run.given), folder,
                     interrupted_);
         });
       return std::nullopt;
@@ -100,7 +100,7 @@ private:
     }
   }
 
-  void tell_failures(progress& shown) {
+  void tell_failures(recording::progress& shown) {
     if (failures_.empty())
       return;
     shown.clear();
@@ -118,7 +118,8 @@ private:
     text += fmt::format("  {} at work", working_);
     if (cost_done_ > 0)
       text += fmt::format(
-          "  ETA {}", for_people(wall_s * (cost_ - cost_done_) / cost_done_));
+          "  ETA {}",
+          recording::for_people(wall_s * (cost_ - cost_done_) / cost_done_));
     return text;
   }
 
@@ -148,4 +149,4 @@ std::size_t make_runs(std::vector<wanted_run> runs, const run_store& store,
       .make_all();
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// How runs are made.
 struct making {
   run_maker make;
   unsigned jobs = 1; ///< Runs at the same time, >= 1.
-  progress::output show = progress::output::quiet;
+  recording::progress::output show = recording::progress::output::quiet;
   std::string title; ///< In front of the progress.
 };
 
@@ -31,4 +31,4 @@ std::size_t make_runs(std::vector<wanted_run> runs, const run_store& store,
                       const making& how, const std::atomic<bool>& interrupted,
                       std::ostream& console);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -15,7 +15,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -265,4 +265,4 @@ std::string describe(const sweep_plan& plan, const sweep_point& point) {
   return text + fmt::format("seed={}", point.seed);
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// Something that is varied; a column of the results.
 struct sweep_axis {
@@ -75,4 +75,4 @@ void check_given_once(const sweep_plan& plan, const sweep_point& point,
 /// @returns "vehicles=6, seed=1": a point for people.
 std::string describe(const sweep_plan& plan, const sweep_point& point);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -74,7 +74,7 @@ void append_cell(std::string& line, std::string_view text) {
 
 bool point_result::safe() const {
   const auto summary = ordered_json::parse(this->summary);
-  return is_safe([&summary](const std::string& name) {
+  return recording::is_safe([&summary](const std::string& name) {
     auto path = '/' + name;
     std::ranges::replace(path, '.', '/');
     return summary.at(ordered_json::json_pointer{path}).get<double>();
@@ -123,4 +123,4 @@ std::string point_table(const sweep_plan& plan,
   return text;
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

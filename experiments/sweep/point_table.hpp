@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// What is known of a point in the end.
 struct point_result {
@@ -38,4 +38,4 @@ struct run_counts {
 std::string point_table(const sweep_plan& plan,
                         const std::vector<point_result>& results);
 
-} // namespace sofof
+} // namespace sofof::experiments

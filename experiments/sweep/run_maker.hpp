@@ -8,13 +8,13 @@
 #include <functional>
 #include <string>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// Makes one run, on the thread that calls. Its results are in the folder, a
 /// new one, when it returns; what it throws says why there are none. Several
 /// threads call it at the same time.
 /// @param interrupted  Once true, it returns soon, with what there is.
-using run_maker = std::function<void(const scenario_definition& s,
+using run_maker = std::function<void(const scenario::scenario_definition& s,
                                      const std::filesystem::path& folder,
                                      const std::atomic<bool>& interrupted)>;
 
@@ -23,4 +23,4 @@ using run_maker = std::function<void(const scenario_definition& s,
 /// @returns what makes runs in virtual time.
 run_maker virtual_runs(std::string version, bool time_decisions = true);
 
-} // namespace sofof
+} // namespace sofof::experiments

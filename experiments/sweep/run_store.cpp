@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace fs = std::filesystem;
 
@@ -72,9 +72,9 @@ std::optional<std::string> summary_in(const fs::path& folder) {
 
 } // namespace
 
-std::string name_of_run(const scenario_definition& s,
+std::string name_of_run(const scenario::scenario_definition& s,
                         std::string_view program) {
-  const auto configuration = configuration_of(s);
+  const auto configuration = scenario::configuration_of(s);
   std::string whole;
   for (const auto text :
        {program, std::string_view{configuration}, std::string_view{s.map_text},
@@ -135,4 +135,4 @@ void run_store::publish(const fs::path& run, const std::string& name) const {
   flush_to_disk(place.parent_path());
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -13,12 +13,13 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// @param program  Tells programs apart whose results may differ.
 /// @returns the name of the run of this scenario: the same for the same
 /// configuration, map, trace and program.
-std::string name_of_run(const scenario_definition& s, std::string_view program);
+std::string name_of_run(const scenario::scenario_definition& s,
+                        std::string_view program);
 
 /// The results folders below one folder, which any number of processes may
 /// share, on several machines. A run is made beside them, in runs/.unfinished,
@@ -52,4 +53,4 @@ private:
   mutable std::atomic<int> begun_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::experiments

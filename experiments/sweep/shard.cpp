@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 std::optional<shard> parse_shard(std::string_view text) {
   shard which{0, 0};
@@ -51,4 +51,4 @@ std::vector<std::size_t> share_out(std::span<const wanted_run> runs,
   return shard_of;
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

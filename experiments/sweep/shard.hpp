@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// One part of several.
 struct shard {
@@ -40,4 +40,4 @@ std::optional<shard> parse_shard(std::string_view text);
 std::vector<std::size_t> share_out(std::span<const wanted_run> runs,
                                    std::size_t shards);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::size_t count_runs(std::span<const sweep_plan> plans,
   return runs_wanted_by_all(plans, program, interrupted).runs.size();
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

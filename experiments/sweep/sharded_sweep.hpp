@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// What became of the runs of a shard.
 struct shard_outcome : run_counts {
@@ -39,4 +39,4 @@ std::size_t count_runs(std::span<const sweep_plan> plans,
                        std::string_view program,
                        const std::atomic<bool>& interrupted);
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -9,7 +9,7 @@
 #include <ostream>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
@@ -58,4 +58,4 @@ sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
   return gather(plan, store, wanted.run_of, std::move(table));
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 struct sweep_options : making {
   std::filesystem::path out; ///< Gets NAME.csv and the folder `runs`.
@@ -35,4 +35,4 @@ sweep_outcome sweep(const sweep_plan& plan, const sweep_options& options,
                     const std::atomic<bool>& interrupted,
                     std::ostream& console);
 
-} // namespace sofof
+} // namespace sofof::experiments

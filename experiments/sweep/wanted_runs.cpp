@@ -12,15 +12,15 @@
 #include <exception>
 #include <set>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace {
 
 /// Vehicle cycles, and something for making a world.
-double cost_of(const scenario_definition& s) {
+double cost_of(const scenario::scenario_definition& s) {
   constexpr double setup = 1000;
   auto cycles = setup;
-  const auto vehicles = static_cast<double>(place_vehicles(s).size());
+  const auto vehicles = static_cast<double>(scenario::place_vehicles(s).size());
   for (const auto& type : s.services)
     cycles +=
         vehicles * to_seconds(s.length) / to_seconds(type->options.period);
@@ -42,7 +42,7 @@ wanted_runs runs_wanted_by(const sweep_plan& plan, std::string_view program,
     check_given_once(plan, point, base);
     auto& name = all.run_of.emplace_back();
     try {
-      const auto s = load_scenario(plan.scenario, point.given);
+      const auto s = scenario::load_scenario(plan.scenario, point.given);
       name = name_of_run(s, program);
       if (met.insert(name).second)
         all.runs.push_back({name, plan.scenario, point.given,
@@ -64,4 +64,4 @@ wanted_runs runs_wanted_by(const sweep_plan& plan, std::string_view program,
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// A run that one point of a sweep wants, or several.
 struct wanted_run {
@@ -37,4 +37,4 @@ struct wanted_runs {
 wanted_runs runs_wanted_by(const sweep_plan& plan, std::string_view program,
                            const std::atomic<bool>& interrupted);
 
-} // namespace sofof
+} // namespace sofof::experiments

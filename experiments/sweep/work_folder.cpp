@@ -9,7 +9,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::experiments {
 
 namespace fs = std::filesystem;
 
@@ -55,4 +55,4 @@ work_folder::~work_folder() {
   fs::remove_all(path_, ignored);
 }
 
-} // namespace sofof
+} // namespace sofof::experiments

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace sofof {
+namespace sofof::experiments {
 
 /// A folder of this process's own below one that many processes share, on
 /// several machines; gone with this object. Where processes were killed, the
@@ -27,4 +27,4 @@ private:
   std::unique_ptr<file_lock> lock_;
 };
 
-} // namespace sofof
+} // namespace sofof::experiments

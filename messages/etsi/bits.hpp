@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// What can be wrong with a message.
 enum class fault : std::uint8_t {
@@ -206,4 +206,4 @@ private:
   fault fault_ = fault::none;
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -4,7 +4,7 @@
 
 #include "messages/etsi/common.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 // -- high frequency: in every CAM ---------------------------------------------
 
@@ -375,4 +375,4 @@ struct cam {
   }
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -4,7 +4,7 @@
 
 #include "messages/etsi/schema.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 // Values that stand for "not known" and "beyond what can be said".
 inline constexpr std::int32_t latitude_unavailable = 900'000'001;
@@ -247,4 +247,4 @@ using vehicle_length =
              vehicle_length_unavailable, trailer_indication::unavailable>;
 using vehicle_width = integer<1, vehicle_width_unavailable>; ///< 0.1 m
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

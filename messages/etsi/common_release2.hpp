@@ -4,7 +4,7 @@
 
 #include "messages/etsi/common.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 using identifier_1b = integer<0, 255>;
 using identifier_2b = integer<0, 65535>;
@@ -368,4 +368,4 @@ struct trailer_data {
   }
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -4,7 +4,7 @@
 
 #include "messages/etsi/common.hpp"
 
-namespace sofof::etsi::tr103562 {
+namespace sofof::messages::etsi::tr103562 {
 
 // -- numbers and pairs that recur ---------------------------------------------
 
@@ -450,4 +450,4 @@ struct cpm {
   }
 };
 
-} // namespace sofof::etsi::tr103562
+} // namespace sofof::messages::etsi::tr103562

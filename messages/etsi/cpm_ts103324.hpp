@@ -4,7 +4,7 @@
 
 #include "messages/etsi/common_release2.hpp"
 
-namespace sofof::etsi::ts103324 {
+namespace sofof::messages::etsi::ts103324 {
 
 // -- the sender ---------------------------------------------------------------
 
@@ -240,4 +240,4 @@ struct cpm {
   }
 };
 
-} // namespace sofof::etsi::ts103324
+} // namespace sofof::messages::etsi::ts103324

@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::string explain(const finding& found) {
   return {};
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

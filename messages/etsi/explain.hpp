@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// @returns e.g. "CAM of protocol version 2", or "message 99 of protocol
 /// version 2" where the id has no name in ETSI TS 102 894-2.
@@ -107,4 +107,4 @@ std::string explain_encoding(const T& message) {
   return writer.sentence();
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 class field_path {
 public:
@@ -32,4 +32,4 @@ private:
   std::vector<std::size_t> ends_; // of the text, one level up each
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

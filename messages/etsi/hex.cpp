@@ -1,7 +1,7 @@
 // Two digits an octet.
 #include "messages/etsi/hex.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::optional<std::vector<std::byte>> octets_from_hex(std::string_view text) {
   return octets;
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Appends two lower-case digits an octet.
 void append_hex(std::string& out, std::span<const std::byte> octets);
@@ -18,4 +18,4 @@ void append_hex(std::string& out, std::span<const std::byte> octets);
 /// @returns nothing if there is something else, or half an octet.
 std::optional<std::vector<std::byte>> octets_from_hex(std::string_view text);
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

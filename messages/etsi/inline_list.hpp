@@ -8,7 +8,7 @@
 #include <new>
 #include <type_traits>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Longer lists than this many bytes take the heap instead.
 inline constexpr std::size_t longest_inline = 1024;
@@ -62,4 +62,4 @@ private:
   alignas(T) std::array<std::byte, most * sizeof(T)> room_;
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Milliseconds since 2004-01-01T00:00:00Z, leap seconds included
 /// (TimestampIts of TS 102 894-2, 0..4398046511103).
@@ -102,4 +102,4 @@ constexpr its_ms unwrap(wrapped_ms generated, its_ms now) {
   return now - age_ms(generated, now);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 namespace {
 
@@ -420,4 +420,4 @@ outcome<message> message_from_json(std::string_view text) {
   }
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

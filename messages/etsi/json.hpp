@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Appends a message as an object without line breaks.
 void append_json(std::string& out, const message& m);
@@ -25,4 +25,4 @@ void append_json(std::string& out, const message& m);
 /// @returns a message whose numbers are in range, or what is wrong where.
 outcome<message> message_from_json(std::string_view text);
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

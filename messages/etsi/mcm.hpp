@@ -7,7 +7,7 @@
 
 #include "messages/etsi/common_release2.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 // -- places and times ---------------------------------------------------------
 
@@ -296,4 +296,4 @@ struct mcm {
   }
 };
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

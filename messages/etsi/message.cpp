@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 namespace {
 
@@ -66,4 +66,4 @@ outcome<std::vector<std::byte>> encode_message(const message& m) {
       m);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 using message = std::variant<cam, tr103562::cpm, ts103324::cpm, mcm>;
 
@@ -35,4 +35,4 @@ outcome<std::vector<std::byte>> encode_message(const message& m);
 outcome<message> make_message(std::uint8_t protocol_version,
                               std::uint8_t message_id);
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -5,7 +5,7 @@
 #include "messages/etsi/bits.hpp"
 #include "messages/etsi/schema.hpp"
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// The widest number that bits are put into.
 inline constexpr unsigned word_width = 64;
@@ -145,4 +145,4 @@ void read_packed(In& in, T& x) {
     in.fail(fault::out_of_range);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -26,7 +26,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Whether a type may grow in later versions of a standard.
 enum class growth : bool { closed, extensible };
@@ -246,4 +246,4 @@ constexpr bool sequence_may_grow() {
     return false;
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// How a quantity in SI units becomes an integer. All of TS 102 894-2 V1.3.1
 /// unless another source is named.
@@ -156,4 +156,4 @@ inline constexpr grades<7> yaw_rate_confidence_radps{
 inline constexpr grades<14> altitude_confidence_m{
     {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200}};
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

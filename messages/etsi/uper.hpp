@@ -9,7 +9,7 @@
 #include <cassert>
 #include <span>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// Messages that begin with a header that tells which they are.
 template <class T>
@@ -80,4 +80,4 @@ bool decode(std::span<const std::byte> in, T& message) {
   return reader.ok();
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

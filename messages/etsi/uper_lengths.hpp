@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 /// A small number of no fixed range: an index beyond the root, a count of
 /// additions. X.691, 11.6.
@@ -13,4 +13,4 @@ inline constexpr unsigned small_width = 6;
 /// X.691, 11.9.
 inline constexpr std::size_t longest = 0x3fff;
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

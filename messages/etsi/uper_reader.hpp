@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 template <class In, class T>
 void read(In& in, T& x);
@@ -233,4 +233,4 @@ void read(In& in, T& x) {
   }
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 template <class Out, class T>
 void write(Out& out, const T& x);
@@ -215,4 +215,4 @@ void write(Out& out, const T& x) {
   }
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 static_assert(std::endian::native == std::endian::little,
               "bytes are written as they lie in memory");
@@ -193,4 +193,4 @@ private:
   bool ok_ = true;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

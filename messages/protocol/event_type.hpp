@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// When each happens: docs/results.md.
 enum class event_type : std::uint8_t {
@@ -90,4 +90,4 @@ constexpr std::string_view name_of(event_type what) {
   return event_names[static_cast<std::size_t>(what)].name;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Enumerations travel as numbers; unknown ones are refused.
 template <class Inspector, has_last Enum>
@@ -102,4 +102,4 @@ bool inspect_value(Inspector& f, T& x) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A CAM, CPM or MCM in UPER (messages/etsi). May come from a stranger.
 struct its_pdu {
@@ -41,8 +41,8 @@ void visit_fields(auto& v, its_pdu& x) {
   v("octets", x.octets);
 }
 
-} // namespace sofof
+} // namespace sofof::messages
 
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::its_pdu> =
-    "its_pdu";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::messages::its_pdu> = "its_pdu";

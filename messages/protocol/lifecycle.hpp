@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::messages {
 
 enum class lifecycle_state : std::uint8_t {
   unconfigured,
@@ -49,4 +49,4 @@ constexpr std::optional<lifecycle_state> after(lifecycle_state from,
   return std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

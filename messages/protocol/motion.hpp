@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Where a vehicle really is; the road derives from it what others see.
 struct motion_report {
   station_id station = 0;
   double s_m = 0; ///< Rear axle on its route, laps included.
-  vehicle_state state;
+  world::vehicle_state state;
 };
 
 void visit_fields(auto& v, motion_report& x) {
@@ -39,9 +39,10 @@ void visit_fields(auto& v, ego_state& x) {
 /// What a sensor at the roadside sees, for the provider that it belongs to.
 struct roadside_detections {
   time_point at;
-  std::vector<perceived_object> objects; ///< As `scene::seen_by` gives them.
-  std::uint32_t sensor = 0;              ///< Which of its sensors it is.
-  viewpoint from{};
+  std::vector<world::perceived_object>
+      objects;              ///< As `scene::seen_by` gives them.
+  std::uint32_t sensor = 0; ///< Which of its sensors it is.
+  world::viewpoint from{};
 };
 
 void visit_fields(auto& v, roadside_detections& x) {
@@ -62,4 +63,4 @@ void visit_fields(auto& v, source_change& x) {
   v("remote", x.remote);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

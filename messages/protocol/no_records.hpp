@@ -3,10 +3,10 @@
 
 #include "messages/protocol/record.hpp"
 
-namespace sofof {
+namespace sofof::messages {
 
 struct no_records : record_sink {
   void on_record(const record&) override {}
 };
 
-} // namespace sofof
+} // namespace sofof::messages

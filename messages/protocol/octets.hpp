@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Goes through a message as the serializer does that writes it, and counts
 /// what that would write.
@@ -110,4 +110,4 @@ std::size_t octets_of(const Message& message) {
   return f.value(const_cast<Message&>(message)) ? f.count() : 0;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

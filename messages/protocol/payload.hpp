@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// The name under which a payload type travels; every type that becomes a
 /// payload specialises it, and lists its fields (base/fields.hpp).
@@ -131,4 +131,4 @@ private:
   std::shared_ptr<const content> held_;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// What a requester expects of a remote service; both ends are allowed.
 struct qos_limits {
@@ -64,4 +64,4 @@ void visit_fields(auto& v, qos_violation& x) {
   v("check", x.check);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

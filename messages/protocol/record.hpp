@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Something worth a line in events.jsonl.
 struct event_record {
@@ -87,8 +87,8 @@ struct safety_record {
 /// How smoothly a vehicle drove since its last such record.
 struct drive_record {
   station_id station = 0;
-  plan_figures plans;
-  ride_figures ride;
+  world::plan_figures plans;
+  world::ride_figures ride;
 };
 
 /// A vehicle has taken its first plan from another source into use.
@@ -96,7 +96,7 @@ struct plan_switch_record {
   time_point at;
   session_id session;  ///< Its remote side, the new or the former one.
   bool remote = false; ///< Where the new plan comes from.
-  plan_jump jump;
+  world::plan_jump jump;
 };
 
 /// An ITS message was sent, whoever may have got it.
@@ -125,4 +125,4 @@ public:
   virtual void on_record(const record& x) = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

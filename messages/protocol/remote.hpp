@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Whose messages these are. Raised whenever their meaning changes; the types
 /// themselves are compared by a fingerprint of all their names.
@@ -125,4 +125,4 @@ proof_of(const std::string& nonce, const std::string& provider,
   return text.take();
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// One offloading, from acceptance to its end. Both sides and all data name
 /// it, so that duplicates and leftovers of earlier ones are told apart.
@@ -240,4 +240,4 @@ void visit_fields(auto& v, service_end& x) {
   v("what", x.what);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

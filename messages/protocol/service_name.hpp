@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// At most 31 characters, stored in place: copying one allocates nothing.
 class service_name {
@@ -53,4 +53,4 @@ private:
   std::array<char, max_size + 1> text_{};
 };
 
-} // namespace sofof
+} // namespace sofof::messages

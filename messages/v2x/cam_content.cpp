@@ -6,13 +6,13 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::messages {
 
-point front_of(const cam& own, const vehicle_params& car) {
+point front_of(const cam& own, const world::vehicle_params& car) {
   return own.position + car.front_m * unit_vector(own.heading_rad);
 }
 
-etsi::cam make_cam(const cam& own, const vehicle_params& car,
+etsi::cam make_cam(const cam& own, const world::vehicle_params& car,
                    const georeference& where) {
   etsi::cam message;
   message.header.station = own.station.value();
@@ -61,7 +61,8 @@ void add_path(etsi::cam& message, const cam& own, const path_history& been,
   }
 }
 
-std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
+std::optional<cam> read_cam(const etsi::cam& message,
+                            const world::vehicle_params& car,
                             const georeference& where, time_point now) {
   const auto& body = message.body;
   const auto* motion = std::get_if<etsi::vehicle_high_frequency>(
@@ -96,4 +97,4 @@ std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
   return own;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -9,16 +9,16 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// @returns the middle of the front: a vehicle's reference position in ETSI's
 /// messages. Source: EN 302 637-2 v1.4.1, annex B.
-point front_of(const cam& own, const vehicle_params& car);
+point front_of(const cam& own, const world::vehicle_params& car);
 
 /// @param own  The rear axle's motion. The message tells the middle of the
 ///             front, and all quantities in ETSI's units.
 /// @returns the CAM without its low-frequency container.
-etsi::cam make_cam(const cam& own, const vehicle_params& car,
+etsi::cam make_cam(const cam& own, const world::vehicle_params& car,
                    const georeference& where);
 
 /// Adds the low-frequency container: where the vehicle has been.
@@ -32,7 +32,8 @@ void add_path(etsi::cam& message, const cam& own, const path_history& been,
 /// in a car of ours scaled to its length; what it does not know counts as
 /// zero, the length as that of `car`. Nullopt for a roadside unit, for who
 /// does not know where it is, which way it points, or how fast it is.
-std::optional<cam> read_cam(const etsi::cam& message, const vehicle_params& car,
+std::optional<cam> read_cam(const etsi::cam& message,
+                            const world::vehicle_params& car,
                             const georeference& where, time_point now);
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 using namespace std::chrono_literals;
@@ -49,4 +49,4 @@ bool cam_trigger::is_due(duration elapsed, const told_motion& motion) {
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

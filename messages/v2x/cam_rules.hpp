@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Decides when to send CAMs. A vehicle asks every 100 ms or more often
 /// (T_CheckCamGen) and sends at once what it is told to.
@@ -49,4 +49,4 @@ private:
   time_point last_low_frequency_; // when there is a last one
 };
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <tuple>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 /// T_AddSensorInformation. Source: TS 103 324, section 6.1.2.
 constexpr duration sensor_period = std::chrono::milliseconds{1000};
 static_assert(sensor_period <= generation::longest); // so a CPM comes in time
 
-told_motion motion_of(const perceived_object& x) {
+told_motion motion_of(const world::perceived_object& x) {
   return {x.centre, x.heading_rad, x.speed_mps};
 }
 
@@ -95,4 +95,4 @@ void cpm_trigger::remember(time_point now,
   std::ranges::sort(told_, {}, &told_object::id);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A perceived object that is recognised from one look to the next.
 struct known_object {
   std::uint32_t id = 0; ///< The same as long as it is known.
-  perceived_object what;
+  world::perceived_object what;
 };
 
 /// Decides when to send CPMs and what about. A station asks every 100 ms or
@@ -76,4 +76,4 @@ private:
   std::vector<std::uint32_t> chosen_;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

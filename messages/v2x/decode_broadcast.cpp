@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::messages {
 
 namespace {
 
@@ -33,4 +33,4 @@ broadcast decode(const its_pdu& message, const georeference& where,
   return {};
 }
 
-} // namespace sofof
+} // namespace sofof::messages

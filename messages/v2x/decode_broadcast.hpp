@@ -8,7 +8,7 @@
 
 #include <variant>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A CAM, a CPM, or neither.
 using broadcast = std::variant<std::monostate, cam, object_list>;
@@ -19,4 +19,4 @@ using broadcast = std::variant<std::monostate, cam, object_list>;
 broadcast decode(const its_pdu& message, const georeference& where,
                  time_point now);
 
-} // namespace sofof
+} // namespace sofof::messages

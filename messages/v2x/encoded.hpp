@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// No message of ours is longer; sized for a CPM of 128 objects.
 inline constexpr std::size_t longest_message = 16 * 1024;
@@ -18,4 +18,4 @@ its_pdu encoded(const auto& message) {
   return {{room.begin(), room.begin() + static_cast<std::ptrdiff_t>(octets)}};
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 
 bool is_news(const told_motion& told, const told_motion& now) {
   using namespace generation;
@@ -13,4 +13,4 @@ bool is_news(const told_motion& told, const told_motion& now) {
                 > turned_rad;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

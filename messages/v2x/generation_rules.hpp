@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// When messages are sent.
 enum class generation_rule : std::uint8_t {
@@ -42,4 +42,4 @@ struct told_motion {
 /// since `told` that others have to know; never for what is not a number.
 bool is_news(const told_motion& told, const told_motion& now);
 
-} // namespace sofof
+} // namespace sofof::messages

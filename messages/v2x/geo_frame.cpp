@@ -8,10 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
-constexpr geo_origin ulm_lehr{571656, 5364810, 32, 48.43236, 9.96873};
+constexpr world::geo_origin ulm_lehr{571656, 5364810, 32, 48.43236, 9.96873};
 constexpr double per_degree = 1e7;
 constexpr std::int32_t largest_latitude = 900'000'000;
 constexpr std::int32_t largest_longitude = 1'800'000'000;
@@ -47,7 +47,7 @@ bool geo_position::is_available() const {
          && std::abs(std::int64_t{longitude}) <= largest_longitude;
 }
 
-geo_frame::geo_frame(const geo_origin& origin) {
+geo_frame::geo_frame(const world::geo_origin& origin) {
   const auto& at = origin.utm_e_m > 0 ? origin : ulm_lehr;
   double latitude = 0, longitude = 0, convergence = 0, scale = 0;
   try {
@@ -109,4 +109,4 @@ std::optional<double> geo_frame::to_map_heading(int etsi_heading,
   return wrap_angle(std::numbers::pi / 2 + east_rad(at) - *clockwise);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A place on the WGS84 ellipsoid in ETSI's units, 1e-7 degrees: 1.1 cm of
 /// latitude.
@@ -37,7 +37,7 @@ public:
   /// @param origin  UTM, north of the equator. One without a zone or easting
   ///                (made-up maps) lies in Ulm-Lehr.
   /// @throws std::invalid_argument when there is no such place.
-  explicit geo_frame(const geo_origin& origin = {});
+  explicit geo_frame(const world::geo_origin& origin = {});
 
   /// @param at  m, less than 100 km from the origin.
   geo_position to_wgs84(point at) const;
@@ -65,4 +65,4 @@ private:
   point axis_{1, 0};      // of geographic east in the map, at the origin
 };
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <concepts>
 
-namespace sofof {
+namespace sofof::messages {
 
 namespace {
 
@@ -72,4 +72,4 @@ void append_frame(std::string& out, const geonet_sender& from,
   out.append(reinterpret_cast<const char*>(message.data()), message.size());
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Destination ports of BTP. Source: ETSI TS 103 248 v2.1.1; the MCM has none
 /// yet, 2020 is what ETSI's own drafts and ROS packages of it use.
@@ -40,4 +40,4 @@ inline constexpr std::size_t geonet_octets = 4 + 8 + 28 + 4;
 void append_frame(std::string& out, const geonet_sender& from,
                   std::uint16_t port, std::span<const std::byte> message);
 
-} // namespace sofof
+} // namespace sofof::messages

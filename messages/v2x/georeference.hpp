@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// Where the map is, and when the run's clock stood at zero.
 struct georeference {
@@ -39,4 +39,4 @@ inline geo_position to_geo(const etsi::reference_position& position) {
   return {position.latitude, position.longitude};
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::messages {
 
 object_list brought_together(station_id from, time_point generated,
                              std::span<const timed_object> objects) {
@@ -21,4 +21,4 @@ object_list brought_together(station_id from, time_point generated,
   return seen;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -13,26 +13,26 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// What a station tells of bodies that it sees.
 struct object_list {
   station_id from = 0;
   time_point at;
-  std::vector<perceived_object> objects;
+  std::vector<world::perceived_object> objects;
   /// Of each object: its number, the same as long as the station knows it.
   std::vector<std::uint32_t> ids{};
   std::size_t perceived = 0; ///< All objects, those that it does not tell too.
   time_point generated{};    ///< When the station was where it says it is.
   /// From the middle of its front; range 0: it does not tell of its sensors,
   /// or of more than one. None: it does not say which way it heads.
-  std::optional<viewpoint> eye{};
+  std::optional<world::viewpoint> eye{};
 };
 
 /// A body as it was at a time of its own.
 struct timed_object {
   time_point at;
-  perceived_object what;
+  world::perceived_object what;
   std::uint32_t id = 0;
 };
 
@@ -43,7 +43,7 @@ object_list brought_together(station_id from, time_point generated,
                              std::span<const timed_object> objects);
 
 /// @returns whether a body has a size; others cannot be dealt with.
-inline bool has_size(const perceived_object& x) {
+inline bool has_size(const world::perceived_object& x) {
   constexpr double least_m = 0.05; // messages tell 0.1 m
   return x.length_m > least_m && x.width_m > least_m;
 }
@@ -58,4 +58,4 @@ Number wire(const auto& quantity, double si) {
   return static_cast<Number>(quantity.to_wire(si));
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 /// Source: CAR 2 CAR Basic System Profile, pTraceAllowableError and
@@ -68,4 +68,4 @@ void path_history::drop_what_is_far() {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cstddef>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// The last 200 m of a vehicle's way as few points: the way was never farther
 /// than 0.47 m from the straight lines between them, and they stand no more
@@ -56,4 +56,4 @@ private:
   std::size_t since_size_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// What a vehicle has to tell.
 struct perceived_scene {
@@ -24,7 +24,7 @@ struct perceived_scene {
   std::span<const known_object> objects;
   std::size_t perceived = 0; ///< All objects, those that it does not tell too.
   /// Its sensor, in the middle of its body, if it is to be told of.
-  const sensor_params* sensor = nullptr;
+  const world::sensor_params* sensor = nullptr;
 };
 
 /// In the sender's frame: from the middle of its front, x where it is heading,
@@ -32,7 +32,7 @@ struct perceived_scene {
 /// no object. Speeds and accelerations are over ground, along these axes.
 /// Objects are where they were when they were seen.
 etsi::tr103562::cpm make_cpm_tr103562(const perceived_scene& scene,
-                                      const vehicle_params& car,
+                                      const world::vehicle_params& car,
                                       const georeference& where);
 
 /// @param now  The message tells its time modulo 65.536 s: the nearest to now
@@ -47,7 +47,7 @@ std::optional<object_list> read_cpm(const etsi::tr103562::cpm& message,
 /// The same in release 2: from the middle of the sender's front, x geographic
 /// east, y north; objects 2 s old at most.
 etsi::ts103324::cpm make_cpm_ts103324(const perceived_scene& scene,
-                                      const vehicle_params& car,
+                                      const world::vehicle_params& car,
                                       const georeference& where);
 
 /// @returns as `read_cpm` of TR 103 562; what is told relative to lanes of a
@@ -55,4 +55,4 @@ etsi::ts103324::cpm make_cpm_ts103324(const perceived_scene& scene,
 std::optional<object_list> read_cpm(const etsi::ts103324::cpm& message,
                                     const georeference& where);
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::messages {
 
 namespace {
 
@@ -65,8 +65,8 @@ void describe(tr::perceived_object& told, const known_object& known,
   std::get<0>(kind[0].what.value).type = {car_class};
 }
 
-tr::sensor_information describe(const sensor_params& can,
-                                const vehicle_params& car) {
+tr::sensor_information describe(const world::sensor_params& can,
+                                const world::vehicle_params& car) {
   tr::sensor_information told;
   told.id = the_sensor;
   told.type = sensor_fusion;
@@ -86,7 +86,7 @@ tr::sensor_information describe(const sensor_params& can,
 }
 
 /// Only what looks ahead as far to the left as to the right is understood.
-void look_through(const tr::sensor_information& told, viewpoint& eye) {
+void look_through(const tr::sensor_information& told, world::viewpoint& eye) {
   const auto* mounted =
       std::get_if<tr::vehicle_sensor>(&told.detection_area.value);
   if (!mounted || mounted->properties.size() != 1)
@@ -109,7 +109,7 @@ std::optional<timed_object> decode(const tr::perceived_object& told,
   const auto yaw = etsi::angle_to_rad(told.yaw->value);
   if (!vx || !vy || !yaw)
     return std::nullopt;
-  perceived_object what;
+  world::perceived_object what;
   what.length_m = 0.1 * told.planar_dimension_1->value;
   what.width_m = 0.1 * told.planar_dimension_2->value;
   if (!has_size(what))
@@ -133,7 +133,7 @@ std::optional<timed_object> decode(const tr::perceived_object& told,
 } // namespace
 
 tr::cpm make_cpm_tr103562(const perceived_scene& scene,
-                          const vehicle_params& car,
+                          const world::vehicle_params& car,
                           const georeference& where) {
   const auto& own = scene.own;
   const auto place = where.frame.to_wgs84(front_of(own, car));
@@ -197,4 +197,4 @@ std::optional<object_list> read_cpm(const tr::cpm& message,
   return seen;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

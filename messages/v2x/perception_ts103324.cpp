@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 
 namespace {
 
@@ -78,7 +78,7 @@ void describe(ts::perceived_object& told, const known_object& known,
   kind[0].confidence = 101; // unavailable
 }
 
-ts::sensor_information describe(const sensor_params& can) {
+ts::sensor_information describe(const world::sensor_params& can) {
   ts::sensor_information told;
   told.id = own_sensor;
   told.type = fused_here;
@@ -96,7 +96,7 @@ ts::sensor_information describe(const sensor_params& can) {
 }
 
 /// Only what looks ahead as far to the left as to the right is understood.
-void look_through(const ts::sensor_information& told, viewpoint& eye) {
+void look_through(const ts::sensor_information& told, world::viewpoint& eye) {
   const auto* view = told.shape
                          ? std::get_if<etsi::radial_shape>(&told.shape->value)
                          : nullptr;
@@ -121,7 +121,7 @@ std::optional<timed_object> decode(const ts::perceived_object& told,
   const auto speed = vector_of(etsi::velocity_mps, velocity->x, velocity->y);
   if (!length || !width || !yaw || !speed)
     return std::nullopt;
-  perceived_object what;
+  world::perceived_object what;
   what.length_m = *length;
   what.width_m = *width;
   const point place{0.01 * told.position.x.value.value,
@@ -143,7 +143,7 @@ std::optional<timed_object> decode(const ts::perceived_object& told,
 } // namespace
 
 ts::cpm make_cpm_ts103324(const perceived_scene& scene,
-                          const vehicle_params& car,
+                          const world::vehicle_params& car,
                           const georeference& where) {
   const auto& own = scene.own;
   const auto place = where.frame.to_wgs84(front_of(own, car));
@@ -192,7 +192,7 @@ std::optional<object_list> read_cpm(const ts::cpm& message,
   const frame from{where.frame, *at};
   std::vector<timed_object> objects;
   std::size_t perceived = 0;
-  viewpoint eye{.at = *at};
+  world::viewpoint eye{.at = *at};
   auto is_heading_known = false;
   for (const auto& container : message.body.containers) {
     if (const auto* seen =
@@ -222,4 +222,4 @@ std::optional<object_list> read_cpm(const ts::cpm& message,
   return seen;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// What a scenario says of the messages of its vehicles.
 struct v2x_options {
@@ -52,4 +52,4 @@ private:
   }
 };
 
-} // namespace sofof
+} // namespace sofof::messages

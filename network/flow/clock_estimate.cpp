@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -189,4 +189,4 @@ double clock_estimate::fitted_drift() const {
   return std::clamp(drift, -largest_drift, largest_drift);
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::network {
 
 /// The four stamps of a question and its answer (RFC 5905: origin, receive,
 /// transmit and destination timestamp).
@@ -94,4 +94,4 @@ private:
   std::uint64_t steps_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Streams of values to a peer that acknowledges each: per stream at most one
 /// value is on its way and one waits, the latest. Memory is bounded however
@@ -79,4 +79,4 @@ private:
   std::map<Key, stream> streams_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -1,7 +1,7 @@
 // When a peer is called that may not answer, or may hang up.
 #include "network/flow/dial_schedule.hpp"
 
-namespace sofof {
+namespace sofof::network {
 
 void dial_schedule::pause(time_point now) {
   next_ = now + pauses_.next_wait(draws_.uniform(attempts_));
@@ -18,4 +18,4 @@ void dial_schedule::begin(time_point now) {
   pause(now);
 }
 
-} // namespace sofof
+} // namespace sofof::network

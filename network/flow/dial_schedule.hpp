@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Attempts at a connection: one at a time, with pauses between the beginning
 /// of one and that of the next (`exponential_backoff`).
@@ -46,4 +46,4 @@ private:
   std::optional<time_point> trying_since_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

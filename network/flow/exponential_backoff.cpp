@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -22,4 +22,4 @@ duration exponential_backoff::next_wait(double draw) {
   return wait;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -3,7 +3,7 @@
 
 #include "base/time.hpp"
 
-namespace sofof {
+namespace sofof::network {
 
 /// Waits between attempts at one thing: none before the first, then periods
 /// that double from 100 ms to 1 s, each shortened at random by up to half of
@@ -22,4 +22,4 @@ private:
   duration period_{0};
 };
 
-} // namespace sofof
+} // namespace sofof::network

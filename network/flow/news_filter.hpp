@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Lets a sentence pass that differs from the one before it: one a second, and
 /// twenty at once.
@@ -28,4 +28,4 @@ private:
   token_bucket allowance_{per_second, at_once};
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Counts all that happens, and logs one of it a period at most.
 class sampled_log {
@@ -35,4 +35,4 @@ private:
   time_point next_{};
 };
 
-} // namespace sofof
+} // namespace sofof::network

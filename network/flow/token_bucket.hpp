@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::network {
 
 /// A bucket of tokens that fills at a steady rate; whoever wants something
 /// spends tokens on it. Full at first.
@@ -46,4 +46,4 @@ private:
   time_point latest_ = time_point::min();
 };
 
-} // namespace sofof
+} // namespace sofof::network

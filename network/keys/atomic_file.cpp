@@ -15,7 +15,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -94,4 +94,4 @@ void append_to_file(const std::filesystem::path& path, std::string_view line,
     refuse(path);
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <sys/types.h>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Writes a file at once: whoever sees it sees all of it, also after a crash.
 /// @param mode  Who may read it from its first byte on, e.g. 0600.
@@ -24,4 +24,4 @@ void replace_file(const std::filesystem::path& path, std::string_view text,
 void append_to_file(const std::filesystem::path& path, std::string_view line,
                     mode_t mode);
 
-} // namespace sofof
+} // namespace sofof::network

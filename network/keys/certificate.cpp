@@ -13,7 +13,7 @@
 #include <openssl/x509v3.h>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -226,4 +226,4 @@ certificate_verdict examine(X509& certificate, X509_STORE& trusted,
   return {std::move(who), {}, X509_V_OK};
 }
 
-} // namespace sofof
+} // namespace sofof::network

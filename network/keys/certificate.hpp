@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// No certificate of ours is longer, as text; bytes.
 inline constexpr std::size_t largest_certificate = 64 * 1024;
@@ -61,4 +61,4 @@ enum class validity { now, ever };
 certificate_verdict examine(X509& certificate, X509_STORE& trusted,
                             validity when = validity::now);
 
-} // namespace sofof
+} // namespace sofof::network

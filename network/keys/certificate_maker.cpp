@@ -16,7 +16,7 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -92,9 +92,9 @@ std::string joined(const std::vector<std::string>& uris) {
 }
 
 std::vector<std::string> uris_of(const permitted_names& names) {
-  auto all = sofof::uris_of(peer_identity{names.stations, {}});
+  auto all = network::uris_of(peer_identity{names.stations, {}});
   for (const auto& name : names.providers)
-    std::ranges::copy(sofof::uris_of(peer_identity{{}, name}),
+    std::ranges::copy(network::uris_of(peer_identity{{}, name}),
                       std::back_inserter(all));
   return all;
 }
@@ -153,11 +153,11 @@ x509_ptr make_certificate(EVP_PKEY& key, const peer_identity& who, int days,
   extend(x, ca, NID_key_usage, "critical,digitalSignature");
   extend(x, ca, NID_ext_key_usage,
          who.is_provider() ? "serverAuth" : "clientAuth");
-  extend(x, ca, NID_subject_alt_name, joined(sofof::uris_of(who)));
+  extend(x, ca, NID_subject_alt_name, joined(network::uris_of(who)));
   extend(x, ca, NID_subject_key_identifier, "hash");
   extend(x, ca, NID_authority_key_identifier, "keyid:always");
   seal(x, ca_key);
   return certificate;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// A certificate may be valid this long, days; a CA is.
 inline constexpr int longest_validity_days = 3650;
@@ -32,4 +32,4 @@ x509_ptr make_authority(EVP_PKEY& key, const permitted_names& names);
 x509_ptr make_certificate(EVP_PKEY& key, const peer_identity& who, int days,
                           X509& ca, EVP_PKEY& ca_key);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -13,7 +13,7 @@
 #include <openssl/x509v3.h>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -126,7 +126,7 @@ credentials::load(const std::filesystem::path& folder) {
   }
   // Whether it has been revoked is for others to say: a list with our own
   // certificate is still good for those of others.
-  auto verdict = sofof::examine(*all->certificate, *all->trusted);
+  auto verdict = network::examine(*all->certificate, *all->trusted);
   if (!verdict.who)
     throw network_error{fmt::format("{} {} (the CA is {}): {}",
                                     certificate_file.string(), verdict.refusal,
@@ -139,7 +139,7 @@ credentials::load(const std::filesystem::path& folder) {
 certificate_verdict credentials::examine(X509& certificate) const {
   if (revoked().contains(certificate))
     return {{}, "has been revoked", X509_V_ERR_CERT_REVOKED};
-  return sofof::examine(certificate, trusted());
+  return network::examine(certificate, trusted());
 }
 
 std::vector<std::byte>
@@ -186,4 +186,4 @@ proof credentials::prove(std::string_view certificate_pem,
   return {std::move(verdict.who), {}};
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Who has proved to be whom.
 struct proof {
@@ -86,4 +86,4 @@ private:
   std::shared_ptr<const parts> parts_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

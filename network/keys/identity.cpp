@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string describe(const peer_identity& who) {
          + print_stations(who.stations);
 }
 
-} // namespace sofof
+} // namespace sofof::network

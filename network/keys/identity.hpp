@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// What URIs of stations begin with.
 inline constexpr std::string_view station_prefix = "urn:sofof:station:";
@@ -43,4 +43,4 @@ std::vector<std::string> uris_of(const peer_identity& who);
 /// @returns e.g. "stations 101-106,110", "station 7" or "provider mec".
 std::string describe(const peer_identity& who);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::string key_ring::read_again() {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::network

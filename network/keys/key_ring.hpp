@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Any thread may ask for them; one reads them again.
 class key_ring {
@@ -39,4 +39,4 @@ private:
   credentials now_; // guarded by mutex_
 };
 
-} // namespace sofof
+} // namespace sofof::network

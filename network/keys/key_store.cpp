@@ -21,7 +21,7 @@
 #include <sys/stat.h>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace fs = std::filesystem;
 
@@ -356,4 +356,4 @@ std::vector<std::string> revoke_keys(const fs::path& folder,
   return names;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 struct issue_options {
   int days = 825; ///< How long it is valid; 1 to `longest_validity_days`.
@@ -66,4 +66,4 @@ struct revocation_choice {
 std::vector<std::string> revoke_keys(const std::filesystem::path& folder,
                                      const revocation_choice& which);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -5,7 +5,7 @@
 
 #include <openssl/rand.h>
 
-namespace sofof {
+namespace sofof::network {
 
 std::string draw_nonce() {
   std::string octets(32, '\0');
@@ -16,4 +16,4 @@ std::string draw_nonce() {
   return octets;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -10,7 +10,7 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
-namespace sofof {
+namespace sofof::network {
 
 void openssl_deleter::operator()(BIO* x) const {
   BIO_free_all(x);
@@ -57,4 +57,4 @@ void require_openssl(bool ok, const char* what) {
                         + " failed in OpenSSL: " + last_openssl_error()};
 }
 
-} // namespace sofof
+} // namespace sofof::network

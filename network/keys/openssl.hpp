@@ -7,7 +7,7 @@
 
 struct X509_extension_st;
 
-namespace sofof {
+namespace sofof::network {
 
 struct openssl_deleter {
   void operator()(BIO* x) const;
@@ -42,4 +42,4 @@ std::string last_openssl_error();
 /// @throws network_error, saying what failed, unless `ok`.
 void require_openssl(bool ok, const char* what);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -72,4 +72,4 @@ bool revocation_list::contains(const std::string& serial) const {
   return std::ranges::binary_search(serials_, serial);
 }
 
-} // namespace sofof
+} // namespace sofof::network

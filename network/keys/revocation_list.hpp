@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Serial numbers of certificates; constant once it is read.
 class revocation_list {
@@ -38,4 +38,4 @@ private:
 /// empty for what is none.
 std::string parse_serial(std::string_view text);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 
 #include <sys/stat.h>
 
-namespace sofof {
+namespace sofof::network {
 
 void check_secret(const std::filesystem::path& file) {
   struct stat about {};
@@ -21,4 +21,4 @@ void check_secret(const std::filesystem::path& file) {
         file.string(), about.st_mode & all_bits, file.string())};
 }
 
-} // namespace sofof
+} // namespace sofof::network

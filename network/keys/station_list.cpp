@@ -7,7 +7,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string print_stations(const std::vector<station_id>& stations) {
   return text;
 }
 
-} // namespace sofof
+} // namespace sofof::network

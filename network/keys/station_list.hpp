@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// More stations than these are no list.
 inline constexpr std::size_t most_stations = 10'000;
@@ -40,4 +40,4 @@ station_ranges(const std::vector<station_id>& stations);
 /// @returns the shortest list that `parse_stations` reads as these.
 std::string print_stations(const std::vector<station_id>& stations);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <system_error>
 
-namespace sofof {
+namespace sofof::network {
 
 byte_stream::byte_stream(descriptor socket, ssl_ptr tls)
     : socket_{std::move(socket)}, tls_{std::move(tls)} {}
@@ -90,4 +90,4 @@ byte_stream::outcome byte_stream::broken(int error) {
   return {state::failed, 0};
 }
 
-} // namespace sofof
+} // namespace sofof::network

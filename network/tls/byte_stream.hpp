@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Reads and writes what goes at once, and says what to wait for otherwise. Of
 /// one thread at a time.
@@ -56,4 +56,4 @@ private:
   std::string failure_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

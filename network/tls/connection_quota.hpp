@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Counts open connections, and says whether there may be one more. Any thread
 /// may call these.
@@ -52,4 +52,4 @@ private:
   std::map<std::string, std::size_t> by_peer_; // none with 0
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 #include <netinet/in.h>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::size_t choose_victim(std::span<const network_prefix> prefixes,
   return candidates[std::min(n, size - 1)];
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace sofof {
+namespace sofof::network {
 
 /// The addresses that one attacker easily has: a /24 of IPv4, a /64 of IPv6.
 struct network_prefix {
@@ -29,4 +29,4 @@ network_prefix prefix_of(const socket_address& address);
 std::size_t choose_victim(std::span<const network_prefix> prefixes,
                           double draw);
 
-} // namespace sofof
+} // namespace sofof::network

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Knows the peers of carried connections by the loopback port that their
 /// octets come from, which no other process can use meanwhile. Any thread may
@@ -42,4 +42,4 @@ private:
   std::map<std::uint16_t, peer_identity> by_port_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

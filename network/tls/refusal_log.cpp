@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::optional<deadline> refusal_log::next() const {
   return *last_published_ + pause;
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// A crowd that is refused fills no journal: the first sentence is published at
 /// once, the last of each second with how many were left out.
@@ -36,4 +36,4 @@ private:
   std::uint64_t left_out_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -8,7 +8,7 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
-namespace sofof {
+namespace sofof::network {
 
 /// OpenSSL asks about a peer's certificate; `examine` knows.
 int judge_certificate(X509_STORE_CTX* asked, void*) {
@@ -124,4 +124,4 @@ std::string explain_tls_error() {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::network

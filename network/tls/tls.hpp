@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Who opened a connection and who answered it.
 enum class tls_side {
@@ -62,4 +62,4 @@ private:
 /// forgets all.
 std::string explain_tls_error();
 
-} // namespace sofof
+} // namespace sofof::network

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -354,4 +354,4 @@ acceptor_counts tls_acceptor::counts() const {
   return loop_->counts();
 }
 
-} // namespace sofof
+} // namespace sofof::network

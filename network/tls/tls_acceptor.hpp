@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Where to listen, and for how much of what.
 struct acceptor_options {
@@ -80,4 +80,4 @@ private:
   std::unique_ptr<loop> loop_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

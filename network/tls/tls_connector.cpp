@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -387,4 +387,4 @@ std::string tls_connector::last_error() const {
   return loop_->last_error();
 }
 
-} // namespace sofof
+} // namespace sofof::network

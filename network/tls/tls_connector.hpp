@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Whom to connect to, and how long to try.
 struct connector_options {
@@ -74,4 +74,4 @@ private:
   std::unique_ptr<loop> loop_;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -7,7 +7,7 @@
 #include <sys/epoll.h>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -113,4 +113,4 @@ void tls_tunnel::end(tunnel_end::cause why) {
     handler({why, far_.failure(), inward_.moved});
 }
 
-} // namespace sofof
+} // namespace sofof::network

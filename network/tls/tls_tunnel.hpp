@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::network {
 
 /// How a tunnel ended.
 struct tunnel_end {
@@ -99,4 +99,4 @@ private:
   std::uint32_t near_events_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::network

@@ -9,7 +9,7 @@
 #include <sys/epoll.h>
 #include <utility>
 
-namespace sofof {
+namespace sofof::network {
 
 namespace {
 
@@ -201,4 +201,4 @@ void tunnel_loop::close_idle_ones(deadline now) {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::network

@@ -17,7 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace sofof {
+namespace sofof::network {
 
 /// Serves its tunnels in turns, on one thread for all of them; ends each when a
 /// side closes, nothing crosses, or the certificate is good no more.
@@ -83,4 +83,4 @@ private:
   std::thread thread_; // last, as it needs all of the above
 };
 
-} // namespace sofof
+} // namespace sofof::network

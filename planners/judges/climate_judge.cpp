@@ -4,13 +4,13 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
 constexpr double rounding_w = 1;
 
-double limit_w(const cabin_params& params) {
+double limit_w(const world::cabin_params& params) {
   constexpr double share = 0.2;
   assert(params.max_heating_w >= 0 && params.max_cooling_w >= 0);
   return share * (params.max_heating_w + params.max_cooling_w) + rounding_w;
@@ -19,14 +19,14 @@ double limit_w(const cabin_params& params) {
 } // namespace
 
 double climate_margin_w(double power_w, const judged_climate& x,
-                        const cabin_params& params) {
-  const auto own_w =
-      climate_power_w(x.cabin, x.outside_c, x.set_point_c, x.horizon_s, params);
+                        const world::cabin_params& params) {
+  const auto own_w = world::climate_power_w(x.cabin, x.outside_c, x.set_point_c,
+                                            x.horizon_s, params);
   return limit_w(params) - std::abs(power_w - own_w);
 }
 
 std::optional<objection> judge_climate(double power_w, const judged_climate& x,
-                                       const cabin_params& params) {
+                                       const world::cabin_params& params) {
   const auto most_w = power_w < 0 ? params.max_cooling_w : params.max_heating_w;
   if (!(std::abs(power_w) <= most_w + rounding_w))
     return objection{"range", power_w, most_w};
@@ -36,4 +36,4 @@ std::optional<objection> judge_climate(double power_w, const judged_climate& x,
   return std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,11 +6,11 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// What a vehicle knows about its cabin.
 struct judged_climate {
-  cabin_state cabin;
+  world::cabin_state cabin;
   double outside_c = 0;
   double set_point_c = 0;
   double horizon_s = 60;
@@ -22,11 +22,11 @@ struct judged_climate {
 /// @returns `range` for what the cabin cannot do, `comfort` for what is too far
 /// from the own power; nullopt for a power that may be used.
 std::optional<objection> judge_climate(double power_w, const judged_climate& x,
-                                       const cabin_params& params);
+                                       const world::cabin_params& params);
 
 /// @returns how much farther from the own power it might be, W: the margin of
 /// `comfort`.
 double climate_margin_w(double power_w, const judged_climate& x,
-                        const cabin_params& params);
+                        const world::cabin_params& params);
 
-} // namespace sofof
+} // namespace sofof::planners

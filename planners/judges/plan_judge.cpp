@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -15,7 +15,7 @@ constexpr auto boundless = std::numeric_limits<double>::infinity();
 
 /// @returns the unit vector of a heading; cheap where the heading is the lane's
 /// but for half a radian, as it mostly is.
-point axis_of(double heading_rad, const path_frame& lane) {
+point axis_of(double heading_rad, const world::path_frame& lane) {
   const auto e = heading_rad - lane.heading_rad;
   if (std::abs(e) > 0.5)
     return {std::cos(heading_rad), std::sin(heading_rad)};
@@ -264,7 +264,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
 
 // Along the plan for so long, then braking on its line.
 std::optional<foreseen_bodies::touch>
-plan_judge::first_touch(const judged_plan& x, const trajectory& plan,
+plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
                         double until_s, double decel_mps2) {
   assert(!plan.empty() && until_s >= 0 && decel_mps2 >= 0);
   motion_.clear();
@@ -461,4 +461,4 @@ bool plan_judge::may_wait_beside(const judged_plan& x) const {
          && bodies_.any_near(limits.waits_beside_m, limits.waits_beside_m);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

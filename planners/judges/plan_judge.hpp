@@ -18,23 +18,23 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A plan, and what the vehicle itself knows about its situation.
 struct judged_plan {
-  const route& way;
-  const trajectory& plan;    ///< Sound, `s_m` on that route.
-  const trajectory* in_use;  ///< The plan followed until now; null: none.
-  const reported_state& own; ///< The vehicle's motion as it measured it.
-  double s_m;                ///< Its rear axle on the route.
-  const perception& seen;    ///< By the vehicle, and granted to it.
-  bool crossings_granted;    ///< Else drivers judge crossings.
+  const world::route& way;
+  const world::trajectory& plan;   ///< Sound, `s_m` on that route.
+  const world::trajectory* in_use; ///< The plan followed until now; null: none.
+  const reported_state& own;       ///< The vehicle's motion as it measured it.
+  double s_m;                      ///< Its rear axle on the route.
+  const world::perception& seen;   ///< By the vehicle, and granted to it.
+  bool crossings_granted;          ///< Else drivers judge crossings.
   time_point now;
   /// Of what was received, times left out; 0: none.
   std::uint64_t fingerprint = 0;
   /// What the vehicle's own planner would do from the same state, if it was
   /// asked (`wants_own_plan`), empty if it has none; null: it was not asked.
-  const trajectory* own_plan = nullptr;
+  const world::trajectory* own_plan = nullptr;
 };
 
 /// What a judge says of one plan.
@@ -133,7 +133,7 @@ struct plan_limits {
 /// No heap after the first results.
 class plan_judge {
 public:
-  explicit plan_judge(const vehicle_params& car = {}) : car_{car} {}
+  explicit plan_judge(const world::vehicle_params& car = {}) : car_{car} {}
 
   plan_verdict judge(const judged_plan& x);
 
@@ -192,10 +192,9 @@ private:
   std::optional<double> beyond_line_m(const judged_plan& x) const;
   std::optional<foreseen_bodies::touch> touch(const judged_plan& x,
                                               double beside_m);
-  std::optional<foreseen_bodies::touch> first_touch(const judged_plan& x,
-                                                    const trajectory& plan,
-                                                    double until_s,
-                                                    double decel_mps2);
+  std::optional<foreseen_bodies::touch>
+  first_touch(const judged_plan& x, const world::trajectory& plan,
+              double until_s, double decel_mps2);
   std::optional<objection> run_into(const judged_plan& x, double beside_m);
   bool own_plan_touches(const judged_plan& x);
   bool has_reason_to_brake(const judged_plan& x) const;
@@ -210,7 +209,7 @@ private:
   bool is_repeated(const judged_plan& x);
   double free_speed_mps(const judged_plan& x) const;
 
-  vehicle_params car_;
+  world::vehicle_params car_;
   foreseen_bodies bodies_;
   std::vector<place_in_time> motion_; // room that is used again
   std::vector<std::uint32_t> said_;   // fingerprints, round and round; 0: none
@@ -224,10 +223,10 @@ private:
   double driven_lost_s_ = 0; // likewise, by what is driven
   std::optional<time_point> reference_at_;
   double reference_from_m_ = 0;
-  trajectory reference_; // the own plan of then; room that is used again
+  world::trajectory reference_; // the own plan of then; room that is used again
   static constexpr std::size_t most_margins = 10;
   std::array<margin, most_margins> room_;
   std::size_t margin_count_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// @returns where lo > hi is worst; knot -1 where it is nowhere.
 template <class Problem>
@@ -117,4 +117,4 @@ void measure_violation(const workspace<Problem>& w,
   assert(report.violation >= report.worst.amount);
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// A new grid, seen from the old one, in its steps.
 struct regrid {
@@ -86,4 +86,4 @@ void resample_multipliers(Rows& rows, const regrid& g, int on_steps) {
   });
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// @returns whether all numbers are finite.
 inline bool all_finite(std::span<const double> values) {
@@ -50,4 +50,4 @@ inline bool no_nan(std::span<const double> values) {
   return bad == 0;
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

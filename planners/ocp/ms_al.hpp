@@ -24,7 +24,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 template <class Problem>
 class ms_al {
@@ -258,4 +258,4 @@ double ms_al<Problem>::publish() noexcept {
   return left;
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// Slope of the cost along a direction, and how it changes.
 struct cost_along {
@@ -191,4 +191,4 @@ void step_along(workspace<Problem>& w, double alpha) noexcept {
   });
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -6,7 +6,7 @@
 
 #include <cassert>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// Least curvature in the control that counts as convex.
 inline constexpr double least_curvature = 1e-9;
@@ -133,4 +133,4 @@ void sweep_forward(Workspace& w) noexcept {
   e.x0[w.n] = x0, e.x1[w.n] = x1, e.x2[w.n] = x2;
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -5,7 +5,7 @@
 #include <array>
 #include <concepts>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// Longest horizon.
 inline constexpr int most_steps = 256;
@@ -130,4 +130,4 @@ inline void gather(double& sum, double x) {
 }
 inline void gather(double&, zero) {}
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 enum class solve_status {
   converged,       ///< Optimal and feasible within the tolerances.
@@ -122,4 +122,4 @@ private:
   bool (*ask_)(const void*, int) = nullptr;
 };
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -1,7 +1,7 @@
 // Sine and cosine that the compiler can turn into vector code.
 #pragma once
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 /// Taylor polynomials of degree 15 and 16.
 /// @param x  rad; the error is below 3e-15 for |x| <= 1, 6e-14 for 1.2.
@@ -22,4 +22,4 @@ constexpr auto sin_cos(T x) {
   return both;
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 inline constexpr double no_bound = std::numeric_limits<double>::infinity();
 
@@ -135,4 +135,4 @@ struct workspace {
   }
 };
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 // Farther than this from its path a car begins a new one.
@@ -120,4 +120,4 @@ void path_planner::adopt_solution(double s_m, int first) {
   path_.measure([this](double s) { return line_->curvature_1pm(s); });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

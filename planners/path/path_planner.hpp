@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A car on its route, as path planning sees it.
 struct path_start {
@@ -74,4 +74,4 @@ private:
   std::vector<double> bends_, wanted_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

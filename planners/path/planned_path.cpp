@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// The knot that so many steps lead to, at most `last`; 0 for what is no
@@ -84,4 +84,4 @@ planned_path::place planned_path::at_s(double s_m) const {
            std::lerp(a.x.curvature_1pm, b.x.curvature_1pm, x)}};
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A path along a reference line; knots are equidistant on the line. Beyond
 /// its ends offset, heading and curvature stay as at them, and lengths go on
@@ -89,4 +89,4 @@ void planned_path::measure(const Line& line) {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::planners

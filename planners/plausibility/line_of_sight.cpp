@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -48,7 +48,7 @@ bool crosses(point a, point b, const oriented_box& box) {
   return overlap(box, {a}) || overlap(box, {b}) || meets_rim(a, b, rim);
 }
 
-line_of_sight::line_of_sight(std::span<const building> buildings)
+line_of_sight::line_of_sight(std::span<const world::building> buildings)
     : cells_{house_cell_m} {
   for (const auto& b : buildings) {
     const auto [west, east] =
@@ -82,4 +82,4 @@ bool line_of_sight::is_free(point eye, point p) const {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

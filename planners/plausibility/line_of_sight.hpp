@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// @returns whether the segment from `a` to `b` meets a rectangle.
 bool crosses(point a, point b, const oriented_box& box);
@@ -17,7 +17,7 @@ bool crosses(point a, point b, const oriented_box& box);
 class line_of_sight {
 public:
   /// @throws std::invalid_argument for a building that is no simple polygon.
-  explicit line_of_sight(std::span<const building> buildings = {});
+  explicit line_of_sight(std::span<const world::building> buildings = {});
 
   /// @returns whether the segment from `eye` to `p` meets no building. A
   /// building in which the eye stands hides nothing.
@@ -35,4 +35,4 @@ private:
   double largest_m_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -29,7 +29,7 @@ constexpr duration time_that_agrees = 500ms;
 
 } // namespace
 
-perceived_object moved_on(perceived_object x, double dt_s) {
+world::perceived_object moved_on(world::perceived_object x, double dt_s) {
   const auto way_m = x.speed_mps * dt_s;
   x.centre = x.centre
              + way_m * point{std::cos(x.heading_rad), std::sin(x.heading_rad)};
@@ -96,4 +96,4 @@ bool steady_word::agrees(const timed_body& word) {
          && word.at - rival_since_ >= time_that_agrees;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

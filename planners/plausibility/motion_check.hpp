@@ -6,16 +6,16 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A body at a time.
 struct timed_body {
   time_point at;
-  perceived_object what;
+  world::perceived_object what;
 };
 
 /// @returns the body as it is so much later (earlier: < 0) at constant speed.
-perceived_object moved_on(perceived_object x, double dt_s);
+world::perceived_object moved_on(world::perceived_object x, double dt_s);
 
 /// @returns by how much a body is farther from where its motion leads than
 /// speed and time explain, m; what its speed or its heading has changed more
@@ -43,4 +43,4 @@ private:
   int rivals_ = 0; // that agree with each other
 };
 
-} // namespace sofof
+} // namespace sofof::planners

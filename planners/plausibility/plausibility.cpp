@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -51,7 +51,7 @@ oriented_box shrunk(oriented_box x) {
 
 } // namespace
 
-plausibility::plausibility(std::span<const building> houses)
+plausibility::plausibility(std::span<const world::building> houses)
     : houses_{houses} {}
 
 bool plausibility::on_report(station_id who, sender_id from,
@@ -72,7 +72,7 @@ bool plausibility::on_report(station_id who, sender_id from,
 
 void plausibility::sift(station_id who, time_point at,
                         std::vector<std::uint32_t>& ids,
-                        std::vector<perceived_object>& bodies) {
+                        std::vector<world::perceived_object>& bodies) {
   const auto known = witnesses_.find(key_of({who.value()}));
   if (known == witnesses_.end())
     return; // its first look is about to make it known
@@ -392,4 +392,4 @@ void plausibility::tidy(time_point now) {
   senders_.tidy(now);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Weighs what stations tell of themselves (CAM) and of others (CPM) by who
 /// else sees it.
@@ -44,7 +44,7 @@ namespace sofof {
 class plausibility {
 public:
   /// @param houses  Hide what is behind them.
-  explicit plausibility(std::span<const building> houses = {});
+  explicit plausibility(std::span<const world::building> houses = {});
 
   /// A station tells where it is.
   /// @returns whether that is to be believed.
@@ -53,7 +53,7 @@ public:
   /// A vehicle tells of bodies that it sees: takes out those that jump.
   /// @param ids     Their numbers.
   void sift(station_id who, time_point at, std::vector<std::uint32_t>& ids,
-            std::vector<perceived_object>& bodies);
+            std::vector<world::perceived_object>& bodies);
 
   /// Somebody has looked at the road. To be called once the tracks know.
   void judge(const road_observer& who, const road_look& look,
@@ -131,4 +131,4 @@ private:
   bool has_suspects_ = false;               // a body that is denied or overlaps
 };
 
-} // namespace sofof
+} // namespace sofof::planners

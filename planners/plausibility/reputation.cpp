@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -52,4 +52,4 @@ void reputation::tidy(time_point now) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

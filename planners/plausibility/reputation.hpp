@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Who has told of what was not there is distrusted for a minute, the next
 /// time for two, and so on. What one vehicle has found out holds for it alone.
@@ -36,4 +36,4 @@ private:
   time_point latest_{-longest_time}; // end of a term
 };
 
-} // namespace sofof
+} // namespace sofof::planners

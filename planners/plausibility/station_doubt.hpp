@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// What a body failed at.
 enum class doubt_check : std::uint8_t {
@@ -33,4 +33,4 @@ struct station_doubt {
   double limit = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -89,4 +89,4 @@ bool testimony::is_denied_by(station_id who) const {
       denied_, [&](const denial& x) { return x.counts && x.by.number == who; });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

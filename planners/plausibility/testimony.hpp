@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Who looks at the road.
 struct road_observer {
@@ -68,4 +68,4 @@ private:
   bool was_confirmed_ = false;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

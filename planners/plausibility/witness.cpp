@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -50,18 +50,18 @@ double drift_m(double t_s) {
   return 0.5 * accel_mps2 * t_s * t_s;
 }
 
-point velocity_of(const perceived_object& x) {
+point velocity_of(const world::perceived_object& x) {
   return x.speed_mps * point{std::cos(x.heading_rad), std::sin(x.heading_rad)};
 }
 
-perceived_object body_at(const track& x, time_point t) {
+world::perceived_object body_at(const track& x, time_point t) {
   return moved_on(
       {x.centre(), x.heading_rad, x.speed_mps(), 0, x.length_m, x.width_m},
       to_seconds(t - x.at));
 }
 
-bool is_in_place(const perceived_object& x, const perceived_object& other,
-                 double off_m) {
+bool is_in_place(const world::perceived_object& x,
+                 const world::perceived_object& other, double off_m) {
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const auto apart = other.centre - x.centre;
   return std::abs(dot(ahead, apart)) <= along_m + off_m
@@ -153,8 +153,9 @@ bool witness::would_see(const track& x, const line_of_sight& houses,
          && is_open(body_at(x, now), houses, now);
 }
 
-bool witness::is_open(const perceived_object& body, const line_of_sight& houses,
-                      time_point t, const told_body* self) const {
+bool witness::is_open(const world::perceived_object& body,
+                      const line_of_sight& houses, time_point t,
+                      const told_body* self) const {
   const point ahead{std::cos(from_.heading_rad), std::sin(from_.heading_rad)};
   const auto eye = from_.at + speed_mps_ * to_seconds(t - at_) * ahead;
   const auto view = body.centre - eye;
@@ -202,4 +203,4 @@ bool witness::is_open(const perceived_object& body, const line_of_sight& houses,
              && (is_part_free(end_m) || is_part_free(-end_m)));
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -13,15 +13,15 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// What one look at the road gave.
 struct road_look {
-  time_point at;        ///< When `from` and `in_sight` held.
-  viewpoint from;       ///< Range 0: as it was told last.
-  double speed_mps = 0; ///< Of the sensor, along its heading.
-  time_point seen_at;   ///< When the bodies were where they are said to be.
-  std::span<const perceived_object> seen; ///< That are told of.
+  time_point at;         ///< When `from` and `in_sight` held.
+  world::viewpoint from; ///< Range 0: as it was told last.
+  double speed_mps = 0;  ///< Of the sensor, along its heading.
+  time_point seen_at;    ///< When the bodies were where they are said to be.
+  std::span<const world::perceived_object> seen; ///< That are told of.
   /// Their numbers, the same from look to look; none of a sensor's, which
   /// tells at each look of all that it sees.
   std::optional<std::span<const std::uint32_t>> ids;
@@ -73,15 +73,15 @@ private:
     timed_body is;
   };
   /// @param self  Which of what it tells of this is, if any.
-  bool is_open(const perceived_object& body, const line_of_sight& houses,
+  bool is_open(const world::perceived_object& body, const line_of_sight& houses,
                time_point t, const told_body* self = nullptr) const;
 
   time_point at_;
   time_point seen_at_;
-  viewpoint from_;
+  world::viewpoint from_;
   double speed_mps_ = 0;
   bool is_complete_ = false;
   std::vector<told_body> told_; // not longer ago than they are due again
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 void path_model::linearise(workspace& w) const noexcept {
   const auto m = w.padded;
@@ -143,4 +143,4 @@ double path_model::evaluate(workspace& w) const noexcept {
   return holds ? twice / 2 : std::numeric_limits<double>::infinity();
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

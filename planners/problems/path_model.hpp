@@ -8,7 +8,7 @@
 #include <array>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Against the reference line, at the rear axle.
 struct path_state {
@@ -140,4 +140,4 @@ public:
 };
 
 } // namespace ocp
-} // namespace sofof
+} // namespace sofof::planners

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -176,4 +176,4 @@ ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
   return report;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

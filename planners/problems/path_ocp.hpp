@@ -8,7 +8,7 @@
 
 #include <span>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// The corridor of one disc of the vehicle: bounds on its centre's offset.
 /// The disc's radius is already taken off.
@@ -110,4 +110,4 @@ private:
   bool started_ = false; ///< There is a plan in the workspace.
 };
 
-} // namespace sofof
+} // namespace sofof::planners

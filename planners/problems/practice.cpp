@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -127,4 +127,4 @@ const velocity_problem& practice_road::at(int knot, double now_s,
   return problem_;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

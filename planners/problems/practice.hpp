@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A winding road with obstacles in turn on the left and on the right, seen
 /// from a car of 3 discs.
@@ -60,4 +60,4 @@ private:
   velocity_problem problem_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

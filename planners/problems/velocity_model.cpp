@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 
 namespace {
 
@@ -157,4 +157,4 @@ double velocity_model::longest_step(const workspace& w) const noexcept {
   return 1 / most;
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

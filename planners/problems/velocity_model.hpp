@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-namespace sofof {
+namespace sofof::planners {
 
 struct velocity_state {
   double t_s = 0;        ///< When the vehicle is there.
@@ -145,4 +145,4 @@ public:
 };
 
 } // namespace ocp
-} // namespace sofof
+} // namespace sofof::planners

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -304,4 +304,4 @@ ocp::solve_report velocity_ocp::solve(const velocity_problem& problem,
   return report;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// What a metre of the plan costs.
 struct velocity_weights {
@@ -122,4 +122,4 @@ private:
   bool started_ = false; ///< There is a plan in the workspace.
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// A part of the car: a disc, or the axle's centre.
@@ -148,4 +148,4 @@ bool corridor::contains(std::span<const double> d_m,
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -9,7 +9,7 @@
 #include <array>
 #include <span>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// On which side of a body to pass.
 enum class side_of_road : unsigned char { left, right };
@@ -56,4 +56,4 @@ private:
   std::array<disc_corridor, rows> discs_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -28,8 +28,8 @@ bool gives_way(const track& x, const conflict_visit& when, int own_rank) {
 } // namespace
 
 crossing_predictor::crossing_predictor(
-    std::shared_ptr<const lane_network> lanes, route_ptr way, double corridor_m,
-    double foresight_s)
+    std::shared_ptr<const lane_network> lanes, world::route_ptr way,
+    double corridor_m, double foresight_s)
     : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
       corridor_m_{corridor_m}, foresight_s_{foresight_s} {
   assert(corridor_m_ > 0 && foresight_s_ >= 0);
@@ -65,13 +65,14 @@ void crossing_predictor::judge(double from_m, double to_m,
 void crossing_predictor::find_zones(double from_m, double to_m) {
   assert(way_.longest_zone_m() >= 0);
   zones_.clear();
-  way_.for_zones(from_m - way_.longest_zone_m(), to_m, [&](const zone& z) {
-    const auto middle_m = (z.from_m + z.to_m) / 2;
-    assert(z.from_m <= z.to_m && z.from_m < to_m);
-    if (z.to_m > from_m)
-      zones_.push_back({z, way_.on()->path().at(middle_m).at});
-    return true;
-  });
+  way_.for_zones(from_m - way_.longest_zone_m(), to_m,
+                 [&](const world::zone& z) {
+                   const auto middle_m = (z.from_m + z.to_m) / 2;
+                   assert(z.from_m <= z.to_m && z.from_m < to_m);
+                   if (z.to_m > from_m)
+                     zones_.push_back({z, way_.on()->path().at(middle_m).at});
+                   return true;
+                 });
 }
 
 /// Finds out when the others reach conflicts, if they may reach the own ones.
@@ -99,7 +100,8 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
 }
 
 /// @returns whether a body at a zone drives on the own way already.
-bool crossing_predictor::drives_along(const track& x, const zone& z) const {
+bool crossing_predictor::drives_along(const track& x,
+                                      const world::zone& z) const {
   const auto& line = way_.on()->path();
   const auto on = line.project(x.centre(), (z.from_m + z.to_m) / 2,
                                (z.to_m - z.from_m) / 2 + x.length_m);
@@ -107,4 +109,4 @@ bool crossing_predictor::drives_along(const track& x, const zone& z) const {
   return std::abs(on.d_m) < corridor_m_ && is_along(std::cos(turned_rad));
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Another road user, at the present.
 struct other_body {
@@ -33,8 +33,9 @@ public:
   /// @param corridor_m  Whoever is within this of the centre line and drives
   ///                    along is not crossing.
   /// @param foresight_s Others get so far at their present speed.
-  crossing_predictor(std::shared_ptr<const lane_network> lanes, route_ptr way,
-                     double corridor_m, double foresight_s);
+  crossing_predictor(std::shared_ptr<const lane_network> lanes,
+                     world::route_ptr way, double corridor_m,
+                     double foresight_s);
 
   /// Finds the zones of the own way that end after `from_m` and begin before
   /// `to_m`, and for each of them everybody on its other side or on the way
@@ -46,7 +47,7 @@ public:
 
 private:
   struct own_zone {
-    zone on;
+    world::zone on;
     point middle;
   };
   struct foreseen {
@@ -55,14 +56,14 @@ private:
   };
   void find_zones(double from_m, double to_m);
   void foresee(std::span<const other_body> others);
-  bool drives_along(const track& x, const zone& z) const;
+  bool drives_along(const track& x, const world::zone& z) const;
 
   std::shared_ptr<const lane_network> lanes_;
-  unrolled_route way_;
+  world::unrolled_route way_;
   double corridor_m_, foresight_s_;
   std::vector<own_zone> zones_;
   std::vector<conflict_visit> arrivals_; // of one of the others
   std::vector<foreseen> foreseen_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

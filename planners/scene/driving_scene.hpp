@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// The nearest road user ahead on one's own way.
 struct lead_vehicle {
@@ -49,4 +49,4 @@ struct driving_scene {
   std::vector<double> yields_m;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

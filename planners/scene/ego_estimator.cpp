@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// A vehicle that is farther from its plan drives something else.
@@ -30,7 +30,7 @@ bool is_sound(const reported_state& x) {
 
 } // namespace
 
-ego_estimator::ego_estimator(route_ptr way, double s_m)
+ego_estimator::ego_estimator(world::route_ptr way, double s_m)
     : way_{std::move(way)}, first_s_m_{s_m} {
   assert(way_ && std::isfinite(first_s_m_));
 }
@@ -55,7 +55,7 @@ void ego_estimator::on_report(const reported_state& told) {
   told_ = told;
 }
 
-void ego_estimator::follow(const trajectory& plan) {
+void ego_estimator::follow(const world::trajectory& plan) {
   assert(!plan.empty());
   if (known_ > 0 && plan.start <= plan_.start)
     return;
@@ -158,9 +158,10 @@ ego_estimator::motion ego_estimator::between(const moment& a, const moment& b,
           a.where.speed_mps + x * way.speed_mps};
 }
 
-ego_estimator::motion ego_estimator::on_route(const trajectory_point& p) const {
+ego_estimator::motion
+ego_estimator::on_route(const world::trajectory_point& p) const {
   const auto x = seen_from(*way_, p);
   return {x.s_m, x.d_m, x.heading_error_rad, x.speed_mps};
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A vehicle's own motion as it told it (a CAM).
 struct reported_state {
@@ -39,7 +39,7 @@ class ego_estimator {
 public:
   /// @param s_m  About where on the route, within 20 m, the vehicle is when it
   ///             is heard for the first time; laps included.
-  ego_estimator(route_ptr way, double s_m);
+  ego_estimator(world::route_ptr way, double s_m);
 
   /// Takes what the vehicle told; if it is older than what is known, or no
   /// numbers, nothing. Who is more than 5 m beside the route is not on it, and
@@ -48,7 +48,7 @@ public:
 
   /// Takes the plan that the vehicle follows from its start on.
   /// @param plan  Not empty; later than the plan before, else nothing.
-  void follow(const trajectory& plan);
+  void follow(const world::trajectory& plan);
 
   /// @returns the motion at `now` (also in `at`), for `joined` to compare
   /// with the plan; nothing while the vehicle was not heard.
@@ -76,7 +76,7 @@ private:
   };
 
   static motion between(const moment& a, const moment& b, time_point t);
-  motion on_route(const trajectory_point& p) const;
+  motion on_route(const world::trajectory_point& p) const;
   std::optional<motion> planned(time_point t) const;
   std::optional<motion> off_plan(time_point now) const;
   planning_input along_plan(time_point now, const motion& off) const;
@@ -86,15 +86,15 @@ private:
     return starts_[(newest_ + starts_.size() - age) % starts_.size()];
   }
 
-  route_ptr way_;
+  world::route_ptr way_;
   double first_s_m_;
   std::optional<reported_state> told_;
   motion heard_; // when `told_`
-  trajectory plan_;
+  world::trajectory plan_;
   // Where plans began, as seen from the last one; a ring. Plans come each
   // 50 ms: more than 3 s, when a silent vehicle has been given up.
   std::array<moment, 64> starts_{};
   std::size_t newest_ = 0, known_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

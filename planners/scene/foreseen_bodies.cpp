@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -19,15 +19,16 @@ constexpr auto foot_within_m = 20.0;
 
 /// @returns whether a body is so far behind the car that no part of the way
 /// where its place is looked for reaches the car's rear.
-bool is_far_behind(const perceived_object& x, double guess_m, double rear_m) {
+bool is_far_behind(const world::perceived_object& x, double guess_m,
+                   double rear_m) {
   return guess_m + foot_within_m + (x.length_m + x.width_m) / 2 < rear_m;
 }
 
 } // namespace
 
-void foreseen_bodies::look(const route& way, double s_m,
-                           std::span<const perceived_object> seen,
-                           const vehicle_params& car) {
+void foreseen_bodies::look(const world::route& way, double s_m,
+                           std::span<const world::perceived_object> seen,
+                           const world::vehicle_params& car) {
   assert(std::isfinite(s_m));
   assert(car.width_m > 0 && car.front_m > -car.rear_m);
   boxes_.clear();
@@ -106,7 +107,7 @@ bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
 
 std::optional<foreseen_bodies::touch>
 foreseen_bodies::first_touch(std::span<const place_in_time> motion,
-                             const vehicle_params& car) const {
+                             const world::vehicle_params& car) const {
   assert(std::ranges::is_sorted(motion, {}, &place_in_time::t_s));
   const auto middle_m = (car.front_m - car.rear_m) / 2;
   const auto half_length_m = (car.front_m + car.rear_m) / 2;
@@ -149,4 +150,4 @@ bool foreseen_bodies::any_near(double within_m, double beside_m) const {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A vehicle's place on its route at one moment.
 struct place_in_time {
@@ -35,8 +35,9 @@ public:
   /// Takes what a sensor saw just now.
   /// @param s_m  The vehicle's rear axle on the route.
   /// @param car  Its body.
-  void look(const route& way, double s_m,
-            std::span<const perceived_object> seen, const vehicle_params& car);
+  void look(const world::route& way, double s_m,
+            std::span<const world::perceived_object> seen,
+            const world::vehicle_params& car);
 
   /// @returns whether any could be touched within so long by a vehicle that
   /// goes no farther than that; cheap.
@@ -54,7 +55,7 @@ public:
   /// Whoever stands is touched by others, and touches nobody. Of who crosses
   /// only the core is touched: it may be turning.
   std::optional<touch> first_touch(std::span<const place_in_time> motion,
-                                   const vehicle_params& car) const;
+                                   const world::vehicle_params& car) const;
 
   /// @returns whether one of them is, or soon comes, so near before the
   /// vehicle that it has a reason to brake.
@@ -103,4 +104,4 @@ private:
   double half_corridor_m_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 // Critically damped decay: 4 constants long leave 9 % of the offset.
@@ -49,7 +49,8 @@ planning_input moved_forward(planning_input x, time_point now) {
   return x;
 }
 
-planning_input seen_from(const route& way, const trajectory_point& p) {
+planning_input seen_from(const world::route& way,
+                         const world::trajectory_point& p) {
   assert(std::isfinite(p.s_m));
   const auto centre = way.path().at(p.s_m);
   const point tangent{std::cos(centre.heading_rad),
@@ -65,7 +66,8 @@ planning_input seen_from(const route& way, const trajectory_point& p) {
   return x;
 }
 
-centring::centring(const route& way, const planning_input& x, double length_m)
+centring::centring(const world::route& way, const planning_input& x,
+                   double length_m)
     : way_{way} {
   assert(length_m > 0);
   assert(std::isfinite(x.s_m) && x.speed_mps >= 0);
@@ -84,16 +86,17 @@ centring::centring(const route& way, const planning_input& x, double length_m)
              shrink * (stands ? std::max(0.0, x.accel_mps2) : x.accel_mps2)};
 }
 
-trajectory_point centring::place(const lane_motion& x, double t_s) const {
+world::trajectory_point centring::place(const lane_motion& x,
+                                        double t_s) const {
   assert(t_s >= 0 && rate_1pm_ > 0);
   const auto centre = way_.path().at(x.s_m);
-  trajectory_point p{t_s,
-                     x.s_m,
-                     centre.at,
-                     centre.heading_rad,
-                     centre.curvature_1pm,
-                     x.speed_mps,
-                     x.accel_mps2};
+  world::trajectory_point p{t_s,
+                            x.s_m,
+                            centre.at,
+                            centre.heading_rad,
+                            centre.curvature_1pm,
+                            x.speed_mps,
+                            x.accel_mps2};
   if (std::abs(offset_m_) < negligible && std::abs(slope_) < negligible)
     return p;
 
@@ -121,4 +124,4 @@ trajectory_point centring::place(const lane_motion& x, double t_s) const {
   return p;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

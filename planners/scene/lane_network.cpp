@@ -9,7 +9,7 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -33,9 +33,10 @@ struct lane_network::driver {
   std::vector<conflict_visit>& out;
 };
 
-lane_network::lane_network(const road_map& map)
-    : meetings_{list_encounters(map)}, ranks_(2 * map.conflicts().size()),
-      next_(map.lanes().size()), previous_(map.lanes().size()) {
+lane_network::lane_network(const world::road_map& map)
+    : meetings_{world::list_encounters(map)},
+      ranks_(2 * map.conflicts().size()), next_(map.lanes().size()),
+      previous_(map.lanes().size()) {
   assert(meetings_.size() == map.lanes().size());
   for (const auto& lane : meetings_)
     for (const auto& e : lane) {
@@ -133,8 +134,8 @@ void lane_network::meet(const driver& who, std::size_t lane,
     const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
     const auto left_m = start_m + e.to_m + who.half_length_m;
     const auto stands = who.speed_mps < still_mps;
-    if (e.how == conflict::kind::diverge || left_m <= 0 || way_m > who.within_m
-        || (stands && way_m > 0))
+    if (e.how == world::conflict::kind::diverge || left_m <= 0
+        || way_m > who.within_m || (stands && way_m > 0))
       continue;
     const conflict_visit here{e.side, e.rank, way_m,
                               way_m > 0 ? way_m / who.speed_mps : 0.0,
@@ -164,4 +165,4 @@ void lane_network::drive(const driver& who, std::size_t lane,
       drive(who, following, end_m);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// When a body is on one side of a conflict, if its speed stays as it is.
 struct conflict_visit {
@@ -31,9 +31,9 @@ class lane_network {
 public:
   static constexpr double farthest_m = 300;
 
-  explicit lane_network(const road_map& map);
+  explicit lane_network(const world::road_map& map);
 
-  const conflict_sides& meetings() const { return meetings_; }
+  const world::conflict_sides& meetings() const { return meetings_; }
 
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
@@ -77,13 +77,13 @@ private:
   void meet(const driver& who, std::size_t lane, double start_m) const;
   void drive(const driver& who, std::size_t lane, double start_m) const;
 
-  conflict_sides meetings_;
+  world::conflict_sides meetings_;
   std::vector<int> ranks_; // of all sides
-  std::vector<path> paths_;
+  std::vector<world::path> paths_;
   std::vector<double> half_widths_m_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
   std::vector<piece> pieces_;
   cell_grid cells_; // of the pieces, as wide as the lanes
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -42,7 +42,7 @@ constexpr auto max_length_m = 30.0;
 constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
 
-bool is_sound(const perceived_object& o) {
+bool is_sound(const world::perceived_object& o) {
   // Comparisons with NaN are false.
   return std::abs(o.centre.x_m) <= most_distant_m
          && std::abs(o.centre.y_m) <= most_distant_m
@@ -69,7 +69,7 @@ object_tracker::object_tracker(sighting_noise noise, sighting_rhythm rhythm)
 }
 
 void object_tracker::update(time_point at,
-                            std::span<const perceived_object> seen) {
+                            std::span<const world::perceived_object> seen) {
   if (!pass_time(at))
     return;
   sightings_.clear();
@@ -89,7 +89,7 @@ void object_tracker::update(time_point at,
 }
 
 void object_tracker::on_report(time_point at, station_id who,
-                               const perceived_object& self) {
+                               const world::perceived_object& self) {
   if (!pass_time(at) || !is_sound(self))
     return;
   sightings_.assign(1, make_sighting(at, self));
@@ -140,7 +140,8 @@ duration object_tracker::lifetime(const track& x) const {
 }
 
 object_tracker::observation
-object_tracker::make_sighting(time_point at, const perceived_object& o) const {
+object_tracker::make_sighting(time_point at,
+                              const world::perceived_object& o) const {
   assert(is_sound(o));
   assert(at <= newest_);
   const auto across_mps = o.speed_mps * noise_.heading_rad;
@@ -230,4 +231,4 @@ void object_tracker::give_birth(time_point at, const observation& s) {
                      o.width_m});
 }
 
-} // namespace sofof
+} // namespace sofof::planners

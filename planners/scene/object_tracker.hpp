@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// How well observers see: standard deviations.
 struct sighting_noise {
@@ -57,11 +57,12 @@ public:
   ///              can be (not finite, 0 m or 31 m long, 101 m/s, 1e7 m away)
   ///              are left out, and so are all after the first 256. May be
   ///              empty: time passes.
-  void update(time_point at, std::span<const perceived_object> seen);
+  void update(time_point at, std::span<const world::perceived_object> seen);
 
   /// Tells what a connected vehicle says of itself (a CAM); from now on its
   /// track bears its name.
-  void on_report(time_point at, station_id who, const perceived_object& self);
+  void on_report(time_point at, station_id who,
+                 const world::perceived_object& self);
 
   /// @returns all tracks in order of `id`, at the time of the newest sighting;
   /// for any later time see `predict`. Valid until the next update.
@@ -69,7 +70,7 @@ public:
 
 private:
   struct observation {
-    perceived_object object;
+    world::perceived_object object;
     motion_estimate motion;
     bool is_known; // to be of a body with a track
     bool is_taken;
@@ -82,7 +83,8 @@ private:
 
   bool pass_time(time_point at);
   duration lifetime(const track& x) const;
-  observation make_sighting(time_point at, const perceived_object& o) const;
+  observation make_sighting(time_point at,
+                            const world::perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
   void correct(track& x, time_point at, const observation& s, bool fits);
@@ -98,4 +100,4 @@ private:
   std::vector<char> is_taken_; // of each track
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// What is beyond is no car's motion.
@@ -32,4 +32,4 @@ planning_input made_possible(planning_input x) {
   return x;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include "planners/scene/driving_scene.hpp"
 #include "world/roads/route.hpp"
 
-namespace sofof {
+namespace sofof::planners {
 
 /// The state from which to plan, in the frame of the route. It is the point
 /// of the plan in use where that plan is followed well (so that plans join
@@ -36,4 +36,4 @@ void visit_fields(auto& v, planning_input& x) {
 /// off the lane, 1 rad, 1/m, 0 to 100 m/s, 20 m/s²); what is no number is 0.
 planning_input made_possible(planning_input x);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double max_step_m = 0.25;
 
 } // namespace
 
-reference_line::reference_line(route_ptr way) : way_{std::move(way)} {
+reference_line::reference_line(world::route_ptr way) : way_{std::move(way)} {
   assert(way_ && way_->length_m() > 0);
   const auto length_m = way_->length_m();
   const auto steps =
@@ -65,4 +65,4 @@ double reference_line::bow_m(double s_m, double ahead_m) const {
          * (curvature_1pm(s_m) / 6 + curvature_1pm(s_m + ahead_m / 2) / 3);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,16 +5,16 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// The centre line of a route, tabulated once. Arc lengths are those of the
 /// route: closed routes wrap, open ones clamp.
 class reference_line {
 public:
   /// @param way  Kept.
-  explicit reference_line(route_ptr way);
+  explicit reference_line(world::route_ptr way);
 
-  const route& way() const { return *way_; }
+  const world::route& way() const { return *way_; }
 
   /// Linear between samples, 1/m.
   double curvature_1pm(double s_m) const;
@@ -42,10 +42,10 @@ private:
   };
   place find(double s_m) const;
 
-  route_ptr way_;
+  world::route_ptr way_;
   std::vector<sample> table_; // equidistant, both ends included
   double steps_per_m_ = 0;
   double laps_per_m_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

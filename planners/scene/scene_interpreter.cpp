@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -32,7 +32,7 @@ double radius_m(const track& x) {
 }
 
 /// @returns the point `offset` (along, to the left) from a path's point.
-point offset(const path_point& p, double along_m, double left_m) {
+point offset(const world::path_point& p, double along_m, double left_m) {
   const auto c = std::cos(p.heading_rad), s = std::sin(p.heading_rad);
   return p.at + point{along_m * c - left_m * s, along_m * s + left_m * c};
 }
@@ -40,7 +40,8 @@ point offset(const path_point& p, double along_m, double left_m) {
 } // namespace
 
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                                     const route_ptr& way, scene_params params)
+                                     const world::route_ptr& way,
+                                     scene_params params)
     : way_{way}, params_{params}, crossings_{std::move(lanes), way,
                                              params.car.width_m / 2
                                                  + params.margin_m,
@@ -242,4 +243,4 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -13,16 +13,17 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// How a vehicle looks at the others.
 struct scene_params {
   double horizon_m = 200; ///< Ahead of the own front.
   /// To keep on either side of the own body.
-  double margin_m = (corridor::room_beside_m - vehicle_params{}.width_m) / 2;
+  double margin_m =
+      (corridor::room_beside_m - world::vehicle_params{}.width_m) / 2;
   bool judges_crossings = false; ///< Else they are granted by somebody else.
   double foresight_s = 10;       ///< Others get so far at their present speed.
-  vehicle_params car{};
+  world::vehicle_params car{};
 };
 
 /// The vehicle that looks.
@@ -47,7 +48,7 @@ class scene_interpreter {
 public:
   /// @param lanes  Of the map that the route is on; not null.
   scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                    const route_ptr& way, scene_params params);
+                    const world::route_ptr& way, scene_params params);
 
   /// Describes all but `stop_at_m`, which it leaves as it is: what is granted
   /// is not seen.
@@ -80,7 +81,7 @@ private:
     return params_.car.width_m / 2 + params_.margin_m;
   }
 
-  route_ptr way_;
+  world::route_ptr way_;
   scene_params params_;
   crossing_predictor crossings_;
   std::vector<point> beads_; // along the way, equidistant
@@ -90,4 +91,4 @@ private:
   std::vector<near> near_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

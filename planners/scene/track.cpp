@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 namespace {
 
@@ -55,4 +55,4 @@ track predict(track x, time_point then) {
   return x;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

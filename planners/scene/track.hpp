@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Where something is and how it moves, and how well that is known: the state
 /// of a Kalman filter. What is known is equally good in all directions, so
@@ -78,4 +78,4 @@ inline bool in_one_place(double distance2_m2, double width_a_m,
   return distance2_m2 < apart_m * apart_m;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double no_room_m = 1e-3;
@@ -72,4 +72,4 @@ double needed_decel(double speed_mps, double room_m, const leader& ahead) {
   return speed_mps * speed_mps / (2 * (room + its_way));
 }
 
-} // namespace sofof
+} // namespace sofof::planners

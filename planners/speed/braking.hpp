@@ -3,7 +3,7 @@
 // so a plan made on the way continues the plan made before.
 #pragma once
 
-namespace sofof {
+namespace sofof::planners {
 
 /// How a driver likes to brake.
 struct braking_style {
@@ -40,4 +40,4 @@ double follow_accel(double speed_mps, double room_m, const leader& ahead,
 /// @returns m/s², >= 0; very large when there is no room.
 double needed_decel(double speed_mps, double room_m, const leader& ahead);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double at_rest_mps = 0.05;
@@ -99,4 +99,4 @@ void setting_off::drive(double step_s, int steps, speed_profile& out) const {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include "planners/speed/comfort_limits.hpp"
 #include "planners/speed/speed_profile.hpp"
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Braking at `decel_mps2`, which builds up and fades out at `jerk_mps3`, to
 /// rest, and standing.
@@ -44,4 +44,4 @@ private:
   double jerk_mps3_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

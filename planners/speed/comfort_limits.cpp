@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace sofof {
+namespace sofof::planners {
 
 void comfort_limits::visit_options(option_visitor& s) {
   s.field("horizon_s", horizon_s, {1, 20});
@@ -24,4 +24,4 @@ void comfort_limits::visit_options(option_visitor& s) {
   s.field("centring_length_m", centring_length_m, {5, 100});
 }
 
-} // namespace sofof
+} // namespace sofof::planners

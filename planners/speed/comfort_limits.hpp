@@ -4,7 +4,7 @@
 #include "base/options/option_visitor.hpp"
 #include "world/vehicle/vehicle.hpp"
 
-namespace sofof {
+namespace sofof::planners {
 
 /// What every planner keeps to.
 struct comfort_limits {
@@ -20,7 +20,7 @@ struct comfort_limits {
   double standstill_gap_m = 3.0;
   double centring_length_m = 15.0; ///< Offsets decay over this length; of
                                    ///< lane_follow alone.
-  double front_m = vehicle_params{}.front_m; ///< Of the car; no option.
+  double front_m = world::vehicle_params{}.front_m; ///< Of the car; no option.
 
   /// No emergency brakes softer than this.
   static constexpr double least_emergency_mps2 = 2.5;
@@ -31,4 +31,4 @@ struct comfort_limits {
   void visit_options(option_visitor& s);
 };
 
-} // namespace sofof
+} // namespace sofof::planners

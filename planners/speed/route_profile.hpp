@@ -7,12 +7,12 @@
 #include <memory>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// A route as it is sampled, and how fast it may be driven. It takes
 /// milliseconds to compute and never changes: all planners share one.
 struct route_profile {
-  route_profile(route_ptr way, const comfort_limits& style)
+  route_profile(world::route_ptr way, const comfort_limits& style)
       : line{std::move(way)}, envelope{line.way(), style} {}
 
   reference_line line;
@@ -21,4 +21,4 @@ struct route_profile {
 
 using route_profile_ptr = std::shared_ptr<const route_profile>;
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 
 double speed_constraints::follower::way_left_m() const {
   if (lead.speed_mps <= 0)
@@ -29,4 +29,4 @@ double speed_constraints::follower::when_s(double way_m) const {
   return rest < 0 ? never : (v - std::sqrt(rest)) / b;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Ways are those of the rear axle from the car on, m; times are seconds from
 /// now on.
@@ -44,4 +44,4 @@ struct speed_constraints {
   double caution_mps = never, caution_to_m = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double longest_step_m = 1.0;
@@ -30,7 +30,8 @@ struct way_table {
 };
 
 /// v²/2 that limits and bends allow at a place.
-double allowed_at(const route& way, double s_m, const comfort_limits& params) {
+double allowed_at(const world::route& way, double s_m,
+                  const comfort_limits& params) {
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
   const auto limit = std::max(min_speed_mps, way.limit_mps(s_m));
   return std::min(limit * limit, params.max_lateral_accel_mps2
@@ -41,7 +42,7 @@ double allowed_at(const route& way, double s_m, const comfort_limits& params) {
 /// What is allowed all along the way. A place counts with its surroundings up
 /// to the entries beside it, so that the line between two entries stays below
 /// what is allowed between them.
-way_table allowed(const route& way, double step_m, long size,
+way_table allowed(const world::route& way, double step_m, long size,
                   const comfort_limits& params) {
   assert(step_m > 0 && size > 0);
   way_table half{{}, way.closed()}; // in half steps
@@ -94,7 +95,8 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 
 } // namespace
 
-speed_envelope::speed_envelope(const route& way, const comfort_limits& params)
+speed_envelope::speed_envelope(const world::route& way,
+                               const comfort_limits& params)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   assert(length_m_ > 0 && params.max_accel_mps2 > 0);
   assert(params.comfort_decel_mps2 > 0 && params.max_jerk_mps3 > 0);
@@ -130,4 +132,4 @@ speed_envelope::sample speed_envelope::at(double s_m) const {
           low.accel_mps2 + share * (high.accel_mps2 - low.accel_mps2)};
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// The speed that a route allows where, with bends and the braking before
 /// them, already limited in jerk: computed once per route, then only looked
@@ -20,7 +20,7 @@ public:
   };
 
   /// @param way  Its limits must be positive.
-  speed_envelope(const route& way, const comfort_limits& params);
+  speed_envelope(const world::route& way, const comfort_limits& params);
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.
@@ -36,4 +36,4 @@ private:
   bool closed_ = false;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double never = speed_constraints::never;
@@ -132,11 +132,11 @@ double speed_planner::needed_decel(const speed_constraints& task) const {
   assert(task.speed_mps >= 0);
   auto needed = 0.0;
   if (std::isfinite(task.stop_m))
-    needed =
-        sofof::needed_decel(task.speed_mps, task.stop_m - least_line_gap_m, {});
+    needed = planners::needed_decel(task.speed_mps,
+                                    task.stop_m - least_line_gap_m, {});
   if (task.ahead)
-    needed =
-        std::max(needed, sofof::needed_decel(task.speed_mps,
+    needed = std::max(needed,
+                      planners::needed_decel(task.speed_mps,
                                              task.ahead->touch_m - least_gap_m,
                                              task.ahead->lead));
   for (const auto& window : task.windows)
@@ -491,4 +491,4 @@ bool is_clear(const speed_profile& motion, double step_s,
   return keeps_windows(motion, step_s, task);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

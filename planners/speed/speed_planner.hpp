@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// How a speed plan came about.
 enum class speed_mode : unsigned char {
@@ -117,4 +117,4 @@ private:
 bool is_clear(const speed_profile& motion, double step_s,
               const speed_constraints& task);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// Slower than this a braking car comes to rest.
@@ -93,4 +93,4 @@ void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
   }
 }
 
-} // namespace sofof
+} // namespace sofof::planners

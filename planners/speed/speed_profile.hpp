@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// `s_m` is the way from the car on; one entry every `step_s`, the first is
 /// the car now.
@@ -25,4 +25,4 @@ using speed_profile = std::vector<lane_motion>;
 void drive_along(const velocity_ocp& plan, double ds_m, double start_m,
                  double start_s, double step_s, int steps, speed_profile& out);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double sample_s = 0.1;
@@ -15,8 +15,8 @@ constexpr double nothing_to_centre_m = 15.0;
 
 } // namespace
 
-trajectory keep_speed(const route& way, time_point now, double s_m,
-                      double speed_mps) {
+world::trajectory keep_speed(const world::route& way, time_point now,
+                             double s_m, double speed_mps) {
   assert(std::isfinite(s_m));
   assert(speed_mps >= 0);
   planning_input from;
@@ -24,7 +24,7 @@ trajectory keep_speed(const route& way, time_point now, double s_m,
   from.speed_mps = speed_mps;
   const centring line{way, from, nothing_to_centre_m};
   auto x = line.motion();
-  trajectory plan{now, {}};
+  world::trajectory plan{now, {}};
   for (auto i = 0; i <= steps; ++i) {
     plan.points.push_back(line.place(x, i * sample_s));
     x = advance(x, 0, sample_s);
@@ -32,4 +32,4 @@ trajectory keep_speed(const route& way, time_point now, double s_m,
   return plan;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -4,14 +4,14 @@
 #include "world/roads/route.hpp"
 #include "world/vehicle/trajectory.hpp"
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Keeps to the middle of the lane at constant speed for 3 s, whatever the
 /// limits, the bends and the others.
 /// @param now        Start of the plan.
 /// @param s_m        Rear axle on the route, then.
 /// @param speed_mps  0 or more; 0 stands.
-trajectory keep_speed(const route& way, time_point now, double s_m,
-                      double speed_mps);
+world::trajectory keep_speed(const world::route& way, time_point now,
+                             double s_m, double speed_mps);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 // Where to stop before a line, and what must be kept in any case.
@@ -47,7 +47,7 @@ struct lane_follow::traffic_ahead {
   void advance(double dt_s) {
     if (!led)
       return;
-    const auto x = sofof::advance(
+    const auto x = planners::advance(
         {lead_rear_m, lead.speed_mps, lead.accel_mps2}, lead.accel_mps2, dt_s);
     lead_rear_m = x.s_m;
     lead = {x.speed_mps, x.accel_mps2};
@@ -59,13 +59,13 @@ lane_follow::lane_follow(route_profile_ptr way, comfort_limits params)
   assert(way_ && params_.step_s > 0);
 }
 
-lane_follow::lane_follow(route_ptr way, const comfort_limits& params)
+lane_follow::lane_follow(world::route_ptr way, const comfort_limits& params)
     : lane_follow{std::make_shared<const route_profile>(std::move(way), params),
                   params} {}
 
 plan_report lane_follow::plan(time_point now, const planning_input& input,
-                              const trajectory* previous, trajectory& out,
-                              const ocp::budget&) {
+                              const world::trajectory* previous,
+                              world::trajectory& out, const ocp::budget&) {
   assert(previous != &out);
   const auto& way = way_->line.way();
   const centring line{way, joined(way, now, input, previous),
@@ -160,4 +160,4 @@ double lane_follow::next_accel(const lane_motion& x,
   return std::clamp(wanted, x.accel_mps2 - change, x.accel_mps2 + change);
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -7,7 +7,7 @@
 #include "planners/speed/route_profile.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Jerk-limited speed profile with car following and stop lines, and a
 /// lateral offset that decays to the centre line. The end of an open route
@@ -18,10 +18,10 @@ public:
   lane_follow(route_profile_ptr way, comfort_limits params);
 
   /// The same, with a profile of its own.
-  lane_follow(route_ptr way, const comfort_limits& params);
+  lane_follow(world::route_ptr way, const comfort_limits& params);
 
   plan_report plan(time_point now, const planning_input& input,
-                   const trajectory* previous, trajectory& out,
+                   const world::trajectory* previous, world::trajectory& out,
                    const ocp::budget& go_on = {}) override;
 
 private:
@@ -35,4 +35,4 @@ private:
   braking_style style_;
 };
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// Between those who cross and the own car, at the place that both use.
@@ -126,4 +126,4 @@ void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
     out.resize(std::max<std::size_t>(most, 1));
 }
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// In which order to cross with the others, or to wait for all of them.
 struct crossing_order {
@@ -65,4 +65,4 @@ void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,
                 std::uint32_t first, std::size_t most,
                 std::vector<passing_order>& out);
 
-} // namespace sofof
+} // namespace sofof::planners

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double step_s = 0.1;
@@ -28,8 +28,8 @@ double next_accel(const lane_motion& x, double decel_mps2) {
 
 } // namespace
 
-trajectory safe_stop(const route& way, time_point now,
-                     const planning_input& state, double decel_mps2) {
+world::trajectory safe_stop(const world::route& way, time_point now,
+                            const planning_input& state, double decel_mps2) {
   assert(decel_mps2 > 0);
   const centring line{way, moved_forward(state, now), centring_length_m};
   auto x = line.motion();
@@ -38,7 +38,7 @@ trajectory safe_stop(const route& way, time_point now,
   const auto horizon_s = std::max(min_horizon_s, braking_s + standing_s);
   const auto steps = std::lround(std::ceil(horizon_s / step_s));
 
-  trajectory plan;
+  world::trajectory plan;
   plan.start = now;
   plan.points.reserve(static_cast<std::size_t>(steps) + 1);
   for (long i = 0; i <= steps; ++i) {
@@ -50,4 +50,4 @@ trajectory safe_stop(const route& way, time_point now,
   return plan;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

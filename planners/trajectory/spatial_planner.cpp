@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 /// A new way past the others must be cheaper by this share.
@@ -69,7 +69,8 @@ spatial_planner::spatial_planner(route_profile_ptr way,
 }
 
 plan_report spatial_planner::plan(time_point now, const planning_input& input,
-                                  const trajectory* previous, trajectory& out,
+                                  const world::trajectory* previous,
+                                  world::trajectory& out,
                                   const ocp::budget& go_on) {
   assert(previous != &out);
   assert(!previous || !previous->empty());
@@ -340,8 +341,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
 
 // -- what is published --------------------------------------------------------
 
-bool spatial_planner::keep(const trajectory& previous, const scene& at,
-                           trajectory& out) {
+bool spatial_planner::keep(const world::trajectory& previous, const scene& at,
+                           world::trajectory& out) {
   const auto left_s = to_seconds(previous.end() - at.now);
   if (previous.start > at.now || left_s < least_left_s
       || to_seconds(at.now - kept_from_.value_or(previous.start))
@@ -380,22 +381,23 @@ bool spatial_planner::avoids_crossings() const {
   });
 }
 
-bool spatial_planner::passes(const trajectory& plan,
+bool spatial_planner::passes(const world::trajectory& plan,
                              std::span<const lane_obstacle> bodies) const {
   assert(!plan.empty());
   const auto half_m = car_.width_m / 2;
   return std::ranges::none_of(bodies, [&](const lane_obstacle& body) {
-    return std::ranges::any_of(plan.points, [&](const trajectory_point& p) {
-      if (p.s_m < body.from_m - style_.front_m
-          || p.s_m > body.to_m + car_.rear_m)
-        return false;
-      const auto d = seen_from(lane(), p).d_m;
-      return d - half_m < body.high_m && d + half_m > body.low_m;
-    });
+    return std::ranges::any_of(
+        plan.points, [&](const world::trajectory_point& p) {
+          if (p.s_m < body.from_m - style_.front_m
+              || p.s_m > body.to_m + car_.rear_m)
+            return false;
+          const auto d = seen_from(lane(), p).d_m;
+          return d - half_m < body.high_m && d + half_m > body.low_m;
+        });
   });
 }
 
-void spatial_planner::publish(time_point now, trajectory& out) const {
+void spatial_planner::publish(time_point now, world::trajectory& out) const {
   const auto& path = path_->path();
   const auto& motion = speed_->motion();
   assert(!path.empty() && !motion.empty());
@@ -418,4 +420,4 @@ void spatial_planner::publish(time_point now, trajectory& out) const {
   }
 }
 
-} // namespace sofof
+} // namespace sofof::planners

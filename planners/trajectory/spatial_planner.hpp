@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// How far, how finely and how thoroughly a planner plans.
 struct spatial_params {
@@ -39,7 +39,7 @@ public:
                   const spatial_params& params);
 
   plan_report plan(time_point now, const planning_input& input,
-                   const trajectory* previous, trajectory& out,
+                   const world::trajectory* previous, world::trajectory& out,
                    const ocp::budget& go_on = {}) override;
 
 private:
@@ -57,11 +57,12 @@ private:
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
   speed_constraints task(const scene& at) const;
-  bool keep(const trajectory& previous, const scene& at, trajectory& out);
+  bool keep(const world::trajectory& previous, const scene& at,
+            world::trajectory& out);
   bool avoids_crossings() const;
-  bool passes(const trajectory& plan,
+  bool passes(const world::trajectory& plan,
               std::span<const lane_obstacle> bodies) const;
-  void publish(time_point now, trajectory& out) const;
+  void publish(time_point now, world::trajectory& out) const;
   void list_bodies(const scene& at);
   double lane_m(double s_m) const;
   bool meets(const lane_obstacle& body) const;
@@ -71,12 +72,12 @@ private:
   }
   lane_obstacle met(const lane_obstacle& body, double age_s) const;
 
-  const route& lane() const { return way_->line.way(); }
+  const world::route& lane() const { return way_->line.way(); }
 
   route_profile_ptr way_;
   comfort_limits style_;
   spatial_params params_;
-  vehicle_params car_;
+  world::vehicle_params car_;
   // The plan in use and one to try others with.
   std::unique_ptr<path_planner> path_, other_path_;
   std::unique_ptr<speed_planner> speed_, other_speed_;
@@ -93,4 +94,4 @@ private:
   std::optional<time_point> kept_from_; // start of the plan that is kept
 };
 
-} // namespace sofof
+} // namespace sofof::planners

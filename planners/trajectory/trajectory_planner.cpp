@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::planners {
 namespace {
 
 constexpr double same_drive_m = 1.0;
@@ -29,8 +29,9 @@ planning_input own(const planning_input& x) {
 
 } // namespace
 
-planning_input joined(const route& way, time_point now,
-                      const planning_input& input, const trajectory* previous) {
+planning_input joined(const world::route& way, time_point now,
+                      const planning_input& input,
+                      const world::trajectory* previous) {
   if (previous && !previous->empty() && previous->start <= now
       && now <= previous->end()) {
     assert(previous->points.front().t_s == 0);
@@ -55,4 +56,4 @@ lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now) {
   return lead;
 }
 
-} // namespace sofof
+} // namespace sofof::planners

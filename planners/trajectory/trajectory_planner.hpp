@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof {
+namespace sofof::planners {
 
 /// Where a published trajectory comes from.
 enum class plan_origin : std::uint8_t {
@@ -35,7 +35,7 @@ struct plan_report {
   double dwell_s = 0; ///< Until when it waits at a crossing, from its start.
   time_point input;   ///< When what it was made from held.
   /// Of the plan as it was made; on the air it is rounded.
-  std::optional<motion_extremes> extremes;
+  std::optional<world::motion_extremes> extremes;
 };
 
 void visit_fields(auto& v, plan_report& x) {
@@ -67,7 +67,8 @@ public:
   ///                  `out.start == now`.
   /// @param go_on     When to stop trying.
   virtual plan_report plan(time_point now, const planning_input& input,
-                           const trajectory* previous, trajectory& out,
+                           const world::trajectory* previous,
+                           world::trajectory& out,
                            const ocp::budget& go_on = {}) = 0;
 };
 
@@ -75,11 +76,12 @@ public:
 /// input within 1 m and 1 m/s, at its point for `now`, so that plans join
 /// without a jolt; else at the input, moved on at constant acceleration. Of an
 /// input that no car can have, only what is possible counts. Own motion only.
-planning_input joined(const route& way, time_point now,
-                      const planning_input& input, const trajectory* previous);
+planning_input joined(const world::route& way, time_point now,
+                      const planning_input& input,
+                      const world::trajectory* previous);
 
 /// @returns the car ahead as it will be at `now`: on at constant speed, or at
 /// its braking until it stands, by half a second at most.
 lead_vehicle moved_forward(lead_vehicle lead, time_point seen, time_point now);
 
-} // namespace sofof
+} // namespace sofof::planners

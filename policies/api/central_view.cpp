@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::vector<other_provider> others_told(const central_context& context) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

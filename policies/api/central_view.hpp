@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Options of all policies that decide so.
 struct central_options {
@@ -59,4 +59,4 @@ struct other_provider {
 /// which they do, 16 at most.
 std::vector<other_provider> others_told(const central_context& context);
 
-} // namespace sofof
+} // namespace sofof::policies

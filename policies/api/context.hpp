@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What a vehicle expects of results by what came so far; without any the
 /// worst.
@@ -41,13 +41,14 @@ struct provider_view {
   /// Mean computing time of a result of this service there, without a wait.
   double computing_s = 0;
   link_quality link{};
-  cycle_cost cost{}; ///< Of a cycle that is planned there, for the vehicle.
+  world::cycle_cost
+      cost{}; ///< Of a cycle that is planned there, for the vehicle.
 };
 
 /// What a cycle at this provider costs less than one on board, without unit: <
 /// 0 where it costs more. Where nothing came yet, latency is computing and way.
 /// @param on_board  Of a cycle in the vehicle.
-double gain(const provider_view& provider, const cycle_cost& on_board,
+double gain(const provider_view& provider, const world::cycle_cost& on_board,
             const service_needs& needs, const cost_weights& weights = {});
 
 /// What results of a provider will be like for a while.
@@ -83,7 +84,7 @@ struct local_context {
   service_place current{}; ///< Where it runs.
   time_point since{};      ///< When it came there.
   service_needs needs{};
-  cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
+  world::cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
   /// Only where a run can tell; null elsewhere.
   const channel_oracle* future = nullptr;
   /// Where it runs, in case a filter keeps that from `providers`:
@@ -136,7 +137,7 @@ struct central_context {
   double utilisation = 0;                 ///< Of its workers, by the sessions.
   std::size_t workers = 1;
   const polygon& area;
-  const road_map& map;
+  const world::road_map& map;
   provider_id self = 0;       ///< The provider.
   random_stream noise{0, ""}; ///< Of its decisions.
   std::uint64_t number = 0;   ///< Of this one: the counter of `noise`.
@@ -151,4 +152,4 @@ using local_policy = policy<local_context, local_decision>;
 /// or goes on.
 using central_policy = policy<central_context, std::vector<central_decision>>;
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <variant>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Another provider that runs a service at the same time: of each cycle the
 /// first result is used.
@@ -102,4 +102,4 @@ constexpr const accepted* terms_of(const central_decision& decision) {
   return std::get_if<accepted>(&decision.what);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// @param lane   Tells the draws of one decision apart.
 /// @param count  At least 1.
@@ -21,4 +21,4 @@ inline std::size_t drawn_place(const local_context& context, std::uint32_t lane,
   return std::min(static_cast<std::size_t>(place), count - 1);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

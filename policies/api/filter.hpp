@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Says of one candidate whether a policy may choose it. As policies, filters
 /// decide from what they are given and nothing else.
@@ -33,4 +33,4 @@ using local_filter = filter<local_context, provider_view>;
 /// Which requests a provider may accept.
 using central_filter = filter<central_context, request_view>;
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,9 +3,9 @@
 
 #include "policies/api/context.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
-double gain(const provider_view& provider, const cycle_cost& on_board,
+double gain(const provider_view& provider, const world::cycle_cost& on_board,
             const service_needs& needs, const cost_weights& weights) {
   auto there = provider.cost;
   const auto& usual = provider.link.median;
@@ -16,4 +16,4 @@ double gain(const provider_view& provider, const cycle_cost& on_board,
          - weighed(there, provider.link.late, needs, reference_j, weights);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include "base/time.hpp"
 #include "world/vehicle/cycle_cost.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What a service asks of its results.
 struct service_needs {
@@ -28,7 +28,7 @@ struct cost_weights {
 /// @param reference_j  E_ref; 0: energy does not count.
 /// Source: weighted sums of time and energy as in Chen et al., ToN 24(5) 2016,
 /// eqs. (4) and (8); the risk is ours.
-constexpr double weighed(const cycle_cost& cost, double late,
+constexpr double weighed(const world::cycle_cost& cost, double late,
                          const service_needs& needs, double reference_j,
                          const cost_weights& weights = {}) {
   const auto limit_s = to_seconds(needs.max_latency);
@@ -38,4 +38,4 @@ constexpr double weighed(const cycle_cost& cost, double late,
          + weights.violation * late;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

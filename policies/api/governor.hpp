@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Changes what a policy has decided. Governors stand in a row; each sees what
 /// the one before it says. As policies, they decide from what they are given
@@ -33,4 +33,4 @@ public:
   virtual std::unique_ptr<governor> clone() const = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

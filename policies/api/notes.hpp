@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// One option of it.
 struct option_info {
@@ -24,4 +24,4 @@ struct policy_info {
   std::vector<option_info> parameters{};
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct periodic_task {
   duration wcet{0};     ///< C: computing time at most, on one core, ≥ 0.
@@ -30,4 +30,4 @@ inline double worker_share(double computing_s, duration period,
   return computing_s / to_seconds(period) / static_cast<double>(workers);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

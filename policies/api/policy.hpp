@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What cycles of a service were like.
 struct cycle_outcome {
@@ -84,4 +84,4 @@ public:
   virtual std::unique_ptr<policy> clone() const = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Says the same to every request: "always" or "never".
 template <bool yes>
@@ -25,4 +25,4 @@ public:
   }
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -1,7 +1,7 @@
 // The weights of a cycle's cost as options.
 #include "policies/api/weights.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 void list_weights(option_visitor& s, cost_weights& weights) {
   s.field("time_weight", weights.time, {0, 1e3});
@@ -18,4 +18,4 @@ std::vector<option_info> weights_and(const std::vector<option_info>& others) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

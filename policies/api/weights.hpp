@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Lists λ_T, λ_E and λ_V.
 void list_weights(option_visitor& s, cost_weights& weights);
@@ -15,4 +15,4 @@ void list_weights(option_visitor& s, cost_weights& weights);
 /// @returns what is said of them, then `others`.
 std::vector<option_info> weights_and(const std::vector<option_info>& others);
 
-} // namespace sofof
+} // namespace sofof::policies

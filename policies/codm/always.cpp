@@ -2,7 +2,7 @@
 #include "policies/api/same_for_all.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 codm_entry codm_always() {
   return {{"always", "Accepts everybody.", "yes", "nothing",
@@ -10,4 +10,4 @@ codm_entry codm_always() {
           unfiltered<central_policy, same_for_all<true>>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -11,7 +11,7 @@
 #include <array>
 #include <string>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -104,4 +104,4 @@ codm_entry codm_assignment() {
           filtered_by_request<best_assignment>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

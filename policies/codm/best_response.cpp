@@ -12,7 +12,7 @@
 #include <cmath>
 #include <string>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -104,4 +104,4 @@ codm_entry codm_best_response() {
           filtered_by_request<equilibrium>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

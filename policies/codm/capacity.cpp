@@ -1,7 +1,7 @@
 // CODM "capacity": admission by what a provider's workers can carry.
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -47,4 +47,4 @@ codm_entry codm_capacity() {
           filtered_by_request<capacity>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

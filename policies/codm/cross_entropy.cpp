@@ -3,7 +3,7 @@
 #include "policies/algorithms/assignment/sampled.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -61,4 +61,4 @@ codm_entry codm_cross_entropy() {
           filtered_by_request<sampled_assignment>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -120,4 +120,4 @@ codm_entry codm_drift_plus_penalty() {
           filtered_by_request<least_debts>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

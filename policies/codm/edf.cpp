@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -112,4 +112,4 @@ codm_entry codm_edf() {
           filtered_by_request<edf>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

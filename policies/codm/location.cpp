@@ -3,7 +3,7 @@
 
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -43,4 +43,4 @@ codm_entry codm_location() {
       unfiltered<central_policy, location_codm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -118,4 +118,4 @@ central_filter_entry central_filter_location() {
       unfiltered<central_filter, stays_in_area>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What a vehicle has before it in an area.
 struct area_stay {
@@ -69,4 +69,4 @@ private:
   double map_tolerance_m_ = 3.0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

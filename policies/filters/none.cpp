@@ -1,7 +1,7 @@
 // Filter "none", of both sides: every offer and every request passes.
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -32,4 +32,4 @@ central_filter_entry central_filter_none() {
           unfiltered<central_filter, no_filter<central_context, request_view>>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

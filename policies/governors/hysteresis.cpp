@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -74,4 +74,4 @@ governor_entry governor_hysteresis() {
       unfiltered<governor, hysteresis_governor>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -101,4 +101,4 @@ governor_entry governor_predictive_gate() {
       unfiltered<governor, predictive_gate_governor>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -1,7 +1,7 @@
 // Governor "redundancy": two providers plan the same cycles.
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -75,4 +75,4 @@ governor_entry governor_redundancy() {
       unfiltered<governor, redundancy_governor>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -95,4 +95,4 @@ lodm_entry lodm_alto() {
       filtered_by_provider<alto_lodm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -1,7 +1,7 @@
 // LODM "always": asks whoever offers.
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -26,4 +26,4 @@ lodm_entry lodm_always() {
           unfiltered<local_policy, always>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -109,4 +109,4 @@ lodm_entry lodm_best_response() {
       filtered_by_provider<best_response>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 #include "policies/algorithms/learning/snapshots.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -32,4 +32,4 @@ lodm_entry lodm_dqn() {
       filtered_by_provider<network_lodm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

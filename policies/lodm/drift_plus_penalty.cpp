@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -96,4 +96,4 @@ lodm_entry lodm_drift_plus_penalty() {
           filtered_by_provider<drift_plus_penalty_lodm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

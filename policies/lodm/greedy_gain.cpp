@@ -2,7 +2,7 @@
 #include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -69,4 +69,4 @@ lodm_entry lodm_greedy_gain() {
       filtered_by_provider<greedy_gain>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

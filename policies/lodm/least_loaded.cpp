@@ -2,7 +2,7 @@
 #include "policies/api/drawn_place.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -57,4 +57,4 @@ lodm_entry lodm_least_loaded() {
           filtered_by_provider<least_loaded>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -45,4 +45,4 @@ lodm_entry lodm_location() {
           unfiltered<local_policy, location>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -33,4 +33,4 @@ lodm_entry lodm_nearest() {
           filtered_by_provider<nearest>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

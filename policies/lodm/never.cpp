@@ -1,7 +1,7 @@
 // LODM "never": plans on board, whatever is offered.
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -24,4 +24,4 @@ lodm_entry lodm_never() {
           unfiltered<local_policy, never>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

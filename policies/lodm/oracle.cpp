@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -94,4 +94,4 @@ lodm_entry lodm_oracle() {
       filtered_by_provider<oracle>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 #include "policies/algorithms/learning/snapshots.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -32,4 +32,4 @@ lodm_entry lodm_q_learning() {
           filtered_by_provider<table_lodm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

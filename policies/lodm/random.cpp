@@ -2,7 +2,7 @@
 #include "policies/api/drawn_place.hpp"
 #include "policies/entry.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -45,4 +45,4 @@ lodm_entry lodm_random() {
           filtered_by_provider<random_choice>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

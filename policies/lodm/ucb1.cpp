@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -122,4 +122,4 @@ lodm_entry lodm_ucb1() {
           filtered_by_provider<ucb1_lodm>};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -19,6 +19,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

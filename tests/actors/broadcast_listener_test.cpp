@@ -9,6 +9,9 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::planners;
 using namespace sofof::test;
 
 namespace {

@@ -8,6 +8,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 using test::at;
 using test::echo;

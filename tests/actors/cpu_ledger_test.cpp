@@ -12,6 +12,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
 using namespace sofof::test;
 
 namespace {

@@ -10,6 +10,8 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

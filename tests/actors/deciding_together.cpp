@@ -4,7 +4,12 @@
 #include "tests/actors/provider_world.hpp"
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::channel;
+using namespace sofof::messages;
+using namespace sofof::policies;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
 using namespace sofof::test;
 
 namespace {
@@ -45,8 +46,9 @@ struct scheduled_world : virtual_world {
   caf::actor listener() {
     return own(
         system().spawn([this](caf::event_based_actor* self) -> caf::behavior {
-          return {
-              [this, self](int n) { heard.emplace_back(sofof::now(self), n); }};
+          return {[this, self](int n) {
+            heard.emplace_back(sofof::actors::now(self), n);
+          }};
         }));
   }
 
@@ -56,7 +58,7 @@ struct scheduled_world : virtual_world {
         [this, period](caf::event_based_actor* self) -> caf::behavior {
           send_after(self, self, period, 1);
           return {[this, self, period](int n) {
-            heard.emplace_back(sofof::now(self), n);
+            heard.emplace_back(sofof::actors::now(self), n);
             send_after(self, self, period, n + 1);
           }};
         }));

@@ -6,6 +6,10 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

@@ -23,40 +23,43 @@ namespace sofof::test {
 /// One vehicle on a straight street (limit 10 m/s), starting 100 m along it.
 struct driving_world : virtual_world {
   static constexpr station_id::rep station = 101;
-  probe<road_actor> road = listen<road_actor>();
-  probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<onboard_requester_actor> requester = listen<onboard_requester_actor>();
-  probe<link_actor> near = listen<link_actor>();
-  probe<link_actor> distant = listen<link_actor>();
-  probe<requester_manager_actor> manager = listen<requester_manager_actor>();
+  probe<messages::road_actor> road = listen<messages::road_actor>();
+  probe<messages::recorder_actor> recorder = listen<messages::recorder_actor>();
+  probe<messages::onboard_requester_actor> requester =
+      listen<messages::onboard_requester_actor>();
+  probe<messages::link_actor> near = listen<messages::link_actor>();
+  probe<messages::link_actor> distant = listen<messages::link_actor>();
+  probe<messages::requester_manager_actor> manager =
+      listen<messages::requester_manager_actor>();
   const double start_speed_mps;
-  const std::optional<v2x_options> v2x;
+  const std::optional<messages::v2x_options> v2x;
   const double range_m; // of both antennas
   const duration appears_after;
-  route_ptr way = street();
-  lane_follow planner{way, {}};
-  vehicle_actor car = spawn();
-  session_id source{0, station, "trajectory_planning", 0};
+  world::route_ptr way = street();
+  planners::lane_follow planner{way, {}};
+  messages::vehicle_actor car = spawn();
+  messages::session_id source{0, station, "trajectory_planning", 0};
   std::uint64_t cycle = 0;
 
-  explicit driving_world(double starts_at_mps = 0,
-                         std::optional<v2x_options> says = v2x_options{},
-                         double heard_within_m = 100, duration appears = {})
+  explicit driving_world(
+      double starts_at_mps = 0,
+      std::optional<messages::v2x_options> says = messages::v2x_options{},
+      double heard_within_m = 100, duration appears = {})
       : start_speed_mps{starts_at_mps}, v2x{std::move(says)},
         range_m{heard_within_m}, appears_after{appears} {
     settle();
   }
 
-  static route_ptr street() {
-    const road_map map{
+  static world::route_ptr street() {
+    const world::road_map map{
         "street", {}, {toy::straight("street", {0, 0}, {1000, 0})}};
     return map.make_route("street", std::vector<std::string>{"street"}, false);
   }
 
-  vehicle_actor spawn() {
-    vehicle_setup setup;
+  messages::vehicle_actor spawn() {
+    actors::vehicle_setup setup;
     setup.car = {station, way, 100, start_speed_mps, {}, 200ms, 100ms};
-    setup.plans = make_plan_client();
+    setup.plans = actors::make_plan_client();
     setup.appears_after = appears_after;
     setup.v2x = v2x;
     setup.where = in_ulm();
@@ -64,52 +67,54 @@ struct driving_world : virtual_world {
                       {distant.handle, {500, 0}, range_m}};
     setup.road = road.handle;
     setup.recorder = recorder.handle;
-    setup.spawn_requester = [this](const vehicle_actor&) {
+    setup.spawn_requester = [this](const messages::vehicle_actor&) {
       return requester.handle;
     };
-    return own(spawn_vehicle(system(), std::move(setup)));
+    return own(actors::spawn_vehicle(system(), std::move(setup)));
   }
 
   /// Plans from where the car is, as a service would do.
-  trajectory plan() {
+  world::trajectory plan() {
     const auto report = last_report();
-    planning_input from;
+    planners::planning_input from;
     from.at = report_time();
     from.s_m = report.s_m;
     from.d_m = report.state.at.y_m;
     from.speed_mps = report.state.speed_mps;
     from.accel_mps2 = report.state.accel_mps2;
-    trajectory out;
+    world::trajectory out;
     planner.plan(report_time(), from, nullptr, out);
     return out;
   }
-  void give(trajectory t, time_point created) {
-    tell(car,
-         service_result{source, ++cycle, created, payload::of(std::move(t))});
+  void give(world::trajectory t, time_point created) {
+    tell(car, messages::service_result{source, ++cycle, created,
+                                       messages::payload::of(std::move(t))});
   }
   /// The same as a provider would do.
-  its_pdu encoded_suggestion(const trajectory& t, station_id whom) {
-    std::vector<maneuver_waypoint> room;
-    etsi::mcm message;
-    REQUIRE(make_suggestion({9001, {150, 0}, whom, {7, 1}}, t, *in_ulm(), room,
-                            message));
-    return encoded(message);
+  messages::its_pdu encoded_suggestion(const world::trajectory& t,
+                                       station_id whom) {
+    std::vector<messages::maneuver_waypoint> room;
+    messages::etsi::mcm message;
+    REQUIRE(messages::make_suggestion({9001, {150, 0}, whom, {7, 1}}, t,
+                                      *in_ulm(), room, message));
+    return messages::encoded(message);
   }
-  void suggest(const trajectory& t, station_id whom) {
-    tell(car, service_result{source, ++cycle, now(),
-                             payload::of(encoded_suggestion(t, whom))});
+  void suggest(const world::trajectory& t, station_id whom) {
+    tell(car, messages::service_result{
+                  source, ++cycle, now(),
+                  messages::payload::of(encoded_suggestion(t, whom))});
   }
   /// Drives with a new plan every 50 ms.
   void drive(duration d) {
-    trajectory last = plan();
+    world::trajectory last = plan();
     for (const auto end = now() + d; now() < end; run_for(50ms)) {
-      planning_input from;
+      planners::planning_input from;
       const auto p = last.at(now());
       from.at = now();
       from.s_m = p.s_m;
       from.speed_mps = p.speed_mps;
       from.accel_mps2 = p.accel_mps2;
-      trajectory next;
+      world::trajectory next;
       planner.plan(now(), from, &last, next);
       last = next;
       give(next, now());
@@ -118,10 +123,12 @@ struct driving_world : virtual_world {
 
   // -- what it sent ---------------------------------------------------------
 
-  using cpm = etsi::tr103562::cpm;
-  std::vector<air_record> air() const { return recorder->all<air_record>(); }
-  std::vector<its_pdu> air_pdus() const {
-    std::vector<its_pdu> all;
+  using cpm = messages::etsi::tr103562::cpm;
+  std::vector<messages::air_record> air() const {
+    return recorder->all<messages::air_record>();
+  }
+  std::vector<messages::its_pdu> air_pdus() const {
+    std::vector<messages::its_pdu> all;
     for (const auto& record : air())
       all.push_back(record.message);
     return all;
@@ -135,28 +142,30 @@ struct driving_world : virtual_world {
     return all;
   }
 
-  motion_report last_report() const {
-    return road->all<motion_report>().back();
+  messages::motion_report last_report() const {
+    return road->all<messages::motion_report>().back();
   }
-  time_point report_time() const { return road->times<motion_report>().back(); }
+  time_point report_time() const {
+    return road->times<messages::motion_report>().back();
+  }
   double fastest_mps() const {
     double v = 0;
-    for (const auto& r : road->all<motion_report>())
+    for (const auto& r : road->all<messages::motion_report>())
       v = std::max(v, r.state.speed_mps);
     return v;
   }
-  drive_record whole_drive() const {
-    drive_record sum;
-    for (const auto& r : recorder->all<drive_record>()) {
+  messages::drive_record whole_drive() const {
+    messages::drive_record sum;
+    for (const auto& r : recorder->all<messages::drive_record>()) {
       CHECK(r.station == station);
       sum.plans.add(r.plans);
       sum.ride.add(r.ride);
     }
     return sum;
   }
-  safety_record total() const {
-    safety_record sum;
-    for (const auto& r : recorder->all<safety_record>()) {
+  messages::safety_record total() const {
+    messages::safety_record sum;
+    for (const auto& r : recorder->all<messages::safety_record>()) {
       sum.driven += r.driven;
       sum.without_fresh_plan += r.without_fresh_plan;
       sum.off_road += r.off_road;
@@ -173,7 +182,7 @@ struct flying_start_world : driving_world {
   /// What a vehicle does before its first plan and after.
   double slowest_mps() const {
     auto v = start_speed_mps;
-    for (const auto& r : road->all<motion_report>())
+    for (const auto& r : road->all<messages::motion_report>())
       v = std::min(v, r.state.speed_mps);
     return v;
   }
@@ -181,12 +190,12 @@ struct flying_start_world : driving_world {
 
 /// The same, standing, when its time has come.
 struct late_world : driving_world {
-  late_world() : driving_world{0, v2x_options{}, 100, 10s} {}
+  late_world() : driving_world{0, messages::v2x_options{}, 100, 10s} {}
 };
 
 inline void tell_of_a_car(driving_world& world) {
-  world.tell(world.car,
-             perception{world.now(), {}, {{{150, 1}, 0, 3, 0, 4.5, 1.8}}});
+  world.tell(world.car, world::perception{
+                            world.now(), {}, {{{150, 1}, 0, 3, 0, 4.5, 1.8}}});
 }
 
 } // namespace sofof::test

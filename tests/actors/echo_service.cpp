@@ -18,7 +18,12 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::channel;
+using namespace sofof::messages;
+using namespace sofof::policies;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 TEST_CASE_FIXTURE(provider_world,

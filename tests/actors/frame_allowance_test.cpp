@@ -8,6 +8,8 @@
 
 namespace sofof::test::allowances {
 
+using namespace actors;
+
 namespace {
 
 using namespace std::chrono_literals;

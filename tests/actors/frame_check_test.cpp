@@ -18,6 +18,9 @@
 
 namespace sofof::test::frames {
 
+using namespace actors;
+using namespace messages;
+
 namespace {
 
 using octets = std::vector<std::byte>;

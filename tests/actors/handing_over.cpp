@@ -5,6 +5,8 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

@@ -34,7 +34,7 @@ octets payload_of(const Ts&... xs) {
 /// What comes by a connection after its handshake.
 class opened_connection {
 public:
-  opened_connection(bool is_accepted, const message_forms& forms)
+  opened_connection(bool is_accepted, const actors::message_forms& forms)
       : check_{is_accepted, forms} {
     const octets node(is_accepted ? 25 : 60, std::byte{1});
     const auto handshake = header_of(is_accepted, node, 0);
@@ -76,19 +76,19 @@ public:
   }
 
 private:
-  static frame_header header_of(std::uint8_t operation,
-                                std::span<const std::byte> payload,
-                                std::uint64_t id) {
+  static actors::frame_header header_of(std::uint8_t operation,
+                                        std::span<const std::byte> payload,
+                                        std::uint64_t id) {
     const auto size = static_cast<std::uint32_t>(payload.size());
     return {operation, 0, size, id, 5, 9};
   }
 
-  frame_check check_;
+  actors::frame_check check_;
 };
 
 /// A provider's endpoint, by which one service runs.
 struct hearing_provider : vehicle_connection_world {
-  opened_connection connection{true, messages_to_provider()};
+  opened_connection connection{true, actors::messages_to_provider()};
 
   hearing_provider() { accept(one); }
 
@@ -97,11 +97,12 @@ struct hearing_provider : vehicle_connection_world {
     request.candidates.resize(3);
     return {payload_of(station, cam_of(station)),
             payload_of(request),
-            payload_of(service_input{one, now(), payload::of(echo{1})}),
-            payload_of(service_end{one}),
-            payload_of(ping{1, now()}),
-            payload_of(pong{{1, now()}, now(), now()}),
-            payload_of(stream_id{station})};
+            payload_of(messages::service_input{one, now(),
+                                               messages::payload::of(echo{1})}),
+            payload_of(messages::service_end{one}),
+            payload_of(messages::ping{1, now()}),
+            payload_of(messages::pong{{1, now()}, now(), now()}),
+            payload_of(messages::stream_id{station})};
   }
 
   /// @returns whether it was admitted and could be read.
@@ -115,19 +116,21 @@ struct hearing_provider : vehicle_connection_world {
     const auto is_own = [](station_id who) {
       return who == station || who == neighbour;
     };
-    const auto asked = provider->all<service_request>();
-    const auto ended = provider->all<service_end>();
+    const auto asked = provider->all<messages::service_request>();
+    const auto ended = provider->all<messages::service_end>();
     return !is_gone(endpoint)
-           && std::ranges::all_of(asked, is_own, &service_request::station)
-           && std::ranges::all_of(ended, is_own, [](const service_end& end) {
-                return end.session.station;
-              });
+           && std::ranges::all_of(asked, is_own,
+                                  &messages::service_request::station)
+           && std::ranges::all_of(ended, is_own,
+                                  [](const messages::service_end& end) {
+                                    return end.session.station;
+                                  });
   }
 };
 
 /// The endpoint of a process of vehicles, by which one service runs.
 struct hearing_vehicles : provider_connection_world {
-  opened_connection connection{false, messages_to_vehicles()};
+  opened_connection connection{false, actors::messages_to_vehicles()};
 
   hearing_vehicles() {
     connect();
@@ -135,13 +138,17 @@ struct hearing_vehicles : provider_connection_world {
   }
 
   std::vector<octets> honest() {
-    return {payload_of(station, service_offer{boot, {1, 2}, {"one"}}),
-            payload_of(service_response{boot, station, 1, {{one, true, ""}}}),
-            payload_of(service_result{one, 1, now(), payload::of(echo{1})}),
-            payload_of(service_end{one, end_reason::left_area, side::provider}),
-            payload_of(ping{1, now()}),
-            payload_of(pong{{1, now()}, now(), now()}),
-            payload_of(stream_id{station})};
+    return {
+        payload_of(station, messages::service_offer{boot, {1, 2}, {"one"}}),
+        payload_of(
+            messages::service_response{boot, station, 1, {{one, true, ""}}}),
+        payload_of(messages::service_result{one, 1, now(),
+                                            messages::payload::of(echo{1})}),
+        payload_of(messages::service_end{one, messages::end_reason::left_area,
+                                         messages::side::provider}),
+        payload_of(messages::ping{1, now()}),
+        payload_of(messages::pong{{1, now()}, now(), now()}),
+        payload_of(messages::stream_id{station})};
   }
 
   /// @returns whether it was admitted and could be read.

@@ -4,6 +4,8 @@
 #include "tests/actors/requester_world.hpp"
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::policies;
 using namespace sofof::test;
 
 namespace {

@@ -9,7 +9,11 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::planners;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

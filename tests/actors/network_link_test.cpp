@@ -11,6 +11,9 @@
 #include <optional>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::channel;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

@@ -4,6 +4,8 @@
 #include "tests/support/random_pdu.hpp"
 
 using namespace sofof;
+using namespace sofof::channel;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 TEST_CASE_FIXTURE(provider_world, "a station outside the area gets no offer") {

@@ -10,6 +10,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 using test::at;
 

@@ -14,7 +14,10 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 // -- introductions -----------------------------------------------------------

@@ -27,27 +27,29 @@ using acceptor_promise =
 
 /// What a played provider's host answers, and what it was asked.
 struct host_script {
-  std::uint32_t protocol = remote_protocol;
-  std::uint64_t types = fingerprint_of_types();
+  std::uint32_t protocol = messages::remote_protocol;
+  std::uint64_t types = actors::fingerprint_of_types();
   std::string nonce = "a number";
-  peer_welcome welcome{11, etsi::virtual_epoch_unix_ms};
+  messages::peer_welcome welcome{11, messages::etsi::virtual_epoch_unix_ms};
   std::optional<std::string> refusal;
   bool full = false;
   bool answers = true;
-  provider_endpoint_actor endpoint; ///< Given to those who are welcome.
+  messages::provider_endpoint_actor
+      endpoint; ///< Given to those who are welcome.
 
   std::size_t knocks = 0;
   std::vector<acceptor_promise> unanswered;
-  std::vector<peer_hello> hellos;
-  vehicle_endpoint_actor peer; ///< The last one who came in.
+  std::vector<messages::peer_hello> hellos;
+  messages::vehicle_endpoint_actor peer; ///< The last one who came in.
 };
 
-inline handshake_actor::behavior_type
-played_handshake(handshake_actor::pointer self,
+inline messages::handshake_actor::behavior_type
+played_handshake(messages::handshake_actor::pointer self,
                  std::shared_ptr<host_script> script) {
-  return {[self, script](const peer_hello& hello,
-                         const vehicle_endpoint_actor& peer)
-              -> caf::result<peer_welcome, provider_endpoint_actor> {
+  return {[self, script](const messages::peer_hello& hello,
+                         const messages::vehicle_endpoint_actor& peer)
+              -> caf::result<messages::peer_welcome,
+                             messages::provider_endpoint_actor> {
     script->hellos.push_back(hello);
     script->peer = peer;
     self->quit();
@@ -57,8 +59,8 @@ played_handshake(handshake_actor::pointer self,
   }};
 }
 
-inline acceptor_actor::behavior_type
-played_acceptor(acceptor_actor::pointer self,
+inline messages::acceptor_actor::behavior_type
+played_acceptor(messages::acceptor_actor::pointer self,
                 std::shared_ptr<host_script> script) {
   return {[self, script](std::uint32_t, std::uint64_t)
               -> caf::result<std::uint32_t, std::uint64_t, std::string,
@@ -82,38 +84,42 @@ struct provider_connection_world : virtual_world {
   static constexpr station_id::rep station = 101, neighbour = 102;
   /// By then each of them may speak.
   static constexpr duration turns = std::chrono::milliseconds{10};
-  const session_id one{boot, station, "one", 7};
-  const session_id two{boot, neighbour, "one", 8};
+  const messages::session_id one{boot, station, "one", 7};
+  const messages::session_id two{boot, neighbour, "one", 8};
 
-  probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<provider_endpoint_actor> provider = listen<provider_endpoint_actor>();
-  probe<requester_actor> requester = listen<requester_actor>();
-  probe<requester_actor> other = listen<requester_actor>();
+  probe<messages::recorder_actor> recorder = listen<messages::recorder_actor>();
+  probe<messages::provider_endpoint_actor> provider =
+      listen<messages::provider_endpoint_actor>();
+  probe<messages::requester_actor> requester =
+      listen<messages::requester_actor>();
+  probe<messages::requester_actor> other = listen<messages::requester_actor>();
   std::shared_ptr<host_script> host = std::make_shared<host_script>();
-  acceptor_actor acceptor = own(system().spawn(played_acceptor, host));
+  messages::acceptor_actor acceptor =
+      own(system().spawn(played_acceptor, host));
   bool reachable = true;
   bool takes_time = false; ///< Attempts end when the test says so.
   std::vector<std::function<void()>> unfinished;
   std::vector<time_point> attempts, hung_up;
   std::vector<std::string> refusals, news;
   duration ahead{}; ///< What the provider's clock shows more than ours.
-  provider_outbox outbox;
-  link_actor far, other_far;
+  actors::provider_outbox outbox;
+  messages::link_actor far, other_far;
 
   provider_connection_world() {
     run_for(10s); // the clock's zero is no special time
     host->endpoint = provider.handle;
   }
 
-  provider_connection_setup setup() {
-    provider_connection_setup s;
+  actors::provider_connection_setup setup() {
+    actors::provider_connection_setup s;
     s.provider = "server";
     s.address = "10.0.0.5:4711";
     s.stations = {station, neighbour};
     s.world = 5;
     s.recorder = recorder.handle;
     s.noise = random_stream{1, "connection"};
-    s.connect = [this]() -> std::variant<acceptor_actor, std::string> {
+    s.connect =
+        [this]() -> std::variant<messages::acceptor_actor, std::string> {
       if (reachable)
         return acceptor;
       return "nobody is there";
@@ -126,7 +132,7 @@ struct provider_connection_world : virtual_world {
         attempt();
     };
     s.hang_up = [this] { hung_up.push_back(now()); };
-    s.prove = [](peer_hello& hello, const std::string& nonce) {
+    s.prove = [](messages::peer_hello& hello, const std::string& nonce) {
       hello.certificate = "proof of " + nonce;
     };
     s.on_refusal = [this](const std::string& why) { refusals.push_back(why); };
@@ -135,24 +141,24 @@ struct provider_connection_world : virtual_world {
   }
 
   void start() { start(setup()); }
-  void start(provider_connection_setup s) {
-    outbox = own(spawn_provider_connection(system(), std::move(s)));
-    far = own(spawn_provider_proxy(system(), station, outbox));
-    other_far = own(spawn_provider_proxy(system(), neighbour, outbox));
-    introduce(outbox, station, far);
-    introduce(outbox, neighbour, other_far);
+  void start(actors::provider_connection_setup s) {
+    outbox = own(actors::spawn_provider_connection(system(), std::move(s)));
+    far = own(actors::spawn_provider_proxy(system(), station, outbox));
+    other_far = own(actors::spawn_provider_proxy(system(), neighbour, outbox));
+    actors::introduce(outbox, station, far);
+    actors::introduce(outbox, neighbour, other_far);
     settle();
   }
   /// The same, up to when vehicles have spoken and the clocks are known.
   void connect() {
     start();
     REQUIRE(host->peer);
-    say(ping{1, now() + ahead});
+    say(messages::ping{1, now() + ahead});
     run_for(protocol::life_sign_period);
     say_cam();
     tell(other_far, cam_of(neighbour), other.handle);
-    acknowledge({station, stream_id::what::cam, 0});
-    acknowledge({neighbour, stream_id::what::cam, 0});
+    acknowledge({station, messages::stream_id::what::cam, 0});
+    acknowledge({neighbour, messages::stream_id::what::cam, 0});
     live(100ms);
     forget();
   }
@@ -172,14 +178,14 @@ struct provider_connection_world : virtual_world {
   /// The connection ends; the next one leads to another endpoint.
   void lose() {
     kill(provider.handle);
-    provider = listen<provider_endpoint_actor>();
+    provider = listen<messages::provider_endpoint_actor>();
     host->endpoint = provider.handle;
   }
 
   // -- what vehicles and the provider do --------------------------------------
 
-  its_pdu cam_of(station_id of, double speed_mps = 5) {
-    return pdu_of(cam{of, now(), {1, 2}, 0, speed_mps, 0});
+  messages::its_pdu cam_of(station_id of, double speed_mps = 5) {
+    return pdu_of(messages::cam{of, now(), {1, 2}, 0, speed_mps, 0});
   }
   void say_cam(double speed_mps = 5) {
     tell(far, cam_of(station, speed_mps), requester.handle);
@@ -192,26 +198,28 @@ struct provider_connection_world : virtual_world {
   void say(const Ts&... xs) {
     tell_as(provider.handle, host->peer, xs...);
   }
-  void acknowledge(const stream_id& stream) { say(stream); }
-  void result(const session_id& r, std::uint64_t cycle, time_point created) {
-    say(service_result{r, cycle, created, payload::of(echo{cycle})});
+  void acknowledge(const messages::stream_id& stream) { say(stream); }
+  void result(const messages::session_id& r, std::uint64_t cycle,
+              time_point created) {
+    say(messages::service_result{r, cycle, created,
+                                 messages::payload::of(echo{cycle})});
   }
-  void accept(const session_id& r) {
-    say(service_response{boot, r.station, 1, {{r, true, ""}}});
+  void accept(const messages::session_id& r) {
+    say(messages::service_response{boot, r.station, 1, {{r, true, ""}}});
   }
   /// The provider answers the latest life sign, which took these ways.
   void answer(duration up = {}, duration down = {}) {
-    const auto signs = provider->all<ping>();
+    const auto signs = provider->all<messages::ping>();
     REQUIRE(!signs.empty());
     const auto there = signs.back().sent + up + ahead;
     run_for(up + down);
-    say(pong{signs.back(), there, there});
+    say(messages::pong{signs.back(), there, there});
   }
   /// Life signs and answers to them, without any delay.
   void live(duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
-      say(ping{1, now() + ahead});
+      say(messages::ping{1, now() + ahead});
       answer();
     }
   }
@@ -220,8 +228,8 @@ struct provider_connection_world : virtual_world {
 
   std::size_t notes(std::string_view what) const {
     std::size_t n = 0;
-    for (const auto& e : recorder->all<event_record>())
-      n += name_of(e.what) == what;
+    for (const auto& e : recorder->all<messages::event_record>())
+      n += messages::name_of(e.what) == what;
     return n;
   }
 };

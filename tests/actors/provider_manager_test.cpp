@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

@@ -3,6 +3,8 @@
 #include "tests/actors/provider_connection_world.hpp"
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 // -- what the provider may say -----------------------------------------------

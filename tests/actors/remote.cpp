@@ -5,6 +5,7 @@
 #include <set>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

@@ -21,39 +21,41 @@ namespace sofof::test {
 struct requester_world : virtual_world {
   static constexpr station_id::rep station = 101;
   static constexpr provider_id::rep here = 11, elsewhere = 22;
-  const service_name one{"one"}, two{"two"};
+  const messages::service_name one{"one"}, two{"two"};
 
   std::shared_ptr<lodm_script> lodm = std::make_shared<lodm_script>();
-  probe<vehicle_actor> vehicle = listen<vehicle_actor>();
-  probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<provider_actor> provider = listen<provider_actor>();
-  probe<provider_actor> other = listen<provider_actor>();
-  probe<provider_manager_actor> manager = listen<provider_manager_actor>();
-  streets_ptr world = one_street();
-  onboard_requester_actor requester = spawn();
+  probe<messages::vehicle_actor> vehicle = listen<messages::vehicle_actor>();
+  probe<messages::recorder_actor> recorder = listen<messages::recorder_actor>();
+  probe<messages::provider_actor> provider = listen<messages::provider_actor>();
+  probe<messages::provider_actor> other = listen<messages::provider_actor>();
+  probe<messages::provider_manager_actor> manager =
+      listen<messages::provider_manager_actor>();
+  world::streets_ptr world = one_street();
+  messages::onboard_requester_actor requester = spawn();
 
   requester_world() {
     settle();
     drive_to(100);
     run_for(10s); // the clock's zero is no special time
-    for (const auto& m : vehicle->all<requester_manager_actor>())
-      tell(m, service_input{{}, now(), payload::of(echo{1})});
+    for (const auto& m : vehicle->all<messages::requester_manager_actor>())
+      tell(m,
+           messages::service_input{{}, now(), messages::payload::of(echo{1})});
     run_for(1s);
     vehicle->clear();
     recorder->clear();
   }
 
-  static streets_ptr one_street() {
-    auto world = std::make_shared<streets>();
-    world->map =
-        road_map{"street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
+  static world::streets_ptr one_street() {
+    auto world = std::make_shared<world::streets>();
+    world->map = world::road_map{
+        "street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
     world->routes.push_back(world->map.make_route(
         "street", std::vector<std::string>{"street"}, false));
     return world;
   }
 
-  requester_actor_setup setup() const {
-    requester_actor_setup setup;
+  actors::requester_actor_setup setup() const {
+    actors::requester_actor_setup setup;
     setup.station = station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
     setup.services = {{echo_service("one")}, {echo_service("two")}};
@@ -64,30 +66,33 @@ struct requester_world : virtual_world {
     return setup;
   }
 
-  onboard_requester_actor spawn() {
-    return own(spawn_service_requester(system(), setup()));
+  messages::onboard_requester_actor spawn() {
+    return own(actors::spawn_service_requester(system(), setup()));
   }
 
   // -- what happens to the requester --------------------------------------
 
   void drive_to(double x_m, double speed_mps = 15) {
     tell(requester,
-         ego_state{{station, now(), {x_m, 0}, 0, speed_mps, 0}, x_m});
+         messages::ego_state{{station, now(), {x_m, 0}, 0, speed_mps, 0}, x_m});
   }
-  void offer(std::vector<service_name> kinds) {
+  void offer(std::vector<messages::service_name> kinds) {
     offer_from(provider, here, std::move(kinds));
   }
-  void offer_from(const probe<provider_actor>& from, provider_id id,
-                  std::vector<service_name> kinds) {
+  void offer_from(const probe<messages::provider_actor>& from, provider_id id,
+                  std::vector<messages::service_name> kinds) {
     tell_as(from.handle, requester,
-            service_offer{id, {500, 20}, std::move(kinds)});
+            messages::service_offer{id, {500, 20}, std::move(kinds)});
   }
 
   /// Answers a request: counter 0 refuses.
-  void answer(const service_request& request,
-              const std::vector<std::pair<service_name, std::uint32_t>>& what) {
-    service_response response{request.provider, station, request.number, {}};
-    std::vector<provider_manager_actor> managers;
+  void
+  answer(const messages::service_request& request,
+         const std::vector<std::pair<messages::service_name, std::uint32_t>>&
+             what) {
+    messages::service_response response{
+        request.provider, station, request.number, {}};
+    std::vector<messages::provider_manager_actor> managers;
     for (const auto& [kind, counter] : what) {
       response.verdicts.push_back(
           {{request.provider, station, kind, counter}, counter > 0, "as told"});
@@ -96,27 +101,29 @@ struct requester_world : virtual_world {
     }
     tell(requester, response, managers);
   }
-  void result(const session_id& r, std::uint64_t cycle,
+  void result(const messages::session_id& r, std::uint64_t cycle,
               duration latency = 10ms) {
     tell(requester,
-         service_result{r, cycle, now() - latency, payload::of(echo{cycle})});
+         messages::service_result{r, cycle, now() - latency,
+                                  messages::payload::of(echo{cycle})});
   }
 
-  session_id at_here(const service_name& kind, std::uint32_t counter) const {
+  messages::session_id at_here(const messages::service_name& kind,
+                               std::uint32_t counter) const {
     return {here, station, kind, counter};
   }
 
   /// Brings the given services of the first provider to `starting`; counters
   /// rise from 7 on.
-  void start(const std::vector<service_name>& kinds) {
+  void start(const std::vector<messages::service_name>& kinds) {
     offer(kinds);
-    std::vector<std::pair<service_name, std::uint32_t>> yes;
+    std::vector<std::pair<messages::service_name, std::uint32_t>> yes;
     for (std::uint32_t counter = 7; const auto& kind : kinds)
       yes.emplace_back(kind, counter++);
     answer(last_request(), yes);
   }
   /// The same, up to the first data.
-  void start_remote(const std::vector<service_name>& kinds) {
+  void start_remote(const std::vector<messages::service_name>& kinds) {
     start(kinds);
     for (std::uint32_t counter = 7; const auto& kind : kinds)
       result(at_here(kind, counter++), 1);
@@ -124,31 +131,35 @@ struct requester_world : virtual_world {
 
   // -- what it has done ---------------------------------------------------
 
-  service_request last_request() const {
-    const auto all = provider->all<service_request>();
+  messages::service_request last_request() const {
+    const auto all = provider->all<messages::service_request>();
     REQUIRE(!all.empty());
     return all.back();
   }
-  std::size_t requests() const { return provider->count<service_request>(); }
-  std::vector<service_end> ends() const { return provider->all<service_end>(); }
-  std::vector<episode_record> episodes() const {
-    return recorder->all<episode_record>();
+  std::size_t requests() const {
+    return provider->count<messages::service_request>();
   }
-  std::vector<decision_record> decisions() const {
-    return recorder->all<decision_record>();
+  std::vector<messages::service_end> ends() const {
+    return provider->all<messages::service_end>();
+  }
+  std::vector<messages::episode_record> episodes() const {
+    return recorder->all<messages::episode_record>();
+  }
+  std::vector<messages::decision_record> decisions() const {
+    return recorder->all<messages::decision_record>();
   }
 
   /// @returns whether a service is remote now, as the client has it.
-  bool is_remote(const service_name& kind) const {
+  bool is_remote(const messages::service_name& kind) const {
     bool remote = false;
-    for (const auto& change : vehicle->all<source_change>())
+    for (const auto& change : vehicle->all<messages::source_change>())
       if (change.service == kind)
         remote = change.remote;
     return remote;
   }
-  std::vector<service_result> local_results() const {
-    std::vector<service_result> found;
-    for (const auto& r : vehicle->all<service_result>())
+  std::vector<messages::service_result> local_results() const {
+    std::vector<messages::service_result> found;
+    for (const auto& r : vehicle->all<messages::service_result>())
       if (!r.session.is_remote())
         found.push_back(r);
     return found;

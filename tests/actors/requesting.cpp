@@ -5,6 +5,7 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 TEST_CASE_FIXTURE(requester_world, "a wanted offer is answered by one request "

@@ -11,7 +11,10 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -20,7 +20,7 @@ struct lodm_script {
     point provider_at;
     std::vector<point> path;
     double speed_mps = 0;
-    std::vector<provider_view> providers;
+    std::vector<policies::provider_view> providers;
     service_place current{};
     time_point since;
   };
@@ -31,17 +31,17 @@ struct lodm_script {
   duration hedge_after{};
   bool release = false;
   double epoch_s = 0;
-  std::vector<cycle_outcome> cycles; ///< What it was told; no names.
-  std::vector<refusal_outcome> refusals;
-  std::vector<episode_outcome> episodes;
+  std::vector<policies::cycle_outcome> cycles; ///< What it was told; no names.
+  std::vector<policies::refusal_outcome> refusals;
+  std::vector<policies::episode_outcome> episodes;
 };
 
-class spy_lodm final : public local_policy {
+class spy_lodm final : public policies::local_policy {
 public:
   explicit spy_lodm(std::shared_ptr<lodm_script> script)
       : script_{std::move(script)} {}
 
-  local_decision decide(const local_context& c) override {
+  policies::local_decision decide(const policies::local_context& c) override {
     script_->asked.push_back({c.now,
                               std::string{c.service},
                               c.providers.front().at,
@@ -51,29 +51,29 @@ public:
                               c.current,
                               c.since});
     if (!script_->wanted.contains(c.service))
-      return as_it_is("as told");
+      return policies::as_it_is("as told");
     if (script_->release)
-      return {come_home{}, "as told"};
-    run_at there{script_->preferred.value_or(c.providers.front().id)};
+      return {policies::come_home{}, "as told"};
+    policies::run_at there{script_->preferred.value_or(c.providers.front().id)};
     if (script_->second)
       there.second = {*script_->second, script_->hedge_after};
     return {there, "as told"};
   }
-  void observe(const cycle_outcome& x) override {
+  void observe(const policies::cycle_outcome& x) override {
     script_->cycles.push_back(x);
     script_->cycles.back().service = {};
   }
-  void observe(const refusal_outcome& x) override {
+  void observe(const policies::refusal_outcome& x) override {
     script_->refusals.push_back(x);
     script_->refusals.back().service = script_->refusals.back().why = {};
   }
-  void observe(const episode_outcome& x) override {
+  void observe(const policies::episode_outcome& x) override {
     script_->episodes.push_back(x);
     script_->episodes.back().service = {};
   }
   double epoch_s() const override { return script_->epoch_s; }
   std::string_view name() const override { return "spy"; }
-  std::unique_ptr<local_policy> clone() const override {
+  std::unique_ptr<policies::local_policy> clone() const override {
     return std::make_unique<spy_lodm>(*this);
   }
 
@@ -95,9 +95,9 @@ struct codm_script {
   std::vector<question> asked;
   /// Utilisation of the provider, and by the first request.
   std::vector<std::pair<double, double>> used;
-  std::vector<session_view> sessions; ///< Of the latest question.
-  std::vector<candidate> served;      ///< Told of its first session.
-  std::vector<candidate> candidates;  ///< Of its first request.
+  std::vector<policies::session_view> sessions; ///< Of the latest question.
+  std::vector<candidate> served;                ///< Told of its first session.
+  std::vector<candidate> candidates;            ///< Of its first request.
   std::set<std::string, std::less<>> accepted{"one", "two"};
   std::size_t worker = 0;               ///< Assigned to all.
   std::optional<duration> offset;       ///< Likewise.
@@ -108,13 +108,15 @@ struct codm_script {
   std::optional<std::size_t> at_most; ///< Decisions that it makes.
 };
 
-class spy_codm final : public central_policy {
+class spy_codm final : public policies::central_policy {
 public:
   explicit spy_codm(std::shared_ptr<codm_script> script)
       : script_{std::move(script)} {}
 
-  std::vector<central_decision> decide(const central_context& c) override {
-    const auto first = c.requests.empty() ? request_view{} : c.requests.front();
+  std::vector<policies::central_decision>
+  decide(const policies::central_context& c) override {
+    const auto first =
+        c.requests.empty() ? policies::request_view{} : c.requests.front();
     script_->used.emplace_back(c.utilisation, first.utilisation);
     codm_script::question q{c.now,
                             first.station,
@@ -134,25 +136,27 @@ public:
     for (const auto& s : c.sessions)
       q.sessions.emplace_back(s.station, s.service);
     script_->asked.push_back(std::move(q));
-    std::vector<central_decision> all;
+    std::vector<policies::central_decision> all;
     for (const auto& request : c.requests) {
       if (script_->accepted.contains(request.service))
-        all.push_back({accepted{script_->worker, script_->offset}, "as told"});
+        all.push_back(
+            {policies::accepted{script_->worker, script_->offset}, "as told"});
       else
-        all.push_back({refused{script_->instead}, "as told"});
+        all.push_back({policies::refused{script_->instead}, "as told"});
     }
     if (!script_->revoked.empty())
       for (const auto& s : c.sessions)
-        all.push_back(script_->revoked.contains(s.service)
-                          ? central_decision{refused{}, "as told"}
-                          : central_decision{accepted{}, "as told"});
+        all.push_back(
+            script_->revoked.contains(s.service)
+                ? policies::central_decision{policies::refused{}, "as told"}
+                : policies::central_decision{policies::accepted{}, "as told"});
     if (script_->at_most && all.size() > *script_->at_most)
       all.resize(*script_->at_most);
     return all;
   }
   double epoch_s() const override { return script_->epoch_s; }
   std::string_view name() const override { return "spy"; }
-  std::unique_ptr<central_policy> clone() const override {
+  std::unique_ptr<policies::central_policy> clone() const override {
     return std::make_unique<spy_codm>(*this);
   }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

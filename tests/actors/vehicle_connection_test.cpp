@@ -4,6 +4,7 @@
 #include "tests/actors/vehicle_connection_world.hpp"
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 // -- whose voice -------------------------------------------------------------

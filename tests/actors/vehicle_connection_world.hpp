@@ -22,16 +22,19 @@ struct vehicle_connection_world : virtual_world {
                                    foreign = 999;
   /// How much later the peer's clock stood at 0, by its time of day.
   static constexpr auto gap = 200ms;
-  const session_id one{boot, station, "one", 7};
-  const session_id two{boot, neighbour, "one", 8};
+  const messages::session_id one{boot, station, "one", 7};
+  const messages::session_id two{boot, neighbour, "one", 8};
 
-  probe<recorder_actor> recorder = listen<recorder_actor>();
-  probe<provider_actor> provider = listen<provider_actor>();
-  probe<provider_manager_actor> manager = listen<provider_manager_actor>();
-  probe<vehicle_endpoint_actor> peer = listen<vehicle_endpoint_actor>();
-  probe<vehicle_endpoint_actor> stranger = listen<vehicle_endpoint_actor>();
+  probe<messages::recorder_actor> recorder = listen<messages::recorder_actor>();
+  probe<messages::provider_actor> provider = listen<messages::provider_actor>();
+  probe<messages::provider_manager_actor> manager =
+      listen<messages::provider_manager_actor>();
+  probe<messages::vehicle_endpoint_actor> peer =
+      listen<messages::vehicle_endpoint_actor>();
+  probe<messages::vehicle_endpoint_actor> stranger =
+      listen<messages::vehicle_endpoint_actor>();
   duration ahead{}; ///< What the peer's clock shows more than ours.
-  provider_endpoint_actor endpoint;
+  messages::provider_endpoint_actor endpoint;
 
   vehicle_connection_world() {
     run_for(10s); // the clock's zero is no special time
@@ -40,13 +43,14 @@ struct vehicle_connection_world : virtual_world {
     forget();
   }
 
-  provider_endpoint_actor join(const probe<vehicle_endpoint_actor>& with,
-                               std::set<station_id> stations) {
-    const etsi::its_clock ours;
-    const etsi::its_clock theirs{
+  messages::provider_endpoint_actor
+  join(const probe<messages::vehicle_endpoint_actor>& with,
+       std::set<station_id> stations) {
+    const messages::etsi::its_clock ours;
+    const messages::etsi::its_clock theirs{
         ours.epoch_unix_ms()
         + std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()};
-    return own(spawn_provider_endpoint(
+    return own(actors::spawn_provider_endpoint(
         system(), {provider.handle, with.handle, std::move(stations), ours,
                    theirs, recorder.handle, certificate}));
   }
@@ -70,49 +74,51 @@ struct vehicle_connection_world : virtual_world {
     tell_as(stranger.handle, endpoint, xs...);
   }
   void say_cam(station_id::rep of = station) { say(of, cam_of(of)); }
-  its_pdu cam_of(station_id of) {
-    return pdu_of(cam{of, now(), {1, 2}, 0, 5, 0});
+  messages::its_pdu cam_of(station_id of) {
+    return pdu_of(messages::cam{of, now(), {1, 2}, 0, 5, 0});
   }
-  service_request request_of(station_id of, std::size_t points = 2) const {
+  messages::service_request request_of(station_id of,
+                                       std::size_t points = 2) const {
     return {boot, of, 1, {"one"}, std::vector<point>(points), 5};
   }
 
   /// The peer answers the latest life sign, which took these ways.
   void answer(duration up = {}, duration down = {}) {
-    const auto signs = peer->all<ping>();
+    const auto signs = peer->all<messages::ping>();
     REQUIRE(!signs.empty());
     const auto there = signs.back().sent + up + ahead;
     run_for(up + down);
-    say(pong{signs.back(), there, there});
+    say(messages::pong{signs.back(), there, there});
   }
   /// Life signs and answers to them, without any delay.
   void live(duration d) {
     for (auto left = d; left >= 50ms; left -= 50ms) {
       run_for(50ms);
-      say(ping{1, now() + ahead});
+      say(messages::ping{1, now() + ahead});
       answer();
     }
   }
   /// The provider accepts a service of a station that has asked.
-  void accept(const session_id& running) {
+  void accept(const messages::session_id& running) {
     say(request_of(running.station));
     tell_as(provider.handle, voice(),
-            service_response{boot, running.station, 1, {{running, true, ""}}},
+            messages::service_response{
+                boot, running.station, 1, {{running, true, ""}}},
             std::vector{manager.handle});
   }
 
   // -- what came of it --------------------------------------------------------
 
   /// @returns how the provider has reached the last one who spoke.
-  requester_actor voice() const {
-    const auto all = provider->seconds<requester_actor>();
+  messages::requester_actor voice() const {
+    const auto all = provider->seconds<messages::requester_actor>();
     REQUIRE(!all.empty());
     return all.back();
   }
-  std::vector<event_record> notes(std::string_view what) const {
-    std::vector<event_record> found;
-    for (const auto& e : recorder->all<event_record>())
-      if (name_of(e.what) == what)
+  std::vector<messages::event_record> notes(std::string_view what) const {
+    std::vector<messages::event_record> found;
+    for (const auto& e : recorder->all<messages::event_record>())
+      if (messages::name_of(e.what) == what)
         found.push_back(e);
     return found;
   }

@@ -5,6 +5,7 @@
 #include "tests/support/each_number.hpp"
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 // -- up ----------------------------------------------------------------------

@@ -2,7 +2,10 @@
 #include "tests/actors/driving_world.hpp"
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
 using namespace sofof::test;
+using namespace sofof::world;
 
 TEST_CASE_FIXTURE(driving_world, "a vehicle begins standing, with a plan") {
   CHECK(last_report().station == station);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

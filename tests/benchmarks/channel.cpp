@@ -8,6 +8,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::channel;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 int main(int argc, char** argv) {
-  sofof::init_messages();
+  sofof::scenario::init_messages();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv))
     return 2;

@@ -9,6 +9,7 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::planners;
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include <utility>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 
@@ -108,7 +110,7 @@ void safe_stop(benchmark::State& state) {
   input.s_m = 100;
   input.speed_mps = 13;
   for (auto _ : state)
-    benchmark::DoNotOptimize(sofof::safe_stop(*way, input.at, input));
+    benchmark::DoNotOptimize(sofof::planners::safe_stop(*way, input.at, input));
 }
 BENCHMARK(safe_stop)->Unit(benchmark::kMicrosecond);
 

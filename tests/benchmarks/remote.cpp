@@ -18,6 +18,9 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 
 namespace {
 

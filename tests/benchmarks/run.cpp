@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 
 namespace {
 

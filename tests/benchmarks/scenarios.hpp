@@ -8,14 +8,16 @@
 
 namespace sofof::benchmarks {
 
-inline scenario_definition
+inline scenario::scenario_definition
 ulm_lehr(const std::vector<std::string>& overrides = {}) {
-  return load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml", overrides);
+  return scenario::load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml",
+                                 overrides);
 }
 
-inline scenario_definition
+inline scenario::scenario_definition
 scale(const std::vector<std::string>& overrides = {}) {
-  return load_scenario(SOFOF_SOURCE_DIR "/config/scale.toml", overrides);
+  return scenario::load_scenario(SOFOF_SOURCE_DIR "/config/scale.toml",
+                                 overrides);
 }
 
 } // namespace sofof::benchmarks

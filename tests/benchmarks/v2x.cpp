@@ -14,6 +14,7 @@
 namespace {
 
 using namespace sofof;
+using namespace sofof::messages;
 
 constexpr std::size_t objects_in_a_cpm = 26;
 constexpr std::size_t waypoints_in_an_mcm = 50;

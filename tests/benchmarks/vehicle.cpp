@@ -7,6 +7,8 @@
 #include <benchmark/benchmark.h>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

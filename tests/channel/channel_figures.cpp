@@ -8,6 +8,7 @@
 #include <array>
 
 using namespace sofof;
+using namespace sofof::channel;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

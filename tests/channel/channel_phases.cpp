@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::channel;
 using test::cycle;
 using test::near;
 using namespace std::chrono_literals;

@@ -11,6 +11,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::channel;
 using namespace std::chrono_literals;
 
 TEST_CASE("mean and deviation of a law are those of its draws") {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::channel;
 using test::near;
 using namespace std::chrono_literals;
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::channel;
 using test::near;
 using namespace std::chrono_literals;
 

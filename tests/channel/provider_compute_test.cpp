@@ -10,6 +10,7 @@
 #include <string_view>
 
 using namespace sofof;
+using namespace sofof::channel;
 using namespace std::chrono_literals;
 
 namespace {

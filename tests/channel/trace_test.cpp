@@ -13,6 +13,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::channel;
 using doctest::Approx;
 using test::near;
 

@@ -10,8 +10,9 @@
 #include <algorithm>
 #include <string>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
+using namespace scenario;
 using namespace std::string_literals;
 using test::near;
 
@@ -250,4 +251,4 @@ max_interarrival = "150ms"
   CHECK(share(1) == near(0.02 / 4, 1e-9));
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

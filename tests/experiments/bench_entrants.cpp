@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <set>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
+
+using namespace policies;
+using namespace scenario;
 namespace {
 
 const entrant& find(const std::vector<entrant>& all, std::string_view name) {
@@ -164,4 +167,4 @@ TEST_CASE("a TOML value on one line reads back as what it was") {
   }
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

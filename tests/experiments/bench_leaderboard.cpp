@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace sofof::bench {
+namespace sofof::experiments::bench {
 
 using test::near;
 using test::scratch;
@@ -225,4 +225,4 @@ TEST_CASE("decision times are pooled over runs, side by side") {
   CHECK_THROWS_AS(read_decision_costs(gone), input_error);
 }
 
-} // namespace sofof::bench
+} // namespace sofof::experiments::bench

@@ -39,7 +39,7 @@ seeds = 4
 /// Writes summaries instead of driving.
 class made_up_runs {
 public:
-  void make(const scenario_definition& s, const fs::path& folder) {
+  void make(const scenario::scenario_definition& s, const fs::path& folder) {
     const std::lock_guard lock{mutex_};
     seeds.insert(s.seed);
     if (s.seed == failing)
@@ -53,7 +53,7 @@ public:
   double collisions = 0;             ///< Of each run.
 
 private:
-  std::string summary(const scenario_definition& s) const {
+  std::string summary(const scenario::scenario_definition& s) const {
     std::ostringstream text;
     text << R"({"scenario":"base","interrupted":false,"seed":)" << s.seed
          << R"(,"t_off_s":{"mean":)" << 1.5 * static_cast<double>(s.seed)
@@ -77,19 +77,21 @@ struct sweep_of_four {
     std::ofstream{at / "four.toml"} << four_seeds;
   }
 
-  sweep_options options() {
-    sweep_options all;
+  experiments::sweep_options options() {
+    experiments::sweep_options all;
     all.out = at / "out";
     all.program = "this";
-    all.make = [this](const scenario_definition& s, const fs::path& folder,
+    all.make = [this](const scenario::scenario_definition& s,
+                      const fs::path& folder,
                       const std::atomic<bool>&) { made.make(s, folder); };
     return all;
   }
 
-  sweep_outcome run(const sweep_options& with) {
-    return sweep(load_sweep(at / "four.toml"), with, interrupted, console);
+  experiments::sweep_outcome run(const experiments::sweep_options& with) {
+    return experiments::sweep(experiments::load_sweep(at / "four.toml"), with,
+                              interrupted, console);
   }
-  sweep_outcome run() { return run(options()); }
+  experiments::sweep_outcome run() { return run(options()); }
 
   std::string table() const { return read_text(at / "out/four.csv").value(); }
 };

@@ -40,9 +40,9 @@ name = "trajectory_planning"
 name = "cabin_climate"
 )";
 
-inline track_record track(station_id station, duration when, point place,
-                          bool remote) {
-  track_record x;
+inline messages::track_record track(station_id station, duration when,
+                                    point place, bool remote) {
+  messages::track_record x;
   x.at = at(when);
   x.ego.own.station = station;
   x.ego.own.position = place;
@@ -62,12 +62,13 @@ public:
     std::filesystem::create_directories(folder_);
     auto info = run();
     info.config_toml = config;
-    results to{folder_, info};
+    recording::results to{folder_, info};
     play(to);
     for (int i = 0; i < 3; ++i)
       to.on_record(track(101, i * 100ms, {1.5 * i, -2}, i > 0));
-    to.on_record(event_record{at(65s), event_type::violation, 101, provider,
-                              planning, 2, "qos_gap"});
+    to.on_record(messages::event_record{at(65s),
+                                        messages::event_type::violation, 101,
+                                        provider, planning, 2, "qos_gap"});
     to.finish(at(100s), 0.5, false);
   }
   ~played_folder() { std::filesystem::remove_all(base_); }

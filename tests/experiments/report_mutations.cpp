@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 using namespace made_up;
 
@@ -87,4 +87,4 @@ TEST_CASE("objects in objects without end do no harm") {
                   input_error);
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 using namespace made_up;
 using nlohmann::json;
@@ -195,4 +195,4 @@ TEST_CASE("where no vehicle ran, offloadings are those that were served") {
         == json{101, "trajectory_planning", "mec", 9.0, 30.0});
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

@@ -12,7 +12,7 @@
 #include <array>
 #include <fstream>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 using namespace made_up;
 using test::check_says;
@@ -368,4 +368,4 @@ TEST_CASE("folders of the same name are known by their paths") {
   CHECK(runs[1].label == other.path().string());
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

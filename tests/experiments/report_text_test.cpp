@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 using test::contains;
 
@@ -85,4 +85,4 @@ TEST_CASE("small numbers are words") {
   CHECK(counted(13, "seed") == "13 seeds");
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

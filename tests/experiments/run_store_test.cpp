@@ -15,6 +15,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::experiments;
 namespace fs = std::filesystem;
 
 namespace {

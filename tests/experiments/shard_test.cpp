@@ -9,6 +9,7 @@
 #include <map>
 
 using namespace sofof;
+using namespace sofof::experiments;
 
 namespace {
 

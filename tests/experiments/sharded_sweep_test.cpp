@@ -9,6 +9,8 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::experiments;
+using namespace sofof::scenario;
 using namespace sofof::test;
 
 namespace {

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 using namespace sofof;
+using namespace sofof::experiments;
 using nlohmann::json;
 using test::contains;
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 using test::scratch;
 using test::write_text;
@@ -150,4 +150,4 @@ TEST_CASE("a report as text has tables, and figures with few points as such") {
            "| --- | --- | --- |\n| dot | 1 | 2.5 |\n\nSaid.\n");
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace sofof::study {
+namespace sofof::experiments::study {
 
 using test::contains;
 using test::near;
@@ -296,4 +296,4 @@ TEST_CASE("a sweep's folder without a table, or without a run, is refused") {
                        input_error);
 }
 
-} // namespace sofof::study
+} // namespace sofof::experiments::study

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::experiments;
 using namespace sofof::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::experiments;
 using namespace sofof::test;
 
 TEST_CASE("every point is run once and becomes a line") {

@@ -14,6 +14,8 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::experiments;
+using namespace sofof::policies;
 using namespace sofof::test;
 
 namespace {

@@ -5,5 +5,5 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
-  return sofof::fuzz::try_kind<sofof::etsi::cam>(data, size);
+  return sofof::fuzz::try_kind<sofof::messages::etsi::cam>(data, size);
 }

@@ -5,5 +5,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
-  return sofof::fuzz::try_kind<sofof::etsi::tr103562::cpm>(data, size);
+  return sofof::fuzz::try_kind<sofof::messages::etsi::tr103562::cpm>(data,
+                                                                     size);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::actors;
 
 namespace {
 

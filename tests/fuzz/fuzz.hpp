@@ -25,8 +25,8 @@ inline std::span<const std::byte> octets_of(const std::uint8_t* data,
 
 template <class T>
 std::vector<std::byte> encoded(const T& message) {
-  std::vector<std::byte> out(etsi::encoded_size(message));
-  require(etsi::encode(message, out) == out.size());
+  std::vector<std::byte> out(messages::etsi::encoded_size(message));
+  require(messages::etsi::encode(message, out) == out.size());
   return out;
 }
 
@@ -35,17 +35,17 @@ std::vector<std::byte> encoded(const T& message) {
 template <class T>
 int try_kind(const std::uint8_t* data, std::size_t size) {
   std::vector<std::byte> whole;
-  for (const auto octet : etsi::key_of<T>)
+  for (const auto octet : messages::etsi::key_of<T>)
     whole.push_back(std::byte{octet});
   const auto rest = octets_of(data, size);
   whole.insert(whole.end(), rest.begin(), rest.end());
   T message;
-  const auto is_read = etsi::decode(whole, message);
-  require(is_read == etsi::explain_decoding<T>(whole).empty());
+  const auto is_read = messages::etsi::decode(whole, message);
+  require(is_read == messages::etsi::explain_decoding<T>(whole).empty());
   if (!is_read)
     return 0;
   const auto first = encoded(message);
-  require(etsi::decode(first, message));
+  require(messages::etsi::decode(first, message));
   require(encoded(message) == first);
   return 0;
 }

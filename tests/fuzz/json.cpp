@@ -2,6 +2,7 @@
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace sofof;
+using namespace sofof::messages;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 /// A car in Ulm that turns left at 30 km/h.
@@ -154,4 +154,4 @@ TEST_CASE("what a later version adds to the CAM is skipped") {
   test::check_additions<cam>(64);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

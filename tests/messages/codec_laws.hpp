@@ -17,7 +17,7 @@ namespace sofof::test {
 template <class T>
 octets uper_of(const T& message) {
   static std::array<std::byte, 1 << 16> room;
-  const auto size = etsi::encode(message, room);
+  const auto size = messages::etsi::encode(message, room);
   return {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(size)};
 }
 
@@ -31,7 +31,7 @@ void check_vectors(const std::string& name) {
   T message;
   for (const auto& vector : vectors) {
     CAPTURE(to_hex(vector));
-    REQUIRE(etsi::decode(vector, message));
+    REQUIRE(messages::etsi::decode(vector, message));
     CHECK(to_hex(uper_of(message)) == to_hex(vector));
   }
 }
@@ -45,7 +45,7 @@ void check_random_messages(int count) {
                       {.presence = seed % 5 / 4.0, .longest = 4}};
     const auto sent = uper_of(random.message<T>());
     REQUIRE_FALSE(sent.empty());
-    REQUIRE(etsi::decode(sent, again));
+    REQUIRE(messages::etsi::decode(sent, again));
     CHECK(to_hex(uper_of(again)) == to_hex(sent));
   }
 }
@@ -57,7 +57,7 @@ void check_ranges(int count) {
     random_pdu random{static_cast<std::uint64_t>(seed), {.presence = 1}};
     auto message = random.message<T>();
     each_number(message.body, [&]<class N>(N& x) {
-      if constexpr (N::may_grow == etsi::growth::closed) {
+      if constexpr (N::may_grow == messages::etsi::growth::closed) {
         using limits = std::numeric_limits<typename N::number>;
         const auto is_taken = [&](std::int64_t value) {
           const auto before =
@@ -88,7 +88,7 @@ void check_truncation(int count) {
       // Of its own, so that reading on is noticed.
       const octets part(whole.data(), whole.data() + size);
       T message;
-      CHECK_FALSE(etsi::decode(part, message));
+      CHECK_FALSE(messages::etsi::decode(part, message));
     }
   }
 }
@@ -108,7 +108,7 @@ void check_damage(int count) {
           where.between(0, 8 * static_cast<double>(damaged.size())));
       damaged[bit / 8] ^= std::byte{1} << bit % 8;
     }
-    if (etsi::decode(damaged, message))
+    if (messages::etsi::decode(damaged, message))
       CHECK_FALSE(uper_of(message).empty());
   }
 }
@@ -119,8 +119,8 @@ template <class T>
 void check_additions(std::size_t grows_at) {
   random_pdu random{1};
   const auto message = random.message<T>();
-  etsi::bit_counter size;
-  etsi::write(size, message);
+  messages::etsi::bit_counter size;
+  messages::etsi::write(size, message);
   auto bits = to_bits(uper_of(message)).substr(0, size.bits());
   bits[grows_at] = '1';
   bits += "0000010"; // three may be there,
@@ -130,7 +130,7 @@ void check_additions(std::size_t grows_at) {
   bits += "00000010"
           "1111111100000000"; // two octets
   T decoded;
-  REQUIRE(etsi::decode(from_bits(bits), decoded));
+  REQUIRE(messages::etsi::decode(from_bits(bits), decoded));
   CHECK(to_hex(uper_of(decoded)) == to_hex(uper_of(message)));
 }
 

@@ -3,7 +3,7 @@
 
 #include "tests/messages/codec_laws.hpp"
 
-namespace sofof::etsi::tr103562 {
+namespace sofof::messages::etsi::tr103562 {
 namespace {
 
 cpm smallest() {
@@ -71,4 +71,4 @@ TEST_CASE("a CPM of TR 103 562 names no points on the globe") {
 }
 
 } // namespace
-} // namespace sofof::etsi::tr103562
+} // namespace sofof::messages::etsi::tr103562

@@ -3,7 +3,7 @@
 
 #include "tests/messages/codec_laws.hpp"
 
-namespace sofof::etsi::ts103324 {
+namespace sofof::messages::etsi::ts103324 {
 namespace {
 
 cpm smallest() {
@@ -84,4 +84,4 @@ TEST_CASE("a container of a CPM that nobody here knows is kept as it is") {
 }
 
 } // namespace
-} // namespace sofof::etsi::ts103324
+} // namespace sofof::messages::etsi::ts103324

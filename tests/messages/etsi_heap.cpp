@@ -13,6 +13,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 /// SOFOF_MUTATIONS makes it more.
@@ -74,4 +74,4 @@ TEST_CASE("a broken message is refused with a reason, or is another message") {
   CHECK(refused < count);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -226,4 +226,4 @@ TEST_CASE("a CAM of the first protocol version is refused, for a reason") {
   CHECK(error.starts_with("a CAM of protocol version 1 is not known"));
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 using test::any_message;
@@ -191,4 +191,4 @@ TEST_CASE("hexadecimal digits are read as people write them") {
   CHECK(!octets_from_hex("0a0xff"));
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

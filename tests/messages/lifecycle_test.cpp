@@ -7,6 +7,7 @@
 #include <utility>
 
 using namespace sofof;
+using namespace sofof::messages;
 
 TEST_CASE("a life goes unconfigured, inactive, active, finalized, and no "
           "other way") {

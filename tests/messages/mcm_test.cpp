@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 /// A suggestion to follow `points` waypoints exactly.
@@ -98,4 +98,4 @@ TEST_CASE("MCMs that end early or are damaged do no harm") {
   test::check_damage<mcm>(1000);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -22,66 +22,69 @@ inline constexpr std::size_t arity = 0;
 template <>
 inline constexpr std::size_t arity<point> = 2;
 template <>
-inline constexpr std::size_t arity<session_id> = 4;
+inline constexpr std::size_t arity<messages::session_id> = 4;
 template <>
-inline constexpr std::size_t arity<cam> = 9;
+inline constexpr std::size_t arity<messages::cam> = 9;
 template <>
-inline constexpr std::size_t arity<service_offer> = 7;
+inline constexpr std::size_t arity<messages::service_offer> = 7;
 template <>
 inline constexpr std::size_t arity<candidate> = 3;
 template <>
-inline constexpr std::size_t arity<service_request> = 7;
+inline constexpr std::size_t arity<messages::service_request> = 7;
 template <>
-inline constexpr std::size_t arity<verdict> = 4;
+inline constexpr std::size_t arity<messages::verdict> = 4;
 template <>
-inline constexpr std::size_t arity<service_response> = 4;
+inline constexpr std::size_t arity<messages::service_response> = 4;
 template <>
-inline constexpr std::size_t arity<service_input> = 5;
+inline constexpr std::size_t arity<messages::service_input> = 5;
 template <>
-inline constexpr std::size_t arity<service_result> = 6;
+inline constexpr std::size_t arity<messages::service_result> = 6;
 template <>
-inline constexpr std::size_t arity<service_end> = 4;
+inline constexpr std::size_t arity<messages::service_end> = 4;
 template <>
-inline constexpr std::size_t arity<qos_limits> = 2;
+inline constexpr std::size_t arity<messages::qos_limits> = 2;
 template <>
-inline constexpr std::size_t arity<arrival> = 3;
+inline constexpr std::size_t arity<messages::arrival> = 3;
 template <>
-inline constexpr std::size_t arity<qos_violation> = 6;
+inline constexpr std::size_t arity<messages::qos_violation> = 6;
 template <>
-inline constexpr std::size_t arity<vehicle_state> = 5;
+inline constexpr std::size_t arity<world::vehicle_state> = 5;
 template <>
-inline constexpr std::size_t arity<motion_report> = 3;
+inline constexpr std::size_t arity<messages::motion_report> = 3;
 template <>
-inline constexpr std::size_t arity<ego_state> = 2;
+inline constexpr std::size_t arity<messages::ego_state> = 2;
 template <>
-inline constexpr std::size_t arity<source_change> = 2;
+inline constexpr std::size_t arity<messages::source_change> = 2;
 template <>
-inline constexpr std::size_t arity<perceived_object> = 6;
+inline constexpr std::size_t arity<world::perceived_object> = 6;
 template <>
-inline constexpr std::size_t arity<perception> = 3;
+inline constexpr std::size_t arity<world::perception> = 3;
 template <>
-inline constexpr std::size_t arity<roadside_detections> = 4;
+inline constexpr std::size_t arity<messages::roadside_detections> = 4;
 template <>
-inline constexpr std::size_t arity<viewpoint> = 4;
+inline constexpr std::size_t arity<world::viewpoint> = 4;
 template <>
-inline constexpr std::size_t arity<peer_hello> = 6;
+inline constexpr std::size_t arity<messages::peer_hello> = 6;
 template <>
-inline constexpr std::size_t arity<peer_welcome> = 2;
+inline constexpr std::size_t arity<messages::peer_welcome> = 2;
 template <>
-inline constexpr std::size_t arity<ping> = 2;
+inline constexpr std::size_t arity<messages::ping> = 2;
 template <>
-inline constexpr std::size_t arity<pong> = 3;
+inline constexpr std::size_t arity<messages::pong> = 3;
 template <>
-inline constexpr std::size_t arity<stream_id> = 3;
+inline constexpr std::size_t arity<messages::stream_id> = 3;
 
 /// Everything that travels and is not a handle.
-using all_messages =
-    std::tuple<time_point, point, service_name, payload, session_id, cam,
-               service_offer, service_request, service_response, service_input,
-               service_result, service_end, qos_limits, arrival, qos_violation,
-               lifecycle_step, motion_report, ego_state, source_change,
-               perception, roadside_detections, its_pdu, peer_hello,
-               peer_welcome, ping, pong, stream_id>;
+using all_messages = std::tuple<
+    time_point, point, messages::service_name, messages::payload,
+    messages::session_id, messages::cam, messages::service_offer,
+    messages::service_request, messages::service_response,
+    messages::service_input, messages::service_result, messages::service_end,
+    messages::qos_limits, messages::arrival, messages::qos_violation,
+    messages::lifecycle_step, messages::motion_report, messages::ego_state,
+    messages::source_change, world::perception, messages::roadside_detections,
+    messages::its_pdu, messages::peer_hello, messages::peer_welcome,
+    messages::ping, messages::pong, messages::stream_id>;
 
 /// @returns references to all members.
 template <class T>
@@ -161,18 +164,20 @@ public:
     for (auto& c : x)
       c = static_cast<char>(below(256));
   }
-  void fill(service_name& x) {
-    std::string text(below(service_name::max_size + 1), ' ');
+  void fill(messages::service_name& x) {
+    std::string text(below(messages::service_name::max_size + 1), ' ');
     for (auto& c : text)
       c = static_cast<char>('a' + below(26));
-    x = service_name{text};
+    x = messages::service_name{text};
   }
-  void fill(payload& x) {
+  void fill(messages::payload& x) {
     echo inside;
     fill(inside.number);
-    x = below(4) == 0 ? payload{} : payload::of(inside);
+    x = below(4) == 0 ? messages::payload{} : messages::payload::of(inside);
   }
-  void fill(its_pdu& x) { fill(x.octets); } // the rest does not travel
+  void fill(messages::its_pdu& x) {
+    fill(x.octets);
+  } // the rest does not travel
   template <class T>
   void fill(std::optional<T>& x) {
     x.reset();
@@ -188,21 +193,27 @@ public:
 
 private:
   void fill_enum(std::byte& x) { x = static_cast<std::byte>(below(256)); }
-  void fill_enum(end_reason& x) { x = static_cast<end_reason>(below(12)); }
-  void fill_enum(side& x) { x = static_cast<side>(below(2)); }
-  void fill_enum(qos_breach& x) { x = static_cast<qos_breach>(below(3)); }
-  void fill_enum(lifecycle_step& x) {
-    x = static_cast<lifecycle_step>(below(4));
+  void fill_enum(messages::end_reason& x) {
+    x = static_cast<messages::end_reason>(below(12));
   }
-  void fill_enum(stream_id::what& x) {
-    x = static_cast<stream_id::what>(below(4));
+  void fill_enum(messages::side& x) {
+    x = static_cast<messages::side>(below(2));
+  }
+  void fill_enum(messages::qos_breach& x) {
+    x = static_cast<messages::qos_breach>(below(3));
+  }
+  void fill_enum(messages::lifecycle_step& x) {
+    x = static_cast<messages::lifecycle_step>(below(4));
+  }
+  void fill_enum(messages::stream_id::what& x) {
+    x = static_cast<messages::stream_id::what>(below(4));
   }
 
   dice random_;
 };
 
-inline bool same(const payload& a, const payload& b);
-inline bool same(const its_pdu& a, const its_pdu& b);
+inline bool same(const messages::payload& a, const messages::payload& b);
+inline bool same(const messages::its_pdu& a, const messages::its_pdu& b);
 template <class T>
 bool same(const std::optional<T>& a, const std::optional<T>& b);
 template <class T>
@@ -223,11 +234,11 @@ bool same(const T& a, const T& b) {
         members(a));
 }
 
-inline bool same(const payload& a, const payload& b) {
+inline bool same(const messages::payload& a, const messages::payload& b) {
   return a.type() == b.type() && a.encoded() == b.encoded();
 }
 
-inline bool same(const its_pdu& a, const its_pdu& b) {
+inline bool same(const messages::its_pdu& a, const messages::its_pdu& b) {
   return a.octets == b.octets;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 namespace {

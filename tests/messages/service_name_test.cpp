@@ -9,6 +9,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 TEST_CASE("a service's name has 31 characters at most") {

@@ -19,5 +19,5 @@ TEST_CASE("every message type has a name of its own, by which processes that "
     CHECK(name.find("sofof::") != std::string::npos);
     CHECK(names.insert(name).second);
   }
-  CHECK(names.contains("sofof::service_request"));
+  CHECK(names.contains("sofof::messages::service_request"));
 }

@@ -9,7 +9,7 @@
 #include <array>
 #include <string>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 enum class colour : std::uint8_t { red, green, blue };
@@ -344,4 +344,4 @@ TEST_CASE("a buffer that is too small is not overrun") {
   CHECK(encoded_size(list) == 10);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

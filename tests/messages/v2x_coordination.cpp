@@ -14,7 +14,10 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::planners;
 using namespace sofof::test;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 
 namespace {

@@ -13,6 +13,8 @@
 #include <stdexcept>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::world;
 using sofof::test::dice;
 
 namespace {

@@ -9,7 +9,7 @@
 
 using namespace std::chrono_literals;
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 
 TEST_CASE("the ITS clock began with 2004 and counts leap seconds") {
   CHECK(to_timestamp_its(its_epoch_unix_ms) == 0);
@@ -63,4 +63,4 @@ TEST_CASE("a message sent before the wrap and read behind it is not old") {
   CHECK(unwrap(5, wrap - 3) == wrap + 5);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -19,6 +19,9 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::planners;
+using namespace sofof::world;
 using sofof::test::dice;
 using sofof::test::test_drive;
 using namespace std::chrono_literals;

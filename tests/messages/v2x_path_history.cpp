@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 
 namespace {

@@ -13,7 +13,9 @@
 #include <numbers>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

@@ -10,6 +10,6 @@ namespace sofof::test {
 
 inline constexpr double degree = std::numbers::pi / 180;
 inline constexpr time_point start{std::chrono::seconds{100}};
-inline const vehicle_params car;
+inline const world::vehicle_params car;
 
 } // namespace sofof::test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace sofof::etsi {
+namespace sofof::messages::etsi {
 namespace {
 
 constexpr auto no_number = std::numeric_limits<double>::quiet_NaN();
@@ -107,4 +107,4 @@ TEST_CASE("angles go round in a circle") {
     REQUIRE(angle_to_wire(*angle_to_rad(wire)) == wire);
 }
 
-} // namespace sofof::etsi
+} // namespace sofof::messages::etsi

@@ -17,6 +17,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::channel;
+using namespace sofof::network;
 using namespace std::chrono_literals;
 using test::at;
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::network;
 using test::dice;
 
 namespace {

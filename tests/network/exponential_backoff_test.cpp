@@ -9,6 +9,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace std::chrono_literals;
 using test::dice;
 

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::network;
 
 TEST_CASE("a list of stations has numbers and ranges") {
   CHECK(parse_stations("7") == std::vector<station_id>{7});

@@ -15,8 +15,8 @@
 
 namespace sofof::test {
 
-inline const peer_identity car{{101, 102}, {}};
-inline const peer_identity mec{{}, "mec"};
+inline const network::peer_identity car{{101, 102}, {}};
+inline const network::peer_identity mec{{}, "mec"};
 
 class key_folder {
 public:
@@ -24,7 +24,7 @@ public:
       : path_{std::filesystem::temp_directory_path()
               / ("sofof_network_" + std::to_string(getpid()) + "_"
                  + std::to_string(count_++))} {
-    init_keys(path_);
+    network::init_keys(path_);
   }
   ~key_folder() {
     std::error_code ignored;
@@ -36,13 +36,15 @@ public:
   const std::filesystem::path& path() const { return path_; }
 
   /// @returns a folder of a new certificate.
-  std::filesystem::path issue(const peer_identity& who, int days = 1) const {
-    issue_options options{days, {}};
+  std::filesystem::path issue(const network::peer_identity& who,
+                              int days = 1) const {
+    network::issue_options options{days, {}};
     options.out = path_ / ("issued-" + std::to_string(count_++));
-    return issue_keys(path_, who, options);
+    return network::issue_keys(path_, who, options);
   }
-  credentials credentials_for(const peer_identity& who) const {
-    return credentials{issue(who)};
+  network::credentials
+  credentials_for(const network::peer_identity& who) const {
+    return network::credentials{issue(who)};
   }
 
   /// Signs a certificate again after something in it was changed.
@@ -50,12 +52,13 @@ public:
   template <class Change>
   void alter(const std::filesystem::path& folder, Change change,
              const char* file = "cert.pem") const {
-    const auto certificate = certificate_from_pem(read_file(folder / file));
-    const auto key = key_from_pem(read_file(path_ / "ca_key.pem"));
+    const auto certificate =
+        network::certificate_from_pem(read_file(folder / file));
+    const auto key = network::key_from_pem(read_file(path_ / "ca_key.pem"));
     change(*certificate);
-    require_openssl(X509_sign(certificate.get(), key.get(), EVP_sha256()) > 0,
-                    "signing");
-    write_text(folder / file, to_pem(*certificate));
+    network::require_openssl(
+        X509_sign(certificate.get(), key.get(), EVP_sha256()) > 0, "signing");
+    write_text(folder / file, network::to_pem(*certificate));
   }
 
 private:

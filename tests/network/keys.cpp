@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 namespace fs = std::filesystem;
 

@@ -108,11 +108,11 @@ private:
 
 /// Connects to a port of this machine.
 inline plug plug_into(std::uint16_t port) {
-  auto started = start_connecting(loopback_port(port));
+  auto started = network::start_connecting(network::loopback_port(port));
   REQUIRE(started.error == 0);
   pollfd event{started.socket.get(), POLLOUT, 0};
   REQUIRE(poll(&event, 1, static_cast<int>(patience.count())) == 1);
-  REQUIRE(connection_error(started.socket) == 0);
+  REQUIRE(network::connection_error(started.socket) == 0);
   return plug{std::move(started.socket)};
 }
 
@@ -122,8 +122,10 @@ public:
   using service = std::function<void(const plug&)>;
 
   explicit server(service serve)
-      : serve_{std::move(serve)}, listener_{listen_at({"127.0.0.1", 0})},
-        thread_{[this] { run(); }} {}
+      : serve_{std::move(serve)},
+        listener_{network::listen_at({"127.0.0.1", 0})}, thread_{[this] {
+          run();
+        }} {}
   ~server() {
     stops_ = true;
     wake_.call();
@@ -134,7 +136,7 @@ public:
       thread.join();
   }
 
-  std::uint16_t port() const { return port_of(listener_); }
+  std::uint16_t port() const { return network::port_of(listener_); }
 
 private:
   void run() {
@@ -144,7 +146,7 @@ private:
       poll(events.data(), events.size(), -1);
       if (stops_)
         return;
-      auto accepted = accept_from(listener_);
+      auto accepted = network::accept_from(listener_);
       if (!accepted.socket)
         continue;
       // Ours stays open until the end, so that its number is nobody else's.
@@ -160,7 +162,7 @@ private:
 
   service serve_;
   descriptor listener_;
-  wake_up wake_;
+  network::wake_up wake_;
   std::atomic<bool> stops_ = false;
   std::list<plug> connections_;
   std::vector<int> open_;

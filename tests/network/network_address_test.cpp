@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::network;
 
 TEST_CASE("an address is a host, a colon and a port") {
   CHECK(parse_address("edge.example:3333")

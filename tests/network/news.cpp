@@ -8,6 +8,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace std::chrono_literals;
 using test::at;
 

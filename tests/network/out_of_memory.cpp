@@ -8,6 +8,7 @@
 #include <openssl/crypto.h>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 
 namespace {

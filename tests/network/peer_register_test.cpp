@@ -11,6 +11,7 @@
 #include <optional>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 
 namespace {

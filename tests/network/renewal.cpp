@@ -9,6 +9,7 @@
 #include <list>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 namespace fs = std::filesystem;
 

@@ -9,6 +9,7 @@
 #include <openssl/ssl.h>
 
 using namespace sofof;
+using namespace sofof::network;
 using namespace sofof::test;
 
 namespace {

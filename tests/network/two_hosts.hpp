@@ -14,9 +14,9 @@
 namespace sofof::test {
 
 /// Timeouts that nobody meets who does not hang.
-inline acceptor_options acceptor_to(std::uint16_t inner_port,
-                                    sentences* heard = nullptr) {
-  acceptor_options options;
+inline network::acceptor_options acceptor_to(std::uint16_t inner_port,
+                                             sentences* heard = nullptr) {
+  network::acceptor_options options;
   options.listen = {"127.0.0.1", 0};
   options.inner_port = inner_port;
   options.handshake_timeout = patience;
@@ -26,8 +26,8 @@ inline acceptor_options acceptor_to(std::uint16_t inner_port,
   return options;
 }
 
-inline connector_options connector_to(std::uint16_t port) {
-  connector_options options;
+inline network::connector_options connector_to(std::uint16_t port) {
+  network::connector_options options;
   options.remote = {"127.0.0.1", port};
   options.connect_timeout = patience;
   options.handshake_timeout = patience;

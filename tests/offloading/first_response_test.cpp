@@ -14,6 +14,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 using test::at;

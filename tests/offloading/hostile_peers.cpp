@@ -15,6 +15,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::policies;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 
@@ -125,7 +127,7 @@ struct deceived_vehicle final : offloading::vehicle_port {
   void on_source(const service_name& service, bool is_remote) override {
     CHECK(std::exchange(remote[service], is_remote) != is_remote);
   }
-  void record(sofof::record&&) override {}
+  void record(sofof::messages::record&&) override {}
   void wake_at(time_point t, std::uint64_t number) override {
     due.emplace(t, number);
   }
@@ -164,7 +166,7 @@ struct deceived_provider final : offloading::provider_side_port {
                     std::uint64_t) override {
     return start + 2ms;
   }
-  void record(sofof::record&& x) override {
+  void record(sofof::messages::record&& x) override {
     ended += std::holds_alternative<episode_record>(x);
   }
   void wake_at(time_point t, std::uint64_t number) override {

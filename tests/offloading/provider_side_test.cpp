@@ -13,6 +13,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::policies;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

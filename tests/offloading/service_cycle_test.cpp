@@ -9,6 +9,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

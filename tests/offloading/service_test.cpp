@@ -10,7 +10,9 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace sofof::test;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 using offloading::source_selector;
 
@@ -102,7 +103,7 @@ struct diary final : offloading::selector_port {
     write("useless: " + name(x));
   }
   void watch_end(const service_end&) override { write("watch nothing"); }
-  void record(sofof::record&& x) override {
+  void record(sofof::messages::record&& x) override {
     if (const auto* event = std::get_if<event_record>(&x))
       write(std::string{name_of(event->what)});
   }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::messages;
 using namespace std::chrono_literals;
 using test::at;
 

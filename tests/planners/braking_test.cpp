@@ -7,6 +7,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 namespace {

@@ -6,6 +6,8 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

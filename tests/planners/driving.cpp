@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 using test::test_drive;
 using test::town;

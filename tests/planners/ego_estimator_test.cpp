@@ -10,6 +10,8 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 using doctest::Approx;
 

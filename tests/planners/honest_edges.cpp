@@ -11,6 +11,7 @@
 
 using namespace sofof;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

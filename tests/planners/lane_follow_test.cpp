@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 using test::driving;
 using test::now;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 TEST_CASE("a step at constant jerk is exact") {

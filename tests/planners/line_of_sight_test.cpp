@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

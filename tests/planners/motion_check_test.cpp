@@ -9,6 +9,8 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

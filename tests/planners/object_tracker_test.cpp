@@ -14,6 +14,8 @@
 #include <set>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

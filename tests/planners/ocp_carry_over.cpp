@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
 using enum ocp::solve_status;
 using ocp::start;
 using event = practice_road::event;

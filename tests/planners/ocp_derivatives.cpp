@@ -10,7 +10,7 @@
 #include <complex>
 #include <memory>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 namespace {
 
 using complex = std::complex<double>;
@@ -149,4 +149,4 @@ TEST_CASE("the vector sine and cosine are as good as the library's") {
   }
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

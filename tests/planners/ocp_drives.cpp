@@ -15,6 +15,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
 using ocp::start;
 
 namespace {

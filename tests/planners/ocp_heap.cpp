@@ -15,6 +15,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 TEST_CASE("the counter counts") {
   const auto before = test::allocations;

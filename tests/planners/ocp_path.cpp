@@ -16,6 +16,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
 using enum ocp::solve_status;
 using ocp::start;
 using test::not_a_number;

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace sofof::ocp {
+namespace sofof::planners::ocp {
 namespace {
 
 constexpr auto steps = 60;
@@ -180,4 +180,4 @@ TEST_CASE("a problem that is not convex in the control is found out") {
   CHECK(factorise<false>(*w) < 0);
 }
 
-} // namespace sofof::ocp
+} // namespace sofof::planners::ocp

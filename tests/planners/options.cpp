@@ -8,6 +8,8 @@
 #include <set>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

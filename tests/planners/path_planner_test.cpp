@@ -10,6 +10,7 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 namespace {

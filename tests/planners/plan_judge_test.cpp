@@ -14,6 +14,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 
 namespace {
 

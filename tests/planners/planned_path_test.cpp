@@ -8,6 +8,7 @@
 #include <type_traits>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 static_assert(std::is_trivially_copyable_v<planned_path>);

@@ -9,7 +9,9 @@
 #include <numbers>
 
 using namespace sofof;
+using namespace sofof::planners;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -13,8 +13,8 @@ namespace sofof::test {
 
 /// An open road; curvature is linear between random values, limits change now
 /// and then.
-inline route_ptr random_road(std::uint64_t seed, double length_m = 500,
-                             double least_radius_m = 15) {
+inline world::route_ptr random_road(std::uint64_t seed, double length_m = 500,
+                                    double least_radius_m = 15) {
   const random_stream chance{seed, "road"};
   constexpr double step_m = 0.1, piece_m = 25;
   constexpr int steps_per_point = 20; // one every 2 m
@@ -39,7 +39,7 @@ inline route_ptr random_road(std::uint64_t seed, double length_m = 500,
     at = at + step_m * point{std::cos(mid), std::sin(mid)};
     heading += turn;
   }
-  std::vector<speed_zone> limits;
+  std::vector<world::speed_zone> limits;
   for (std::uint64_t n = 0; static_cast<double>(n) * 120 < length_m; ++n)
     limits.push_back(
         {static_cast<double>(n) * 120, chance.uniform(5, 20, n, 3)});

@@ -17,6 +17,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using std::numbers::pi;
 using namespace std::chrono_literals;
 

@@ -8,11 +8,11 @@
 
 namespace sofof::test {
 
-inline std::unique_ptr<path_ocp> path_solver() {
-  return std::make_unique<path_ocp>();
+inline std::unique_ptr<planners::path_ocp> path_solver() {
+  return std::make_unique<planners::path_ocp>();
 }
-inline std::unique_ptr<velocity_ocp> speed_solver() {
-  return std::make_unique<velocity_ocp>();
+inline std::unique_ptr<planners::velocity_ocp> speed_solver() {
+  return std::make_unique<planners::velocity_ocp>();
 }
 
 } // namespace sofof::test

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 using test::optimal;
 using test::style;

@@ -10,6 +10,8 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 using test::optimal;
 using test::style;
@@ -37,7 +39,7 @@ bool touches(const test_drive& drive, const lane_obstacle& body, double t_s,
       0,
       body.to_m - body.from_m,
       body.high_m - body.low_m + 2 * gap_m};
-  return overlap(sofof::body(drive.car, drive.ability), other);
+  return overlap(sofof::world::body(drive.car, drive.ability), other);
 }
 
 /// What happened on the way past a body.

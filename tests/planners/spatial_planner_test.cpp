@@ -14,6 +14,8 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 using test::driving;
 using test::now;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 TEST_CASE("a car ahead at constant speed never comes to rest") {

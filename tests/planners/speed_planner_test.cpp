@@ -13,6 +13,8 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 using test::style;
 

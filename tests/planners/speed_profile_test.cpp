@@ -9,6 +9,7 @@
 #include <memory>
 
 using namespace sofof;
+using namespace sofof::planners;
 using doctest::Approx;
 
 namespace {

@@ -17,16 +17,17 @@
 
 namespace sofof::test {
 
-inline route_ptr make_route(std::vector<point> points,
-                            std::vector<speed_zone> limits, bool closed) {
+inline world::route_ptr make_route(std::vector<point> points,
+                                   std::vector<world::speed_zone> limits,
+                                   bool closed) {
   if (closed)
     points.push_back(points.front());
-  std::vector<lane> lanes(1);
+  std::vector<world::lane> lanes(1);
   lanes[0].name = "street";
   lanes[0].centre = std::move(points);
   lanes[0].limits = std::move(limits);
-  return std::make_shared<const route>("test", lanes,
-                                       std::vector<std::size_t>{0}, closed);
+  return std::make_shared<const world::route>(
+      "test", lanes, std::vector<std::size_t>{0}, closed);
 }
 
 inline void append_line(std::vector<point>& to, point a, point b) {
@@ -45,7 +46,8 @@ inline void append_arc(std::vector<point>& to, point centre, double radius_m,
 }
 
 /// Due east.
-inline route_ptr straight(double length_m, std::vector<speed_zone> limits) {
+inline world::route_ptr straight(double length_m,
+                                 std::vector<world::speed_zone> limits) {
   std::vector<point> points;
   append_line(points, {0, 0}, {length_m, 0});
   points.push_back({length_m, 0});
@@ -53,7 +55,7 @@ inline route_ptr straight(double length_m, std::vector<speed_zone> limits) {
 }
 
 /// Counter-clockwise, 300 m × 120 m: two corners of 10 m, two of 25 m radius.
-inline route_ptr oval(std::vector<speed_zone> limits) {
+inline world::route_ptr oval(std::vector<world::speed_zone> limits) {
   constexpr auto quarter = std::numbers::pi / 2;
   constexpr double w = 300, h = 120, tight = 10, wide = 25;
   std::vector<point> p;
@@ -69,7 +71,7 @@ inline route_ptr oval(std::vector<speed_zone> limits) {
 }
 
 /// Left, then right, 20 m radius each, between straights.
-inline route_ptr s_curve(std::vector<speed_zone> limits) {
+inline world::route_ptr s_curve(std::vector<world::speed_zone> limits) {
   constexpr auto quarter = std::numbers::pi / 2;
   std::vector<point> p;
   append_line(p, {0, 0}, {150, 0});
@@ -92,25 +94,30 @@ struct extremes {
   double plan_change_m = 0;     ///< One second ahead, against the plan before.
 };
 
-using planner_ptr = std::unique_ptr<trajectory_planner>;
+using planner_ptr = std::unique_ptr<planners::trajectory_planner>;
 
-inline planner_ptr follower(route_ptr way, comfort_limits style = {}) {
-  return std::make_unique<lane_follow>(std::move(way), style);
+inline planner_ptr follower(world::route_ptr way,
+                            planners::comfort_limits style = {}) {
+  return std::make_unique<planners::lane_follow>(std::move(way), style);
 }
 
-inline planner_ptr optimiser(route_ptr way, spatial_params params = {},
-                             comfort_limits style = {}) {
-  return std::make_unique<spatial_planner>(
-      std::make_shared<route_profile>(std::move(way), style), style, params);
+inline planner_ptr optimiser(world::route_ptr way,
+                             planners::spatial_params params = {},
+                             planners::comfort_limits style = {}) {
+  return std::make_unique<planners::spatial_planner>(
+      std::make_shared<planners::route_profile>(std::move(way), style), style,
+      params);
 }
 
 class test_drive {
 public:
-  explicit test_drive(route_ptr way, double s_m = 0, double speed_mps = 0,
-                      comfort_limits params = {})
+  explicit test_drive(world::route_ptr way, double s_m = 0,
+                      double speed_mps = 0,
+                      planners::comfort_limits params = {})
       : test_drive{way, s_m, speed_mps, follower(way, params)} {}
 
-  test_drive(route_ptr way, double s_m, double speed_mps, planner_ptr planner)
+  test_drive(world::route_ptr way, double s_m, double speed_mps,
+             planner_ptr planner)
       : way_{std::move(way)}, planner_{std::move(planner)}, s_m_{s_m} {
     const auto start = way_->path().at(s_m);
     car.at = start.at;
@@ -123,7 +130,7 @@ public:
 
   /// One planning cycle: a plan and five steps of control.
   void cycle() {
-    auto input = seen_from(*way_, plan.at(now));
+    auto input = planners::seen_from(*way_, plan.at(now));
     input.at = now;
     input.others = others;
     input.others.at = now;
@@ -152,16 +159,16 @@ public:
   double rear_m() const { return s_m_ - ability.rear_m; }
 
   /// As the car behind perceives this one.
-  lead_vehicle as_lead() const {
+  planners::lead_vehicle as_lead() const {
     return {1, rear_m(), car.speed_mps, car.accel_mps2};
   }
 
-  vehicle_params ability;
-  vehicle_state car;
-  trajectory plan;
-  plan_report report;
+  world::vehicle_params ability;
+  world::vehicle_state car;
+  world::trajectory plan;
+  planners::plan_report report;
   time_point now;
-  driving_scene others;
+  planners::driving_scene others;
   duration staleness{}; ///< Of the planner's input.
   extremes worst;
   int emergencies = 0; ///< Plans that were.
@@ -194,7 +201,8 @@ private:
   void control() {
     constexpr auto dt_s = 0.01;
     const auto accel_mps2 = car.accel_mps2;
-    car = step(car, follow(car, plan, now, ability), ability, dt_s);
+    car =
+        world::step(car, world::follow(car, plan, now, ability), ability, dt_s);
     now += from_seconds(dt_s);
     const auto place = way_->path().project(car.at, plan.at(now).s_m, 5);
     s_m_ = place.s_m;
@@ -207,11 +215,11 @@ private:
                                  std::abs(car.accel_mps2 - accel_mps2) / dt_s);
   }
 
-  route_ptr way_;
+  world::route_ptr way_;
   planner_ptr planner_;
   double s_m_;
-  std::deque<planning_input> known_;
-  trajectory before_;
+  std::deque<planners::planning_input> known_;
+  world::trajectory before_;
   bool planned_ = false;
 };
 

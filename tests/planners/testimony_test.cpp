@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,6 +8,8 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using doctest::Approx;
 
 namespace {

@@ -10,7 +10,9 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::planners;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::planners;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

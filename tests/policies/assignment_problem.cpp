@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 using doctest::Approx;
 using test::open_problem;
@@ -130,4 +130,4 @@ TEST_CASE("a problem that makes no sense is refused with a sentence") {
            "that is not negative.");
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

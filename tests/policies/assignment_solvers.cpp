@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 using test::any_problem;
 using test::below;
@@ -249,4 +249,4 @@ TEST_CASE("a high switching price keeps everybody where they are") {
   CHECK(branch_and_bound(p).best.choices == present);
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 TEST_CASE("UCB1 tries every allowed arm once, in order") {
   ucb1 bandit{4};

@@ -4,6 +4,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::after;
 using test::comes_home;
 using test::goes_to;

@@ -3,6 +3,7 @@
 #include "tests/policies/scene.hpp"
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

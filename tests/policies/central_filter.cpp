@@ -3,7 +3,9 @@
 #include "tests/policies/scene.hpp"
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
 
 namespace {

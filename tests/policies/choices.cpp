@@ -13,6 +13,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::world;
 using test::goes_to;
 using test::is_accepted;
 using test::on_board;

@@ -6,6 +6,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::backed_by;
 using test::comes_home;
 using test::dice;

@@ -8,6 +8,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include "tests/support/roadside.hpp"
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::comes_home;
 using test::goes_to;
 using test::make_lodm_with;

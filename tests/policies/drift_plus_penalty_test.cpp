@@ -10,6 +10,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::dice;
 using test::near;
 

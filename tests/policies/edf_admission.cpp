@@ -10,6 +10,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 using test::is_accepted;
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

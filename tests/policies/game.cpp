@@ -16,7 +16,7 @@
 #include <set>
 #include <vector>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 using namespace test;
 
@@ -354,4 +354,4 @@ TEST_CASE("seven players on two channels pay a tenth more than they must") {
   CHECK(gaining == doctest::Approx(0.907).epsilon(0.05));
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

@@ -5,6 +5,7 @@
 #include <utility>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 using test::backed_by;
 using test::comes_home;

@@ -4,6 +4,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::comes_home;
 using test::goes_to;
 using test::roadside;

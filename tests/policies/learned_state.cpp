@@ -15,6 +15,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 using test::after;
 using test::comes_home;

@@ -11,6 +11,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 using test::at;
 using test::near;

@@ -16,6 +16,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::world;
 using test::dice;
 using test::goes_to;
 using test::is_accepted;

@@ -9,6 +9,7 @@
 #include <utility>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::near;
 
 TEST_CASE("quantiles are those of tables, far out as well") {

@@ -9,6 +9,7 @@
 #include <string>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <map>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 using test::comes_home;
 using test::goes_to;

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 using namespace std::chrono_literals;
 using test::dice;
@@ -38,4 +38,4 @@ TEST_CASE("a queue at full utilisation grows without end") {
   CHECK_FALSE(mean_wait(8ms, 1.5));
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

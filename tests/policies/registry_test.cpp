@@ -9,6 +9,7 @@
 #include <algorithm>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::goes_to;
 using test::is_accepted;
 

@@ -27,11 +27,11 @@ inline constexpr double price = 0.05;
 inline constexpr double rounding = 1e-8;
 
 /// A CODM without a filter.
-inline std::unique_ptr<central_policy>
+inline std::unique_ptr<policies::central_policy>
 codm_of(std::string_view name,
         std::map<std::string, std::string, std::less<>> texts = {},
         std::map<std::string, duration, std::less<>> times = {}) {
-  auto codm = make_codm(name);
+  auto codm = policies::make_codm(name);
   option_list options;
   options.texts = std::move(texts);
   options.texts["filter.name"] = "none";
@@ -45,16 +45,16 @@ codm_of(std::string_view name,
 /// is 8 ms.
 struct scene {
   const polygon area{{{0, 0}, {1, 0}, {1, 1}}};
-  const road_map map{"street", {}, {}};
+  const world::road_map map{"street", {}, {}};
   std::deque<std::vector<candidate>> told; // which views look at
-  std::vector<request_view> requests;
-  std::vector<session_view> sessions;
+  std::vector<policies::request_view> requests;
+  std::vector<policies::session_view> sessions;
   std::size_t workers = 1;
 
   void ask(double share, std::vector<candidate> candidates,
            duration period = 100ms) {
     told.push_back(std::move(candidates));
-    request_view r;
+    policies::request_view r;
     r.station = 101;
     r.service = "any";
     r.utilisation = share;
@@ -66,7 +66,7 @@ struct scene {
   void run(double share, std::vector<candidate> candidates,
            std::size_t worker = 0) {
     told.push_back(std::move(candidates));
-    session_view s;
+    policies::session_view s;
     s.station = 102;
     s.service = "any";
     s.utilisation = share;
@@ -83,8 +83,8 @@ struct scene {
 
   time_point now;
 
-  std::vector<central_decision> decide(central_policy& codm,
-                                       std::uint64_t number = 1) const {
+  std::vector<policies::central_decision>
+  decide(policies::central_policy& codm, std::uint64_t number = 1) const {
     double used = 0;
     for (const auto& s : sessions)
       used += s.utilisation;
@@ -93,7 +93,8 @@ struct scene {
   }
   /// @returns 'h' for here, 'o' for another provider, '-' for nobody; requests,
   /// and then sessions.
-  std::string verdicts(central_policy& codm, std::uint64_t number = 1) const {
+  std::string verdicts(policies::central_policy& codm,
+                       std::uint64_t number = 1) const {
     std::string all;
     for (const auto& d : decide(codm, number)) {
       CHECK(!d.why.empty());

@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::dice;
 
 namespace {

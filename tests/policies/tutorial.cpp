@@ -5,12 +5,16 @@
 
 #include <doctest/doctest.h>
 
-namespace sofof {
+namespace sofof::policies {
+
+using namespace policies;
 lodm_entry lodm_slow_only();
 codm_entry codm_slowest_first();
-} // namespace sofof
+} // namespace sofof::policies
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::world;
 using test::goes_to;
 using test::is_accepted;
 

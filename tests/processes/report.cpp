@@ -61,8 +61,8 @@ TEST_CASE("the report of a run that was killed says so") {
                           / "summary.json");
   CHECK(at.run_sofof({"report", "one"}).code == 0);
   const auto page = read_file(at / "one/report.html");
-  CHECK(
-      contains(sofof::report::document_in(page).dump(), "This run was killed"));
+  CHECK(contains(sofof::experiments::report::document_in(page).dump(),
+                 "This run was killed"));
 }
 
 TEST_CASE("a full disk leaves the older report as it was") {

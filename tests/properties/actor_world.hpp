@@ -23,95 +23,103 @@
 namespace sofof::test {
 
 /// In Ulm-Lehr, in 2026.
-inline georeference_ptr somewhere() {
-  static const auto where = std::make_shared<const georeference>();
+inline messages::georeference_ptr somewhere() {
+  static const auto where = std::make_shared<const messages::georeference>();
   return where;
 }
 
-using moving_client = vehicle_actor::extend<reacts_to<tick_atom>>;
+using moving_client =
+    messages::vehicle_actor::extend<messages::reacts_to<messages::tick_atom>>;
 
 struct moving_client_state {
   static inline const char* name = "moving_client";
-  std::vector<requester_manager_actor> managers;
-  onboard_requester_actor requester;
+  std::vector<messages::requester_manager_actor> managers;
+  messages::onboard_requester_actor requester;
   shuttle car;
 };
 
 inline moving_client::behavior_type
 drive(moving_client::stateful_pointer<moving_client_state> self,
-      std::shared_ptr<client_diary> diary, std::vector<link_actor> links,
-      requester_actor_setup* setup) {
-  setup->vehicle = vehicle_actor{self};
+      std::shared_ptr<client_diary> diary,
+      std::vector<messages::link_actor> links,
+      actors::requester_actor_setup* setup) {
+  setup->vehicle = messages::vehicle_actor{self};
   self->state.requester =
-      spawn_service_requester(self->system(), std::move(*setup));
+      actors::spawn_service_requester(self->system(), std::move(*setup));
   self->set_exit_handler([self](const caf::exit_msg& e) {
     self->send_exit(self->state.requester, e.reason);
     self->quit(e.reason);
   });
-  self->send(self, tick_atom_v);
+  self->send(self, messages::tick_atom_v);
   return {
-      [diary](const service_result& result) { diary->on_result(result); },
-      [diary](const source_change& change) {
+      [diary](const messages::service_result& result) {
+        diary->on_result(result);
+      },
+      [diary](const messages::source_change& change) {
         diary->on_source(change.service, change.remote);
       },
-      [self](const requester_manager_actor& manager) {
+      [self](const messages::requester_manager_actor& manager) {
         self->state.managers.push_back(manager);
       },
-      [](const perception&) {},
-      [](begin_atom) {},
-      [self, links](tick_atom) {
+      [](const world::perception&) {},
+      [](messages::begin_atom) {},
+      [self, links](messages::tick_atom) {
         auto& s = self->state;
-        const auto t = now(self);
-        send_at(self, self, t + 50ms, tick_atom_v);
+        const auto t = actors::now(self);
+        actors::send_at(self, self, t + 50ms, messages::tick_atom_v);
         s.car.step();
         for (const auto& manager : s.managers)
           self->send(manager,
-                     service_input{{}, t, payload::of(echo{s.car.said})});
+                     messages::service_input{
+                         {}, t, messages::payload::of(echo{s.car.said})});
         if (!s.car.sends_cam())
           return;
         const auto ego = s.car.ego(t);
         self->send(s.requester, ego);
         for (const auto& link : links)
-          self->send(link, encoded(make_cam(ego.own, {}, *somewhere())),
-                     requester_actor{s.requester});
+          self->send(
+              link,
+              messages::encoded(messages::make_cam(ego.own, {}, *somewhere())),
+              messages::requester_actor{s.requester});
       },
   };
 }
 
 /// Gives episodes to a ledger.
-struct ledger_sink final : record_sink {
+struct ledger_sink final : messages::record_sink {
   std::shared_ptr<ledger> book;
   explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
-  void on_record(const record& x) override {
-    if (const auto* episode = std::get_if<episode_record>(&x))
+  void on_record(const messages::record& x) override {
+    if (const auto* episode = std::get_if<messages::episode_record>(&x))
       book->add(*episode);
   }
 };
 
 struct actor_world : virtual_world {
   std::uint64_t seed;
-  link_fault_options faults;
-  streets_ptr world = one_long_street();
+  channel::link_fault_options faults;
+  world::streets_ptr world = one_long_street();
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
-  recorder_actor recorder =
-      own(spawn_recorder(system(), std::make_shared<ledger_sink>(book)));
-  std::shared_ptr<const channel_profile> profile;
+  messages::recorder_actor recorder = own(
+      actors::spawn_recorder(system(), std::make_shared<ledger_sink>(book)));
+  std::shared_ptr<const channel::channel_profile> profile;
   std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
-  std::vector<provider_actor> providers;
-  std::vector<link_actor> links;
+  std::vector<messages::provider_actor> providers;
+  std::vector<messages::link_actor> links;
   moving_client vehicle;
 
-  actor_world(std::uint64_t seed, link_fault_options faults, int provider_count,
-              std::string_view channel = "paper_5g")
-      : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
-                                        *find_channel_profile(channel))} {
+  actor_world(std::uint64_t seed, channel::link_fault_options faults,
+              int provider_count, std::string_view channel = "paper_5g")
+      : seed{seed}, faults{faults},
+        profile{std::make_shared<channel::channel_profile>(
+            *channel::find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
-    requester_actor_setup setup;
+    actors::requester_actor_setup setup;
     setup.station = shuttle::station;
     setup.path_ahead = toy::path_ahead_on(world->routes.front());
     setup.services = {{echo_service("one")}, {echo_service("two")}};
-    setup.lodm = make_lodm("always");
+    setup.lodm = policies::make_lodm("always");
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
     vehicle = system().spawn(drive, diary, links, &setup);
@@ -119,29 +127,31 @@ struct actor_world : virtual_world {
   }
 
   void add_provider(int k) {
-    provider_actor_setup setup;
+    actors::provider_actor_setup setup;
     setup.boot = static_cast<provider_id>(k + 1);
-    setup.decode = [where = somewhere()](const its_pdu& message,
+    setup.decode = [where = somewhere()](const messages::its_pdu& message,
                                          time_point now) {
-      return decode(message, *where, now);
+      return messages::decode(message, *where, now);
     };
     setup.area = area_of_provider(k);
     setup.map = {world, &world->map};
     setup.services = {echo_service("one"), echo_service("two")};
-    setup.codm = make_codm("always");
+    setup.codm = policies::make_codm("always");
     setup.recorder = recorder;
-    setup.compute = compute_measured_with(profile->name);
+    setup.compute = channel::compute_measured_with(profile->name);
     setup.seed = random_stream{seed, "network"};
     setup.number = static_cast<std::uint32_t>(k);
-    providers.push_back(spawn_service_provider(system(), std::move(setup)));
-    const channel_draws draws{profile, random_stream{seed, "network"},
-                              shuttle::station, static_cast<std::uint32_t>(k)};
-    links.push_back(spawn_network_link(
+    providers.push_back(
+        actors::spawn_service_provider(system(), std::move(setup)));
+    const channel::channel_draws draws{profile, random_stream{seed, "network"},
+                                       shuttle::station,
+                                       static_cast<std::uint32_t>(k)};
+    links.push_back(actors::spawn_network_link(
         system(), providers.back(),
-        {{draws, direction::up, nullptr},
-         {draws, direction::down, nullptr},
-         link_faults{random_stream{seed, "faults"}.part(providers.size()),
-                     faults}}));
+        {{draws, channel::direction::up, nullptr},
+         {draws, channel::direction::down, nullptr},
+         channel::link_faults{
+             random_stream{seed, "faults"}.part(providers.size()), faults}}));
   }
 
   ~actor_world() { dismiss(); }

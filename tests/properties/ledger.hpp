@@ -20,18 +20,18 @@ namespace sofof::test {
 
 /// Counts how often each side closed each session.
 struct ledger {
-  std::map<session_id, int> closed_by_requester, closed_by_provider;
-  std::map<session_id, duration> provider_side; // how long it ran
-  std::set<end_reason> reasons;
+  std::map<messages::session_id, int> closed_by_requester, closed_by_provider;
+  std::map<messages::session_id, duration> provider_side; // how long it ran
+  std::set<messages::end_reason> reasons;
   int remote_episodes = 0;
 
-  void add(const episode_record& r) {
-    ++(r.of == side::requester ? closed_by_requester
-                               : closed_by_provider)[r.session];
+  void add(const messages::episode_record& r) {
+    ++(r.of == messages::side::requester ? closed_by_requester
+                                         : closed_by_provider)[r.session];
     reasons.insert(r.reason);
-    if (r.of == side::provider)
+    if (r.of == messages::side::provider)
       provider_side[r.session] = r.ended - r.accepted;
-    if (r.of == side::requester)
+    if (r.of == messages::side::requester)
       remote_episodes += r.got_data;
   }
 
@@ -47,10 +47,10 @@ struct client_diary {
     time_point newest_of_source; // in use now
     bool any_result = false;
   };
-  std::map<service_name, entry> services;
+  std::map<messages::service_name, entry> services;
   std::vector<std::string> broken; // promises
 
-  void on_source(const service_name& service, bool remote) {
+  void on_source(const messages::service_name& service, bool remote) {
     auto& e = services[service];
     if (e.remote == remote)
       broken.push_back("a source was chosen that was in use already");
@@ -58,7 +58,7 @@ struct client_diary {
     e.newest_of_source = {};
   }
 
-  void on_result(const service_result& result) {
+  void on_result(const messages::service_result& result) {
     auto& e = services[result.session.service];
     if (e.remote != result.session.is_remote())
       broken.push_back("a result came from the source that is not in use");
@@ -91,7 +91,7 @@ struct shuttle {
     ++said;
   }
   bool sends_cam() const { return said % 2 == 1; }
-  ego_state ego(time_point now) const {
+  messages::ego_state ego(time_point now) const {
     return {{station, now, {x_m, 0}, 0, 15, 0}, x_m + 500};
   }
 };
@@ -100,11 +100,11 @@ inline polygon area_of_provider(int k) {
   return polygon::regular({100.0 * k, 0}, 300, 24);
 }
 
-inline streets_ptr one_long_street() {
-  static const streets_ptr street = [] {
-    auto world = std::make_shared<streets>();
-    world->map =
-        road_map{"street", {}, {toy::straight("street", {-600, 0}, {1400, 0})}};
+inline world::streets_ptr one_long_street() {
+  static const world::streets_ptr street = [] {
+    auto world = std::make_shared<world::streets>();
+    world->map = world::road_map{
+        "street", {}, {toy::straight("street", {-600, 0}, {1400, 0})}};
     world->routes.push_back(world->map.make_route(
         "street", std::vector<std::string>{"street"}, false));
     return world;

@@ -101,14 +101,15 @@ struct down_arrival {
   offloading::to_vehicle message;
 };
 
-using event = std::variant<tick, vehicle_timer, provider_timer, up_arrival<cam>,
-                           up_arrival<offloading::to_provider>, down_arrival>;
+using event =
+    std::variant<tick, vehicle_timer, provider_timer, up_arrival<messages::cam>,
+                 up_arrival<offloading::to_provider>, down_arrival>;
 
 inline std::size_t octets_of_cam() {
   static const auto size = [] {
-    const georeference where;
-    const auto message = make_cam(shuttle{}.ego({}).own, {}, where);
-    return encoded(message).octets.size() + geonet_octets;
+    const messages::georeference where;
+    const auto message = messages::make_cam(shuttle{}.ego({}).own, {}, where);
+    return messages::encoded(message).octets.size() + messages::geonet_octets;
   }();
   return size;
 }
@@ -116,34 +117,36 @@ inline std::size_t octets_of_cam() {
 /// As network_link has it.
 class library_link {
 public:
-  library_link(agenda<event>& time, const channel_draws& draws,
-               link_faults faults)
-      : time_{time}, up_{draws, direction::up, nullptr},
-        down_{draws, direction::down, nullptr}, faults_{std::move(faults)} {}
+  library_link(agenda<event>& time, const channel::channel_draws& draws,
+               channel::link_faults faults)
+      : time_{time}, up_{draws, channel::direction::up, nullptr},
+        down_{draws, channel::direction::down, nullptr}, faults_{std::move(
+                                                             faults)} {}
 
   template <class Arrival>
   void up(std::uint64_t number, std::size_t octets, Arrival&& arrival) {
-    carry(up_, message_class::other, number, octets,
+    carry(up_, channel::message_class::other, number, octets,
           std::forward<Arrival>(arrival));
   }
-  void down(message_class kind, std::uint64_t number, std::size_t octets,
-            down_arrival&& arrival) {
+  void down(channel::message_class kind, std::uint64_t number,
+            std::size_t octets, down_arrival&& arrival) {
     carry(down_, kind, number, octets, std::move(arrival));
   }
   /// Knows the sessions from what passes.
   void look_at(const offloading::to_vehicle& message) {
-    if (const auto* response = std::get_if<service_response>(&message))
+    if (const auto* response =
+            std::get_if<messages::service_response>(&message))
       for (const auto& v : response->verdicts)
         if (v.accepted)
           sessions_.push_back(v.session);
-    if (const auto* end = std::get_if<service_end>(&message))
+    if (const auto* end = std::get_if<messages::service_end>(&message))
       std::erase(sessions_, end->session);
   }
   /// @returns whether it is carried: not the input of a session that has ended.
   bool look_at(const offloading::to_provider& message) {
-    if (const auto* end = std::get_if<service_end>(&message))
+    if (const auto* end = std::get_if<messages::service_end>(&message))
       std::erase(sessions_, end->session);
-    const auto* input = std::get_if<service_input>(&message);
+    const auto* input = std::get_if<messages::service_input>(&message);
     return !input
            || std::ranges::find(sessions_, input->session) != sessions_.end();
   }
@@ -153,7 +156,7 @@ public:
 
 private:
   template <class Arrival>
-  void carry(link_direction& direction, message_class kind,
+  void carry(channel::link_direction& direction, channel::message_class kind,
              std::uint64_t number, std::size_t octets, Arrival&& arrival) {
     const auto t = direction.arrival(time_.now(), kind, number, octets);
     if (!t)
@@ -167,10 +170,10 @@ private:
   }
 
   agenda<event>& time_;
-  link_direction up_, down_;
-  link_faults faults_;
+  channel::link_direction up_, down_;
+  channel::link_faults faults_;
   std::uint64_t carried_ = 0;
-  std::vector<session_id> sessions_;
+  std::vector<messages::session_id> sessions_;
 };
 
 struct library_world {
@@ -179,30 +182,30 @@ struct library_world {
   struct provider_node final : offloading::provider_side_port {
     library_world& world;
     std::size_t number;
-    provider_compute computers;
-    std::shared_ptr<multi_server_queue> workers;
+    channel::provider_compute computers;
+    std::shared_ptr<channel::multi_server_queue> workers;
     random_stream draws_of_results;
     library_link link;
     bool alive = true;
     std::unique_ptr<offloading::provider_side> side;
 
     provider_node(library_world& w, std::size_t k)
-        : world{w}, number{k}, computers{compute_measured_with(
+        : world{w}, number{k}, computers{channel::compute_measured_with(
                                    w.profile->name)},
-          workers{std::make_shared<multi_server_queue>(
+          workers{std::make_shared<channel::multi_server_queue>(
               static_cast<unsigned>(computers.workers))},
-          draws_of_results{result_draws(random_stream{w.seed, "network"},
-                                        shuttle::station,
-                                        static_cast<std::uint32_t>(k))},
+          draws_of_results{channel::result_draws(
+              random_stream{w.seed, "network"}, shuttle::station,
+              static_cast<std::uint32_t>(k))},
           link{w.time, draws(),
-               link_faults{random_stream{w.seed, "faults"}.part(k + 1),
-                           w.faults}} {
+               channel::link_faults{random_stream{w.seed, "faults"}.part(k + 1),
+                                    w.faults}} {
       offloading::provider_setup setup;
       setup.id = static_cast<provider_id>(k + 1);
       setup.area = area_of_provider(static_cast<int>(k));
       for (const auto* name : {"one", "two"})
         setup.services.push_back(at_provider(echo_service(name), {}));
-      setup.policy = make_codm("always");
+      setup.policy = policies::make_codm("always");
       setup.computer = {static_cast<std::size_t>(computers.workers),
                         computers.mean_s(), computers.deviation_s()};
       setup.map = {w.world, &w.world->map};
@@ -211,7 +214,7 @@ struct library_world {
           std::make_unique<offloading::provider_side>(std::move(setup), *this);
     }
 
-    channel_draws draws() const {
+    channel::channel_draws draws() const {
       return {world.profile, random_stream{world.seed, "network"},
               shuttle::station, static_cast<std::uint32_t>(number)};
     }
@@ -219,20 +222,21 @@ struct library_world {
 
     void send(offloading::peer_id, offloading::to_vehicle message) override {
       link.look_at(message);
-      const auto* result = std::get_if<service_result>(&message);
-      const auto octets =
-          std::visit([](const auto& x) { return octets_of(x); }, message);
-      link.down(result ? message_class::result : message_class::other,
+      const auto* result = std::get_if<messages::service_result>(&message);
+      const auto octets = std::visit(
+          [](const auto& x) { return messages::octets_of(x); }, message);
+      link.down(result ? channel::message_class::result
+                       : channel::message_class::other,
                 result ? result->cycle : link.time_number(), octets,
                 down_arrival{number, std::move(message)});
     }
-    time_point finish(const session_id&, time_point start,
+    time_point finish(const messages::session_id&, time_point start,
                       std::uint64_t cycle) override {
       return workers->finish(start,
                              computers.computing_time(draws_of_results, cycle));
     }
-    void record(sofof::record&& x) override {
-      if (const auto* episode = std::get_if<episode_record>(&x))
+    void record(messages::record&& x) override {
+      if (const auto* episode = std::get_if<messages::episode_record>(&x))
         world.book->add(*episode);
     }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
@@ -244,7 +248,7 @@ struct library_world {
     library_world& world;
     explicit vehicle_node(library_world& w) : world{w} {}
 
-    time_point finish(const service_name&, time_point start,
+    time_point finish(const messages::service_name&, time_point start,
                       std::uint64_t) override {
       return start + echo_options().compute.run_time_mean;
     }
@@ -255,19 +259,20 @@ struct library_world {
       auto& p = *world.providers.at(k);
       if (!p.link.look_at(message))
         return;
-      const auto octets =
-          std::visit([](const auto& x) { return octets_of(x); }, message);
+      const auto octets = std::visit(
+          [](const auto& x) { return messages::octets_of(x); }, message);
       p.link.up(p.link.time_number(), octets,
                 up_arrival<offloading::to_provider>{k, std::move(message)});
     }
-    void use(const service_result& result) override {
+    void use(const messages::service_result& result) override {
       world.diary->on_result(result);
     }
-    void on_source(const service_name& service, bool remote) override {
+    void on_source(const messages::service_name& service,
+                   bool remote) override {
       world.diary->on_source(service, remote);
     }
-    void record(sofof::record&& x) override {
-      if (const auto* episode = std::get_if<episode_record>(&x))
+    void record(messages::record&& x) override {
+      if (const auto* episode = std::get_if<messages::episode_record>(&x))
         world.book->add(*episode);
     }
     void wake_at(time_point t, std::uint64_t number) override {
@@ -276,9 +281,9 @@ struct library_world {
   };
 
   std::uint64_t seed;
-  link_fault_options faults;
-  std::shared_ptr<const channel_profile> profile;
-  streets_ptr world = one_long_street();
+  channel::link_fault_options faults;
+  std::shared_ptr<const channel::channel_profile> profile;
+  world::streets_ptr world = one_long_street();
   agenda<event> time;
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
   std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
@@ -288,21 +293,23 @@ struct library_world {
   bool alive = true;
   std::unique_ptr<offloading::vehicle_side> side;
 
-  library_world(std::uint64_t seed, link_fault_options faults,
+  library_world(std::uint64_t seed, channel::link_fault_options faults,
                 int provider_count, std::string_view channel = "paper_5g")
-      : seed{seed}, faults{faults}, profile{std::make_shared<channel_profile>(
-                                        *find_channel_profile(channel))} {
+      : seed{seed}, faults{faults},
+        profile{std::make_shared<channel::channel_profile>(
+            *channel::find_channel_profile(channel))} {
     for (int k = 0; k < provider_count; ++k)
       providers.push_back(
           std::make_unique<provider_node>(*this, static_cast<std::size_t>(k)));
     offloading::vehicle_side_setup setup;
     setup.station = shuttle::station;
-    setup.policy = make_lodm("always");
+    setup.policy = policies::make_lodm("always");
     setup.noise = random_stream{seed, "vehicle"};
-    setup.path_ahead = [way = world->routes.front()](const ego_state& ego) {
-      return way->waypoints(ego.s_m, protocol::route_ahead_m,
-                            protocol::route_spacing_m);
-    };
+    setup.path_ahead =
+        [way = world->routes.front()](const messages::ego_state& ego) {
+          return way->waypoints(ego.s_m, protocol::route_ahead_m,
+                                protocol::route_spacing_m);
+        };
     for (const auto* name : {"one", "two"})
       setup.services.push_back(in_vehicle(echo_service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
@@ -322,7 +329,7 @@ struct library_world {
     if (car.said == 1)
       return; // its services are not there yet
     for (const auto* name : {"one", "two"})
-      side->on_input(name, {{}, t, payload::of(echo{car.said})}, t);
+      side->on_input(name, {{}, t, messages::payload::of(echo{car.said})}, t);
   }
   void handle(const vehicle_timer& x) {
     if (alive)
@@ -333,7 +340,7 @@ struct library_world {
       p.side->on_timer(x.number, now());
   }
   // CAMs of a vehicle that is gone are not decoded any more.
-  void handle(const up_arrival<cam>& x) {
+  void handle(const up_arrival<messages::cam>& x) {
     if (auto& p = *providers[x.provider]; p.alive && alive)
       p.side->on_cam(x.message, vehicle_peer, now());
   }
@@ -346,13 +353,13 @@ struct library_world {
       side->on_message(providers[x.provider]->peer(), x.message, now());
   }
 
-  void send_cam(const ego_state& ego) {
+  void send_cam(const messages::ego_state& ego) {
     constexpr std::uint64_t cam_message = 2;
     side->on_motion(ego);
     for (std::size_t k = 0; k < providers.size(); ++k) {
       auto& link = providers[k]->link;
       link.up(link.time_number() ^ cam_message << 56, octets_of_cam(),
-              up_arrival<cam>{k, ego.own});
+              up_arrival<messages::cam>{k, ego.own});
     }
   }
 

@@ -12,6 +12,8 @@
 #include <optional>
 
 using namespace sofof;
+using namespace sofof::channel;
+using namespace sofof::messages;
 using namespace sofof::test;
 
 TYPE_TO_STRING(actor_world);

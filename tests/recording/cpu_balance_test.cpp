@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::recording;
 using namespace sofof::test;
 
 namespace {

@@ -8,6 +8,8 @@
 #include <chrono>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::recording;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

@@ -15,6 +15,8 @@
 
 namespace sofof::made_up {
 
+using namespace recording;
+
 namespace {
 
 nlohmann::json summary_of_a_run() {

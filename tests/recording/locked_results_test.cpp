@@ -12,6 +12,9 @@
 
 namespace sofof::made_up {
 
+using namespace messages;
+using namespace recording;
+
 namespace {
 
 run_info onto_full_disk() {

@@ -11,6 +11,9 @@
 #include <numeric>
 
 namespace sofof::made_up {
+
+using namespace messages;
+using namespace recording;
 namespace {
 
 /// The smallest number that a share p of all does not exceed.

@@ -19,6 +19,9 @@
 
 namespace sofof::made_up {
 
+using namespace messages;
+using namespace recording;
+
 namespace fs = std::filesystem;
 using test::contains;
 using test::scratch;

@@ -16,6 +16,8 @@
 
 namespace sofof::made_up {
 
+using namespace messages;
+using namespace recording;
 using test::contains;
 
 namespace {

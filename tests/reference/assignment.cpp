@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 using test::best_by_tables;
 using test::dice;
@@ -90,4 +90,4 @@ TEST_CASE("classic instances in which all must be served have the optimum of "
   }
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

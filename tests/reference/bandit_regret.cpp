@@ -11,6 +11,7 @@
 #include <numbers>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

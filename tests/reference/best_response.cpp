@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 using namespace test;
 
@@ -177,4 +177,4 @@ TEST_CASE("the interference model as printed lets a fifth of 30 users gain") {
   CHECK(mean.all_offload_cost > 4.1e5);
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

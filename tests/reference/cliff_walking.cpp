@@ -8,6 +8,7 @@
 #include <array>
 
 using namespace sofof;
+using namespace sofof::policies;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
 
 TEST_CASE("the slopes of the loss are those of finite differences") {

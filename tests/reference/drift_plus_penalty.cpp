@@ -13,6 +13,7 @@
 #include <array>
 
 using namespace sofof;
+using namespace sofof::policies;
 using test::near;
 
 namespace {

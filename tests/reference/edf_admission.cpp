@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 
 namespace {

@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace std::chrono_literals;
 using test::near;
 

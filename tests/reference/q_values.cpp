@@ -8,6 +8,7 @@
 #include <limits>
 
 using namespace sofof;
+using namespace sofof::policies;
 using namespace sofof::test;
 
 namespace {

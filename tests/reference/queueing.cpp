@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 using namespace std::chrono_literals;
 using test::near;
@@ -27,4 +27,4 @@ TEST_CASE("a core with jobs of 8 ms that may wait 16 ms is busy for 80 %") {
   CHECK(utilisation_cap(1, 8ms, 16ms) == near(0.8, 1e-12));
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

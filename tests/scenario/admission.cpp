@@ -10,6 +10,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 using namespace std::chrono_literals;
 
 namespace {

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::scenario;
 using namespace sofof::test;
 
 namespace {

@@ -12,6 +12,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 using namespace sofof::test;
 using namespace std::chrono_literals;
 

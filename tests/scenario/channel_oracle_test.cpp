@@ -13,6 +13,8 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::scenario;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,6 +8,8 @@
 #include <chrono>
 
 using namespace sofof;
+using namespace sofof::channel;
+using namespace sofof::scenario;
 using namespace std::chrono_literals;
 
 namespace {

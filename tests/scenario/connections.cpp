@@ -18,6 +18,11 @@
 
 namespace sofof::test::connections {
 
+using namespace actors;
+using namespace messages;
+using namespace network;
+using namespace scenario;
+
 namespace {
 
 constexpr std::size_t header_size = 32, node_size = 25;

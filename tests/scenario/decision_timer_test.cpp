@@ -9,6 +9,8 @@
 #include <map>
 
 using namespace sofof;
+using namespace sofof::policies;
+using namespace sofof::scenario;
 using test::goes_to;
 
 namespace {

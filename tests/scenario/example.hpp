@@ -77,10 +77,10 @@ inline std::string with(std::string_view from, std::string_view to,
 }
 
 /// Loads a text as if it were a file beside the test data.
-inline scenario_definition
+inline scenario::scenario_definition
 load(std::string_view what = text,
      const std::vector<std::string>& overrides = {}) {
-  return parse_scenario(what, folder / "example.toml", overrides);
+  return scenario::parse_scenario(what, folder / "example.toml", overrides);
 }
 
 /// @returns what the loader says about a text; empty if it has no objection.

@@ -23,7 +23,10 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 using namespace sofof::test;
+using namespace sofof::world;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,6 +8,7 @@
 #include <chrono>
 
 using namespace sofof;
+using namespace sofof::scenario;
 using namespace std::chrono_literals;
 
 TEST_CASE("a scenario holds what its file says") {

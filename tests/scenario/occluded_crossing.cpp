@@ -14,7 +14,11 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::scenario;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -8,6 +8,8 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::scenario;
+using namespace sofof::world;
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include <sstream>
 
 using namespace sofof;
+using namespace sofof::scenario;
 using namespace std::chrono_literals;
 
 namespace {

@@ -14,6 +14,8 @@
 
 namespace sofof::test::runtime_clocks {
 
+using namespace actors;
+using namespace scenario;
 using namespace std::chrono_literals;
 
 namespace {

@@ -22,6 +22,9 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::recording;
+using namespace sofof::scenario;
 using namespace sofof::test;
 namespace fs = std::filesystem;
 

@@ -10,12 +10,13 @@
 namespace sofof::test {
 
 /// @returns the records of a whole run.
-inline memory_sink play(const scenario_definition& s) {
+inline memory_sink play(const scenario::scenario_definition& s) {
   auto records = std::make_shared<memory_sink>();
-  const auto time = make_virtual_runtime();
-  const auto actors = build(time->system(), s, records, time->clock(), true);
+  const auto time = scenario::make_virtual_runtime();
+  const auto actors =
+      scenario::build(time->system(), s, records, time->clock(), true);
   time->run_until(time->now() + s.length);
-  dismiss(actors, *time);
+  scenario::dismiss(actors, *time);
   return *records;
 }
 

@@ -13,11 +13,12 @@ namespace sofof::test {
 
 /// A problem without resources in which everybody is local and may go anywhere,
 /// for nothing.
-inline assignment::problem open_problem(int vehicles, int providers) {
-  return {assignment::pair_table::Zero(vehicles, providers),
-          assignment::pair_flags::Constant(vehicles, providers, true),
+inline policies::assignment::problem open_problem(int vehicles, int providers) {
+  return {policies::assignment::pair_table::Zero(vehicles, providers),
+          policies::assignment::pair_flags::Constant(vehicles, providers, true),
           {},
-          std::vector<assignment::choice>(vehicles, assignment::local),
+          std::vector<policies::assignment::choice>(
+              vehicles, policies::assignment::local),
           0};
 }
 
@@ -25,10 +26,11 @@ inline int below(dice& random, int end) {
   return static_cast<int>(random.between(0, end));
 }
 
-inline assignment::pair_table table_between(dice& random, int vehicles,
-                                            int providers, double low,
-                                            double high) {
-  assignment::pair_table result(vehicles, providers);
+inline policies::assignment::pair_table table_between(dice& random,
+                                                      int vehicles,
+                                                      int providers, double low,
+                                                      double high) {
+  policies::assignment::pair_table result(vehicles, providers);
   for (auto& number : result.reshaped<Eigen::RowMajor>())
     number = random.between(low, high);
   return result;
@@ -36,15 +38,15 @@ inline assignment::pair_table table_between(dice& random, int vehicles,
 
 /// Demands of vehicles that are the same everywhere, and equal capacities for a
 /// share of all of them.
-inline assignment::resource scarce(dice& random, int vehicles, int providers,
-                                   double share) {
+inline policies::assignment::resource scarce(dice& random, int vehicles,
+                                             int providers, double share) {
   const auto demand = table_between(random, vehicles, 1, 0.1, 0.5);
   return {demand.replicate(1, providers),
           std::vector<double>(providers, share * demand.sum() / providers)};
 }
 
 /// Half of the vehicles, chosen at random, are with some provider now.
-inline void place_at_random(assignment::problem& p, dice& random) {
+inline void place_at_random(policies::assignment::problem& p, dice& random) {
   for (auto& c : p.present)
     if (random.between(0, 1) < 0.5)
       c = below(random, p.providers());
@@ -53,7 +55,7 @@ inline void place_at_random(assignment::problem& p, dice& random) {
 /// A problem with up to 8 vehicles, 3 providers and 2 resources that has what
 /// may occur: gains below zero, pairs that are not eligible, decimals that fill
 /// a capacity exactly, capacities of nothing and without end.
-inline assignment::problem any_problem(dice& random) {
+inline policies::assignment::problem any_problem(dice& random) {
   const auto vehicles = 8 - below(random, 4) * below(random, 3);
   const auto providers = 1 + below(random, 3);
   auto p = open_problem(vehicles, providers);
@@ -79,8 +81,8 @@ inline assignment::problem any_problem(dice& random) {
 }
 
 /// The objective of one vehicle, as its formula is written.
-inline double objective(const assignment::problem& p, int vehicle,
-                        assignment::choice c) {
+inline double objective(const policies::assignment::problem& p, int vehicle,
+                        policies::assignment::choice c) {
   double sum = 0;
   for (int i = 0; i < p.providers(); ++i) {
     const double x = c == i ? 1 : 0;
@@ -92,11 +94,12 @@ inline double objective(const assignment::problem& p, int vehicle,
 }
 
 /// @returns the greatest objective of vehicles from one on; tries everything.
-inline double best_by_trying(assignment::problem& p, int vehicle = 0) {
+inline double best_by_trying(policies::assignment::problem& p,
+                             int vehicle = 0) {
   if (vehicle == p.vehicles())
     return 0;
-  auto best =
-      objective(p, vehicle, assignment::local) + best_by_trying(p, vehicle + 1);
+  auto best = objective(p, vehicle, policies::assignment::local)
+              + best_by_trying(p, vehicle + 1);
   for (int i = 0; i < p.providers(); ++i) {
     if (!p.eligible(vehicle, i))
       continue;
@@ -117,7 +120,7 @@ inline double best_by_trying(assignment::problem& p, int vehicle = 0) {
 
 /// @returns the greatest objective for one resource of whole numbers at three
 /// providers of one capacity, by dynamic programming over what is free.
-inline double best_by_tables(const assignment::problem& p) {
+inline double best_by_tables(const policies::assignment::problem& p) {
   const auto& r = p.resources.front();
   const auto sizes = static_cast<int>(r.capacity.front()) + 1;
   const int strides[] = {1, sizes, sizes * sizes};
@@ -125,7 +128,7 @@ inline double best_by_tables(const assignment::problem& p) {
   for (int v = p.vehicles() - 1; v >= 0; --v) {
     std::vector<double> with(best);
     for (auto& b : with)
-      b += objective(p, v, assignment::local);
+      b += objective(p, v, policies::assignment::local);
     for (int i = 0; i < 3; ++i) {
       const auto wanted = static_cast<int>(r.demand(v, i));
       const auto won = objective(p, v, i);

@@ -12,38 +12,39 @@
 namespace sofof::test {
 
 /// As the real one, but for what `change` makes of it in each run.
-class changed_service final : public service_type {
+class changed_service final : public actors::service_type {
 public:
   using change =
-      std::function<void(offloading::service&, const service_world&)>;
+      std::function<void(offloading::service&, const actors::service_world&)>;
 
-  changed_service(service_type_ptr real, change how)
+  changed_service(actors::service_type_ptr real, change how)
       : real_{std::move(real)}, how_{std::move(how)} {
     options = real_->options;
   }
 
   std::string_view name() const override { return real_->name(); }
   void visit_options(option_visitor& s) override { real_->visit_options(s); }
-  offloading::service in(const service_world& world) const override {
+  offloading::service in(const actors::service_world& world) const override {
     auto service = real_->in(world);
     how_(service, world);
     return service;
   }
-  client_actor spawn_client(caf::actor_system& sys,
-                            const vehicle_actor& vehicle) const override {
+  messages::client_actor
+  spawn_client(caf::actor_system& sys,
+               const messages::vehicle_actor& vehicle) const override {
     return real_->spawn_client(sys, vehicle);
   }
-  std::shared_ptr<const plan_client> plans() const override {
+  std::shared_ptr<const actors::plan_client> plans() const override {
     return real_->plans();
   }
 
 private:
-  service_type_ptr real_;
+  actors::service_type_ptr real_;
   change how_;
 };
 
 /// As the real one at a provider; for changes.
-class real_at_provider : public listening_service {
+class real_at_provider : public actors::listening_service {
 public:
   explicit real_at_provider(std::shared_ptr<offloading::provider_service> real)
       : real_{std::move(real)} {}
@@ -52,10 +53,13 @@ public:
   make_function(station_id vehicle) override {
     return real_->make_function(vehicle);
   }
-  payload termination_message(const service_end& end, time_point now) override {
+  messages::payload termination_message(const messages::service_end& end,
+                                        time_point now) override {
     return real_->termination_message(end, now);
   }
-  broadcast_listener* listener() override { return listener_of(*real_); }
+  actors::broadcast_listener* listener() override {
+    return actors::listener_of(*real_);
+  }
 
 private:
   std::shared_ptr<offloading::provider_service> real_;

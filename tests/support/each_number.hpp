@@ -8,7 +8,7 @@ namespace sofof::test {
 /// Calls `visit` with every INTEGER that is there.
 template <class T, class Visit>
 void each_number(T& x, Visit&& visit) {
-  using namespace etsi;
+  using namespace messages::etsi;
   const auto go_on = [&](auto& inner) { each_number(inner, visit); };
   if constexpr (is_integer<T>) {
     visit(x);

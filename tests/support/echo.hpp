@@ -26,5 +26,5 @@ void visit_fields(auto& v, echo& x) {
 } // namespace sofof::test
 
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::test::echo> =
-    "echo";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::test::echo> = "echo";

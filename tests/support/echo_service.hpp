@@ -10,8 +10,8 @@
 namespace sofof::test {
 
 struct echo_function final : offloading::service_function {
-  offloading::service_output run(time_point,
-                                 const service_input& input) override {
+  offloading::service_output
+  run(time_point, const messages::service_input& input) override {
     return input.what;
   }
 };
@@ -22,7 +22,7 @@ struct echo_in_vehicle : offloading::vehicle_service {
     return std::make_shared<echo_function>();
   }
 
-  bool continues(const payload&, const payload& offered,
+  bool continues(const messages::payload&, const messages::payload& offered,
                  time_point) const override {
     const auto said = offered.as<echo>();
     return !said || said->number != echo::jump;
@@ -30,8 +30,9 @@ struct echo_in_vehicle : offloading::vehicle_service {
 
   std::unique_ptr<offloading::result_judge> make_judge() const override {
     struct sceptic final : offloading::result_judge {
-      offloading::judged_result
-      judge(const payload& result, const service_input&, time_point) override {
+      offloading::judged_result judge(const messages::payload& result,
+                                      const messages::service_input&,
+                                      time_point) override {
         const auto said = result.as<echo>();
         if (said && said->number == echo::lie)
           return {{}, objection{"number", 2, 1}};
@@ -63,7 +64,7 @@ inline offloading::service_options echo_options() {
 }
 
 /// Gives back its input, period by period.
-inline offloading::service echo_service(service_name name) {
+inline offloading::service echo_service(messages::service_name name) {
   return {.name = name,
           .options = echo_options(),
           .in_vehicle =
@@ -73,34 +74,37 @@ inline offloading::service echo_service(service_name name) {
 }
 
 /// What its messages on the air say: octets that can be told apart.
-inline payload its_octets(std::uint64_t first, bool second) {
-  return payload::of(
-      its_pdu{{static_cast<std::byte>(first), static_cast<std::byte>(second)}});
+inline messages::payload its_octets(std::uint64_t first, bool second) {
+  return messages::payload::of(messages::its_pdu{
+      {static_cast<std::byte>(first), static_cast<std::byte>(second)}});
 }
 
 /// Says its number and whether it takes over; at its end, which side ends it.
 struct its_echo_in_vehicle final : echo_in_vehicle {
-  service_input encode_input(service_input input,
-                             bool takes_over) const override {
+  messages::service_input encode_input(messages::service_input input,
+                                       bool takes_over) const override {
     const auto said = input.what.as<echo>();
-    input.what = said ? its_octets(said->number, takes_over) : payload{};
+    input.what =
+        said ? its_octets(said->number, takes_over) : messages::payload{};
     input.in_use = {};
     return input;
   }
-  payload termination_message(const service_end&, time_point,
-                              const cam&) const override {
+  messages::payload termination_message(const messages::service_end&,
+                                        time_point,
+                                        const messages::cam&) const override {
     return its_octets(0, true);
   }
 };
 
 struct its_echo_at_provider final : echo_at_provider {
-  payload termination_message(const service_end&, time_point) override {
+  messages::payload termination_message(const messages::service_end&,
+                                        time_point) override {
     return its_octets(1, false);
   }
 };
 
 /// An echo whose messages on the air are ITS messages.
-inline offloading::service its_echo(service_name name) {
+inline offloading::service its_echo(messages::service_name name) {
   return {
       .name = name,
       .options = echo_options(),

@@ -15,7 +15,7 @@
 namespace sofof::test {
 
 struct fleet {
-  std::shared_ptr<const channel_profile> profile;
+  std::shared_ptr<const channel::channel_profile> profile;
   std::uint32_t vehicles = 1;
   duration period = std::chrono::milliseconds{50};
   duration length = std::chrono::seconds{68}; ///< Of one run.
@@ -39,31 +39,31 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
   };
   const random_stream seed{f.seed, "fleet"};
   std::vector<random_stream> draws;
-  std::vector<link_direction> links;
-  const auto cell = std::make_shared<multi_server_queue>(1);
-  const auto computers = compute_measured_with(f.profile->name);
+  std::vector<channel::link_direction> links;
+  const auto cell = std::make_shared<channel::multi_server_queue>(1);
+  const auto computers = channel::compute_measured_with(f.profile->name);
   std::vector<job> jobs;
   const auto cycles = static_cast<std::uint64_t>(f.length / f.period);
   jobs.reserve(f.vehicles * cycles);
   for (std::uint32_t v = 0; v < f.vehicles; ++v) {
-    draws.push_back(result_draws(seed, v, 0));
-    links.emplace_back(channel_draws{f.profile, seed, v, 0}, direction::down,
-                       cell);
+    draws.push_back(channel::result_draws(seed, v, 0));
+    links.emplace_back(channel::channel_draws{f.profile, seed, v, 0},
+                       channel::direction::down, cell);
     const auto phase =
         from_seconds(seed.part("phase").uniform(0, to_seconds(f.period), v));
     for (std::uint64_t c = 0; c < cycles; ++c)
       jobs.push_back({v, c, time_point{phase + c * f.period}, {}});
   }
   std::ranges::stable_sort(jobs, {}, &job::created);
-  multi_server_queue workers{static_cast<unsigned>(computers.workers)};
+  channel::multi_server_queue workers{static_cast<unsigned>(computers.workers)};
   for (auto& j : jobs)
     j.computed = workers.finish(
         j.created, computers.computing_time(draws[j.vehicle], j.cycle));
   std::ranges::stable_sort(jobs, {}, &job::computed);
   std::vector<std::vector<delivery>> result(f.vehicles);
   for (const auto& j : jobs)
-    if (const auto t = links[j.vehicle].arrival(j.computed,
-                                                message_class::result, j.cycle))
+    if (const auto t = links[j.vehicle].arrival(
+            j.computed, channel::message_class::result, j.cycle))
       result[j.vehicle].push_back({j.created, *t});
   return result;
 }

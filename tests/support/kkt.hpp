@@ -65,12 +65,13 @@ kkt kkt_of(const Workspace& w, double cost, Step step, Lagrangian lagrangian) {
   return left;
 }
 
-inline kkt kkt_of(const path_ocp& solved, const path_problem& p, double cost) {
+inline kkt kkt_of(const planners::path_ocp& solved,
+                  const planners::path_problem& p, double cost) {
   const auto& w = solved.inside();
   const auto number = [](int k) { return static_cast<std::size_t>(k); };
   const auto step = [&](const auto& x, auto u, int k) {
-    return ocp::path_step(x, u, p.curvature_1pm[number(2 * k)],
-                          p.curvature_1pm[number(2 * k + 1)], p.ds_m);
+    return planners::ocp::path_step(x, u, p.curvature_1pm[number(2 * k)],
+                                    p.curvature_1pm[number(2 * k + 1)], p.ds_m);
   };
   const auto lagrangian = [&](const auto& x, auto u, int k) {
     const auto& q = p.weights;
@@ -90,15 +91,16 @@ inline kkt kkt_of(const path_ocp& solved, const path_problem& p, double cost) {
   return kkt_of(w, cost, step, lagrangian);
 }
 
-inline kkt kkt_of(const velocity_ocp& solved, const velocity_problem& p,
-                  double cost) {
+inline kkt kkt_of(const planners::velocity_ocp& solved,
+                  const planners::velocity_problem& p, double cost) {
   const auto& w = solved.inside();
   // Without max(w, 0): at rest the slopes count that point to driving.
   const auto speed = [](auto w2) {
-    return std::sqrt(2. * w2 + ocp::crawl_mps * ocp::crawl_mps);
+    return std::sqrt(2. * w2
+                     + planners::ocp::crawl_mps * planners::ocp::crawl_mps);
   };
   const auto step = [&](const auto& x, auto u, int) {
-    auto next = ocp::velocity_step(x, u, p.ds_m);
+    auto next = planners::ocp::velocity_step(x, u, p.ds_m);
     next[0] = x[0] + 2 * p.ds_m / (speed(x[1]) + speed(next[1]));
     return next;
   };

@@ -23,17 +23,18 @@ struct leader {
 
 class lane_users {
 public:
-  explicit lane_users(const road_map& map)
-      : all_{std::make_unique<const conflict_sides>(list_encounters(map))},
+  explicit lane_users(const world::road_map& map)
+      : all_{std::make_unique<const world::conflict_sides>(
+          world::list_encounters(map))},
         order_{*all_} {}
 
   /// Sorts these into the lanes, instead of those before.
-  void sort(std::span<const road_user> users) {
+  void sort(std::span<const world::road_user> users) {
     drivers_.clear();
     for (const auto& u : users) {
       auto& way = ways_[u.on];
       if (!way)
-        way = std::make_shared<const unrolled_route>(u.on, *all_);
+        way = std::make_shared<const world::unrolled_route>(u.on, *all_);
       drivers_.emplace_back(u, way).leg = way->leg_at(u.s_m);
     }
     order_.sort(drivers_);
@@ -41,7 +42,8 @@ public:
 
   /// @returns whom `station` follows, if anybody; it must be known.
   std::optional<leader> ahead_of(station_id station) const {
-    const auto self = std::ranges::find(drivers_, station, &driver::station);
+    const auto self =
+        std::ranges::find(drivers_, station, &world::driver::station);
     const auto seen =
         order_.ahead_of(static_cast<std::size_t>(self - drivers_.begin()));
     if (!seen)
@@ -51,10 +53,11 @@ public:
   }
 
 private:
-  std::unique_ptr<const conflict_sides> all_; // stays where it is
-  lane_order order_;
-  std::map<route_ptr, std::shared_ptr<const unrolled_route>> ways_;
-  std::vector<driver> drivers_;
+  std::unique_ptr<const world::conflict_sides> all_; // stays where it is
+  world::lane_order order_;
+  std::map<world::route_ptr, std::shared_ptr<const world::unrolled_route>>
+      ways_;
+  std::vector<world::driver> drivers_;
 };
 
 } // namespace sofof::toy

@@ -27,7 +27,13 @@
 #include <string_view>
 
 using namespace sofof;
+using namespace sofof::actors;
+using namespace sofof::messages;
+using namespace sofof::network;
+using namespace sofof::planners;
+using namespace sofof::scenario;
 using namespace sofof::test;
+using namespace sofof::world;
 
 namespace {
 

@@ -56,31 +56,32 @@ struct liars {
   lie what = lie::jump;
   duration after = 8s; ///< The first results are honest.
   std::mutex mutex;
-  std::map<station_id, trajectory> plans; ///< Honest ones, the newest.
+  std::map<station_id, world::trajectory> plans; ///< Honest ones, the newest.
 };
 
 /// An honest function whose results are changed on their way out.
 class lying_function final : public offloading::service_function {
 public:
   lying_function(std::shared_ptr<offloading::service_function> honest,
-                 service_world world, offloading::provider_context provider,
-                 station_id vehicle, std::shared_ptr<liars> all)
+                 actors::service_world world,
+                 offloading::provider_context provider, station_id vehicle,
+                 std::shared_ptr<liars> all)
       : honest_{std::move(honest)}, world_{std::move(world)},
         provider_{std::move(provider)}, station_{vehicle}, all_{std::move(
                                                                all)} {}
 
-  offloading::service_output run(time_point now,
-                                 const service_input& input) override {
+  offloading::service_output
+  run(time_point now, const messages::service_input& input) override {
     auto out = honest_->run(now, input);
     hear(input, now);
-    const auto message = out.what.as<its_pdu>();
-    if (!message || !way_ || !etsi::decode(message->view(), word_))
+    const auto message = out.what.as<messages::its_pdu>();
+    if (!message || !way_ || !messages::etsi::decode(message->view(), word_))
       return out;
-    trajectory plan;
+    world::trajectory plan;
     const auto guess_m = said_.empty() ? from_m_ : said_.at(now).s_m;
-    if (read_suggestion(word_, station_, *way_, guess_m, *world_.where, now,
-                        nullptr, plan)
-        != maneuver_fault::none)
+    if (messages::read_suggestion(word_, station_, *way_, guess_m,
+                                  *world_.where, now, nullptr, plan)
+        != messages::maneuver_fault::none)
       return out;
     remember(plan);
     if (!began_)
@@ -91,32 +92,33 @@ public:
     }
     const auto told = instead_of(plan, now);
     said_ = told;
-    const suggestion what{
+    const messages::suggestion what{
         provider_.station,
         provider_.position,
         station_,
         {static_cast<std::uint16_t>(input.session.counter), ++update_}};
-    if (!make_suggestion(what, told, *world_.where, room_, word_))
+    if (!messages::make_suggestion(what, told, *world_.where, room_, word_))
       return {};
-    return {payload::of(encoded(word_)), out.about};
+    return {messages::payload::of(messages::encoded(word_)), out.about};
   }
 
 private:
-  void hear(const service_input& input, time_point now) {
-    const auto message = input.what.as<its_pdu>();
-    etsi::mcm mcm;
-    if (!message || !etsi::decode(message->view(), mcm))
+  void hear(const messages::service_input& input, time_point now) {
+    const auto message = input.what.as<messages::its_pdu>();
+    messages::etsi::mcm mcm;
+    if (!message || !messages::etsi::decode(message->view(), mcm))
       return;
-    const auto word = read_word(mcm, *world_.where, now);
+    const auto word = messages::read_word(mcm, *world_.where, now);
     if (!word)
       return;
-    if (const auto found = find_route(world_.streets->routes, word->way)) {
+    if (const auto found =
+            world::find_route(world_.streets->routes, word->way)) {
       way_ = found->way;
       from_m_ = found->ahead.from_m;
     }
   }
 
-  void remember(const trajectory& plan) {
+  void remember(const world::trajectory& plan) {
     const std::lock_guard lock{all_->mutex};
     all_->plans[station_] = plan;
     past_.push_back(plan);
@@ -128,14 +130,14 @@ private:
   // @param accel   Of time from now on, m/s².
   // @param aside_m Of the same: how far to the left of where it is.
   template <class Accel, class Aside>
-  trajectory made(const trajectory_point& from, time_point now, Accel accel,
-                  Aside aside_m) const {
+  world::trajectory made(const world::trajectory_point& from, time_point now,
+                         Accel accel, Aside aside_m) const {
     constexpr double step_s = 0.1;
     constexpr int steps = 60;
     const auto& path = way_->path();
     const auto begin = path.frame(from.s_m);
     const auto d0_m = cross(begin.tangent, from.at - begin.at);
-    trajectory out;
+    world::trajectory out;
     out.start = now;
     auto s_m = from.s_m, v = from.speed_mps;
     for (int k = 0; k <= steps; ++k) {
@@ -156,7 +158,8 @@ private:
     return out;
   }
 
-  trajectory instead_of(const trajectory& honest, time_point now) {
+  world::trajectory instead_of(const world::trajectory& honest,
+                               time_point now) {
     const auto from =
         !said_.empty() && now < said_.end() ? said_.at(now) : honest.at(now);
     const auto lied_s = to_seconds(now - *began_ - all_->after);
@@ -217,7 +220,7 @@ private:
     return honest;
   }
 
-  static trajectory moved_right(trajectory plan, double by_m) {
+  static world::trajectory moved_right(world::trajectory plan, double by_m) {
     for (auto& p : plan.points)
       p.at = p.at
              + by_m * point{std::sin(p.heading_rad), -std::cos(p.heading_rad)};
@@ -225,9 +228,9 @@ private:
   }
 
   // The braking that ends where the way meets another lane.
-  double stop_on_crossing(const trajectory_point& from) const {
+  double stop_on_crossing(const world::trajectory_point& from) const {
     const auto& map = world_.streets->map;
-    const auto front_m = vehicle_params{}.front_m;
+    const auto front_m = world::vehicle_params{}.front_m;
     auto nearest_m = 1e9;
     const auto sequence = way_->sequence();
     for (std::size_t i = 0; i < sequence.size(); ++i)
@@ -235,7 +238,8 @@ private:
         for (const auto& [lane, from_m, to_m] :
              {std::tuple{meeting.lane_a, meeting.from_a_m, meeting.to_a_m},
               std::tuple{meeting.lane_b, meeting.from_b_m, meeting.to_b_m}})
-          if (lane == sequence[i] && meeting.how == conflict::kind::crossing) {
+          if (lane == sequence[i]
+              && meeting.how == world::conflict::kind::crossing) {
             auto ahead_m = way_->start_of_m(i) + (from_m + to_m) / 2 - front_m
                            - std::fmod(from.s_m, way_->length_m());
             if (way_->closed() && ahead_m < -1)
@@ -253,26 +257,27 @@ private:
   }
 
   std::shared_ptr<offloading::service_function> honest_;
-  service_world world_;
+  actors::service_world world_;
   offloading::provider_context provider_;
   station_id station_; // of the vehicle
   std::shared_ptr<liars> all_;
-  route_ptr way_;
+  world::route_ptr way_;
   double from_m_ = 0;
   std::optional<time_point> began_;
-  trajectory said_, first_;
-  std::deque<trajectory> past_;
+  world::trajectory said_, first_;
+  std::deque<world::trajectory> past_;
   std::size_t turns_ = 0;
   std::uint16_t update_ = 0;
-  etsi::mcm word_;
-  std::vector<maneuver_waypoint> room_;
+  messages::etsi::mcm word_;
+  std::vector<messages::maneuver_waypoint> room_;
 };
 
 /// Planning at a provider whose functions lie.
 class lying_at_provider final : public real_at_provider {
 public:
   lying_at_provider(std::shared_ptr<offloading::provider_service> honest,
-                    service_world world, offloading::provider_context provider,
+                    actors::service_world world,
+                    offloading::provider_context provider,
                     std::shared_ptr<liars> all)
       : real_at_provider{std::move(honest)}, world_{std::move(world)},
         provider_{std::move(provider)}, all_{std::move(all)} {}
@@ -285,18 +290,19 @@ public:
   }
 
 private:
-  service_world world_;
+  actors::service_world world_;
   offloading::provider_context provider_;
   std::shared_ptr<liars> all_;
 };
 
 /// @returns the service as it is in vehicles, with providers that lie.
-inline service_type_ptr lying_service(service_type_ptr honest, lie what) {
+inline actors::service_type_ptr lying_service(actors::service_type_ptr honest,
+                                              lie what) {
   const auto all = std::make_shared<liars>();
   all->what = what;
   return std::make_shared<changed_service>(
       std::move(honest),
-      [all](offloading::service& service, const service_world& world) {
+      [all](offloading::service& service, const actors::service_world& world) {
         service.at_provider = [real = service.at_provider, world,
                                all](const auto& provider) {
           return std::make_shared<lying_at_provider>(real(provider), world,

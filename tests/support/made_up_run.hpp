@@ -21,8 +21,8 @@ inline time_point at(duration since_start) {
   return start + since_start;
 }
 
-inline run_info run() {
-  run_info info;
+inline recording::run_info run() {
+  recording::run_info info;
   info.scenario = "made_up";
   info.version = "0.1.0";
   info.config_toml = "seed = 7\n";
@@ -35,14 +35,16 @@ inline run_info run() {
   return info;
 }
 
-inline session_id running(station_id station = 101, std::uint32_t counter = 1,
-                          service_name kind = planning) {
+inline messages::session_id running(station_id station = 101,
+                                    std::uint32_t counter = 1,
+                                    messages::service_name kind = planning) {
   return {provider, station, kind, counter};
 }
 
-inline event_record switched(const session_id& id, bool remote, duration when) {
+inline messages::event_record switched(const messages::session_id& id,
+                                       bool remote, duration when) {
   return {at(when),
-          event_type::switched,
+          messages::event_type::switched,
           id.station,
           id.provider,
           id.service,
@@ -51,32 +53,43 @@ inline event_record switched(const session_id& id, bool remote, duration when) {
           remote};
 }
 
-inline decision_record decision(bool accepted, service_name kind = planning) {
+inline messages::decision_record
+decision(bool accepted, messages::service_name kind = planning) {
   return {at(1s), 101, kind, accepted};
 }
 
-inline cycle_record result(const session_id& id, std::uint64_t cycle,
-                           duration created, duration latency,
-                           std::optional<duration> interarrival) {
+inline messages::cycle_record result(const messages::session_id& id,
+                                     std::uint64_t cycle, duration created,
+                                     duration latency,
+                                     std::optional<duration> interarrival) {
   return {id, cycle, at(created), at(created + latency), interarrival, true};
 }
 
 /// A requester's episode with first data.
-inline episode_record episode(const session_id& id, duration from, duration to,
-                              end_reason reason, bool fallback = false) {
-  return {id,   side::requester, at(from - 100ms), at(from),
-          true, at(to),          reason,           fallback};
+inline messages::episode_record episode(const messages::session_id& id,
+                                        duration from, duration to,
+                                        messages::end_reason reason,
+                                        bool fallback = false) {
+  return {id,
+          messages::side::requester,
+          at(from - 100ms),
+          at(from),
+          true,
+          at(to),
+          reason,
+          fallback};
 }
 
 /// The same for a service that never sent anything.
-inline episode_record without_data(const session_id& id, duration from) {
+inline messages::episode_record without_data(const messages::session_id& id,
+                                             duration from) {
   return {id,
-          side::requester,
+          messages::side::requester,
           at(from),
           at(from),
           false,
           at(from + 1s),
-          end_reason::no_data,
+          messages::end_reason::no_data,
           false};
 }
 
@@ -85,10 +98,10 @@ inline episode_record without_data(const session_id& id, duration from) {
 /// on its own and brakes hard twice.
 template <class Sink>
 void play(Sink& to) {
-  to.on_record(
-      event_record{at(9s), event_type::offer, 101, provider, "", 0, ""});
-  to.on_record(
-      event_record{at(19s), event_type::offer, 102, provider, "", 0, ""});
+  to.on_record(messages::event_record{at(9s), messages::event_type::offer, 101,
+                                      provider, "", 0, ""});
+  to.on_record(messages::event_record{at(19s), messages::event_type::offer, 102,
+                                      provider, "", 0, ""});
   for (const bool accepted : {true, false, true, true, true})
     to.on_record(decision(accepted));
   to.on_record(decision(true, "environment"));
@@ -99,28 +112,32 @@ void play(Sink& to) {
     to.on_record(result(running(101, 1), 200 + static_cast<std::uint64_t>(i),
                         10s + i * 50ms, 8ms + (i % 5) * 1ms, gap));
   to.on_record(switched(running(101, 1), false, 30s));
-  to.on_record(episode(running(101, 1), 10s, 30s, end_reason::left_area));
-  to.on_record(episode_record{running(101, 1), side::provider, at(9s), at(9s),
-                              true, at(30s), end_reason::left_area, false});
+  to.on_record(
+      episode(running(101, 1), 10s, 30s, messages::end_reason::left_area));
+  to.on_record(messages::episode_record{
+      running(101, 1), messages::side::provider, at(9s), at(9s), true, at(30s),
+      messages::end_reason::left_area, false});
 
   to.on_record(switched(running(101, 2), true, 60s));
   to.on_record(result(running(101, 2), 1200, 60s, 12'345'678ns, std::nullopt));
   to.on_record(switched(running(101, 2), false, 65s));
-  to.on_record(episode(running(101, 2), 60s, 65s, end_reason::qos_gap, true));
+  to.on_record(
+      episode(running(101, 2), 60s, 65s, messages::end_reason::qos_gap, true));
 
   to.on_record(without_data(running(102, 3), 40s));
   to.on_record(switched(running(102, 4), true, 90s));
-  to.on_record(safety_record{101, 100s, 0s, 0s, 150ms});
-  to.on_record(safety_record{102, 100s, 0s, 0s, 180ms});
-  to.on_record(drive_record{101,
-                            {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
-                            {900, {1.75, 1.5, -4}, 2, 80}});
-  to.on_record(drive_record{102,
-                            {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
-                            {800.5, {1, 2, -2.5}, 0, 20.5}});
-  to.on_record(plan_switch_record{
+  to.on_record(messages::safety_record{101, 100s, 0s, 0s, 150ms});
+  to.on_record(messages::safety_record{102, 100s, 0s, 0s, 180ms});
+  to.on_record(
+      messages::drive_record{101,
+                             {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
+                             {900, {1.75, 1.5, -4}, 2, 80}});
+  to.on_record(messages::drive_record{102,
+                                      {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
+                                      {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.on_record(messages::plan_switch_record{
       at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});
-  to.on_record(plan_switch_record{
+  to.on_record(messages::plan_switch_record{
       at(30s), running(101, 1), false, {0.75, 0.002, 0.25, 0}});
 }
 

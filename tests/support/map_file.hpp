@@ -13,11 +13,11 @@
 namespace sofof::test {
 
 struct map_file {
-  road_map map;
-  std::vector<route_ptr> routes;
+  world::road_map map;
+  std::vector<world::route_ptr> routes;
 
   /// @throws std::out_of_range when there is no such route.
-  route_ptr route(std::string_view name) const {
+  world::route_ptr route(std::string_view name) const {
     for (const auto& r : routes)
       if (r->name() == name)
         return r;
@@ -42,13 +42,13 @@ read_names(const toml::node_view<toml::node> list) {
   return names;
 }
 
-inline lane read_lane(toml::table& t) {
-  lane l{*t["name"].value<std::string>(),
-         read_points(t["points_m"]),
-         *t["half_width_m"].value<double>(),
-         {},
-         read_names(t["next"]),
-         *t["rank"].value<int>()};
+inline world::lane read_lane(toml::table& t) {
+  world::lane l{*t["name"].value<std::string>(),
+                read_points(t["points_m"]),
+                *t["half_width_m"].value<double>(),
+                {},
+                read_names(t["next"]),
+                *t["rank"].value<int>()};
   for (auto& item : *t["limits"].as_array()) {
     auto& zone = *item.as_table();
     l.limits.push_back(
@@ -60,14 +60,14 @@ inline lane read_lane(toml::table& t) {
 /// @throws toml::parse_error, std::invalid_argument.
 inline map_file read_map(const std::string& file) {
   auto root = toml::parse_file(file);
-  std::vector<lane> lanes;
+  std::vector<world::lane> lanes;
   for (auto& item : *root["lane"].as_array())
     lanes.push_back(read_lane(*item.as_table()));
-  std::vector<building> buildings;
+  std::vector<world::building> buildings;
   for (auto& item : *root["building"].as_array())
     buildings.push_back({read_points((*item.as_table())["corners_m"])});
   auto anchor = root["origin"];
-  const geo_origin origin{
+  const world::geo_origin origin{
       *anchor["utm_e_m"].value<double>(), *anchor["utm_n_m"].value<double>(),
       *anchor["utm_zone"].value<int>(), *anchor["lat_deg"].value<double>(),
       *anchor["lon_deg"].value<double>()};

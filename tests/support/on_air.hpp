@@ -19,44 +19,46 @@
 namespace sofof::test {
 
 /// @returns where made-up maps lie.
-inline georeference_ptr in_ulm() {
-  static const auto here = std::make_shared<const georeference>();
+inline messages::georeference_ptr in_ulm() {
+  static const auto here = std::make_shared<const messages::georeference>();
   return here;
 }
 
 /// @returns what reads the CAMs and CPMs of the vehicles there.
 inline auto decode_in_ulm() {
-  return [where = in_ulm()](const its_pdu& message, time_point now) {
-    return decode(message, *where, now);
+  return [where = in_ulm()](const messages::its_pdu& message, time_point now) {
+    return messages::decode(message, *where, now);
   };
 }
 
 /// @returns what a vehicle sends that moves like this, at a whole millisecond.
-inline its_pdu pdu_of(const cam& own) {
-  return sofof::encoded(make_cam(own, {}, *in_ulm()));
+inline messages::its_pdu pdu_of(const messages::cam& own) {
+  return messages::encoded(messages::make_cam(own, {}, *in_ulm()));
 }
 
 /// @returns what a vehicle sends that sees these objects now.
-inline its_pdu pdu_of(const cam& own, const std::vector<known_object>& seen) {
-  return sofof::encoded(make_cpm_tr103562(
+inline messages::its_pdu
+pdu_of(const messages::cam& own,
+       const std::vector<messages::known_object>& seen) {
+  return messages::encoded(messages::make_cpm_tr103562(
       {own, own.at, seen, seen.size(), nullptr}, {}, *in_ulm()));
 }
 
 /// @returns the message if it is one of this kind.
 template <class Message>
-std::optional<Message> message_in(const its_pdu& pdu) {
+std::optional<Message> message_in(const messages::its_pdu& pdu) {
   const auto octets = pdu.view();
   if (octets.size() < 2 || octets[0] != std::byte{Message::protocol_version}
       || octets[1] != std::byte{Message::message_id})
     return std::nullopt;
   Message message;
-  REQUIRE(etsi::decode(octets, message));
+  REQUIRE(messages::etsi::decode(octets, message));
   return message;
 }
 
 /// @returns those of the kind, in order.
 template <class Message>
-std::vector<Message> messages_in(const std::vector<its_pdu>& all) {
+std::vector<Message> messages_in(const std::vector<messages::its_pdu>& all) {
   std::vector<Message> found;
   for (const auto& pdu : all)
     if (auto message = message_in<Message>(pdu))
@@ -65,10 +67,10 @@ std::vector<Message> messages_in(const std::vector<its_pdu>& all) {
 }
 
 /// @returns the motion that a CAM tells.
-inline cam motion_in(const its_pdu& pdu, time_point now) {
-  const auto message = message_in<etsi::cam>(pdu);
+inline messages::cam motion_in(const messages::its_pdu& pdu, time_point now) {
+  const auto message = message_in<messages::etsi::cam>(pdu);
   REQUIRE(message);
-  const auto own = read_cam(*message, {}, *in_ulm(), now);
+  const auto own = messages::read_cam(*message, {}, *in_ulm(), now);
   REQUIRE(own);
   return *own;
 }

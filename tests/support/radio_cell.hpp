@@ -43,11 +43,12 @@ inline double one_of(const std::array<double, 3>& values,
 }
 
 /// The users of a cell; the first ones are the same however many there are.
-inline std::vector<game::player> users(std::size_t count, std::uint64_t seed) {
+inline std::vector<policies::game::player> users(std::size_t count,
+                                                 std::uint64_t seed) {
   enum lane : std::uint32_t { distance, clock, weight, efficiency };
   using cell = radio_cell;
   const random_stream stream{seed, "radio cell"};
-  std::vector<game::player> all(count);
+  std::vector<policies::game::player> all(count);
   for (std::size_t n = 0; n < count; ++n) {
     auto& p = all[n];
     p.cycles = cell::cycles;
@@ -69,23 +70,25 @@ inline std::vector<game::player> users(std::size_t count, std::uint64_t seed) {
   return all;
 }
 
-inline std::shared_ptr<const game::channel_model> taking_turns() {
-  return std::make_shared<game::contention>();
+inline std::shared_ptr<const policies::game::channel_model> taking_turns() {
+  return std::make_shared<policies::game::contention>();
 }
 
-inline std::shared_ptr<const game::channel_model> all_at_once() {
-  return std::make_shared<game::interference>(radio_cell::bandwidth_hz,
-                                              radio_cell::noise_w);
+inline std::shared_ptr<const policies::game::channel_model> all_at_once() {
+  return std::make_shared<policies::game::interference>(
+      radio_cell::bandwidth_hz, radio_cell::noise_w);
 }
 
 /// Everybody offloads, each over a channel drawn blindly.
-inline game::profile blindly_offloaded(const game::offloading_game& game,
-                                       std::uint64_t seed) {
+inline policies::game::profile
+blindly_offloaded(const policies::game::offloading_game& game,
+                  std::uint64_t seed) {
   const random_stream stream{seed, "channels"};
   const auto channels = static_cast<double>(game.channels());
   auto choices = game.all_local();
   for (std::size_t n = 0; n < choices.size(); ++n)
-    choices[n] = 1 + static_cast<game::choice>(stream.uniform(n) * channels);
+    choices[n] =
+        1 + static_cast<policies::game::choice>(stream.uniform(n) * channels);
   return choices;
 }
 

@@ -19,7 +19,7 @@ void print(std::uint64_t seed) {
   sofof::test::random_pdu random{
       seed, {.presence = static_cast<double>(seed % 5) / 4, .longest = 4}};
   const auto octets =
-      sofof::etsi::encode(random.message<Message>(), std::span{room});
+      sofof::messages::etsi::encode(random.message<Message>(), std::span{room});
   std::cout << sofof::test::to_hex(
       {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(octets)})
             << '\n';
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   const auto count = argc == 2 ? std::strtoull(argv[1], nullptr, 10) : 0;
   for (std::uint64_t seed = 0; seed < count; ++seed)
     if (seed % 2 == 0)
-      print<sofof::etsi::cam>(seed);
+      print<sofof::messages::etsi::cam>(seed);
     else
-      print<sofof::etsi::tr103562::cpm>(seed);
+      print<sofof::messages::etsi::tr103562::cpm>(seed);
 }

@@ -40,13 +40,13 @@ public:
 
   template <class T>
   void fill(T& x) {
-    using namespace etsi;
+    using namespace messages::etsi;
     if constexpr (std::is_same_v<T, bool>) {
       x = happens(0.5);
     } else if constexpr (is_integer<T>) {
       x.value = static_cast<typename T::number>(number(T::low, T::high));
     } else if constexpr (std::is_enum_v<T>) {
-      x = static_cast<T>(number(0, etsi::names_of<T>.count - 1));
+      x = static_cast<T>(number(0, messages::etsi::names_of<T>.count - 1));
     } else if constexpr (is_bit_string<T>) {
       for (unsigned i = 0; i < T::width; ++i)
         if (happens(0.5))
@@ -106,7 +106,7 @@ private:
     while (std::ranges::find(T::ids, std::int64_t{x.unknown_id.value})
            != T::ids.end());
     static_assert(T::count <= id::span, "every id is known");
-    auto& octets = x.value.template emplace<etsi::opaque>().octets;
+    auto& octets = x.value.template emplace<messages::etsi::opaque>().octets;
     octets.resize(1 + index(mix_.longest + 1));
     for (auto& octet : octets)
       octet = static_cast<std::byte>(number(0, 255));

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <zlib.h>
 
-namespace sofof::report {
+namespace sofof::experiments::report {
 
 using nlohmann::json;
 
@@ -51,4 +51,4 @@ inline json document_in(const std::string& page) {
       inflated(page.substr(from, page.find("</script", from) - from)));
 }
 
-} // namespace sofof::report
+} // namespace sofof::experiments::report

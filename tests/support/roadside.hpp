@@ -19,8 +19,8 @@ namespace sofof::test {
 /// and 27 mJ on board. Nobody is there at first.
 struct roadside {
   std::vector<point> path;
-  std::vector<provider_view> providers;
-  local_context seen;
+  std::vector<policies::provider_view> providers;
+  policies::local_context seen;
 
   roadside() {
     using namespace std::chrono_literals;
@@ -35,9 +35,9 @@ struct roadside {
 
   /// Adds one that is near: results take 20 ms and are not late, a cycle costs
   /// 10 mJ, computing takes 8 ms on one of two workers.
-  provider_view& add(provider_id id, point at = {100, 0}) {
+  policies::provider_view& add(provider_id id, point at = {100, 0}) {
     using namespace std::chrono_literals;
-    provider_view one{.id = id, .at = at};
+    policies::provider_view one{.id = id, .at = at};
     one.workers = 2;
     one.computing_s = 0.008;
     one.link = {0, 0, 20ms, 30ms};
@@ -46,7 +46,7 @@ struct roadside {
     return providers.back();
   }
 
-  local_decision ask(local_policy& lodm) {
+  policies::local_decision ask(policies::local_policy& lodm) {
     seen.providers = providers;
     seen.path = path;
     return lodm.decide(seen);
@@ -56,17 +56,18 @@ struct roadside {
   void runs_at(service_place place) {
     seen.current = place;
     seen.since = seen.now;
-    const auto i = std::ranges::find(providers, place, &provider_view::id);
+    const auto i =
+        std::ranges::find(providers, place, &policies::provider_view::id);
     if (i != providers.end())
       std::iter_swap(providers.begin(), i);
   }
   void pass(duration time) { seen.now += time; }
 
   /// @returns what a cycle was like that was planned where it runs now.
-  cycle_outcome cycle(bool missed = false, double times = 1) const {
-    cycle_outcome one{seen.now, seen.service, seen.current};
-    const auto here =
-        std::ranges::find(providers, seen.current, &provider_view::id);
+  policies::cycle_outcome cycle(bool missed = false, double times = 1) const {
+    policies::cycle_outcome one{seen.now, seen.service, seen.current};
+    const auto here = std::ranges::find(providers, seen.current,
+                                        &policies::provider_view::id);
     const auto is_remote = here != providers.end();
     one.latency_s = missed ? 0.06 : is_remote ? 0.02 : seen.on_board.time_s;
     one.missed = missed;
@@ -77,10 +78,10 @@ struct roadside {
 };
 
 /// @returns an LODM with these options set.
-inline std::unique_ptr<local_policy> make_lodm_with(std::string_view name,
-                                                    option_values values) {
+inline std::unique_ptr<policies::local_policy>
+make_lodm_with(std::string_view name, option_values values) {
   option_list options{std::move(values)};
-  auto lodm = make_lodm(name);
+  auto lodm = policies::make_lodm(name);
   REQUIRE(lodm);
   lodm->visit_options(options);
   CHECK(options.refused.empty());

@@ -33,7 +33,7 @@ public:
 
   /// @returns what it cost: energy in parts of that on board (0.3), missed
   /// cycles (1), and 0.2 for each change, in the mean over its half seconds.
-  double cost(local_policy& lodm) {
+  double cost(policies::local_policy& lodm) {
     auto steps = 0;
     cost_ = 0;
     for (x_m_ = -start_m; x_m_ < start_m; x_m_ += speed_mps_ * step_s) {
@@ -61,11 +61,12 @@ private:
   }
   double late() const { return chance_above(std::log(0.05)); }
   double chance_above(double log_s) const {
-    return 1 - normal_cdf((log_s - std::log(median_s())) / spread_);
+    return 1 - policies::normal_cdf((log_s - std::log(median_s())) / spread_);
   }
 
-  provider_view provider() const {
-    provider_view seen{.id = 7, .at = {0, 0}, .utilisation = utilisation_};
+  policies::provider_view provider() const {
+    policies::provider_view seen{
+        .id = 7, .at = {0, 0}, .utilisation = utilisation_};
     seen.computing_s = 0.008;
     seen.cost = {0.012, energy_share_ * on_board_j};
     if (now_ - begin_ < std::chrono::seconds{1})
@@ -76,7 +77,7 @@ private:
     return seen;
   }
 
-  void offer(local_policy& lodm) {
+  void offer(policies::local_policy& lodm) {
     if (distance_from_provider_m() > 300)
       end(lodm, "left_area");
     if (now_ < cool_until_ || distance_from_provider_m() > 300)
@@ -85,7 +86,7 @@ private:
     for (auto x = x_m_; x < x_m_ + 800; x += 5)
       path.push_back({x, aside_m_});
     const std::array all{provider()};
-    local_context context{now_, "any", all, path, speed_mps_};
+    policies::local_context context{now_, "any", all, path, speed_mps_};
     context.number = ++decisions_;
     context.current = current_;
     context.since = since_;
@@ -99,8 +100,9 @@ private:
       change(to);
   }
 
-  void plan(local_policy& lodm) {
-    cycle_outcome outcome{now_, "any", current_, 0.01, false, on_board_j};
+  void plan(policies::local_policy& lodm) {
+    policies::cycle_outcome outcome{now_, "any", current_,
+                                    0.01, false, on_board_j};
     if (current_) {
       outcome.energy_j *= energy_share_;
       outcome.missed = random_.between(0, 1) < late();
@@ -115,11 +117,11 @@ private:
     cool_until_ = now_ + std::chrono::seconds{1};
   }
 
-  void end(local_policy& lodm, std::string_view reason) {
+  void end(policies::local_policy& lodm, std::string_view reason) {
     if (!current_)
       return;
     change(std::nullopt);
-    lodm.observe(episode_outcome{"any", 7, 1, reason});
+    lodm.observe(policies::episode_outcome{"any", 7, 1, reason});
   }
 
   void change(service_place to) {
@@ -146,7 +148,8 @@ private:
 };
 
 /// @returns what drives with these seeds, one an hour, cost in the mean.
-inline double mean_cost(local_policy& lodm, std::uint64_t first, int drives) {
+inline double mean_cost(policies::local_policy& lodm, std::uint64_t first,
+                        int drives) {
   double sum = 0;
   for (int k = 0; k < drives; ++k) {
     const auto seed = first + static_cast<std::uint64_t>(k);

@@ -22,7 +22,7 @@ struct view {
 };
 
 struct rider {
-  road_user user;
+  world::road_user user;
   double gap_m = 2;      ///< Kept to who stands ahead.
   double stops_at_m = 0; ///< So far before a line.
   std::size_t late = 0;  ///< It acts on perceptions that many steps old.
@@ -37,7 +37,7 @@ struct rider {
 
 inline constexpr double step_s = 0.05;
 
-inline void place(road_user& user) {
+inline void place(world::road_user& user) {
   const auto axle = user.on->path().at(user.s_m);
   const auto forward_m = 0.5 * (user.front_m - user.rear_m);
   user.body = {
@@ -47,7 +47,7 @@ inline void place(road_user& user) {
       axle.heading_rad, user.front_m + user.rear_m, 1.89};
 }
 
-inline rider make_rider(station_id station, route_ptr on, double s_m,
+inline rider make_rider(station_id station, world::route_ptr on, double s_m,
                         double speed_mps = 0) {
   rider r;
   r.user.station = station;
@@ -68,7 +68,7 @@ inline double braking_mps(double distance_m, double then_mps = 0) {
 }
 
 /// @returns the speed that bends and limits allow.
-inline double pace_mps(const road_user& user) {
+inline double pace_mps(const world::road_user& user) {
   auto pace = 1e300;
   for (auto ahead_m = 0.0; ahead_m < 30; ahead_m += 2) {
     const auto s_m = user.s_m + ahead_m;
@@ -107,11 +107,11 @@ inline void drive(rider& r) {
 /// Streets with riders on them. Who arrives at the end of its route is taken
 /// off the road.
 struct town {
-  explicit town(road_map m) : map{std::move(m)}, all{map}, lanes{map} {}
+  explicit town(world::road_map m) : map{std::move(m)}, all{map}, lanes{map} {}
 
   /// One step; `backwards` turns the order of the reports around.
   void step(bool backwards = false) {
-    std::vector<road_user> users;
+    std::vector<world::road_user> users;
     for (const auto& r : riders)
       users.push_back(r.user);
     if (backwards)
@@ -146,8 +146,8 @@ struct town {
     throw std::out_of_range{"no such rider"};
   }
 
-  road_map map;
-  traffic all;
+  world::road_map map;
+  world::traffic all;
   lane_users lanes;
   std::vector<rider> riders;
   time_point now;

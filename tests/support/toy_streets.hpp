@@ -22,8 +22,9 @@ inline constexpr double limit_mps = 10;
 inline constexpr double corner_m = 12;
 
 /// Points stand close, or the spline through lane after lane would swing.
-inline lane straight(std::string name, point from, point to, int rank = 0) {
-  lane l{std::move(name), {}, 1.75, {{0, limit_mps}}, {}, rank};
+inline world::lane straight(std::string name, point from, point to,
+                            int rank = 0) {
+  world::lane l{std::move(name), {}, 1.75, {{0, limit_mps}}, {}, rank};
   const auto pieces = std::ceil(distance_m(from, to) / 4);
   for (auto i = 0.0; i <= pieces; ++i)
     l.centre.push_back(from + (i / pieces) * (to - from));
@@ -31,15 +32,16 @@ inline lane straight(std::string name, point from, point to, int rank = 0) {
 }
 
 /// A bend (cubic Bézier) from one straight into another.
-inline lane bend(std::string name, const lane& from, const lane& to, int rank) {
+inline world::lane bend(std::string name, const world::lane& from,
+                        const world::lane& to, int rank) {
   const auto a = from.centre.back(), d = to.centre.front();
-  const auto along = [](const lane& l) {
+  const auto along = [](const world::lane& l) {
     const auto v = l.centre.back() - l.centre.front();
     return (1 / std::hypot(v.x_m, v.y_m)) * v;
   };
   const auto reach_m = 0.4 * distance_m(a, d);
   const auto b = a + reach_m * along(from), c = d - reach_m * along(to);
-  lane l{std::move(name), {}, 1.75, {{0, limit_mps}}, {to.name}, rank};
+  world::lane l{std::move(name), {}, 1.75, {{0, limit_mps}}, {to.name}, rank};
   constexpr auto pieces = 10;
   for (auto i = 0; i <= pieces; ++i) {
     const auto t = static_cast<double>(i) / pieces, u = 1 - t;
@@ -59,11 +61,11 @@ struct plan {
 /// for every way over a junction, no turning back. Left turns give way
 /// (rank 1); so does everybody who comes along a street of `minor` (rank 2,
 /// turning left 3).
-inline road_map build(const plan& all,
-                      const std::vector<std::size_t>& minor = {}) {
+inline world::road_map build(const plan& all,
+                             const std::vector<std::size_t>& minor = {}) {
   struct arm {
     std::size_t from, to;
-    lane way;
+    world::lane way;
     bool is_minor;
   };
   std::vector<arm> arms;
@@ -80,7 +82,7 @@ inline road_map build(const plan& all,
                     a + corner_m * along + right, b - corner_m * along + right),
            std::ranges::count(minor, n) > 0});
     }
-  std::vector<lane> bends;
+  std::vector<world::lane> bends;
   for (auto& in : arms)
     for (const auto& out : arms)
       if (in.to == out.from && in.from != out.to) {
@@ -98,9 +100,9 @@ inline road_map build(const plan& all,
 }
 
 /// @returns the route over the given junctions, which are neighbours.
-inline route_ptr make_route(const road_map& map,
-                            const std::vector<std::size_t>& junctions,
-                            bool closed = false) {
+inline world::route_ptr make_route(const world::road_map& map,
+                                   const std::vector<std::size_t>& junctions,
+                                   bool closed = false) {
   std::vector<std::string> lanes;
   const auto n = junctions.size();
   for (std::size_t i = 0; i + 1 < n + (closed ? 1 : 0); ++i) {
@@ -116,14 +118,14 @@ inline route_ptr make_route(const road_map& map,
 
 /// Four arms (junctions 1 east, 2 north, 3 west, 4 south) around junction 0.
 /// West-east has the right of way, unless `equal`.
-inline road_map cross_roads(bool equal = false) {
+inline world::road_map cross_roads(bool equal = false) {
   const plan all{{{0, 0}, {150, 0}, {0, 150}, {-150, 0}, {0, -150}},
                  {{0, 1}, {0, 2}, {0, 3}, {0, 4}}};
   return equal ? build(all) : build(all, {1, 3});
 }
 
 /// Junction number row * size + column, `block_m` apart.
-inline road_map grid(std::size_t size, double block_m) {
+inline world::road_map grid(std::size_t size, double block_m) {
   plan all;
   for (std::size_t i = 0; i < size * size; ++i) {
     all.junctions.push_back({block_m * static_cast<double>(i % size),
@@ -137,8 +139,8 @@ inline road_map grid(std::size_t size, double block_m) {
 }
 
 /// @returns what tells the way ahead on a route, as a requester needs it.
-inline auto path_ahead_on(route_ptr way) {
-  return [way = std::move(way)](const ego_state& ego) {
+inline auto path_ahead_on(world::route_ptr way) {
+  return [way = std::move(way)](const messages::ego_state& ego) {
     return way->waypoints(ego.s_m, protocol::route_ahead_m,
                           protocol::route_spacing_m);
   };

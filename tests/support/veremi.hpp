@@ -47,7 +47,7 @@ public:
 
   /// @returns what it tells when it is really there. The first words of an
   /// eventual stop are true: see `lies`.
-  perceived_object told(perceived_object real) {
+  world::perceived_object told(world::perceived_object real) {
     const auto n = ++words_;
     const auto drawn = [&](double low, double high, std::uint32_t what) {
       return low + (high - low) * dice_.uniform(n, what);
@@ -88,7 +88,7 @@ private:
   random_stream dice_;
   point low_, high_, stands_;
   std::uint64_t words_ = 0;
-  std::optional<perceived_object> stopped_;
+  std::optional<world::perceived_object> stopped_;
 };
 
 } // namespace sofof::test

@@ -77,7 +77,7 @@ private:
   template <class T>
   static const T* begin_of(const entry& e) {
     if constexpr (!caf::has_type_id_v<T>) {
-      const auto* what = begin_of<record>(e);
+      const auto* what = begin_of<messages::record>(e);
       return what ? std::get_if<T>(what) : nullptr;
     } else {
       if (e.what.size() == 0 || e.what.type_at(0) != caf::type_id_v<T>)
@@ -97,7 +97,8 @@ struct listener<caf::result<void>(Ts...)> {
   template <class Self>
   static auto make(Self* self, std::shared_ptr<told> log) {
     return [self, log](const Ts&... xs) {
-      log->add(now(self), caf::make_message(xs...), self->current_sender());
+      log->add(actors::now(self), caf::make_message(xs...),
+               self->current_sender());
     };
   }
 };
@@ -193,11 +194,11 @@ public:
 
 private:
   struct config : caf::actor_system_config {
-    config() { load<des_scheduler>(); }
+    config() { load<actors::des_scheduler>(); }
   };
 
-  des_scheduler& scheduler() {
-    return dynamic_cast<des_scheduler&>(system_.scheduler());
+  actors::des_scheduler& scheduler() {
+    return dynamic_cast<actors::des_scheduler&>(system_.scheduler());
   }
 
   config config_;

@@ -20,28 +20,28 @@ using namespace std::chrono_literals;
 
 /// A car that tells where it is; its numbers count from 1.
 struct telling_car {
-  perceived_object is;     ///< Where it really is.
-  bool exists = true;      ///< Else it is made up.
-  bool tells = true;       ///< CAMs, ten a second.
-  bool sends_cpms = false; ///< Ten a second, about what it sees.
-  double range_m = 100;    ///< Of its sensor, which looks all round.
-  sender_id sender = 0;    ///< 0: its own.
+  world::perceived_object is; ///< Where it really is.
+  bool exists = true;         ///< Else it is made up.
+  bool tells = true;          ///< CAMs, ten a second.
+  bool sends_cpms = false;    ///< Ten a second, about what it sees.
+  double range_m = 100;       ///< Of its sensor, which looks all round.
+  sender_id sender = 0;       ///< 0: its own.
 };
 
 class watched_road {
 public:
   static constexpr duration step = 50ms;
 
-  explicit watched_road(std::vector<building> houses = {})
+  explicit watched_road(std::vector<world::building> houses = {})
       : truth{houses}, doubts{houses} {}
 
   /// Lets time pass by one step: all move on, tell, and look.
   void pass() {
     now += step;
-    std::vector<road_body> bodies;
+    std::vector<world::road_body> bodies;
     for (std::size_t k = 0; k < cars.size(); ++k) {
       auto& c = cars[k];
-      c.is = moved_on(c.is, to_seconds(step));
+      c.is = planners::moved_on(c.is, to_seconds(step));
       if (c.exists)
         bodies.push_back(body(number(k), c.is));
     }
@@ -66,29 +66,31 @@ public:
   }
 
   /// A station tells where a body is, between two steps.
-  void hear(station_id who, sender_id sender, const perceived_object& what) {
+  void hear(station_id who, sender_id sender,
+            const world::perceived_object& what) {
     if (doubts.on_report(who, sender, {now, what}))
       model.on_report(now, who, what);
   }
 
   /// @returns whether who plans for `station` believes in a body there.
-  bool believes_in(const perceived_object& x, station_id station = 0) {
+  bool believes_in(const world::perceived_object& x, station_id station = 0) {
     doubts.believed(now, station, model.tracks(), room_);
-    return std::ranges::any_of(room_, [&](const track& t) {
+    return std::ranges::any_of(room_, [&](const planners::track& t) {
       return distance_m(t.centre(), x.centre) < 2;
     });
   }
 
   std::size_t doubted() const {
     return static_cast<std::size_t>(
-        std::ranges::count(news, true, &station_doubt::begins));
+        std::ranges::count(news, true, &planners::station_doubt::begins));
   }
 
   static station_id number(std::size_t k) {
     return static_cast<station_id>(k + 1);
   }
 
-  static road_body body(station_id id, const perceived_object& x) {
+  static world::road_body body(station_id id,
+                               const world::perceived_object& x) {
     return {id,
             {x.centre, x.heading_rad, x.length_m, x.width_m},
             x.speed_mps,
@@ -97,15 +99,15 @@ public:
 
   std::vector<telling_car> cars;
   /// What a car tells instead of where it is.
-  std::vector<std::optional<perceived_object>> told;
-  std::vector<sensor> sensors; ///< The provider's.
-  double loss = 0;             ///< Of CPMs.
+  std::vector<std::optional<world::perceived_object>> told;
+  std::vector<world::sensor> sensors; ///< The provider's.
+  double loss = 0;                    ///< Of CPMs.
   random_stream air{20, "air"};
-  scene truth;
-  plausibility doubts;
-  object_tracker model{{}, {4, 1s}};
+  world::scene truth;
+  planners::plausibility doubts;
+  planners::object_tracker model{{}, {4, 1s}};
   time_point now{100s};
-  std::vector<station_doubt> news;
+  std::vector<planners::station_doubt> news;
 
 private:
   sender_id sender_of(station_id who) const {
@@ -123,13 +125,13 @@ private:
 
   // All that it sees, but each object is due only once a second.
   void send_cpm(station_id who, const telling_car& c) {
-    sensor eye{{.range_m = c.range_m},
-               random_stream{who.value(), "eyes"},
-               c.is.centre,
-               c.is.heading_rad,
-               who};
+    world::sensor eye{{.range_m = c.range_m},
+                      random_stream{who.value(), "eyes"},
+                      c.is.centre,
+                      c.is.heading_rad,
+                      who};
     const auto seen = truth.seen_by(eye, now);
-    std::vector<perceived_object> due;
+    std::vector<world::perceived_object> due;
     std::vector<std::uint32_t> ids;
     std::size_t all = 0;
     for (std::size_t k = 0; k < cars.size(); ++k) {
@@ -160,7 +162,7 @@ private:
 
   std::uint64_t steps_ = 0;
   std::map<std::pair<station_id, station_id>, time_point> due_;
-  std::vector<track> room_;
+  std::vector<planners::track> room_;
 };
 
 } // namespace sofof::test

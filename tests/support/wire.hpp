@@ -53,11 +53,11 @@ struct wire_end {
     if (!other)
       return; // nobody has been let in yet
     ++on->carried;
-    latest =
-        std::max(latest, now(self) + (on->delay ? on->delay() : duration{}));
+    latest = std::max(latest, actors::now(self)
+                                  + (on->delay ? on->delay() : duration{}));
     const auto copies = on->copies ? on->copies(what) : 1;
     for (int k = 0; k < copies; ++k)
-      send_at(self, other, latest, tick_atom_v, what);
+      actors::send_at(self, other, latest, messages::tick_atom_v, what);
   }
 
   void deliver(const caf::message& what) {
@@ -85,10 +85,10 @@ inline caf::behavior make_wire_end(caf::stateful_actor<wire_end>* self,
   });
   self->set_down_handler([self](const caf::down_msg&) { self->state.lost(); });
   return {
-      [self](tick_atom, const caf::message& what) {
+      [self](messages::tick_atom, const caf::message& what) {
         self->state.deliver(what);
       },
-      [self](tick_atom, const caf::strong_actor_ptr& user,
+      [self](messages::tick_atom, const caf::strong_actor_ptr& user,
              const caf::actor& other) {
         self->state.user = user;
         self->state.other = other;
@@ -98,30 +98,34 @@ inline caf::behavior make_wire_end(caf::stateful_actor<wire_end>* self,
 }
 
 /// A handshake that puts a wire between those who meet there.
-inline handshake_actor::behavior_type
-wired_handshake(handshake_actor::pointer self, handshake_actor in,
-                wire_ptr on) {
-  return {[=](const peer_hello& hello, const vehicle_endpoint_actor& vehicles)
-              -> caf::result<peer_welcome, provider_endpoint_actor> {
+inline messages::handshake_actor::behavior_type
+wired_handshake(messages::handshake_actor::pointer self,
+                messages::handshake_actor in, wire_ptr on) {
+  return {[=](const messages::peer_hello& hello,
+              const messages::vehicle_endpoint_actor& vehicles)
+              -> caf::result<messages::peer_welcome,
+                             messages::provider_endpoint_actor> {
     auto promise =
-        self->make_response_promise<peer_welcome, provider_endpoint_actor>();
+        self->make_response_promise<messages::peer_welcome,
+                                    messages::provider_endpoint_actor>();
     const auto there = self->system().spawn(make_wire_end, on);
     const auto here = self->system().spawn(make_wire_end, on);
     self->request(in, caf::infinite, hello,
-                  caf::actor_cast<vehicle_endpoint_actor>(there))
+                  caf::actor_cast<messages::vehicle_endpoint_actor>(there))
         .then(
-            [=](const peer_welcome& welcome,
-                const provider_endpoint_actor& provider) mutable {
-              caf::anon_send(here, tick_atom_v,
+            [=](const messages::peer_welcome& welcome,
+                const messages::provider_endpoint_actor& provider) mutable {
+              caf::anon_send(here, messages::tick_atom_v,
                              caf::actor_cast<caf::strong_actor_ptr>(vehicles),
                              there);
-              caf::anon_send(there, tick_atom_v,
+              caf::anon_send(there, messages::tick_atom_v,
                              caf::actor_cast<caf::strong_actor_ptr>(provider),
                              here);
               on->latest = {caf::actor_cast<caf::actor>(vehicles), here,
                             caf::actor_cast<caf::actor>(provider), there};
-              promise.deliver(welcome,
-                              caf::actor_cast<provider_endpoint_actor>(here));
+              promise.deliver(
+                  welcome,
+                  caf::actor_cast<messages::provider_endpoint_actor>(here));
               self->quit();
             },
             [=](caf::error& error) mutable {
@@ -135,9 +139,9 @@ wired_handshake(handshake_actor::pointer self, handshake_actor in,
 }
 
 /// An acceptor whose handshakes do so.
-inline acceptor_actor::behavior_type
-wired_acceptor(acceptor_actor::pointer self, acceptor_actor acceptor,
-               wire_ptr on) {
+inline messages::acceptor_actor::behavior_type
+wired_acceptor(messages::acceptor_actor::pointer self,
+               messages::acceptor_actor acceptor, wire_ptr on) {
   return {[=](std::uint32_t protocol, std::uint64_t types)
               -> caf::result<std::uint32_t, std::uint64_t, std::string,
                              caf::strong_actor_ptr> {
@@ -151,7 +155,8 @@ wired_acceptor(acceptor_actor::pointer self, acceptor_actor acceptor,
               caf::strong_actor_ptr wired;
               if (in)
                 wired = caf::actor_cast<caf::strong_actor_ptr>(self->spawn(
-                    wired_handshake, caf::actor_cast<handshake_actor>(in), on));
+                    wired_handshake,
+                    caf::actor_cast<messages::handshake_actor>(in), on));
               promise.deliver(p, t, nonce, wired);
             },
             [=](caf::error& error) mutable {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::world;
 using doctest::Approx;
 
 namespace {

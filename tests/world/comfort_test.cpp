@@ -9,6 +9,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::world;
 using sofof::test::near;
 
 namespace {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace sofof;
+using namespace sofof::world;
 
 TEST_CASE("planning on board takes 10 ms and 27 mJ a cycle") {
   const auto cost = on_board_cost({}, {});

@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 
 namespace sofof::toy {
+
+using namespace world;
 namespace {
 
 std::optional<leader> lead_of(station_id who, const road_map& map,

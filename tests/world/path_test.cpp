@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 using namespace sofof;
+using namespace sofof::world;
 using std::numbers::pi;
 using test::dice;
 

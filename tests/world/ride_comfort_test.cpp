@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace sofof;
+using namespace sofof::world;
 using sofof::test::near;
 
 namespace {

@@ -15,6 +15,8 @@
 #include <set>
 
 namespace sofof::toy {
+
+using namespace world;
 namespace {
 
 constexpr auto minute = 1200; // steps

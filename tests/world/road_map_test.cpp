@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 using namespace sofof;
+using namespace sofof::world;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include <numbers>
 
 using namespace sofof;
+using namespace sofof::world;
 using test::lehr;
 
 namespace {

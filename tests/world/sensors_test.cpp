@@ -10,6 +10,7 @@
 #include <numbers>
 
 using namespace sofof;
+using namespace sofof::world;
 using std::numbers::pi;
 
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::world;
 
 namespace {
 

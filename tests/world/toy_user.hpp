@@ -7,7 +7,8 @@ namespace sofof::toy {
 
 inline constexpr double front_m = 4.0175, rear_m = 1.0825;
 
-inline road_user user(station_id station, route_ptr on, double s_m) {
+inline world::road_user user(station_id station, world::route_ptr on,
+                             double s_m) {
   return make_rider(station, std::move(on), s_m).user;
 }
 

@@ -11,6 +11,8 @@
 
 namespace sofof::toy {
 
+using namespace world;
+
 TEST_CASE("who has just come must not move before the first update") {
   const auto map = cross_roads();
   traffic all{map};

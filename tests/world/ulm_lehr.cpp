@@ -12,6 +12,7 @@
 #include <sstream>
 
 using namespace sofof;
+using namespace sofof::world;
 using test::lehr;
 
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -163,4 +163,4 @@ find_conflicts(std::span<const path> paths,
   return conflicts;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Two lanes that meet without one following the other. The intervals are
 /// arc lengths on the lanes where bodies on both could touch.
@@ -39,4 +39,4 @@ std::vector<conflict>
 find_conflicts(std::span<const path> paths,
                std::span<const std::vector<std::size_t>> next);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -1,7 +1,7 @@
 // The conflicts of a map, as each lane sees them.
 #include "world/roads/conflict_side.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 conflict_sides list_encounters(const road_map& map) {
   conflict_sides all(map.lanes().size());
@@ -15,4 +15,4 @@ conflict_sides list_encounters(const road_map& map) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// One conflict, seen from one of its two lanes. Conflict number n has the
 /// sides 2n (lane a) and 2n + 1 (lane b).
@@ -25,4 +25,4 @@ using conflict_sides = std::vector<std::vector<conflict_side>>;
 
 conflict_sides list_encounters(const road_map& map);
 
-} // namespace sofof
+} // namespace sofof::world

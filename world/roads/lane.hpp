@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// From `from_m` (arc length on its lane) on, this speed is allowed.
 struct speed_zone {
@@ -25,4 +25,4 @@ struct lane {
   int rank = 0; ///< Right of way: 0 goes before 1 goes before 2.
 };
 
-} // namespace sofof
+} // namespace sofof::world

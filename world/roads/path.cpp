@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -203,4 +203,4 @@ path_offset path::refine(point p, double s_m, double low_m,
   return {s_m, seen.left_m, seen.along_m};
 }
 
-} // namespace sofof
+} // namespace sofof::world

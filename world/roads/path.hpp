@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Where a path is and how it bends at one arc length.
 struct path_point {
@@ -179,4 +179,4 @@ inline path::view path::look(point p, double s_m) const {
           (1 - t) * low.curvature_1pm + t * high.curvature_1pm};
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -4,7 +4,7 @@
 #include "base/geometry.hpp"
 #include "base/ids.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 struct road_body {
   station_id id = 0; ///< No two are the same.
@@ -13,4 +13,4 @@ struct road_body {
   double accel_mps2 = 0; ///< Along its heading.
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -199,4 +199,4 @@ bool road_map::near_lanes(std::span<const point> points,
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// A house, for occlusion: a rectangle, marked invented where it is.
 struct building {
@@ -86,4 +86,4 @@ private:
   cell_grid cells_;                      // of the pieces
 };
 
-} // namespace sofof
+} // namespace sofof::world

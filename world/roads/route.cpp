@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -45,7 +45,7 @@ route::route(std::string name, std::span<const lane> lanes,
   assert(std::ranges::all_of(sequence_,
                              [&](std::size_t i) { return i < lanes.size(); }));
   const chain all{lanes, sequence_, closed};
-  path_ = sofof::path{all.points, closed};
+  path_ = world::path{all.points, closed};
   for (const auto first : all.firsts)
     starts_m_.push_back(path_.knots_m()[first]);
   starts_m_.push_back(path_.length_m());
@@ -99,4 +99,4 @@ std::vector<point> route::waypoints(double s_m, double ahead_m,
   return ahead;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// A way through the map: lanes one after the other, and one smooth path
 /// through all of them. Arc length `s_m` counts from the first lane's start;
@@ -33,7 +33,7 @@ public:
         std::vector<std::size_t> sequence, bool closed);
 
   const std::string& name() const { return name_; }
-  const sofof::path& path() const { return path_; }
+  const world::path& path() const { return path_; }
   bool closed() const { return path_.closed(); }
   double length_m() const { return path_.length_m(); }
 
@@ -70,7 +70,7 @@ private:
   leg find_leg(double s_m) const;
 
   std::string name_;
-  sofof::path path_;
+  world::path path_;
   std::vector<std::size_t> sequence_;
   std::vector<double> starts_m_;
   std::vector<std::vector<speed_zone>> limits_; // per lane of the sequence
@@ -79,4 +79,4 @@ private:
 
 using route_ptr = std::shared_ptr<const route>;
 
-} // namespace sofof
+} // namespace sofof::world

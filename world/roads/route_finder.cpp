@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::world {
 namespace {
 
 /// How far waypoints are from the line: of somebody with the same map, and of
@@ -118,4 +118,4 @@ std::optional<route_stretch> still_on(const route& way, double s_guess_m,
                 : std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::world {
 
 /// From the first to the last of some waypoints, as arc lengths on a route.
 struct route_stretch {
@@ -39,4 +39,4 @@ std::optional<found_route> find_route(std::span<const route_ptr> routes,
 std::optional<route_stretch> still_on(const route& way, double s_guess_m,
                                       std::span<const point> waypoints);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -250,4 +250,4 @@ streets_ptr make_street_grid(const street_grid_params& params) {
   return std::make_shared<const streets>(std::move(town));
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Junction (c, r) stands at (c, r) times the length of a block, m; junction
 /// (0, 0) is the south-west corner. The defaults give 115 km of street lanes
@@ -45,4 +45,4 @@ struct street_grid_params {
 /// @throws std::invalid_argument when a parameter is out of its range.
 streets_ptr make_street_grid(const street_grid_params& params);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 struct streets {
   road_map map;
@@ -25,4 +25,4 @@ struct streets {
 
 using streets_ptr = std::shared_ptr<const streets>;
 
-} // namespace sofof
+} // namespace sofof::world

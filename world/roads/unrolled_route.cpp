@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -58,4 +58,4 @@ double unrolled_route::end_m() const {
                        : on_->length_m();
 }
 
-} // namespace sofof
+} // namespace sofof::world

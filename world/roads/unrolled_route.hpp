@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// A stretch of the own way that another lane crosses or joins: who is on one
 /// side of a conflict excludes everybody on the other.
@@ -99,4 +99,4 @@ void unrolled_route::for_zones(double from_m, double to_m,
   }
 }
 
-} // namespace sofof
+} // namespace sofof::world

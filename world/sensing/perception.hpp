@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// A body that a sensor has seen, as a perceived object of a CPM describes it.
 struct perceived_object {
@@ -46,4 +46,4 @@ void visit_fields(auto& v, perception& x) {
   v("objects", x.objects);
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::vector<perceived_object> scene::seen_by(const sensor& s,
   return seen;
 }
 
-} // namespace sofof
+} // namespace sofof::world

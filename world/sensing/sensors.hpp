@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// What a sensor can do. Its errors are normal and independent: of each other,
 /// of what it saw before, and of what others see.
@@ -95,4 +95,4 @@ private:
   double largest_house_m_ = 0, largest_body_m_ = 0; // radii
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -3,7 +3,7 @@
 
 #include "base/geometry.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 /// The place and the field of view of a sensor at one moment.
 struct viewpoint {
@@ -20,4 +20,4 @@ void visit_fields(auto& v, viewpoint& x) {
   v("field_of_view_deg", x.field_of_view_deg);
 }
 
-} // namespace sofof
+} // namespace sofof::world

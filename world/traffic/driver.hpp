@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 /// What the traffic keeps of a road user.
 struct driver {
@@ -56,4 +56,4 @@ inline constexpr double stop_margin_m = 0.5;
 /// Nobody looks farther ahead than this, m.
 inline constexpr double sight_m = 200;
 
-} // namespace sofof
+} // namespace sofof::world

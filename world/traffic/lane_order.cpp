@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ranges>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Looks for the nearest rear bumper of somebody whose axle is ahead of
 /// `after_m`, or level with it and with a lower id than `station`.
@@ -147,4 +147,4 @@ double lane_order::shared_to_m(std::size_t i, const road_user_ahead& seen,
   }
 }
 
-} // namespace sofof
+} // namespace sofof::world

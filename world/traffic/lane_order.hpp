@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// A road user ahead, as seen from another one's route.
 struct road_user_ahead {
@@ -68,4 +68,4 @@ private:
   std::vector<std::vector<occupant>> lanes_;
 };
 
-} // namespace sofof
+} // namespace sofof::world

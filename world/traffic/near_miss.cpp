@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -106,4 +106,4 @@ void near_miss_watch::meet(const road_body& a, const road_body& b,
   begun_.push_back({first, second, *left_s});
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Time to collision: how long until two bodies touch if both go on straight
 /// ahead as fast as now.
@@ -60,4 +60,4 @@ private:
   std::vector<near_miss> begun_;
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -288,4 +288,4 @@ bool right_of_way::gives_way(const request& r) const {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::world

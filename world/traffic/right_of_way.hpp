@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Grants zones to drivers; remembers nothing that is not in `driver`.
 class right_of_way {
@@ -80,4 +80,4 @@ private:
   int looks_ = 0;              // at road users, for one request
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -28,4 +28,4 @@ bool is_free(const oriented_box& place, double speed_mps,
   });
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace sofof {
+namespace sofof::world {
 
 /// @param place      Where it would appear.
 /// @param speed_mps  How fast, ≥ 0.
@@ -16,4 +16,4 @@ namespace sofof {
 bool is_free(const oriented_box& place, double speed_mps,
              std::span<const road_body> others);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::vector<std::pair<station_id, station_id>> traffic::collisions() const {
   return state_->touching;
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// One road user, as the traffic sees it.
 struct road_user {
@@ -80,4 +80,4 @@ private:
   std::unique_ptr<state> state_;
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::world {
 namespace {
 
 constexpr double prediction_step_s = 10;
@@ -53,4 +53,4 @@ double climate_power_w(const cabin_state& x, double outside_c,
                     cabin.max_heating_w);
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -3,7 +3,7 @@
 
 #include "base/options/option_visitor.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 /// Two-node lumped model of a cabin: air and interior mass.
 struct cabin_params {
@@ -46,4 +46,4 @@ double climate_power_w(const cabin_state& x, double outside_c,
                        double set_point_c, double horizon_s,
                        const cabin_params& cabin);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::world {
 
 void motion_extremes::add(const motion_extremes& x) {
   lateral_accel_mps2 = std::max(lateral_accel_mps2, x.lateral_accel_mps2);
@@ -58,4 +58,4 @@ plan_jump jump_between(const trajectory& old, const trajectory& next,
           std::abs(to.accel_mps2 - from.accel_mps2)};
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::world {
 
 /// Slower than this, m/s, a car that slows down comes to rest: what its
 /// acceleration does in the last moment is no jerk of the ride.
@@ -65,4 +65,4 @@ struct plan_jump {
 plan_jump jump_between(const trajectory& old, const trajectory& next,
                        time_point t);
 
-} // namespace sofof
+} // namespace sofof::world

@@ -1,7 +1,7 @@
 // What one cycle of a function costs a vehicle: on board, and offloaded.
 #include "world/vehicle/cycle_cost.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 namespace {
 
@@ -24,4 +24,4 @@ cycle_cost offloaded_cost(const computer_options& computer,
           computer.transmit_power_w * sending_s + cycle.overhead_j};
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -4,7 +4,7 @@
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 /// A vehicle's computer and radio.
 struct computer_options {
@@ -70,4 +70,4 @@ cycle_cost offloaded_cost(const computer_options& computer,
                           const cycle_options& cycle,
                           double provider_ghz = usual_provider_ghz);
 
-} // namespace sofof
+} // namespace sofof::world

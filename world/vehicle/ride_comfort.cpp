@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::world {
 namespace {
 
 constexpr auto dt_s = to_seconds(protocol::control_period);
@@ -52,4 +52,4 @@ ride_figures ride_comfort::flush() {
   return std::exchange(sum_, {});
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::world {
 
 /// What was driven, and what it felt like.
 struct ride_figures {
@@ -63,4 +63,4 @@ private:
   duration unsettled_{}; // still, after an emergency
 };
 
-} // namespace sofof
+} // namespace sofof::world

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::world {
 namespace {
 
 /// Plans with other steps are no plans.
@@ -109,4 +109,4 @@ trajectory rest_of(const trajectory& plan, time_point from) {
   return rest;
 }
 
-} // namespace sofof
+} // namespace sofof::world

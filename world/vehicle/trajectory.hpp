@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace sofof {
+namespace sofof::world {
 
 /// One moment of a plan; the reference point is the rear axle's centre.
 struct trajectory_point {
@@ -65,4 +65,4 @@ void visit_fields(auto& v, trajectory& x) {
 /// that begins later as it is, and nothing of one that is over.
 trajectory rest_of(const trajectory& plan, time_point from);
 
-} // namespace sofof
+} // namespace sofof::world

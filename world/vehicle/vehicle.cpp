@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::world {
 namespace {
 
 // Feedback of the tracking controller. Errors decay critically damped; the
@@ -95,4 +95,4 @@ oriented_box body(const vehicle_state& x, const vehicle_params& car) {
           car.width_m};
 }
 
-} // namespace sofof
+} // namespace sofof::world

@@ -5,7 +5,7 @@
 #include "base/geometry.hpp"
 #include "world/vehicle/trajectory.hpp"
 
-namespace sofof {
+namespace sofof::world {
 
 /// Size and ability of a car; the defaults are the test vehicle's
 /// (5.10 m × 1.89 m, wheelbase 3.165 m).
@@ -62,4 +62,4 @@ vehicle_command follow(const vehicle_state& x, const trajectory& plan,
 /// @returns the footprint of the car.
 oriented_box body(const vehicle_state& x, const vehicle_params& car);
 
-} // namespace sofof
+} // namespace sofof::world

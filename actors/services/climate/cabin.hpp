@@ -10,7 +10,7 @@
 
 #include <string_view>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Which power makes this cabin comfortable?
 struct climate_request {
@@ -41,7 +41,7 @@ struct climate_options {
   double outside_c = 5;
   double set_point_c = 21;
   double horizon_s = 60;
-  cabin_params cabin;
+  world::cabin_params cabin;
 
   void visit_options(option_visitor& s) {
     s.field("outside_c", outside_c, {-60, 60});
@@ -52,14 +52,17 @@ struct climate_options {
 };
 
 /// Asks once a period, and is warmed with whatever power came last.
-client_actor spawn_cabin(caf::actor_system& sys, const climate_options& options,
-                         duration period);
+messages::client_actor spawn_cabin(caf::actor_system& sys,
+                                   const climate_options& options,
+                                   duration period);
 
-} // namespace sofof
+} // namespace sofof::actors
 
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::climate_request> =
-    "climate_ask";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::actors::climate_request> =
+        "climate_ask";
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::climate_power> =
-    "climate_power";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::actors::climate_power> =
+        "climate_power";

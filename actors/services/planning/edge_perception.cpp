@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -15,11 +15,11 @@ constexpr std::size_t most_stations = 10'000;
 
 } // namespace
 
-perceived_object body_of(const cam& c) {
-  const vehicle_params ours;
+world::perceived_object body_of(const messages::cam& c) {
+  const world::vehicle_params ours;
   const auto axle_share = ours.front_m / (ours.front_m + ours.rear_m);
   const auto centre_ahead_m = (axle_share - 0.5) * c.length_m;
-  return {c.position + centre_ahead_m * unit_vector(c.heading_rad),
+  return {c.position + centre_ahead_m * messages::unit_vector(c.heading_rad),
           c.heading_rad,
           c.speed_mps,
           c.accel_mps2,
@@ -28,10 +28,10 @@ perceived_object body_of(const cam& c) {
 }
 
 edge_perception::edge_perception(std::function<time_point()> clock,
-                                 std::span<const building> houses)
+                                 std::span<const world::building> houses)
     : clock_{std::move(clock)}, doubts_{houses} {}
 
-void edge_perception::on_cam(const cam& c, sender_id from) {
+void edge_perception::on_cam(const messages::cam& c, sender_id from) {
   const auto now = clock_();
   if (protocol::is_of_future(c.at, now))
     return;
@@ -46,7 +46,8 @@ void edge_perception::on_cam(const cam& c, sender_id from) {
     newest = c;
 }
 
-void edge_perception::on_objects(const object_list& told, sender_id from) {
+void edge_perception::on_objects(const messages::object_list& told,
+                                 sender_id from) {
   const auto now = clock_();
   if (protocol::is_of_future(told.at, now)
       || protocol::is_of_future(told.generated, now))
@@ -60,7 +61,7 @@ void edge_perception::on_objects(const object_list& told, sender_id from) {
                   model_.tracks());
 }
 
-void edge_perception::on_detections(const roadside_detections& view) {
+void edge_perception::on_detections(const messages::roadside_detections& view) {
   if (protocol::is_of_future(view.at, clock_()))
     return;
   const std::lock_guard lock{mutex_};
@@ -71,25 +72,28 @@ void edge_perception::on_detections(const roadside_detections& view) {
       model_.tracks());
 }
 
-std::vector<station_doubt> edge_perception::take_doubts() {
+std::vector<planners::station_doubt> edge_perception::take_doubts() {
   const std::lock_guard lock{mutex_};
   return doubts_.news(clock_());
 }
 
 /// A vehicle's sensor is in the middle of its body, as far as CPMs tell; how
 /// long it is and how fast, its CAMs do.
-road_look edge_perception::look_of(const object_list& told) const {
-  road_look look{told.generated, *told.eye,     0, told.at, told.objects,
-                 told.ids,       told.perceived};
+planners::road_look
+edge_perception::look_of(const messages::object_list& told) const {
+  planners::road_look look{told.generated, *told.eye,    0,
+                           told.at,        told.objects, told.ids,
+                           told.perceived};
   const auto own = told_.find(told.from);
-  const auto self = own == told_.end() ? cam{} : own->second;
+  const auto self = own == told_.end() ? messages::cam{} : own->second;
   look.speed_mps = self.speed_mps;
   look.from.at =
-      look.from.at + -0.5 * self.length_m * unit_vector(look.from.heading_rad);
+      look.from.at
+      + -0.5 * self.length_m * messages::unit_vector(look.from.heading_rad);
   return look;
 }
 
-std::optional<cam> edge_perception::told_by(station_id who) const {
+std::optional<messages::cam> edge_perception::told_by(station_id who) const {
   const std::lock_guard lock{mutex_};
   const auto x = told_.find(who);
   if (x == told_.end() || clock_() - x->second.at > protocol::cam_timeout)
@@ -97,7 +101,8 @@ std::optional<cam> edge_perception::told_by(station_id who) const {
   return x->second;
 }
 
-void edge_perception::tracks(std::vector<track>& out, station_id station) {
+void edge_perception::tracks(std::vector<planners::track>& out,
+                             station_id station) {
   const std::lock_guard lock{mutex_};
   doubts_.believed(clock_(), station, model_.tracks(), out);
 }
@@ -111,4 +116,4 @@ void edge_perception::forget_silent(time_point now) {
   });
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -14,11 +14,11 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns the body of a vehicle that has sent a CAM. Its rear axle is as far
 /// forward in it as in a car of ours.
-perceived_object body_of(const cam& c);
+world::perceived_object body_of(const messages::cam& c);
 
 /// What is told of later than now is not believed, nor is what `plausibility`
 /// doubts.
@@ -26,31 +26,32 @@ class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
   explicit edge_perception(std::function<time_point()> clock,
-                           std::span<const building> houses = {});
+                           std::span<const world::building> houses = {});
 
-  void on_cam(const cam& c, sender_id from) override;
-  void on_objects(const object_list& told, sender_id from) override;
-  void on_detections(const roadside_detections& view) override;
-  std::vector<station_doubt> take_doubts() override;
+  void on_cam(const messages::cam& c, sender_id from) override;
+  void on_objects(const messages::object_list& told, sender_id from) override;
+  void on_detections(const messages::roadside_detections& view) override;
+  std::vector<planners::station_doubt> take_doubts() override;
 
   /// @returns what a vehicle told of itself last, unless that is older than
   /// protocol::cam_timeout.
-  std::optional<cam> told_by(station_id who) const;
+  std::optional<messages::cam> told_by(station_id who) const;
 
   /// Copies what is known now and believed by who plans for `station`.
-  void tracks(std::vector<track>& out, station_id station);
+  void tracks(std::vector<planners::track>& out, station_id station);
 
 private:
   void forget_silent(time_point now);
-  road_look look_of(const object_list& told) const;
+  planners::road_look look_of(const messages::object_list& told) const;
 
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
   // Told by CAMs and CPMs, which come when there is news.
-  object_tracker model_{{}, {generation::moved_m, generation::longest}};
-  plausibility doubts_;
-  std::map<station_id, cam> told_; // the newest CAM of each
+  planners::object_tracker model_{
+      {}, {messages::generation::moved_m, messages::generation::longest}};
+  planners::plausibility doubts_;
+  std::map<station_id, messages::cam> told_; // the newest CAM of each
   time_point tidied_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

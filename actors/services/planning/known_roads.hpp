@@ -8,24 +8,27 @@
 #include <memory>
 #include <mutex>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Everything is found once, by whoever needs it first. For several threads:
 /// vehicles make their planners in their own.
 class known_roads {
 public:
-  known_roads(const road_map& map, const comfort_limits& style);
+  known_roads(const world::road_map& map,
+              const planners::comfort_limits& style);
 
-  const std::shared_ptr<const lane_network>& lanes() const { return lanes_; }
+  const std::shared_ptr<const planners::lane_network>& lanes() const {
+    return lanes_;
+  }
 
-  route_profile_ptr profile(const route_ptr& way);
+  planners::route_profile_ptr profile(const world::route_ptr& way);
 
 private:
-  std::shared_ptr<const lane_network> lanes_;
-  comfort_limits style_;
+  std::shared_ptr<const planners::lane_network> lanes_;
+  planners::comfort_limits style_;
   std::mutex mutex_;
   // Each keeps its route, so that no other takes its place in memory.
-  std::map<const route*, route_profile_ptr> profiles_;
+  std::map<const world::route*, planners::route_profile_ptr> profiles_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -24,9 +24,10 @@ public:
       : world_{std::move(world)}, provider_{std::move(provider)},
         station_{vehicle}, perceived_{std::move(perceived)} {}
 
-  offloading::service_output run(time_point now,
-                                 const service_input& input) override {
-    if (auto message = input.what.as<its_pdu>(); message && message != heard_) {
+  offloading::service_output
+  run(time_point now, const messages::service_input& input) override {
+    if (auto message = input.what.as<messages::its_pdu>();
+        message && message != heard_) {
       on_report(*message, now);
       heard_ = std::move(message);
     }
@@ -40,7 +41,8 @@ public:
       return {};
     from->others.stop_at_m = stop_at_m_;
     perceived_->tracks(tracks_, station_);
-    const auto report = cycle_->run(now, made_possible(*from), tracks_);
+    const auto report =
+        cycle_->run(now, planners::made_possible(*from), tracks_);
     ego_->follow(cycle_->plan());
     return said(report, input.session.counter);
   }
@@ -48,12 +50,12 @@ public:
 private:
   // -- what the vehicle says ------------------------------------------------
 
-  void on_report(const its_pdu& message, time_point now) {
-    if (!etsi::decode(message.view(), word_)
+  void on_report(const messages::its_pdu& message, time_point now) {
+    if (!messages::etsi::decode(message.view(), word_)
         || word_.header.station.value != station_)
       return;
     const auto word =
-        read_word(word_, world_->where->ahead_by(message.ahead), now);
+        messages::read_word(word_, world_->where->ahead_by(message.ahead), now);
     if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
       return;
     heard_at_ = word->at;
@@ -69,17 +71,17 @@ private:
   }
 
   // Where on which route the vehicle's way ahead is.
-  std::optional<route_stretch> place(std::span<const point> way,
-                                     time_point now) {
+  std::optional<world::route_stretch> place(std::span<const point> way,
+                                            time_point now) {
     if (cycle_) {
       const auto own = ego_->at(now);
       const auto guess_m = own ? own->s_m : from_m_;
-      if (const auto ahead = still_on(*cycle_->way(), guess_m, way)) {
+      if (const auto ahead = world::still_on(*cycle_->way(), guess_m, way)) {
         from_m_ = ahead->from_m;
         return ahead;
       }
     }
-    const auto found = find_route(world_->streets->routes, way);
+    const auto found = world::find_route(world_->streets->routes, way);
     if (!found)
       return std::nullopt;
     from_m_ = found->ahead.from_m;
@@ -88,15 +90,17 @@ private:
   }
 
   // Of what was planned along another way that goes on which both share.
-  void begin(const route_ptr& way) {
-    const auto shared = cycle_ ? along(*way, cycle_->plan()) : trajectory{};
+  void begin(const world::route_ptr& way) {
+    const auto shared =
+        cycle_ ? along(*way, cycle_->plan()) : world::trajectory{};
     cycle_.emplace(*world_, station_, provider_.clock, true, way);
     ego_.emplace(way, from_m_);
     if (shared.is_sound())
       follow(shared);
   }
 
-  trajectory along(const route& way, trajectory plan) const {
+  world::trajectory along(const world::route& way,
+                          world::trajectory plan) const {
     constexpr double same_way_m = 1;
     auto guess_m = from_m_;
     auto& points = plan.points;
@@ -111,12 +115,14 @@ private:
     return plan;
   }
 
-  void take_over(const decoded_mcm& word, double from_m, time_point now) {
-    const maneuver_frame frame{world_->where->frame, word.reference, word.at};
-    trajectory plan;
-    const auto fault =
-        to_trajectory(*word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
-    if (fault != maneuver_fault::none
+  void take_over(const messages::decoded_mcm& word, double from_m,
+                 time_point now) {
+    const messages::maneuver_frame frame{world_->where->frame, word.reference,
+                                         word.at};
+    world::trajectory plan;
+    const auto fault = messages::to_trajectory(
+        *word.plan, frame, *cycle_->way(), from_m, nullptr, plan);
+    if (fault != messages::maneuver_fault::none
         || protocol::is_of_future(plan.start, now))
       return;
     ego_.emplace(cycle_->way(), from_m);
@@ -127,43 +133,45 @@ private:
   }
 
   // The vehicle follows this plan.
-  void follow(const trajectory& plan) {
+  void follow(const world::trajectory& plan) {
     cycle_->take_over(plan);
     ego_->follow(plan);
   }
 
   // -- what it is told ------------------------------------------------------
 
-  offloading::service_output said(const plan_report& report,
+  offloading::service_output said(const planners::plan_report& report,
                                   std::uint32_t counter) {
-    const suggestion what{provider_.station,
-                          provider_.position,
-                          station_,
-                          {static_cast<std::uint16_t>(counter), ++update_}};
-    if (!make_suggestion(what, cycle_->plan(), *world_->where, waypoints_,
-                         said_))
+    const messages::suggestion what{
+        provider_.station,
+        provider_.position,
+        station_,
+        {static_cast<std::uint16_t>(counter), ++update_}};
+    if (!messages::make_suggestion(what, cycle_->plan(), *world_->where,
+                                   waypoints_, said_))
       return {};
-    auto message = encoded(said_);
+    auto message = messages::encoded(said_);
     if (message.octets.empty())
       return {};
-    return {payload::of(std::move(message)), payload::of(report)};
+    return {messages::payload::of(std::move(message)),
+            messages::payload::of(report)};
   }
 
   planning_world_ptr world_;
   offloading::provider_context provider_;
   station_id station_; // of the vehicle
   std::shared_ptr<edge_perception> perceived_;
-  std::shared_ptr<const its_pdu> heard_; // last, ...
-  time_point heard_at_;                  // and when it was said
+  std::shared_ptr<const messages::its_pdu> heard_; // last, ...
+  time_point heard_at_;                            // and when it was said
   std::optional<plan_cycle> cycle_;
-  std::optional<ego_estimator> ego_; // whenever there is a cycle
-  double from_m_ = 0;                // of the last word
-  double stop_at_m_ = 0;             // the end of the vehicle's authority
+  std::optional<planners::ego_estimator> ego_; // whenever there is a cycle
+  double from_m_ = 0;                          // of the last word
+  double stop_at_m_ = 0; // the end of the vehicle's authority
   std::uint16_t update_ = 0;
   // Room that is used again.
-  etsi::mcm word_, said_;
-  std::vector<track> tracks_;
-  std::vector<maneuver_waypoint> waypoints_;
+  messages::etsi::mcm word_, said_;
+  std::vector<planners::track> tracks_;
+  std::vector<messages::maneuver_waypoint> waypoints_;
 };
 
 } // namespace
@@ -176,4 +184,4 @@ make_mec_planning(planning_world_ptr world,
                                         vehicle, std::move(perceived));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Takes the MCMs of one vehicle, which say where it is allowed to go, and,
 /// when the provider takes over, which plan it follows. Where the vehicle is
@@ -20,4 +20,4 @@ make_mec_planning(planning_world_ptr world,
                   offloading::provider_context provider, station_id vehicle,
                   std::shared_ptr<edge_perception> perceived);
 
-} // namespace sofof
+} // namespace sofof::actors

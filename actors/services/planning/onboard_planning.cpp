@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -20,13 +20,13 @@ public:
                    offloading::vehicle_context vehicle)
       : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
 
-  offloading::service_output run(time_point now,
-                                 const service_input& input) override {
+  offloading::service_output
+  run(time_point now, const messages::service_input& input) override {
     const auto request = input.what.as<plan_request>();
     if (!request || !prepare(request->way))
       return {};
-    auto from = made_possible(request->from);
-    const auto in_use = input.in_use.as<trajectory>();
+    auto from = planners::made_possible(request->from);
+    const auto in_use = input.in_use.as<world::trajectory>();
     const auto& own = cycle_->plan();
     if (in_use && in_use->is_sound()
         && (own.empty() || in_use->start > own.start))
@@ -38,11 +38,14 @@ public:
     take_in(now, request->seen);
     from.others.stop_at_m = request->seen.stop_at_m;
     const auto report = cycle_->run(now, std::move(from), model_.tracks());
-    return {payload::of(cycle_->plan()), payload::of(report)};
+    return {messages::payload::of(cycle_->plan()),
+            messages::payload::of(report)};
   }
 
 private:
-  const comfort_limits& style() const { return world_->options.style; }
+  const planners::comfort_limits& style() const {
+    return world_->options.style;
+  }
 
   bool prepare(const std::string& name) {
     if (cycle_ && cycle_->way()->name() == name)
@@ -54,7 +57,7 @@ private:
   }
 
   // Every sight counts once.
-  void take_in(time_point now, const perception& seen) {
+  void take_in(time_point now, const world::perception& seen) {
     if (seen.at == taken_in_ || protocol::is_of_future(seen.at, now))
       return;
     taken_in_ = seen.at;
@@ -63,7 +66,7 @@ private:
 
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
-  object_tracker model_;
+  planners::object_tracker model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
 };
@@ -77,4 +80,4 @@ make_onboard_planning(planning_world_ptr world,
                                             std::move(vehicle));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

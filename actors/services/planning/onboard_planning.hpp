@@ -6,11 +6,11 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Takes a `plan_request`; gives a `trajectory`, about it a `plan_report`.
 std::shared_ptr<offloading::service_function>
 make_onboard_planning(planning_world_ptr world,
                       offloading::vehicle_context vehicle);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -16,26 +16,27 @@ constexpr duration deadline = 2ms;
 
 plan_cycle::plan_cycle(const planning_world& world, station_id station,
                        std::function<time_point()> clock, bool at_provider,
-                       route_ptr way)
+                       world::route_ptr way)
     : station_{station}, clock_{std::move(clock)}, way_{std::move(way)},
       planner_{world.options.make(way_, *world.roads, at_provider)},
       scene_{world.roads->lanes(),
              way_,
              {.judges_crossings = !world.crossings_granted}} {}
 
-plan_report plan_cycle::run(time_point now, planning_input from,
-                            std::span<const track> others) {
+planners::plan_report plan_cycle::run(time_point now,
+                                      planners::planning_input from,
+                                      std::span<const planners::track> others) {
   const auto stop_at_m = from.others.stop_at_m;
-  const own_place me{station_, from.s_m, from.d_m};
+  const planners::own_place me{station_, from.s_m, from.d_m};
   scene_.describe(now, me, others, from.others);
   from.others.stop_at_m = stop_at_m;
   const auto start = clock_();
   const auto in_time = [&](int) { return clock_() - start < deadline; };
   auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
-                               next_, ocp::budget{in_time});
+                               next_, planners::ocp::budget{in_time});
   std::swap(plan_, next_);
-  report.extremes = extremes_of(plan_);
+  report.extremes = world::extremes_of(plan_);
   return report;
 }
 
-} // namespace sofof
+} // namespace sofof::actors

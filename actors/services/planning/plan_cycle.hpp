@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// What planning in vehicles and at providers has in common: the planner, its
 /// last plan, and what it makes of the others.
@@ -21,32 +21,32 @@ public:
   /// @param at_provider  Whether it may plan more thoroughly.
   plan_cycle(const planning_world& world, station_id station,
              std::function<time_point()> clock, bool at_provider,
-             route_ptr way);
+             world::route_ptr way);
 
-  const route_ptr& way() const { return way_; }
+  const world::route_ptr& way() const { return way_; }
 
   /// @returns the last plan; empty before the first.
-  const trajectory& plan() const { return plan_; }
+  const world::trajectory& plan() const { return plan_; }
 
   /// Another source has planned, and its plan is in use.
   /// @param other  Sound.
-  void take_over(const trajectory& other) {
+  void take_over(const world::trajectory& other) {
     assert(!other.empty());
     plan_ = other;
   }
 
   /// Plans from here, given what is known of the others. `from.others` is
   /// filled in, but for what it says of stopping.
-  plan_report run(time_point now, planning_input from,
-                  std::span<const track> others);
+  planners::plan_report run(time_point now, planners::planning_input from,
+                            std::span<const planners::track> others);
 
 private:
   station_id station_;
   std::function<time_point()> clock_;
-  route_ptr way_;
-  std::unique_ptr<trajectory_planner> planner_;
-  scene_interpreter scene_;
-  trajectory plan_, next_;
+  world::route_ptr way_;
+  std::unique_ptr<planners::trajectory_planner> planner_;
+  planners::scene_interpreter scene_;
+  world::trajectory plan_, next_;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

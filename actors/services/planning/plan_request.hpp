@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Please plan along this route from this state.
 struct plan_request {
-  std::string way;     ///< Name of the route.
-  planning_input from; ///< What it knows of others stays here.
-  perception seen;     ///< By the vehicle, and granted to it.
-  cam own;             ///< Its motion as its CAMs tell it.
+  std::string way;               ///< Name of the route.
+  planners::planning_input from; ///< What it knows of others stays here.
+  world::perception seen;        ///< By the vehicle, and granted to it.
+  messages::cam own;             ///< Its motion as its CAMs tell it.
 };
 
 void visit_fields(auto& v, plan_request& x) {
@@ -27,14 +27,14 @@ void visit_fields(auto& v, plan_request& x) {
   v("own", x.own);
 }
 
-} // namespace sofof
+} // namespace sofof::actors
 
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::plan_request> =
-    "plan_request";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::actors::plan_request> = "plan_request";
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::trajectory> =
-    "trajectory";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::world::trajectory> = "trajectory";
 template <>
-inline constexpr std::string_view sofof::payload_name<sofof::plan_report> =
-    "plan_report";
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::planners::plan_report> = "plan_report";

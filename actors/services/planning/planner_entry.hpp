@@ -5,13 +5,14 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 struct planner_options;
 
 /// Makes a planner of this name along a route.
 /// @param remote  Whether it plans at a provider.
-using planner_entry = std::unique_ptr<trajectory_planner> (*)(
-    const planner_options& options, route_profile_ptr along, bool remote);
+using planner_entry = std::unique_ptr<planners::trajectory_planner> (*)(
+    const planner_options& options, planners::route_profile_ptr along,
+    bool remote);
 
-} // namespace sofof
+} // namespace sofof::actors

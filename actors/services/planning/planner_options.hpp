@@ -12,20 +12,20 @@
 #include <memory>
 #include <string>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Of both sides; only the optimal planner plans differently at a provider.
 struct planner_options {
   std::string name = "al_ilqr"; ///< Or "lane_follow", a simple one.
-  comfort_limits style;
-  spatial_params onboard;
-  spatial_params mec{
+  planners::comfort_limits style;
+  planners::spatial_params onboard;
+  planners::spatial_params mec{
       .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
 
   void visit_options(option_visitor& s);
 
-  std::unique_ptr<trajectory_planner>
-  make(const route_ptr& way, known_roads& roads, bool remote) const;
+  std::unique_ptr<planners::trajectory_planner>
+  make(const world::route_ptr& way, known_roads& roads, bool remote) const;
 };
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -18,13 +18,13 @@
 #include <utility>
 #include <vector>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
 /// Where the vehicle may go: along its route, from its rear axle on, up to
 /// where its front has to wait.
-std::vector<point> authority(const route& way, double s_m,
+std::vector<point> authority(const world::route& way, double s_m,
                              std::optional<double> stop_at_m) {
   constexpr double least_m = 2; // less has no direction
   const auto told_m =
@@ -49,33 +49,36 @@ public:
 
   /// An MCM: where the vehicle may go, and the plan in use for who takes over,
   /// or that it follows what was suggested.
-  service_input encode_input(service_input input,
-                             bool takes_over) const override {
+  messages::service_input encode_input(messages::service_input input,
+                                       bool takes_over) const override {
     const auto request = input.what.as<plan_request>();
     const auto way = request ? world_->streets->find(request->way) : nullptr;
     if (!way)
       return {};
     const auto ahead =
         authority(*way, request->from.s_m, request->seen.stop_at_m);
-    mcm_uplink word{request->own, ahead, nullptr, {}};
-    const auto plan = takes_over ? input.in_use.as<trajectory>() : nullptr;
+    messages::mcm_uplink word{request->own, ahead, nullptr, {}};
+    const auto plan =
+        takes_over ? input.in_use.as<world::trajectory>() : nullptr;
     word.plan = plan.get();
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.session),
-                          etsi::maneuver_response::accept);
-    auto message = encoded(make_word(word, world_->car, *world_->where));
+                          messages::etsi::maneuver_response::accept);
+    auto message = messages::encoded(
+        messages::make_word(word, world_->car, *world_->where));
     if (message.octets.empty())
       return {};
-    input.what = payload::of(std::move(message));
+    input.what = messages::payload::of(std::move(message));
     input.in_use = {};
     return input;
   }
 
   /// Where both plans lead in the next 0.5 s.
-  bool continues(const payload& in_use, const payload& offered,
+  bool continues(const messages::payload& in_use,
+                 const messages::payload& offered,
                  time_point now) const override {
-    const auto one = in_use.as<trajectory>();
-    const auto other = offered.as<trajectory>();
+    const auto one = in_use.as<world::trajectory>();
+    const auto other = offered.as<world::trajectory>();
     if (!one || !other || one->empty() || other->empty())
       return false;
     constexpr duration step = std::chrono::milliseconds{100};
@@ -86,15 +89,17 @@ public:
       here[k] = one->at(t).at;
       there[k] = other->at(t).at;
     }
-    return sofof::continues(here, there, step);
+    return policies::continues(here, there, step);
   }
 
-  payload termination_message(const service_end& end, time_point,
-                              const cam& own) const override {
-    mcm_uplink word{own, {}, nullptr, {}};
+  messages::payload
+  termination_message(const messages::service_end& end, time_point,
+                      const messages::cam& own) const override {
+    messages::mcm_uplink word{own, {}, nullptr, {}};
     word.answer.emplace(name_of_maneuver(end.session),
-                        etsi::maneuver_response::reject);
-    return payload::of(encoded(make_word(word, world_->car, *world_->where)));
+                        messages::etsi::maneuver_response::reject);
+    return messages::payload::of(messages::encoded(
+        messages::make_word(word, world_->car, *world_->where)));
   }
 
 private:
@@ -104,18 +109,21 @@ private:
 
 class planning_requests final : public plan_client {
 public:
-  payload ask(const route& way, const planning_input& from,
-              const perception& seen, const cam& own) const override {
-    return payload::of(plan_request{way.name(), from, seen, own});
+  messages::payload ask(const world::route& way,
+                        const planners::planning_input& from,
+                        const world::perception& seen,
+                        const messages::cam& own) const override {
+    return messages::payload::of(plan_request{way.name(), from, seen, own});
   }
 
   std::optional<received_plan>
-  read(const service_result& result) const override {
-    auto plan = result.what.as<trajectory>();
+  read(const messages::service_result& result) const override {
+    auto plan = result.what.as<world::trajectory>();
     if (!plan)
       return std::nullopt;
-    const auto about = result.about.as<plan_report>();
-    return received_plan{std::move(plan), about ? *about : plan_report{}};
+    const auto about = result.about.as<planners::plan_report>();
+    return received_plan{std::move(plan),
+                         about ? *about : planners::plan_report{}};
   }
 };
 
@@ -132,11 +140,13 @@ public:
     return make_mec_planning(world_, provider_, vehicle, perceived_);
   }
 
-  payload termination_message(const service_end& end, time_point now) override {
-    const suggestion what{provider_.station, provider_.position,
-                          end.session.station, name_of_maneuver(end.session)};
-    return payload::of(encoded(
-        make_termination(what, now, status_of(end.reason), *world_->where)));
+  messages::payload termination_message(const messages::service_end& end,
+                                        time_point now) override {
+    const messages::suggestion what{provider_.station, provider_.position,
+                                    end.session.station,
+                                    name_of_maneuver(end.session)};
+    return messages::payload::of(messages::encoded(messages::make_termination(
+        what, now, status_of(end.reason), *world_->where)));
   }
 
   broadcast_listener* listener() override { return perceived_.get(); }
@@ -167,4 +177,4 @@ make_planning_at_provider(planning_world_ptr world,
                                                 std::move(provider));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

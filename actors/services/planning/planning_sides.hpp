@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// The vehicle says in MCMs where it may go, and which plan it follows to a
 /// provider that takes over; it judges what is suggested to it.
@@ -23,4 +23,4 @@ std::shared_ptr<offloading::provider_service>
 make_planning_at_provider(planning_world_ptr world,
                           offloading::provider_context provider);
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -9,13 +9,13 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// The streets, and how to plan on them.
 struct planning_world {
-  streets_ptr streets;
-  georeference_ptr where;
-  vehicle_params car{};
+  world::streets_ptr streets;
+  messages::georeference_ptr where;
+  world::vehicle_params car{};
   bool crossings_granted = true;
   planner_options options;
   std::shared_ptr<known_roads> roads;
@@ -23,4 +23,4 @@ struct planning_world {
 
 using planning_world_ptr = std::shared_ptr<const planning_world>;
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -5,12 +5,12 @@
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 
-namespace sofof {
+namespace sofof::actors {
 
 /// @returns the reason for ending a session, in the words of an MCM.
-etsi::termination_status status_of(end_reason why);
+messages::etsi::termination_status status_of(messages::end_reason why);
 
 /// @returns the name under which a session's maneuver is negotiated.
-maneuver_name name_of_maneuver(const session_id& running);
+messages::maneuver_name name_of_maneuver(const messages::session_id& running);
 
-} // namespace sofof
+} // namespace sofof::actors

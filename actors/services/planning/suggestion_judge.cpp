@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 namespace {
 
@@ -20,56 +20,59 @@ public:
       : world_{std::move(world)}, vehicle_{std::move(vehicle)},
         judge_{world_->car} {}
 
-  offloading::judged_result judge(const payload& result,
-                                  const service_input& latest,
+  offloading::judged_result judge(const messages::payload& result,
+                                  const messages::service_input& latest,
                                   time_point now) override {
     const auto request = latest.what.as<plan_request>();
     const auto way = request ? world_->streets->find(request->way) : nullptr;
     if (!way)
       return {};
-    const auto before = latest.in_use.as<trajectory>();
-    trajectory plan;
-    const auto message = result.as<its_pdu>();
-    if (!message || !etsi::decode(message->view(), word_)
-        || read_suggestion(word_, vehicle_.station, *way, request->from.s_m,
-                           world_->where->ahead_by(message->ahead), now,
-                           before.get(), plan)
-               != maneuver_fault::none)
+    const auto before = latest.in_use.as<world::trajectory>();
+    world::trajectory plan;
+    const auto message = result.as<messages::its_pdu>();
+    if (!message || !messages::etsi::decode(message->view(), word_)
+        || messages::read_suggestion(
+               word_, vehicle_.station, *way, request->from.s_m,
+               world_->where->ahead_by(message->ahead), now, before.get(), plan)
+               != messages::maneuver_fault::none)
       return not_used(judge_.judge_unreadable());
     const auto& own = request->own;
-    judged_plan x{.way = *way,
-                  .plan = plan,
-                  .in_use = before.get(),
-                  .own = {own.at, own.position, own.heading_rad, own.speed_mps,
-                          own.accel_mps2, own.curvature_1pm},
-                  .s_m = request->from.s_m,
-                  .seen = request->seen,
-                  .crossings_granted = world_->crossings_granted,
-                  .now = now,
-                  .fingerprint = fingerprint_of_plan(word_)};
+    planners::judged_plan x{
+        .way = *way,
+        .plan = plan,
+        .in_use = before.get(),
+        .own = {own.at, own.position, own.heading_rad, own.speed_mps,
+                own.accel_mps2, own.curvature_1pm},
+        .s_m = request->from.s_m,
+        .seen = request->seen,
+        .crossings_granted = world_->crossings_granted,
+        .now = now,
+        .fingerprint = messages::fingerprint_of_plan(word_)};
     const auto alone =
         judge_.wants_own_plan(x) ? own_plan(latest, now) : nullptr;
     x.own_plan = alone.get();
     const auto verdict = judge_.judge(x);
     if (!verdict.usable)
       return not_used(verdict);
-    return {payload::of(std::move(plan)), {}, {}, judge_.margins()};
+    return {messages::payload::of(std::move(plan)), {}, {}, judge_.margins()};
   }
 
 private:
-  std::shared_ptr<const trajectory> own_plan(const service_input& latest,
-                                             time_point now) {
+  std::shared_ptr<const world::trajectory>
+  own_plan(const messages::service_input& latest, time_point now) {
     if (!own_)
       own_ = make_onboard_planning(world_, vehicle_);
     const auto made = own_->run(now, latest);
-    auto plan = made.what.as<trajectory>();
-    const auto about = made.about.as<plan_report>();
+    auto plan = made.what.as<world::trajectory>();
+    const auto about = made.about.as<planners::plan_report>();
     // One that is kept is the provider's.
-    const auto is_own = about && about->origin == plan_origin::planned;
-    return plan && is_own ? plan : std::make_shared<const trajectory>();
+    const auto is_own =
+        about && about->origin == planners::plan_origin::planned;
+    return plan && is_own ? plan : std::make_shared<const world::trajectory>();
   }
 
-  static offloading::judged_result not_used(const plan_verdict& verdict) {
+  static offloading::judged_result
+  not_used(const planners::plan_verdict& verdict) {
     return {{}, verdict.refused, verdict.useless};
   }
 
@@ -77,8 +80,8 @@ private:
   offloading::vehicle_context vehicle_;
   std::shared_ptr<offloading::service_function>
       own_; // to compare with, when needed
-  plan_judge judge_;
-  etsi::mcm word_; // room that is used again
+  planners::plan_judge judge_;
+  messages::etsi::mcm word_; // room that is used again
 };
 
 } // namespace
@@ -90,4 +93,4 @@ make_suggestion_judge(planning_world_ptr world,
                                             std::move(vehicle));
 }
 
-} // namespace sofof
+} // namespace sofof::actors

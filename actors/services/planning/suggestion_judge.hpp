@@ -6,7 +6,7 @@
 
 #include <memory>
 
-namespace sofof {
+namespace sofof::actors {
 
 /// Makes a `trajectory` along the vehicle's way of an MCM that suggests one. It
 /// is refused as planners/judges/plan_judge says; where that wants a plan of
@@ -15,4 +15,4 @@ std::unique_ptr<offloading::result_judge>
 make_suggestion_judge(planning_world_ptr world,
                       offloading::vehicle_context vehicle);
 
-} // namespace sofof
+} // namespace sofof::actors

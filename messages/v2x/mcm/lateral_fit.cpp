@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 constexpr double shortest_knot_m = 1;
@@ -41,7 +41,7 @@ constexpr double weight(double sigma) {
 
 } // namespace
 
-bool lateral_fit::fit(const path& line, std::span<const sight> sights,
+bool lateral_fit::fit(const world::path& line, std::span<const sight> sights,
                       const joint* before) {
   assert(!sights.empty());
   line_ = &line;
@@ -177,7 +177,7 @@ double lateral_fit::s_m(double way_m) const {
   return start_m_ + step_m_ * (static_cast<double>(k) + 2 * steps / (a + root));
 }
 
-path_point lateral_fit::at(double s_m) const {
+world::path_point lateral_fit::at(double s_m) const {
   const auto centre = line_->frame(s_m);
   const auto along_m =
       std::clamp(s_m - start_m_, 0.0, static_cast<double>(steps_) * step_m_);
@@ -197,4 +197,4 @@ path_point lateral_fit::at(double s_m) const {
               * std::sqrt(per_stretch2)};
 }
 
-} // namespace sofof
+} // namespace sofof::messages

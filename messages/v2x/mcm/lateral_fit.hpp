@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A smooth line along a path through points known to a centimetre. Where the
 /// path is straight it is taken to keep to the path; where the path bends it
@@ -17,7 +17,7 @@ namespace sofof {
 class lateral_fit {
 public:
   struct sight {
-    path_offset at;
+    world::path_offset at;
     double slope = 0; ///< d' over s; unknown where its weight is 0.
     double slope_weight = 0;
   };
@@ -32,7 +32,7 @@ public:
   /// @param sights  At least one; s does not fall.
   /// @param before  Null for nothing.
   /// @returns false when there is no such line.
-  bool fit(const path& line, std::span<const sight> sights,
+  bool fit(const world::path& line, std::span<const sight> sights,
            const joint* before);
 
   /// Way along the course, from its beginning to abreast of `s_m` on the
@@ -41,7 +41,7 @@ public:
   double s_m(double way_m) const;
 
   /// Position, tangent and curvature of the course abreast of `s_m`.
-  path_point at(double s_m) const;
+  world::path_point at(double s_m) const;
 
 private:
   static constexpr std::size_t most_knots = p_spline::most_steps + 1;
@@ -56,7 +56,7 @@ private:
   bool meets(std::span<const sight> sights) const;
   void measure();
 
-  const path* line_ = nullptr;
+  const world::path* line_ = nullptr;
   p_spline offset_;
   double start_m_ = 0, step_m_ = 1;
   std::size_t steps_ = 1;
@@ -65,4 +65,4 @@ private:
   column way_;     // m
 };
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 constexpr double certainty(double sigma) {
@@ -165,4 +165,4 @@ void longitudinal_fit::put(motion x) {
   knots_[done_++] = x;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A smooth motion through moments known to a centimetre and a centimetre a
 /// second: piecewise of constant jerk, exactly at rest where it rests, never
@@ -67,4 +67,4 @@ private:
   std::array<motion, most_steps + 1> knots_;
 };
 
-} // namespace sofof
+} // namespace sofof::messages

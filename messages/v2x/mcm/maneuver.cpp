@@ -11,7 +11,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 constexpr std::int32_t largest_cm = 131071;
@@ -62,8 +62,9 @@ struct map_axes {
 };
 
 /// @returns the point of `before` where a new plan begins, if it continues it.
-const trajectory_point* find_joint(const trajectory* before, time_point start,
-                                   const sample& first, trajectory_point& at) {
+const world::trajectory_point* find_joint(const world::trajectory* before,
+                                          time_point start, const sample& first,
+                                          world::trajectory_point& at) {
   if (before == nullptr || before->points.size() < 2 || start < before->start
       || start >= before->end())
     return nullptr;
@@ -75,9 +76,9 @@ const trajectory_point* find_joint(const trajectory* before, time_point start,
 }
 
 /// @returns whether a car's tyres could do that.
-bool can_be_driven(const trajectory& plan) {
+bool can_be_driven(const world::trajectory& plan) {
   constexpr double most_accel_mps2 = 12;
-  return std::ranges::all_of(plan.points, [](const trajectory_point& p) {
+  return std::ranges::all_of(plan.points, [](const world::trajectory_point& p) {
     return std::abs(p.accel_mps2) <= most_accel_mps2
            && p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm)
                   <= most_accel_mps2;
@@ -86,14 +87,14 @@ bool can_be_driven(const trajectory& plan) {
 
 class reader {
 public:
-  reader(std::span<const sample> seen, const route& way)
+  reader(std::span<const sample> seen, const world::route& way)
       : seen_{seen}, way_{way} {}
 
-  maneuver_fault read(double s_guess_m, const trajectory* before,
-                      trajectory& out) {
+  maneuver_fault read(double s_guess_m, const world::trajectory* before,
+                      world::trajectory& out) {
     if (!project(s_guess_m))
       return maneuver_fault::off_route;
-    trajectory_point at;
+    world::trajectory_point at;
     const auto* joint = find_joint(before, out.start, seen_[0], at);
     if (!fit(joint))
       return maneuver_fault::no_motion;
@@ -138,7 +139,7 @@ private:
     sight.slope_weight = 1 / (heading_sigma_rad * heading_sigma_rad);
   }
 
-  bool fit(const trajectory_point* before) {
+  bool fit(const world::trajectory_point* before) {
     const auto n = seen_.size();
     lateral_fit::joint joint;
     longitudinal_fit::motion motion;
@@ -161,7 +162,7 @@ private:
                              static_cast<std::size_t>(steps));
   }
 
-  void write(trajectory& out) const {
+  void write(world::trajectory& out) const {
     out.points.resize(longitudinal_.steps() + 1);
     for (std::size_t k = 0; k <= longitudinal_.steps(); ++k) {
       const auto& x = longitudinal_[k];
@@ -178,7 +179,7 @@ private:
   }
 
   std::span<const sample> seen_;
-  const route& way_;
+  const world::route& way_;
   std::array<lateral_fit::sight, most_waypoints> sights_;
   lateral_fit lateral_;
   longitudinal_fit longitudinal_;
@@ -214,9 +215,10 @@ std::string_view to_string(maneuver_fault fault) {
 }
 
 maneuver_fault to_trajectory(std::span<const maneuver_waypoint> waypoints,
-                             const maneuver_frame& frame, const route& way,
-                             double s_guess_m, const trajectory* before,
-                             trajectory& out) {
+                             const maneuver_frame& frame,
+                             const world::route& way, double s_guess_m,
+                             const world::trajectory* before,
+                             world::trajectory& out) {
   assert(before != &out);
   const auto n = waypoints.size();
   if (n < 2 || n > most_waypoints)
@@ -239,9 +241,10 @@ maneuver_fault to_trajectory(std::span<const maneuver_waypoint> waypoints,
 }
 
 maneuver_fault to_trajectory(const planned_points& planned,
-                             const maneuver_frame& frame, const route& way,
-                             double s_guess_m, const trajectory* before,
-                             trajectory& out) {
+                             const maneuver_frame& frame,
+                             const world::route& way, double s_guess_m,
+                             const world::trajectory* before,
+                             world::trajectory& out) {
   assert(before != &out);
   const auto n = planned.points.size();
   if (n < 2 || n > most_waypoints)
@@ -267,4 +270,4 @@ maneuver_fault to_trajectory(const planned_points& planned,
   return reader{{seen.data(), n}, way}.read(s_guess_m, before, out);
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// What an MCM relates a plan to. Positions are those of the rear axle's
 /// centre, in cm to geographic east (x) and north (y) of the message's
@@ -78,14 +78,14 @@ inline constexpr std::size_t most_waypoints = 128;
 /// @param out   Its capacity is reused.
 /// @returns false when there is no such message (a plan that is not sound,
 /// lasts more than 65 s or leads farther than 1.3 km away); `out` is empty.
-bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
+bool to_waypoints(const world::trajectory& plan, const maneuver_frame& frame,
                   std::vector<maneuver_waypoint>& out);
 
 /// The same for a PlannedTrajectory: from the plan's first whole millisecond
 /// on a point every 0.2 s, or 0.1 s where the jerk jumps; it ends less than a
 /// step early.
-bool to_planned_points(const trajectory& plan, const maneuver_frame& frame,
-                       planned_points& out);
+bool to_planned_points(const world::trajectory& plan,
+                       const maneuver_frame& frame, planned_points& out);
 
 /// Why what a stranger sent is no plan.
 enum class maneuver_fault : std::uint8_t {
@@ -116,12 +116,14 @@ std::string_view to_string(maneuver_fault fault);
 ///                   near to it as ends with the last waypoint (every 1/160
 ///                   of more than 16 s). Sound, if there is no fault.
 maneuver_fault to_trajectory(std::span<const maneuver_waypoint> waypoints,
-                             const maneuver_frame& frame, const route& way,
-                             double s_guess_m, const trajectory* before,
-                             trajectory& out);
+                             const maneuver_frame& frame,
+                             const world::route& way, double s_guess_m,
+                             const world::trajectory* before,
+                             world::trajectory& out);
 maneuver_fault to_trajectory(const planned_points& planned,
-                             const maneuver_frame& frame, const route& way,
-                             double s_guess_m, const trajectory* before,
-                             trajectory& out);
+                             const maneuver_frame& frame,
+                             const world::route& way, double s_guess_m,
+                             const world::trajectory* before,
+                             world::trajectory& out);
 
-} // namespace sofof
+} // namespace sofof::messages

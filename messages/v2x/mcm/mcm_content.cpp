@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace sofof {
+namespace sofof::messages {
 
 namespace {
 
@@ -85,7 +85,7 @@ planned_points understood(const etsi::planned_trajectory& plan) {
 
 // -- up -----------------------------------------------------------------------
 
-etsi::mcm make_word(const mcm_uplink& word, const vehicle_params& car,
+etsi::mcm make_word(const mcm_uplink& word, const world::vehicle_params& car,
                     const georeference& where) {
   const auto& own = word.own;
   etsi::mcm message;
@@ -108,7 +108,8 @@ etsi::mcm make_word(const mcm_uplink& word, const vehicle_params& car,
       way.push_back(waypoint_at(at, frame));
   }
   planned_points plan;
-  if (word.plan && to_planned_points(rest_of(*word.plan, own.at), frame, plan))
+  if (word.plan
+      && to_planned_points(world::rest_of(*word.plan, own.at), frame, plan))
     user.planned_trajectory = written(plan);
   if (word.answer) {
     const auto& [name, followed] = *word.answer;
@@ -165,7 +166,7 @@ etsi::suggested_maneuver& suggest(etsi::mcm& message, const suggestion& what) {
 
 } // namespace
 
-bool make_suggestion(const suggestion& what, const trajectory& plan,
+bool make_suggestion(const suggestion& what, const world::trajectory& plan,
                      const georeference& where,
                      std::vector<maneuver_waypoint>& room, etsi::mcm& out) {
   const auto near =
@@ -224,9 +225,10 @@ const etsi::maneuver_constraints* suggested_to(station_id me,
 } // namespace
 
 std::optional<maneuver_fault>
-read_suggestion(const etsi::mcm& message, station_id me, const route& way,
-                double s_guess_m, const georeference& where, time_point now,
-                const trajectory* before, trajectory& out) {
+read_suggestion(const etsi::mcm& message, station_id me,
+                const world::route& way, double s_guess_m,
+                const georeference& where, time_point now,
+                const world::trajectory* before, world::trajectory& out) {
   const auto* plan = suggested_to(me, message);
   const auto frame = frame_of(message, where, now);
   if (!plan || !frame)
@@ -264,4 +266,4 @@ std::uint64_t fingerprint_of_plan(const etsi::mcm& message) {
   return h;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A suggested maneuver: one offloading of a vehicle's planning. Of both
 /// numbers the last 16 bits travel.
@@ -31,12 +31,12 @@ struct mcm_uplink {
   /// not pass yet, m, east-north. At least one.
   std::span<const point> way;
   /// The plan in use, for who takes over from another planner; null: none.
-  const trajectory* plan = nullptr;
+  const world::trajectory* plan = nullptr;
   /// What it answers to a suggestion.
   std::optional<std::pair<maneuver_name, etsi::maneuver_response>> answer;
 };
 
-etsi::mcm make_word(const mcm_uplink& word, const vehicle_params& car,
+etsi::mcm make_word(const mcm_uplink& word, const world::vehicle_params& car,
                     const georeference& where);
 
 /// What a provider understands of it.
@@ -72,7 +72,7 @@ struct suggestion {
 /// @param room  Used again and again.
 /// @param out   Its room is used again, too.
 /// @returns false if the plan cannot be written down.
-bool make_suggestion(const suggestion& what, const trajectory& plan,
+bool make_suggestion(const suggestion& what, const world::trajectory& plan,
                      const georeference& where,
                      std::vector<maneuver_waypoint>& room, etsi::mcm& out);
 
@@ -87,12 +87,13 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
 /// @param out        Sound if there is no fault; its points are reused.
 /// @returns why it is no plan; nullopt if the message suggests none.
 std::optional<maneuver_fault>
-read_suggestion(const etsi::mcm& message, station_id me, const route& way,
-                double s_guess_m, const georeference& where, time_point now,
-                const trajectory* before, trajectory& out);
+read_suggestion(const etsi::mcm& message, station_id me,
+                const world::route& way, double s_guess_m,
+                const georeference& where, time_point now,
+                const world::trajectory* before, world::trajectory& out);
 
 /// @returns a number of the suggested places and speeds, whatever their times:
 /// a plan that is sent again has the same. 0 if the message suggests none.
 std::uint64_t fingerprint_of_plan(const etsi::mcm& message);
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::messages {
 
 void p_spline::begin(std::size_t steps, double step) {
   assert(step > 0);
@@ -92,4 +92,4 @@ bool p_spline::solve() {
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

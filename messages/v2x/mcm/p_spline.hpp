@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof {
+namespace sofof::messages {
 
 /// A cubic spline over equal steps that fits observations in the sense of
 /// least squares, where kinks (jumps of its third derivative at knots) cost.
@@ -141,4 +141,4 @@ inline p_spline::place p_spline::at_knot(std::size_t knot) const {
           per_step_ * per_step_ * (c[0] - 2 * c[1] + c[2])};
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -11,7 +11,7 @@
 #include <limits>
 #include <optional>
 
-namespace sofof {
+namespace sofof::messages {
 namespace {
 
 constexpr std::int32_t farthest_cm = 131071;
@@ -46,7 +46,7 @@ float miss(float x) {
 
 class writer {
 public:
-  writer(const trajectory& plan, const maneuver_frame& frame)
+  writer(const world::trajectory& plan, const maneuver_frame& frame)
       : plan_{plan}, origin_{frame.reference}, east_{frame.earth.to_map_axes(
                                                    {100, 0}, frame.reference)},
         north_{frame.earth.to_map_axes({0, 100}, frame.reference)},
@@ -67,7 +67,7 @@ public:
   int length_ms() const { return length_ms_; }
 
   /// @param ms  Since the first whole millisecond.
-  trajectory_point moment(int ms) const {
+  world::trajectory_point moment(int ms) const {
     const auto t_s = late_s_ + 1e-3 * ms;
     auto p = plan_.at(t_s);
     // The last waypoint may be half a millisecond later than the plan's end.
@@ -145,7 +145,7 @@ private:
 
   /// @returns the unit vector of a heading between two points of the plan,
   /// from their chord: sine and cosine would take longer.
-  point direction(const trajectory_point& p, std::size_t k) const {
+  point direction(const world::trajectory_point& p, std::size_t k) const {
     const auto& a = plan_.points[k];
     const auto& b = plan_.points[k + 1];
     const auto chord_m = distance_m(a.at, b.at);
@@ -160,7 +160,7 @@ private:
 
   /// In cm to the east and north of the reference.
   point east_north(point v) const { return {dot(east_, v), dot(north_, v)}; }
-  point offset(const trajectory_point& p) const {
+  point offset(const world::trajectory_point& p) const {
     return east_north(p.at - origin_);
   }
 
@@ -180,7 +180,7 @@ private:
            && whole(100 * moment(time_ms(i)).speed_mps) == 0;
   }
 
-  const trajectory& plan_;
+  const world::trajectory& plan_;
   point origin_, east_, north_;
   std::int64_t first_ms_; // since the message was generated
   double late_s_;         // ... which is so long after the plan's start
@@ -250,7 +250,7 @@ int writer::next_ms(int ms, int least_gap) const {
 
 } // namespace
 
-bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
+bool to_waypoints(const world::trajectory& plan, const maneuver_frame& frame,
                   std::vector<maneuver_waypoint>& out) {
   out.clear();
   if (!plan.is_sound())
@@ -274,8 +274,8 @@ bool to_waypoints(const trajectory& plan, const maneuver_frame& frame,
   }
 }
 
-bool to_planned_points(const trajectory& plan, const maneuver_frame& frame,
-                       planned_points& out) {
+bool to_planned_points(const world::trajectory& plan,
+                       const maneuver_frame& frame, planned_points& out) {
   out.points.clear();
   if (!plan.is_sound())
     return false;
@@ -303,4 +303,4 @@ bool to_planned_points(const trajectory& plan, const maneuver_frame& frame,
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::messages

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <limits>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -182,4 +182,4 @@ proved_solution branch_and_bound(const problem& p, std::int64_t node_limit) {
   return {best, proved, bound, all.nodes()};
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 struct proved_solution {
   /// The best that was found; feasible.
@@ -34,4 +34,4 @@ struct proved_solution {
 proved_solution branch_and_bound(const problem& p,
                                  std::int64_t node_limit = 1'000'000);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -142,4 +142,4 @@ std::optional<solution> cbc(const problem& p, std::int64_t node_limit) {
   return solution{std::move(*choices), reached};
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Solves the problem as a mixed-integer program with CBC, one call at a time,
 /// until the optimum is proved. Slower than `branch_and_bound` with one
@@ -20,4 +20,4 @@ namespace sofof::assignment {
 std::optional<solution> cbc(const problem& p,
                             std::int64_t node_limit = 1'000'000);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

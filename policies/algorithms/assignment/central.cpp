@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::vector<central_decision> decisions_of(const central_context& context,
   return all;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <vector>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Options of all policies that decide so; μ is the price.
 struct assignment_options : central_options {
@@ -45,4 +45,4 @@ std::vector<central_decision> decisions_of(const central_context& context,
                                            const central_problem& asked,
                                            const solution& found);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -81,4 +81,4 @@ sampled_optimum cross_entropy(std::span<const int> category_counts,
   return best;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct cross_entropy_options {
   int samples = 200;      // per iteration, ≥ 1
@@ -45,4 +45,4 @@ sampled_optimum cross_entropy(std::span<const int> category_counts,
                               const cross_entropy_options& options,
                               const random_stream& random);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -174,4 +174,4 @@ solution greedy_regret(const problem& p) {
   return best;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -3,7 +3,7 @@
 
 #include "policies/algorithms/assignment/problem.hpp"
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Serves next whoever loses most if its best provider with room were gone:
 /// once by advantage, once by advantage per share of capacity, and once by what
@@ -20,4 +20,4 @@ namespace sofof::assignment {
 /// and exchanges are ours.
 solution greedy_regret(const problem& p);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -75,4 +75,4 @@ lagrangian_bound price_capacities(const reduced_problem& s, double reached) {
   return best;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

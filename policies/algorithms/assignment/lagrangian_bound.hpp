@@ -3,7 +3,7 @@
 
 #include "policies/algorithms/assignment/reduced_problem.hpp"
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Prices for shares of capacity. Were capacities sold at these prices instead
 /// of limited, every vehicle would choose for itself, and all together would
@@ -30,4 +30,4 @@ double margin(const reduced_problem& s, const Eigen::ArrayXXd& prices,
 /// Source: Held, Wolfe & Crowder, Mathematical Programming 6 (1974).
 lagrangian_bound price_capacities(const reduced_problem& s, double reached);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

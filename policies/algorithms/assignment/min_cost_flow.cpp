@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::optional<solution> min_cost_flow(const problem& p) {
   return solution{choices, value(p, choices)};
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// When all who would win by a provider want the same of it, it has a number of
 /// seats, and the assignment is a transportation problem: a flow from vehicles
@@ -20,4 +20,4 @@ namespace sofof::assignment {
 /// and 12.4.
 std::optional<solution> min_cost_flow(const problem& p);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -110,4 +110,4 @@ bool feasible(const problem& p, const std::vector<choice>& choices) {
   return true;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

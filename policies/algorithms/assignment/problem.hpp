@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// A number for each pair: vehicles × providers.
 using pair_table =
@@ -71,4 +71,4 @@ double value(const problem& p, const std::vector<choice>& choices);
 /// demands may exceed a capacity by 1e-9 of it: sums of decimals are not exact.
 bool feasible(const problem& p, const std::vector<choice>& choices);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

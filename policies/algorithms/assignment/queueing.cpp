@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 std::optional<duration> mean_wait(duration service_time, double utilisation) {
   assert(service_time >= duration{0} && utilisation >= 0);
@@ -20,4 +20,4 @@ double utilisation_cap(int cores, duration service_time,
   return cores * twice / (to_seconds(service_time) + twice);
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

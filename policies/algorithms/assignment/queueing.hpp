@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Mean wait before service at one core: Poisson arrivals, equal jobs, first
 /// come first served (M/D/1).
@@ -31,4 +31,4 @@ std::optional<duration> mean_wait(duration service_time, double utilisation);
 /// @returns a number of busy cores, < cores.
 double utilisation_cap(int cores, duration service_time, duration allowed_wait);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -73,4 +73,4 @@ reduced_problem stakes_of(const problem& p) {
   return result;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// @returns for each resource the share of a provider's capacity that a vehicle
 /// takes; 0 of an infinite one, and infinity of nothing.
@@ -58,4 +58,4 @@ struct reduced_problem {
 /// @throws std::invalid_argument as check() does.
 reduced_problem stakes_of(const problem& p);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

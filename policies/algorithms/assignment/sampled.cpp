@@ -3,7 +3,7 @@
 
 #include "policies/algorithms/assignment/reduced_problem.hpp"
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 namespace {
 
@@ -49,4 +49,4 @@ solution sampled(const problem& p, const cross_entropy_options& options,
   return result;
 }
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

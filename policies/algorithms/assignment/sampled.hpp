@@ -4,7 +4,7 @@
 #include "policies/algorithms/assignment/cross_entropy.hpp"
 #include "policies/algorithms/assignment/problem.hpp"
 
-namespace sofof::assignment {
+namespace sofof::policies::assignment {
 
 /// Seeks the best assignment by the cross-entropy method. A vehicle that finds
 /// no room in a sample is local there; room is given out in the order of
@@ -17,4 +17,4 @@ namespace sofof::assignment {
 solution sampled(const problem& p, const cross_entropy_options& options,
                  const random_stream& random);
 
-} // namespace sofof::assignment
+} // namespace sofof::policies::assignment

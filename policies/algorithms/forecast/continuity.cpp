@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 bool continues(std::span<const point> in_use, std::span<const point> offered,
                duration step, const continuity_options& options) {
@@ -20,4 +20,4 @@ bool continues(std::span<const point> in_use, std::span<const point> offered,
                             });
 }
 
-} // namespace sofof
+} // namespace sofof::policies

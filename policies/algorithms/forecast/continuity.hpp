@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct continuity_options {
   duration span = std::chrono::milliseconds{500}; ///< So long they must agree,
@@ -24,4 +24,4 @@ struct continuity_options {
 bool continues(std::span<const point> in_use, std::span<const point> offered,
                duration step, const continuity_options& options = {});
 
-} // namespace sofof
+} // namespace sofof::policies

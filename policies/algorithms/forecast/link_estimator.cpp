@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::optional<duration> link_estimator::gap_quantile(double p) const {
   return forecast(gap_s_.quantile(p));
 }
 
-} // namespace sofof
+} // namespace sofof::policies

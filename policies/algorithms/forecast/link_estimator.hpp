@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct link_estimator_options {
   double alpha = 0.05;      ///< Weight of the newest message, in (0, 1].
@@ -77,4 +77,4 @@ private:
   std::optional<time_point> last_result_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

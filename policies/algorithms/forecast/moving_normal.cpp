@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 void moving_normal::add(double x, double times) {
   assert(times >= 1);
@@ -34,4 +34,4 @@ double moving_normal::quantile(double p) const {
   return mean_ + normal_quantile(p) * std::sqrt(variance_);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Mean and variance with exponentially fading weights:
 ///
@@ -44,4 +44,4 @@ private:
   double variance_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -41,4 +41,4 @@ double normal_quantile(double p) {
   return refined_quantile(refined_quantile(rough_quantile(p), p), p);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

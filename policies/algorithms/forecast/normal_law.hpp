@@ -1,7 +1,7 @@
 // The standard normal law: how likely, and how far out.
 #pragma once
 
-namespace sofof {
+namespace sofof::policies {
 
 /// @returns P(X ≤ x) of a standard normal X; relative error of that of
 /// `std::erfc`, some 1e-15, in both tails.
@@ -15,4 +15,4 @@ double normal_cdf(double x);
 /// Source: start from Abramowitz & Stegun 1964, 26.2.23; then Halley's method.
 double normal_quantile(double p);
 
-} // namespace sofof
+} // namespace sofof::policies

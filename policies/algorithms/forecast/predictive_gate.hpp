@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// A gate on the forecast probability of a violation, closed at first, with
 /// two thresholds so that it does not flutter: it opens at p ≤ on and closes at
@@ -32,4 +32,4 @@ private:
   bool open_ = false;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 std::optional<update>
 decision_slot(const offloading_game& game, const profile& a, std::uint64_t slot,
@@ -34,4 +34,4 @@ equilibrium play(const offloading_game& game, profile start,
   return found;
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

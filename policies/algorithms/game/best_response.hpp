@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 /// What the winner of a decision slot does.
 struct update {
@@ -40,4 +40,4 @@ struct equilibrium {
 equilibrium play(const offloading_game& game, profile start,
                  const std::optional<random_stream>& lottery);
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 namespace {
 
@@ -53,4 +53,4 @@ central_game game_of(const central_context& context, double price,
   return {{std::move(players), workers, std::move(model)}, std::move(now)};
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

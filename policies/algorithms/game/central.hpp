@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 /// Everybody is heard alike, as a provider does not know distances: power 1 at
 /// the provider, and noise 20 dB below it.
@@ -36,4 +36,4 @@ struct central_game {
 central_game game_of(const central_context& context, double price,
                      std::shared_ptr<const channel_model> model);
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

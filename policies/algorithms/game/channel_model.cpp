@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 double interference::rate_bps(const player& p, double received) const {
   assert(received >= 0);
@@ -29,4 +29,4 @@ double contention::received_at(const player& p, double rate_bps) const {
   return p.contention_weight * (p.lone_rate_bps / rate_bps - 1);
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

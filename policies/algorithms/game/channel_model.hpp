@@ -6,7 +6,7 @@
 
 #include <cassert>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 /// A channel makes a player slower the more weight it receives from the
 /// others on it. That both models do so is what makes a potential game.
@@ -61,4 +61,4 @@ public:
   double received_at(const player& p, double rate_bps) const override;
 };
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 offloading_game::offloading_game(std::vector<player> players,
                                  std::size_t channels,
@@ -68,4 +68,4 @@ double offloading_game::cost_of(std::size_t n, choice c,
   return offloading_cost(players_[n], model_->rate_bps(players_[n], received));
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

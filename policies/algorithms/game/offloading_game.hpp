@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 /// What a player chooses: 0 to compute locally, or channel 1 … M.
 using choice = std::size_t;
@@ -76,4 +76,4 @@ private:
   std::vector<double> thresholds_;
 };
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 namespace {
 
@@ -39,4 +39,4 @@ double beneficial_rate_bps(const player& p) {
   return sending_cost_per_s(p) * p.bits / left_for_sending;
 }
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

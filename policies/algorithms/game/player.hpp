@@ -4,7 +4,7 @@
 // for mobile-edge cloud computing, ToN 24(5), 2016 ("Chen 2016").
 #pragma once
 
-namespace sofof::game {
+namespace sofof::policies::game {
 
 /// A user with one task. Everything is finite and ≥ 0; see each field for
 /// what must be more.
@@ -39,4 +39,4 @@ double offloading_cost(const player& p, double rate_bps);
 /// Source: Chen 2016, proof of Lemma 1.
 double beneficial_rate_bps(const player& p);
 
-} // namespace sofof::game
+} // namespace sofof::policies::game

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstddef>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// The actions that a safety shield allows, one bit each.
 using action_set = std::bitset<32>;
@@ -17,4 +17,4 @@ constexpr action_set first_actions(std::size_t number) {
   return action_set{(1ULL << number) - 1};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

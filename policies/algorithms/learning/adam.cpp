@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -26,4 +26,4 @@ void adam::step(Eigen::VectorXd& weights, const Eigen::VectorXd& gradient) {
                      / (square_.array().sqrt() * correction + least_divisor);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

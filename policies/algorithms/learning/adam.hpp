@@ -5,7 +5,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Adam with the constants of its paper: means of gradients and of their
 /// squares with factors 0.9 and 0.999, corrected for their start at 0.
@@ -30,4 +30,4 @@ private:
   double square_decay_ = 1;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::optional<std::string> alto::restore(std::string_view snapshot) {
   return in.fault();
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Constants of ALTO; the paper leaves them to the user.
 struct alto_options {
@@ -80,4 +80,4 @@ private:
   std::uint64_t tasks_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -142,4 +142,4 @@ std::vector<option_info> trials_and(const std::vector<option_info>& others) {
   return all;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Where one service is tried.
 class bandit {
@@ -73,4 +73,4 @@ private:
 /// @returns what is said of the options of `bandit_lodm`, then `others`.
 std::vector<option_info> trials_and(const std::vector<option_info>& others);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <optional>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// A service is at one place for a while, or on the way there.
 class bandit_trial {
@@ -45,4 +45,4 @@ private:
   double cycles_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::optional<std::string> dqn::restore(std::string_view snapshot) {
   return std::nullopt;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

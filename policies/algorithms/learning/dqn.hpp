@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct dqn_options {
   network_shape shape = {};              ///< At most 32 actions.
@@ -98,4 +98,4 @@ private:
   std::vector<double> targets_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -120,4 +120,4 @@ void dueling_network::backward(const Eigen::Ref<const MatrixXd>& states,
   sum_columns(pass.first, by.first_offset);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct network_shape {
   Eigen::Index features = 1; ///< What a state is described by.
@@ -57,4 +57,4 @@ private:
   Eigen::VectorXd weights_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::optional<std::size_t> explore_or_best(std::span<const double> values,
   return action;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// The share of random decisions, which falls in a straight line.
 struct exploration {
@@ -38,4 +38,4 @@ std::optional<std::size_t> explore_or_best(std::span<const double> values,
                                            const random_stream& draws,
                                            std::uint64_t decision);
 
-} // namespace sofof
+} // namespace sofof::policies

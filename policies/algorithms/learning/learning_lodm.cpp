@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -197,4 +197,4 @@ std::vector<option_info> learning_notes() {
       {"epoch_s", "s", "of a step"}};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Keeps a service where it is or changes that, by what its mind has learned a
 /// change to be worth: from the vehicle to the provider where it pays most;
@@ -106,4 +106,4 @@ private:
 /// @returns what is said of the options of every `learning_lodm`.
 std::vector<option_info> learning_notes();
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -79,4 +79,4 @@ features_of(const offloading_view& view) {
           part(to_seconds(context.now - context.since), 10)};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// A service and one provider.
 struct offloading_view {
@@ -40,4 +40,4 @@ inline constexpr std::size_t offloading_features = 12;
 std::array<double, offloading_features>
 features_of(const offloading_view& view);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -89,4 +89,4 @@ std::unique_ptr<q_function> make_q_network(const learner_options& how) {
   return std::make_unique<q_network>(how);
 }
 
-} // namespace sofof
+} // namespace sofof::policies

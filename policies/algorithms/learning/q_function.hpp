@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What it sees, in both forms.
 struct mind_state {
@@ -59,4 +59,4 @@ struct learner_options {
 std::unique_ptr<q_function> make_q_table(const learner_options& how);
 std::unique_ptr<q_function> make_q_network(const learner_options& how);
 
-} // namespace sofof
+} // namespace sofof::policies

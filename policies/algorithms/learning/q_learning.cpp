@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::optional<std::string> q_learning::restore(std::string_view snapshot) {
   return in.fault();
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct q_learning_options {
   std::size_t states = 1;
@@ -78,4 +78,4 @@ private:
   std::uint64_t decisions_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 void replay::add(const experience& lived) {
   assert(lived.state.size() == features_);
@@ -31,4 +31,4 @@ experience replay::operator[](std::size_t place) const {
           kept.next_allowed};
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What became of an action. The spans belong to whoever made it.
 struct experience {
@@ -49,4 +49,4 @@ private:
   std::vector<double> states_; // here and next, one after the other
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,10 +3,10 @@
 
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// @returns the text of policies/algorithms/learning/snapshots/NAME.txt; an
 /// empty one if there is no such file.
 std::string_view snapshot_of(std::string_view name);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -135,4 +135,4 @@ Number state_reader::read(std::string_view wanted) {
   return 0;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

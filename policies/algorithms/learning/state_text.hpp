@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Writes words, one space or one line end apart, and "end" as the last: a
 /// text that is cut off is none. Numbers are the shortest that read back as the
@@ -69,4 +69,4 @@ private:
   std::optional<std::string> fault_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 double td_loss(const Eigen::MatrixXd& values,
                std::span<const std::size_t> actions,
@@ -26,4 +26,4 @@ double td_loss(const Eigen::MatrixXd& values,
   return loss;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// The mean over a batch of ½ d² where |d| ≤ 1, else |d| − ½; d is the value
 /// of the action taken less its target (Huber 1964; Mnih et al. 2015 clip the
@@ -19,4 +19,4 @@ double td_loss(const Eigen::MatrixXd& values,
                std::span<const std::size_t> actions,
                std::span<const double> targets, Eigen::MatrixXd& slopes);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::optional<std::string> ucb1::restore(std::string_view snapshot) {
   return in.fault();
 }
 
-} // namespace sofof
+} // namespace sofof::policies

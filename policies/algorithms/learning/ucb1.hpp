@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Learns which of a few arms gives the highest mean reward, by optimism: an
 /// arm of k of the t pulls so far, with mean reward m, is worth
@@ -51,4 +51,4 @@ private:
   std::uint64_t pulls_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

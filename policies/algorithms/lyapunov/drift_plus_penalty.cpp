@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 std::size_t
 drift_plus_penalty::choose(std::span<const planning_option> choices) const {
@@ -36,4 +36,4 @@ double drift_plus_penalty::price(const planning_option& choice) const {
          + violation_debt_ * choice.miss_probability - backlog_ * choice.served;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct drift_plus_penalty_options {
   double energy_weight = 50;      ///< V, 1/J, ≥ 0: energy against debts.
@@ -73,4 +73,4 @@ private:
   double backlog_ = 0;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <optional>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -67,4 +67,4 @@ bool fits_by_demand(std::span<const periodic_task> tasks) {
   return true;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 
 #include "policies/api/periodic_task.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Necessary always, enough only where every deadline is as long as its period
 /// and nothing jitters. Looks at no offsets. O(tasks).
@@ -25,4 +25,4 @@ bool fits_by_utilisation(std::span<const periodic_task> tasks);
 /// Source: Baruah, Rosier & Howell 1990; jitter: Spuri 1996.
 bool fits_by_demand(std::span<const periodic_task> tasks);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -9,7 +9,7 @@
 #include <queue>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::optional<duration> assigned_offset(std::span<const periodic_task> running,
   return best;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// Plays preemptive earliest deadline first of tasks with offsets on one core,
 /// with every job released as late as its jitter allows, which is the worst
@@ -31,4 +31,4 @@ std::optional<duration> longest_wait(std::span<const periodic_task> tasks);
 std::optional<duration> assigned_offset(std::span<const periodic_task> running,
                                         const periodic_task& task);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,7 +4,7 @@
 #include "policies/algorithms/scheduling/edf.hpp"
 #include "policies/algorithms/scheduling/phases.hpp"
 
-namespace sofof {
+namespace sofof::policies {
 
 namespace {
 
@@ -42,4 +42,4 @@ worst_fit(std::span<const std::vector<periodic_task>> cores,
   return best;
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace sofof {
+namespace sofof::policies {
 
 /// What a core must pass to take a session.
 enum class admission_test {
@@ -34,4 +34,4 @@ std::optional<core_place>
 worst_fit(std::span<const std::vector<periodic_task>> cores,
           const periodic_task& session, admission_test test);
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace sofof {
+namespace sofof::policies {
 
 service_place hysteresis::next(const wish& wanted, time_point now) {
   assert(!better_since_ || now >= *better_since_);
@@ -34,4 +34,4 @@ void hysteresis::switch_to(service_place source, time_point now) {
   better_since_.reset();
 }
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace sofof {
+namespace sofof::policies {
 
 struct hysteresis_options {
   double margin = 0.05; ///< Normalised gain; an advantage counts above this.
@@ -54,4 +54,4 @@ private:
   std::optional<time_point> switched_;
 };
 
-} // namespace sofof
+} // namespace sofof::policies

@@ -4,15 +4,15 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 planner_entry planner_al_ilqr() {
-  return [](const planner_options& options, route_profile_ptr along,
-            bool remote) -> std::unique_ptr<trajectory_planner> {
-    return std::make_unique<spatial_planner>(std::move(along), options.style,
-                                             remote ? options.mec
-                                                    : options.onboard);
+  return [](const planner_options& options, planners::route_profile_ptr along,
+            bool remote) -> std::unique_ptr<planners::trajectory_planner> {
+    return std::make_unique<planners::spatial_planner>(
+        std::move(along), options.style,
+        remote ? options.mec : options.onboard);
   };
 }
 
-} // namespace sofof
+} // namespace sofof::actors

@@ -5,13 +5,14 @@
 
 #include <utility>
 
-namespace sofof {
+namespace sofof::actors {
 
 planner_entry planner_lane_follow() {
-  return [](const planner_options& options, route_profile_ptr along,
-            bool) -> std::unique_ptr<trajectory_planner> {
-    return std::make_unique<lane_follow>(std::move(along), options.style);
+  return [](const planner_options& options, planners::route_profile_ptr along,
+            bool) -> std::unique_ptr<planners::trajectory_planner> {
+    return std::make_unique<planners::lane_follow>(std::move(along),
+                                                   options.style);
   };
 }
 
-} // namespace sofof
+} // namespace sofof::actors
