@@ -40,7 +40,7 @@ inline constexpr std::size_t most_waypoints = 128;
 using waypoint_delta_time = integer<0, 65535>; ///< ms
 
 /// A place seen from the reference position, which the ASN.1 leaves open: here
-/// x points east and y north.
+/// x points east and y north, in cm, up to ±131071.
 struct waypoint {
   cartesian_coordinate_large x, y;
 
