@@ -66,13 +66,13 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
   assert(number <= timer_);
   if (number != timer_)
     return;
-  assert(state_ == lifecycle_state::active);
+  assert(state_ == messages::lifecycle_state::active);
   await_next(now);
   run(now);
 }
 
 void service_cycle::begin(time_point now) {
-  assert(state_ == lifecycle_state::active);
+  assert(state_ == messages::lifecycle_state::active);
   assert(!has_timer_);
   if (newest_.standby) {
     run(now);
@@ -96,7 +96,7 @@ void service_cycle::await_next(time_point now) {
 }
 
 void service_cycle::run(time_point now) {
-  assert(state_ == lifecycle_state::active);
+  assert(state_ == messages::lifecycle_state::active);
   const auto on_grid = grid_number(now);
   const auto cycle = next_number(on_grid);
   const auto is_ahead = cycle > on_grid + 1;

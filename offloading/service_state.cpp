@@ -179,7 +179,7 @@ service_state::candidates(const known_providers& providers, point from,
     std::ranges::sort(all, {}, &policies::provider_view::id);
   }
   assert(all.size() <= protocol::most_candidates);
-  assert(std::ranges::is_sorted(all, {}, &provider_view::id));
+  assert(std::ranges::is_sorted(all, {}, &policies::provider_view::id));
   std::vector<candidate> told;
   for (const auto& view : all)
     told.push_back(

@@ -19,7 +19,7 @@ namespace sofof::actors {
 
 /// For what an actor works: offloading in a vehicle, or something else.
 struct cpu_account {
-  std::optional<station_id> station{}; ///< The vehicle, if it is one's work.
+  std::optional<station_id> station{}; ///< The vehicle that it works for.
   messages::service_name service;      ///< Empty: all of the vehicle's.
   bool remote = false; ///< Whether it (or any of all) is remote meanwhile.
 

@@ -1,5 +1,5 @@
 // How structs, enumerations and times travel in CAF's messages. CAF finds this
-// by messages/inspector_access.hpp; who counts octets does without CAF.
+// by messages/inspector_access.hpp; counting octets does without CAF.
 #pragma once
 
 #include "base/fields.hpp"

@@ -11,7 +11,7 @@ namespace sofof::planners {
 
 /// The nearest road user ahead on one's own way.
 struct lead_vehicle {
-  std::optional<station_id> station{}; ///< If it tells of itself.
+  std::optional<station_id> station{}; ///< If it sends CAMs.
   double rear_s_m = 0; ///< Its rear bumper, arc length on the follower's
                        ///< route, laps counted as the follower counts.
   double speed_mps = 0;

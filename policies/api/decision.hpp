@@ -22,7 +22,7 @@ struct second_provider {
 
 /// The service stays where it is.
 struct stay {
-  /// Beside the provider where it runs; means nothing while it runs at none.
+  /// Beside the provider where it runs; while it runs at none, this one alone.
   /// Without, a second one that runs already goes on.
   std::optional<second_provider> second{};
 };
@@ -88,7 +88,7 @@ struct accepted {
 
 /// The service does not run at the provider, or ends there.
 struct refused {
-  std::optional<provider_id> instead{}; ///< Who should be asked.
+  std::optional<provider_id> instead{}; ///< The provider to ask.
 };
 
 /// What a CODM says of one request or one session.

@@ -60,7 +60,7 @@ local_decision predictive_gate_governor::govern(const local_context& context,
     return std::ranges::find(closed, id) != closed.end();
   };
   if (std::holds_alternative<come_home>(wanted.what))
-    return wanted;
+    return ends ? local_decision{come_home{}, late_results} : wanted;
   auto second = second_of(wanted);
   if (second && is_closed(second->provider))
     second.reset();
@@ -70,7 +70,7 @@ local_decision predictive_gate_governor::govern(const local_context& context,
     return with_second(wanted, second);
   if (ends && !second)
     return {come_home{}, late_results};
-  if (second && (ends || !context.current)) // the other one is fine
+  if (ends) // the other one is fine
     return {run_at{.provider = second->provider,
                    .advantage = there ? there->advantage : 1},
             wanted.why};

@@ -45,7 +45,7 @@ local_decision redundancy_governor::govern(const local_context& context,
   }
   if (best && !is_enough)
     return with_second(wanted, second_provider{best->id, hedge_after_});
-  return there ? wanted // alone: a second one ends
+  return there ? wanted // a second one that it does not ask for ends
                : local_decision{run_at{*first, second_of(wanted)}, wanted.why};
 }
 

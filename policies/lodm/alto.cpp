@@ -23,7 +23,10 @@ public:
     std::vector<provider_id> present;
     for (const auto& provider : context.providers)
       present.push_back(provider.id);
-    return bandit_.choose(task_bits_, present);
+    const auto chosen = bandit_.choose(task_bits_, present);
+    if (!chosen)
+      return std::nullopt;
+    return service_place{*chosen};
   }
   std::optional<double> value(const cycle_outcome& outcome,
                               service_place place) const override {

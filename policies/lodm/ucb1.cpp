@@ -29,7 +29,9 @@ public:
       if (const auto place = arm_of(provider.id); place < most_arms)
         allowed.set(place);
     const auto chosen = bandit_.choose(allowed);
-    return chosen ? std::optional{known_[*chosen]} : std::nullopt;
+    if (!chosen)
+      return std::nullopt;
+    return known_[*chosen];
   }
   std::optional<double> value(const cycle_outcome& outcome,
                               service_place) const override {

@@ -223,9 +223,11 @@ TEST_CASE_FIXTURE(
   duration cpu{};
   for (const auto& line : lines_after(1ms * count * turns))
     if (line.actor == "worker") {
-      // One may begin before it is told for whom it works.
-      const auto told = line.account.station.has_value();
-      CHECK(line.wakes >= (told ? turns : 1));
+      // A worker's first turn may come before it is charged to a station.
+      const auto is_charged = line.account.station.has_value();
+      if (is_charged)
+        CHECK(line.account.station == 101);
+      CHECK(line.wakes >= (is_charged ? turns : 1));
       cpu += line.cpu;
     }
   CHECK(cpu < 2ms * count * turns);

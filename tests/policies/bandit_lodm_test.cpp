@@ -58,6 +58,20 @@ TEST_CASE_FIXTURE(follower,
   CHECK(way == std::vector<service_place>{on_board, on_board, 1, 1, 2, 2});
 }
 
+TEST_CASE_FIXTURE(follower,
+                  "ALTO stays where it is when no provider comes into "
+                  "question any more") {
+  const auto lodm = make_lodm("alto");
+  add(1);
+  REQUIRE(goes_to(ask(*lodm)) == 1);
+  runs_at(1);
+  providers[0].at = {1e6, 0};
+  for (int k = 0; k < 3; ++k) {
+    pass(3s);
+    CHECK(goes_to(ask(*lodm)) == 1);
+  }
+}
+
 TEST_CASE_FIXTURE(follower, "UCB1 is most where a cycle costs least, on board "
                             "not excepted") {
   add(1);

@@ -7,7 +7,6 @@
 
 namespace sofof::policies {
 
-using namespace policies;
 lodm_entry lodm_slow_only();
 codm_entry codm_slowest_first();
 } // namespace sofof::policies
