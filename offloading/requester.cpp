@@ -110,6 +110,8 @@ void requester::expire(const epoch_end&, time_point now) {
 void requester::on_offer(const messages::service_offer& offer, peer_id from,
                          time_point now) {
   pass(now);
+  if (offer.provider == 0) // no provider has this number
+    return;
   log(messages::event_type::offer, {offer.provider, setup_.station, {}, 0}, {},
       now);
   auto& provider = meet(offer.provider, from);
