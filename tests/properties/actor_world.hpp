@@ -68,10 +68,9 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
         const auto t = actors::now(self);
         actors::send_at(self, self, t + 50ms, messages::tick_atom_v);
         s.car.step();
+        const auto said = messages::payload::of(echo{s.car.said});
         for (const auto& manager : s.managers)
-          self->send(manager,
-                     messages::service_input{
-                         {}, t, messages::payload::of(echo{s.car.said})});
+          self->send(manager, messages::service_input{{}, t, said});
         if (!s.car.sends_cam())
           return;
         const auto ego = s.car.ego(t);

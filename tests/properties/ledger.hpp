@@ -42,16 +42,23 @@ struct ledger {
 /// message.
 struct client_diary {
   struct entry {
+    messages::service_name service;
     bool remote = false;
-    time_point newest_created;
-    time_point newest_of_source; // in use now
+    time_point newest_created{};
+    time_point newest_of_source{}; // in use now
     bool any_result = false;
   };
-  std::map<messages::service_name, entry> services;
+  std::vector<entry> services;
   std::vector<std::string> broken; // promises
 
+  entry& of(const messages::service_name& service) {
+    const auto known = std::ranges::find(services, service, &entry::service);
+    return known != services.end() ? *known
+                                   : services.emplace_back(entry{service});
+  }
+
   void on_source(const messages::service_name& service, bool remote) {
-    auto& e = services[service];
+    auto& e = of(service);
     if (e.remote == remote)
       broken.push_back("a source was chosen that was in use already");
     e.remote = remote;
@@ -59,8 +66,8 @@ struct client_diary {
   }
 
   void on_result(const messages::service_result& result) {
-    auto& e = services[result.session.service];
-    if (e.remote != result.session.is_remote())
+    auto& e = of(result.session.service);
+    if (e.remote != (result.session.is_remote()))
       broken.push_back("a result came from the source that is not in use");
     if (result.created < e.newest_of_source)
       broken.push_back("a source's results came out of order");
@@ -72,7 +79,7 @@ struct client_diary {
   void check_fresh(time_point now) {
     using namespace std::chrono_literals;
     constexpr auto fresh = 50ms + 100ms + 50ms;
-    for (const auto& [service, e] : services)
+    for (const auto& e : services)
       if (e.any_result && now - e.newest_created > fresh)
         broken.push_back("the newest result is not fresh");
   }

@@ -3,7 +3,8 @@
 
 #include "base/protocol.hpp"
 #include "channel/link_direction.hpp"
-#include "channel/multi_server_queue.hpp"
+#include "channel/provider_compute.hpp"
+#include "channel/server_queue.hpp"
 #include "messages/protocol/octets.hpp"
 #include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
@@ -35,31 +36,28 @@ class agenda {
 public:
   time_point now() const { return now_; }
 
-  template <class Kind>
-  void at(time_point t, Kind&& what) {
-    if (free_.empty()) {
-      free_.push_back(events_.size());
-      events_.emplace_back();
-    }
-    const auto place = free_.back();
-    free_.pop_back();
-    events_[place].template emplace<std::remove_cvref_t<Kind>>(
-        std::forward<Kind>(what));
-    const auto due = std::max(t, now_);
-    entries_.insert(
-        std::ranges::lower_bound(entries_, due, std::greater{}, &entry::at),
-        {due, place});
+  /// @tparam Kind  Of event; made of `parts`.
+  template <class Kind, class... Parts>
+  void at(time_point t, Parts&&... parts) {
+    if (!free_)
+      free_ = &entries_.emplace_back();
+    auto* made = std::exchange(free_, free_->next);
+    made->at = std::max(t, now_);
+    made->what.template emplace<Kind>(std::forward<Parts>(parts)...);
+    auto** place = &next_;
+    while (*place && (*place)->at <= made->at)
+      place = &(*place)->next;
+    made->next = std::exchange(*place, made);
   }
 
   /// @param handle  Takes an event; may call `at`.
   template <class Function>
   void run_until(time_point end, Function handle) {
-    while (!entries_.empty() && entries_.back().at <= end) {
-      const auto next = entries_.back();
-      entries_.pop_back();
-      now_ = next.at;
-      handle(events_[next.place]);
-      free_.push_back(next.place);
+    while (next_ && next_->at <= end) {
+      auto* due = std::exchange(next_, next_->next);
+      now_ = due->at;
+      handle(due->what);
+      due->next = std::exchange(free_, due);
     }
     now_ = end;
   }
@@ -67,13 +65,14 @@ public:
 private:
   struct entry {
     time_point at;
-    std::size_t place = 0; // of the event
+    Event what;
+    entry* next = nullptr; // in the order of time, or of those that are free
   };
 
   time_point now_;
-  std::vector<entry> entries_; // the next one last
-  std::deque<Event> events_;   // they stay where they are
-  std::vector<std::size_t> free_;
+  std::deque<entry> entries_; // they stay where they are
+  entry* next_ = nullptr;
+  entry* free_ = nullptr;
 };
 
 /// The car moves on.
@@ -123,14 +122,18 @@ public:
         down_{draws, channel::direction::down, nullptr}, faults_{std::move(
                                                              faults)} {}
 
-  template <class Arrival>
-  void up(std::uint64_t number, std::size_t octets, Arrival&& arrival) {
-    carry(up_, channel::message_class::other, number, octets,
-          std::forward<Arrival>(arrival));
+  /// @param to  The place of the provider.
+  template <class Message>
+  void up(std::uint64_t number, std::size_t octets, std::size_t to,
+          Message&& message) {
+    using arrival = up_arrival<std::remove_cvref_t<Message>>;
+    carry<arrival>(up_, channel::message_class::other, number, octets, to,
+                   std::forward<Message>(message));
   }
   void down(channel::message_class kind, std::uint64_t number,
-            std::size_t octets, down_arrival&& arrival) {
-    carry(down_, kind, number, octets, std::move(arrival));
+            std::size_t octets, std::size_t from,
+            offloading::to_vehicle&& message) {
+    carry<down_arrival>(down_, kind, number, octets, from, std::move(message));
   }
   /// Knows the sessions from what passes.
   void look_at(const offloading::to_vehicle& message) {
@@ -155,9 +158,10 @@ public:
   }
 
 private:
-  template <class Arrival>
+  template <class Arrival, class Message>
   void carry(channel::link_direction& direction, channel::message_class kind,
-             std::uint64_t number, std::size_t octets, Arrival&& arrival) {
+             std::uint64_t number, std::size_t octets, std::size_t provider,
+             Message&& message) {
     const auto t = direction.arrival(time_.now(), kind, number, octets);
     if (!t)
       return;
@@ -165,8 +169,9 @@ private:
     if (fate.lost)
       return;
     if (fate.copy_after) // first: at the same time they are alike
-      time_.at(*t + *fate.copy_after, arrival);
-    time_.at(*t + fate.extra_delay, std::forward<Arrival>(arrival));
+      time_.at<Arrival>(*t + *fate.copy_after, provider, message);
+    time_.at<Arrival>(*t + fate.extra_delay, provider,
+                      std::forward<Message>(message));
   }
 
   agenda<event>& time_;
@@ -178,12 +183,13 @@ private:
 
 struct library_world {
   static constexpr offloading::peer_id vehicle_peer{1};
+  static inline const messages::service_name one{"one"}, two{"two"};
 
   struct provider_node final : offloading::provider_side_port {
     library_world& world;
     std::size_t number;
     channel::provider_compute computers;
-    std::shared_ptr<channel::multi_server_queue> workers;
+    channel::server_queue workers;
     random_stream draws_of_results;
     library_link link;
     bool alive = true;
@@ -192,8 +198,7 @@ struct library_world {
     provider_node(library_world& w, std::size_t k)
         : world{w}, number{k}, computers{channel::compute_measured_with(
                                    w.profile->name)},
-          workers{std::make_shared<channel::multi_server_queue>(
-              static_cast<unsigned>(computers.workers))},
+          workers{static_cast<unsigned>(computers.workers)},
           draws_of_results{channel::result_draws(
               random_stream{w.seed, "network"}, shuttle::station,
               static_cast<std::uint32_t>(k))},
@@ -203,7 +208,7 @@ struct library_world {
       offloading::provider_setup setup;
       setup.id = static_cast<provider_id>(k + 1);
       setup.area = area_of_provider(static_cast<int>(k));
-      for (const auto* name : {"one", "two"})
+      for (const auto& name : {one, two})
         setup.services.push_back(at_provider(echo_service(name), {}));
       setup.policy = policies::make_codm("always");
       setup.computer = {static_cast<std::size_t>(computers.workers),
@@ -227,20 +232,20 @@ struct library_world {
           [](const auto& x) { return messages::octets_of(x); }, message);
       link.down(result ? channel::message_class::result
                        : channel::message_class::other,
-                result ? result->cycle : link.time_number(), octets,
-                down_arrival{number, std::move(message)});
+                result ? result->cycle : link.time_number(), octets, number,
+                std::move(message));
     }
     time_point finish(const messages::session_id&, time_point start,
                       std::uint64_t cycle) override {
-      return workers->finish(start,
-                             computers.computing_time(draws_of_results, cycle));
+      return workers.finish(start,
+                            computers.computing_time(draws_of_results, cycle));
     }
     void record(messages::record&& x) override {
       if (const auto* episode = std::get_if<messages::episode_record>(&x))
         world.book->add(*episode);
     }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
-      world.time.at(t, provider_timer{number, number_of_timer});
+      world.time.at<provider_timer>(t, number, number_of_timer);
     }
   };
 
@@ -261,8 +266,7 @@ struct library_world {
         return;
       const auto octets = std::visit(
           [](const auto& x) { return messages::octets_of(x); }, message);
-      p.link.up(p.link.time_number(), octets,
-                up_arrival<offloading::to_provider>{k, std::move(message)});
+      p.link.up(p.link.time_number(), octets, k, std::move(message));
     }
     void use(const messages::service_result& result) override {
       world.diary->on_result(result);
@@ -276,7 +280,7 @@ struct library_world {
         world.book->add(*episode);
     }
     void wake_at(time_point t, std::uint64_t number) override {
-      world.time.at(t, vehicle_timer{number});
+      world.time.at<vehicle_timer>(t, number);
     }
   };
 
@@ -310,7 +314,7 @@ struct library_world {
           return way->waypoints(ego.s_m, protocol::route_ahead_m,
                                 protocol::route_spacing_m);
         };
-    for (const auto* name : {"one", "two"})
+    for (const auto& name : {one, two})
       setup.services.push_back(in_vehicle(echo_service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
                                                       time.now());
@@ -322,14 +326,16 @@ struct library_world {
     if (!alive)
       return;
     const auto t = time.now();
-    time.at(t + 50ms, tick{});
+    time.at<tick>(t + 50ms);
     car.step();
     if (car.sends_cam())
       send_cam(car.ego(t));
     if (car.said == 1)
       return; // its services are not there yet
-    for (const auto* name : {"one", "two"})
-      side->on_input(name, {{}, t, messages::payload::of(echo{car.said})}, t);
+    const messages::service_input said{
+        {}, t, messages::payload::of(echo{car.said})};
+    for (const auto* name : {&one, &two})
+      side->on_input(*name, said, t);
   }
   void handle(const vehicle_timer& x) {
     if (alive)
@@ -344,9 +350,9 @@ struct library_world {
     if (auto& p = *providers[x.provider]; p.alive && alive)
       p.side->on_cam(x.message, vehicle_peer, now());
   }
-  void handle(up_arrival<offloading::to_provider>& x) {
+  void handle(const up_arrival<offloading::to_provider>& x) {
     if (auto& p = *providers[x.provider]; p.alive)
-      p.side->on_message(vehicle_peer, std::move(x.message), now());
+      p.side->on_message(vehicle_peer, x.message, now());
   }
   void handle(const down_arrival& x) {
     if (alive)
@@ -358,15 +364,15 @@ struct library_world {
     side->on_motion(ego);
     for (std::size_t k = 0; k < providers.size(); ++k) {
       auto& link = providers[k]->link;
-      link.up(link.time_number() ^ cam_message << 56, octets_of_cam(),
-              up_arrival<messages::cam>{k, ego.own});
+      link.up(link.time_number() ^ cam_message << 56, octets_of_cam(), k,
+              ego.own);
     }
   }
 
   time_point now() const { return time.now(); }
   void run_for(duration d) {
-    time.run_until(time.now() + d, [this](event& next) {
-      std::visit([this](auto& x) { handle(x); }, next);
+    time.run_until(time.now() + d, [this](const event& next) {
+      std::visit([this](const auto& x) { handle(x); }, next);
     });
   }
 
