@@ -19,14 +19,14 @@ public:
       : bandit_{options}, task_bits_{task_bits},
         worst_s_{options.worst_delay_s_per_bit * task_bits} {}
 
-  std::optional<service_place> choose(const local_context& context) override {
+  std::optional<chosen_place> choose(const local_context& context) override {
     std::vector<provider_id> present;
     for (const auto& provider : context.providers)
       present.push_back(provider.id);
     const auto chosen = bandit_.choose(task_bits_, present);
     if (!chosen)
       return std::nullopt;
-    return service_place{*chosen};
+    return chosen_place{*chosen};
   }
   std::optional<double> value(const cycle_outcome& outcome,
                               service_place place) const override {

@@ -21,7 +21,7 @@ class places final : public bandit {
 public:
   explicit places(const cost_weights& weights) : weights_{weights} {}
 
-  std::optional<service_place> choose(const local_context& context) override {
+  std::optional<chosen_place> choose(const local_context& context) override {
     needs_ = context.needs;
     reference_j_ = context.on_board.energy_j;
     action_set allowed{1}; // on board
@@ -31,7 +31,7 @@ public:
     const auto chosen = bandit_.choose(allowed);
     if (!chosen)
       return std::nullopt;
-    return known_[*chosen];
+    return chosen_place{known_[*chosen]};
   }
   std::optional<double> value(const cycle_outcome& outcome,
                               service_place) const override {
@@ -79,10 +79,13 @@ std::optional<std::string> places::restore(std::string_view text) {
   state_reader in{text, "places", 1};
   in.expect("providers");
   places read{weights_};
-  for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left)
-    if (read.arm_of(provider_id{in.count(~provider_id::rep{0})}) + 1
-        != read.known_.size())
+  for (auto left = in.count(most_arms - 1); left > 0 && !in.failed(); --left) {
+    const provider_id provider{in.count(~provider_id::rep{0})};
+    if (provider == 0)
+      in.refuse("expected providers, whose numbers are at least 1.");
+    else if (read.arm_of(provider) + 1 != read.known_.size())
       in.refuse("expected each provider once.");
+  }
   const auto rest = in.after_end();
   if (in.failed())
     return in.fault();

@@ -182,3 +182,19 @@ TEST_CASE_FIXTURE(follower, "a bandit that is restored goes on alike, a clone "
     CHECK(goes_to(ask(*cloned)) == goes_to(ask(*restored)));
   }
 }
+
+TEST_CASE_FIXTURE(roadside, "what a bandit has learned of a provider with the "
+                            "number 0 is refused") {
+  const auto lodm = make_lodm("ucb1");
+  add(1);
+  lodm->observe(cycle());
+  REQUIRE(!goes_to(ask(*lodm)));
+  auto text = lodm->snapshot();
+  const std::string providers = "providers 1 1";
+  const auto at = text.find(providers);
+  REQUIRE(at != std::string::npos);
+  text[at + providers.size() - 1] = '0';
+  const auto fault = make_lodm("ucb1")->restore(text);
+  REQUIRE(fault);
+  CHECK(fault->find("at least 1") != std::string::npos);
+}

@@ -57,12 +57,12 @@ local_decision bandit_lodm::decide(const local_context& context) {
       && is_offered(context, tried.now.place()))
     return at_place(context.current, tried.now.place(), "on trial");
   conclude(tried, context.now);
-  const auto place = tried.learner->choose(context);
-  if (!place)
+  const auto chosen = tried.learner->choose(context);
+  if (!chosen)
     return at_place(context.current, context.current,
                     "nobody comes into question");
-  tried.now = {*place, context.now};
-  return at_place(context.current, *place, "on trial");
+  tried.now = {chosen->at, context.now};
+  return at_place(context.current, chosen->at, "on trial");
 }
 
 void bandit_lodm::observe(const cycle_outcome& outcome) {

@@ -14,17 +14,22 @@
 
 namespace sofof::policies {
 
+/// Where a service is tried next.
+struct chosen_place {
+  service_place at;
+};
+
 /// Where one service is tried.
 class bandit {
 public:
   virtual ~bandit() = default;
 
-  /// @returns where it is tried next; nullopt: there is no choice.
-  virtual std::optional<service_place> choose(const local_context& context) = 0;
+  /// @returns nullopt where there is no choice.
+  virtual std::optional<chosen_place> choose(const local_context& context) = 0;
   /// @returns what a cycle counts in a trial; nullopt: nothing.
   virtual std::optional<double> value(const cycle_outcome& outcome,
                                       service_place place) const = 0;
-  /// @param mean  Of a cycle; nullopt: nothing came, or nobody would have it.
+  /// @param mean  Of a cycle; nullopt: nothing came, or the place refused.
   virtual void learn(service_place place, std::optional<double> mean) = 0;
 
   virtual std::string snapshot() const = 0;
@@ -33,7 +38,7 @@ public:
 };
 
 /// Tries each service of a vehicle for a while where a bandit of its own says.
-/// A trial ends early when nobody would have it, when the service does not run
+/// A trial ends early when the place refuses, when the service does not run
 /// there any more, or when the place does not come into question any more.
 class bandit_lodm : public local_policy {
 public:
