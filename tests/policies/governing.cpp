@@ -109,6 +109,36 @@ TEST_CASE_FIXTURE(roadside,
   CHECK(!goes_to(ask(*lodm)));
 }
 
+TEST_CASE_FIXTURE(roadside, "behind redundancy, a gate takes away the one of "
+                            "two that may be late") {
+  const auto lodm =
+      make_lodm_with("always", {.texts = {{"govern.0.name", "redundancy"},
+                                          {"govern.1.name", "predictive_gate"}},
+                                .lengths = {{"govern", 2}}});
+  add(1);
+  add(2);
+  runs_at(1);
+  SUBCASE("both are in time") {
+    CHECK(backed_by(ask(*lodm)) == 2);
+    CHECK(!comes_home(ask(*lodm)));
+  }
+  SUBCASE("the second may be late") {
+    providers[1].link = {0.5, 0, 20ms, 30ms};
+    CHECK(!backed_by(ask(*lodm)));
+    CHECK(!comes_home(ask(*lodm)));
+  }
+  SUBCASE("the first may be late") {
+    providers[0].link = {0.5, 0, 20ms, 30ms};
+    CHECK(goes_to(ask(*lodm)) == 2);
+    CHECK(!backed_by(ask(*lodm)));
+  }
+  SUBCASE("both may be late") {
+    for (auto& provider : providers)
+      provider.link = {0.5, 0, 20ms, 30ms};
+    CHECK(comes_home(ask(*lodm)));
+  }
+}
+
 TEST_CASE_FIXTURE(roadside,
                   "each service has gates of its own, and so has each "
                   "clone") {
