@@ -39,10 +39,10 @@ auto options_by(Make make) {
 
 std::vector<role> roles() {
   return {
-      {"lodm", "in the vehicle: whom to ask", policies::lodm_notes(),
+      {"lodm", "in the vehicle: which provider to ask", policies::lodm_notes(),
        options_by(policies::make_lodm)},
-      {"codm", "at the provider: whom to accept", policies::codm_notes(),
-       options_by(policies::make_codm)},
+      {"codm", "at the provider: which requests to accept",
+       policies::codm_notes(), options_by(policies::make_codm)},
       {"lodm.filter", "before it: who comes into question",
        policies::local_filter_notes(), options_by(policies::make_local_filter)},
       {"codm.filter", "before it: who comes into question",

@@ -1,4 +1,4 @@
-// Time as everybody here counts it: nanoseconds since the run's clock began.
+// Time: nanoseconds since the run's clock began.
 #pragma once
 
 #include <chrono>

@@ -7,10 +7,9 @@ namespace sofof::channel {
 
 link_faults::link_faults(random_stream stream,
                          const link_fault_options& options)
-    : stream_{stream}, options_{options}, is_faultless_{
-                                              options.loss <= 0
-                                              && options.duplicate <= 0
-                                              && options.reorder <= 0} {
+    : stream_{stream}, options_{options},
+      is_faultless_(options.loss <= 0 && options.duplicate <= 0
+                    && options.reorder <= 0) {
   assert(options.loss >= 0 && options.loss <= 1);
   assert(options.duplicate >= 0 && options.duplicate <= 1);
   assert(options.reorder >= 0 && options.reorder <= 1);

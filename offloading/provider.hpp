@@ -187,8 +187,8 @@ private:
   /// What the policy is asked about one request, and what it gets for an
   /// answer.
   struct question {
-    std::vector<policies::central_decision>
-        verdicts; // one for each named service
+    // One for each named service.
+    std::vector<policies::central_decision> verdicts;
     std::vector<policies::request_view> asked;
     std::vector<std::size_t> places; // of what is asked, among the services
   };

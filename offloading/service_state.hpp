@@ -19,10 +19,10 @@ namespace sofof::offloading {
 struct known_provider {
   peer_id peer{};
   std::optional<std::uint32_t> open_request{};
-  std::optional<time_point>
-      last_complaint{}; ///< About results of unknown sessions.
-  messages::service_offer
-      offer{}; ///< The latest, without what was asked for since.
+  /// About results of unknown sessions.
+  std::optional<time_point> last_complaint{};
+  /// The latest, without what was asked for since.
+  messages::service_offer offer{};
   time_point offered_at{};
   distrust doubted{}; ///< Since its results were implausible.
 
@@ -54,13 +54,13 @@ struct service_state {
   world::cycle_cost on_board{};  ///< Of a cycle in the vehicle.
   world::cycle_cost offloaded{}; ///< Time: of the way there alone.
   time_point since{};            ///< It has been where it is.
-  std::vector<requester_session>
-      sessions{};                    ///< The oldest first; empty: it is local.
+  /// The oldest first; empty: it is local.
+  std::vector<requester_session> sessions{};
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.
   std::optional<messages::standby> standing_by{}; ///< One of them, if any.
   std::map<provider_id, time_point> cool_until{};
-  std::map<provider_id, policies::link_estimator>
-      links{}; ///< By what came from there.
+  /// By what came from there.
+  std::map<provider_id, policies::link_estimator> links{};
 
   /// @param computer  The vehicle's.
   service_state(onboard_service what, const world::computer_options& computer,

@@ -113,8 +113,8 @@ private:
     std::optional<time_point> last_sent;
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
-    std::optional<messages::implausibility>
-        useless; // of the results since then
+    // Of the results since then.
+    std::optional<messages::implausibility> useless;
     time_point useless_at;
     bool knows_it_stands_by = false; // by the last input
     int calls_in_vain = 0;

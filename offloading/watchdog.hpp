@@ -53,8 +53,8 @@ private:
   messages::qos_limits limits_;
   std::optional<messages::session_id> watched_;
   gap_monitor gaps_{duration{0}};
-  std::optional<messages::implausibility>
-      useless_; // of results since the last arrival
+  // Of results since the last arrival.
+  std::optional<messages::implausibility> useless_;
 };
 
 } // namespace sofof::offloading

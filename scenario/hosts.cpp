@@ -350,8 +350,8 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
   here.provides = [](std::size_t) { return false; };
   const auto stations = connected_stations(s, here);
   std::shared_ptr<network::key_ring> keys;
-  std::vector<std::unique_ptr<network::tls_connector>>
-      connectors; // outlive what uses them
+  // Outlive what uses them.
+  std::vector<std::unique_ptr<network::tls_connector>> connectors;
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options.realtime = true;

@@ -26,9 +26,9 @@ namespace sofof::scenario {
 
 /// How offloading is decided.
 struct policy_options {
-  std::shared_ptr<policies::local_policy>
-      lodm; ///< Prototype; everybody has a clone.
-  std::shared_ptr<policies::central_policy> codm; ///< Prototype.
+  /// Prototypes: each vehicle and each provider has a clone.
+  std::shared_ptr<policies::local_policy> lodm;
+  std::shared_ptr<policies::central_policy> codm;
 
   policy_options(); ///< The paper's: "location" for both.
   void visit_options(option_visitor& s);

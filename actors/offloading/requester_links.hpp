@@ -54,8 +54,8 @@ private:
   station_id station_;
   messages::recorder_actor recorder_;
   std::map<messages::service_name, messages::requester_manager_actor> managers_;
-  std::map<messages::session_id, messages::provider_manager_actor>
-      accepted_; // by this response
+  // By the response that is being heard.
+  std::map<messages::session_id, messages::provider_manager_actor> accepted_;
   peers<messages::provider_actor> providers_;
 };
 

@@ -32,8 +32,8 @@ public:
 
 private:
   mutable std::mutex mutex_;
-  std::map<std::string, network::peer_identity>
-      by_node_; // as they are serialised
+  // Nodes as they are serialised.
+  std::map<std::string, network::peer_identity> by_node_;
 };
 
 /// Whom a process lets connect, and how much it hears of each.

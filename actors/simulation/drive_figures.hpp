@@ -42,8 +42,8 @@ public:
 
 private:
   station_id station_;
-  std::optional<messages::session_id>
-      source_;             // none: a plan of its own is in use
+  // None: a plan of its own is in use.
+  std::optional<messages::session_id> source_;
   bool stops_;             // by a plan of its own, or has not set off
   bool emergency_ = false; // so is the plan in use
   world::plan_figures plans_;

@@ -28,9 +28,9 @@ struct road_setup {
   world::streets_ptr world;
   station_routes ways;
   world::vehicle_params car; ///< Every vehicle's.
-  world::sensor_params
-      sensors;                ///< Of every vehicle, in the middle of its body.
-  random_stream noise{0, ""}; ///< Of the vehicles' sensors.
+  /// Of every vehicle, in the middle of its body.
+  world::sensor_params sensors;
+  random_stream noise{0, ""};          ///< Of the vehicles' sensors.
   std::vector<roadside_sensor> beside; ///< Sensors of providers.
   std::vector<oriented_box> obstacles; ///< Stand on the road. The k-th
                                        ///< collides as `obstacle_id(k)`.

@@ -119,8 +119,8 @@ private:
   const std::atomic<bool>& interrupted_;
   recording::progress shown_;
   stopwatch watch_;
-  std::shared_ptr<policies::local_policy>
-      pupil_; ///< Its clones share its mind.
+  // Its clones share its mind.
+  std::shared_ptr<policies::local_policy> pupil_;
 };
 
 } // namespace

@@ -39,8 +39,8 @@ void visit_fields(auto& v, ego_state& x) {
 /// What a sensor at the roadside sees, for the provider that it belongs to.
 struct roadside_detections {
   time_point at;
-  std::vector<world::perceived_object>
-      objects;              ///< As `scene::seen_by` gives them.
+  /// As `scene::seen_by` gives them.
+  std::vector<world::perceived_object> objects;
   std::uint32_t sensor = 0; ///< Which of its sensors it is.
   world::viewpoint from{};
 };

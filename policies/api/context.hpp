@@ -41,8 +41,8 @@ struct provider_view {
   /// Mean computing time of a result of this service there, without a wait.
   double computing_s = 0;
   link_quality link{};
-  world::cycle_cost
-      cost{}; ///< Of a cycle that is planned there, for the vehicle.
+  /// Of a cycle that is planned there, for the vehicle.
+  world::cycle_cost cost{};
 };
 
 /// What a cycle at this provider costs less than one on board, without unit: <

@@ -34,8 +34,8 @@ struct host_script {
   std::optional<std::string> refusal;
   bool full = false;
   bool answers = true;
-  messages::provider_endpoint_actor
-      endpoint; ///< Given to those who are welcome.
+  /// Given to those who are welcome.
+  messages::provider_endpoint_actor endpoint;
 
   std::size_t knocks = 0;
   std::vector<acceptor_promise> unanswered;

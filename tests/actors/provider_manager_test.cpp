@@ -17,8 +17,8 @@ struct provider_manager_world : virtual_world {
   probe<requester_actor> requester = listen<requester_actor>();
   probe<provider_actor> provider = listen<provider_actor>();
   probe<recorder_actor> recorder = listen<recorder_actor>();
-  std::weak_ptr<offloading::service_function>
-      function; // lives as long as the instance
+  // Lives as long as the instance.
+  std::weak_ptr<offloading::service_function> function;
   provider_manager_actor manager = spawn();
 
   provider_manager_actor spawn() {

@@ -47,8 +47,8 @@ struct remote_world : virtual_world {
   provider_id::rep boot = first_boot - 1;
   messages::roadside_provider_actor provider;
   messages::acceptor_actor inner_acceptor; ///< Of the provider.
-  messages::acceptor_actor
-      acceptor; ///< With the wire; none while its host is down.
+  /// With the wire; none while its host is down.
+  messages::acceptor_actor acceptor;
   actors::provider_outbox outbox;
   std::vector<time_point> attempts;
   std::vector<std::string> news, refusals;

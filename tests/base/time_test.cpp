@@ -1,4 +1,4 @@
-// Tests of times as everybody here counts them.
+// Tests of times, which are nanoseconds since the run's clock began.
 #include "base/time.hpp"
 
 #include "tests/support/dice.hpp"

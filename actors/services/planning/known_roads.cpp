@@ -5,8 +5,8 @@ namespace sofof::actors {
 
 known_roads::known_roads(const world::road_map& map,
                          const planners::comfort_limits& style)
-    : lanes_{std::make_shared<const planners::lane_network>(map)}, style_{
-                                                                       style} {}
+    : lanes_(std::make_shared<const planners::lane_network>(map)),
+      style_(style) {}
 
 planners::route_profile_ptr known_roads::profile(const world::route_ptr& way) {
   const std::lock_guard lock{mutex_};

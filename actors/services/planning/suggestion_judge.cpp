@@ -78,8 +78,8 @@ private:
 
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
-  std::shared_ptr<offloading::service_function>
-      own_; // to compare with, when needed
+  // To compare with, when needed.
+  std::shared_ptr<offloading::service_function> own_;
   planners::plan_judge judge_;
   messages::etsi::mcm word_; // room that is used again
 };
