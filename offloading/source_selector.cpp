@@ -79,8 +79,9 @@ bool source_selector::is_standby(const source& x) const {
 void source_selector::on_input(const messages::service_input& input,
                                time_point now) {
   pass(now);
-  newest_ = input;
-  port_.feed_local(newest_);
+  newest_.at = input.at;
+  newest_.what = input.what;
+  port_.feed_local(input);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
       feed(x, now);
@@ -98,8 +99,9 @@ bool source_selector::feed(source& x, time_point now) {
   assert(!x.last_sent || *x.last_sent <= now);
   x.last_sent = now;
   const auto stands = is_standby(x);
-  auto input = own().encode_input({x.session, newest_.at, newest_.what, used_},
-                                  !x.in_use || stands || x.knows_it_stands_by);
+  newest_.session = x.session;
+  auto input =
+      own().encode_input(newest_, !x.in_use || stands || x.knows_it_stands_by);
   if (input.what.empty())
     return false;
   assert(input.session == x.session);
@@ -144,8 +146,8 @@ void source_selector::on_result(const messages::service_result& result,
     on_result_of(*x, result, now, false, {});
     return;
   }
-  auto judged = x->judge->judge(
-      result.what, {x->session, newest_.at, newest_.what, used_}, now);
+  newest_.session = x->session;
+  auto judged = x->judge->judge(result.what, newest_, now);
   assert(!(judged.refused && judged.useless));
   if (judged.refused || judged.useless)
     port_.record(messages::cycle_record{.session = result.session,
@@ -278,12 +280,12 @@ bool source_selector::may_follow(const messages::service_result& result,
                                  time_point now) const {
   return result.session == used_from_
          || now - used_at_ > patience_periods * options().period
-         || own().continues(used_, result.what, now);
+         || own().continues(newest_.in_use, result.what, now);
 }
 
 void source_selector::use(const messages::service_result& result,
                           time_point now) {
-  used_ = result.what;
+  newest_.in_use = result.what;
   used_from_ = result.session;
   used_at_ = now;
   port_.use(result);
@@ -388,8 +390,9 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
   if (!is_remote()) {
     port_.watch_end(end);
     if (end.reason == messages::end_reason::implausible)
-      used_ = {}; // the own function does not go on from that
-    port_.go_local({{}, newest_.at, newest_.what, used_});
+      newest_.in_use = {}; // the own function does not go on from that
+    newest_.session = {};
+    port_.go_local(newest_);
     port_.announce_source(false);
     return;
   }
