@@ -116,7 +116,7 @@ struct actor_world : virtual_world {
       add_provider(k);
     actors::requester_actor_setup setup;
     setup.station = shuttle::station;
-    setup.path_ahead = toy::path_ahead_on(world->routes.front());
+    setup.path_ahead = path_ahead;
     setup.services = {{echo_service("one")}, {echo_service("two")}};
     setup.lodm = policies::make_lodm("always");
     setup.recorder = recorder;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
+#include "base/protocol.hpp"
 #include "channel/link_faults.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
@@ -103,6 +104,18 @@ struct shuttle {
   }
 };
 
+/// The way ahead of it, straight on.
+inline std::vector<point> path_ahead(const messages::ego_state& ego) {
+  std::vector<point> way;
+  way.reserve(1
+              + static_cast<std::size_t>(protocol::route_ahead_m
+                                         / protocol::route_spacing_m));
+  for (double m = 0; m <= protocol::route_ahead_m;
+       m += protocol::route_spacing_m)
+    way.push_back(ego.own.position + point{m, 0});
+  return way;
+}
+
 inline polygon area_of_provider(int k) {
   return polygon::regular({100.0 * k, 0}, 300, 24);
 }
@@ -112,8 +125,6 @@ inline world::streets_ptr one_long_street() {
     auto world = std::make_shared<world::streets>();
     world->map = world::road_map{
         "street", {}, {toy::straight("street", {-600, 0}, {1400, 0})}};
-    world->routes.push_back(world->map.make_route(
-        "street", std::vector<std::string>{"street"}, false));
     return world;
   }();
   return street;

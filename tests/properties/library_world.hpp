@@ -309,11 +309,7 @@ struct library_world {
     setup.station = shuttle::station;
     setup.policy = policies::make_lodm("always");
     setup.noise = random_stream{seed, "vehicle"};
-    setup.path_ahead =
-        [way = world->routes.front()](const messages::ego_state& ego) {
-          return way->waypoints(ego.s_m, protocol::route_ahead_m,
-                                protocol::route_spacing_m);
-        };
+    setup.path_ahead = path_ahead;
     for (const auto& name : {one, two})
       setup.services.push_back(in_vehicle(echo_service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
