@@ -10,8 +10,8 @@ duration distrust::add(time_point now) {
   constexpr duration first = std::chrono::seconds{60};
   constexpr std::uint32_t most_doublings = 16; // 45 days
   const auto pause =
-      first * (std::int64_t{1} << std::min(lies_, most_doublings));
-  ++lies_;
+      first * (std::int64_t{1} << std::min(refused_, most_doublings));
+  ++refused_;
   until_ = std::max(until_, now + pause);
   return pause;
 }

@@ -19,7 +19,7 @@ public:
   bool holds(time_point now) const { return now < until_; }
 
 private:
-  std::uint32_t lies_ = 0;
+  std::uint32_t refused_ = 0;
   time_point until_ = time_point::min();
 };
 

@@ -56,7 +56,7 @@ private:
   struct timer {
     timer_of of = timer_of::provider;
     std::uint32_t session = 0; // its counter, but for the provider's
-    std::uint64_t number = 0;  // as whom it is for has numbered it
+    std::uint64_t number = 0;  // as its owner has numbered it
   };
 
   /// The function of one session.
@@ -126,6 +126,7 @@ private:
         // The response was lost on its way, or the vehicle has changed its
         // mind.
         if (!session.fed)
+          // A copy: the session is erased in this call.
           provider_->on_function_lost(messages::session_id{session.session},
                                       messages::end_reason::no_data, now_);
     }
@@ -136,8 +137,11 @@ private:
   void handle(peer_id from, const messages::service_request& request) {
     provider_->on_request(request, from, now_);
   }
-  void handle(peer_id, const messages::service_end& end) {
-    provider_->on_end(end, now_);
+  // Only the requester of a session ends it.
+  void handle(peer_id from, const messages::service_end& end) {
+    const auto* to = find(end.session);
+    if (to && to->requester == from)
+      provider_->on_end(end, now_);
   }
   // Only the requester of a session feeds it.
   void handle(peer_id from, const messages::service_input& input) {

@@ -88,7 +88,7 @@ void requester::expire(const start_timeout& x, time_point now) {
         now);
 }
 
-// Cycles on board are told at the pace of the epoch.
+// The policy learns of cycles on board once an epoch.
 void requester::expire(const epoch_end&, time_point now) {
   assert(epoch_ > duration{0});
   wake_at(now + epoch_, epoch_end{});
@@ -132,12 +132,12 @@ known_provider& requester::meet(provider_id id, peer_id peer) {
   if (const auto i = providers_.find(id); i != providers_.end())
     return i->second;
   assert(!is_in_use(id));
-  // A peer speaks for one provider, which has booted since.
+  // A peer speaks for one provider, which has started again since.
   const auto is_same = [peer](const auto& known) {
     return known.second.peer == peer;
   };
   const auto before = std::ranges::find_if(providers_, is_same);
-  // A liar that has booted again is no other one.
+  // A provider that is doubted stays so when it has started again.
   const auto doubted =
       before != providers_.end() ? before->second.doubted : distrust{};
   std::erase_if(providers_, [&](const auto& known) {
@@ -150,6 +150,11 @@ known_provider& requester::meet(provider_id id, peer_id peer) {
   return providers_
       .emplace(id, known_provider{.peer = peer, .doubted = doubted})
       .first->second;
+}
+
+bool requester::is_peer_of(provider_id provider, peer_id peer) const {
+  const auto known = providers_.find(provider);
+  return known != providers_.end() && known->second.peer == peer;
 }
 
 bool requester::is_in_use(provider_id id) const {
@@ -170,11 +175,11 @@ void requester::learn(const messages::service_offer& offer, time_point now) {
 
 // For all services: they come from one computer, under one key.
 void requester::distrust_peer_of(provider_id provider, time_point now) {
-  const auto liar = providers_.find(provider);
-  if (liar == providers_.end())
+  const auto doubted = providers_.find(provider);
+  if (doubted == providers_.end())
     return;
   for (auto& [id, known] : providers_)
-    if (known.peer == liar->second.peer)
+    if (known.peer == doubted->second.peer)
       known.doubted.add(now);
 }
 

@@ -79,8 +79,8 @@ public:
 ///   to say so or is lost.
 /// * A provider with an implausible result is not asked for a while, for no
 ///   service (distrust.hpp). One whose session gave results and then ended by
-///   a fault is not asked for that service for protocol::cool_down: which ends
-///   count, and when it may be asked again, is said in service_state.cpp.
+///   a fault (is_fallback, service_state.hpp) is not asked for that service for
+///   protocol::cool_down, nor are those that ran it beside that one.
 /// * Results of a session that is not known are dropped; its provider is told
 ///   so every protocol::unknown_result_period at most.
 ///
@@ -99,6 +99,9 @@ public:
   ///              another peer speaks for is ignored.
   void on_offer(const messages::service_offer& offer, peer_id from,
                 time_point now);
+
+  /// @returns whether a peer speaks for a provider, by the offers that came.
+  bool is_peer_of(provider_id provider, peer_id peer) const;
 
   /// Verdicts up to the first that cannot be meant for this vehicle count.
   void on_response(const messages::service_response& response, time_point now);

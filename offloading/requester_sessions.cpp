@@ -1,5 +1,6 @@
 // From verdicts and data to the end of a session.
 #include "base/protocol.hpp"
+#include "offloading/qos_monitor.hpp"
 #include "offloading/requester.hpp"
 
 #include <algorithm>
@@ -125,13 +126,13 @@ void requester::on_result(const messages::service_result& result,
     link.answered(result.created, now);
   else
     link.arrived(result.created, now);
-  setup_.policy->observe(
-      policies::cycle_outcome{.at = now,
-                              .service = service.service.name.view(),
-                              .computed_at = provider,
-                              .latency_s = to_seconds(latency),
-                              .missed = latency > service.needs.max_latency,
-                              .energy_j = service.offloaded.energy_j});
+  setup_.policy->observe(policies::cycle_outcome{
+      .at = now,
+      .service = service.service.name.view(),
+      .computed_at = provider,
+      .latency_s = to_seconds(latency),
+      .missed = !in_time(result.created, now, service.needs.max_latency),
+      .energy_j = service.offloaded.energy_j});
   port_.forward(result);
 }
 

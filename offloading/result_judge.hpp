@@ -29,7 +29,8 @@ public:
   virtual ~result_judge() = default;
 
   /// @param result  As it came.
-  /// @param latest  The vehicle's newest input; `in_use` is the result in use.
+  /// @param latest  The vehicle's newest input, of no session; `in_use` is the
+  ///                result in use.
   /// @param now     When the result came.
   virtual judged_result judge(const messages::payload& result,
                               const messages::service_input& latest,

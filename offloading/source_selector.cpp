@@ -99,9 +99,10 @@ bool source_selector::feed(source& x, time_point now) {
   assert(!x.last_sent || *x.last_sent <= now);
   x.last_sent = now;
   const auto stands = is_standby(x);
-  newest_.session = x.session;
-  auto input =
-      own().encode_input(newest_, !x.in_use || stands || x.knows_it_stands_by);
+  auto input = newest_;
+  input.session = x.session;
+  input = own().encode_input(std::move(input),
+                             !x.in_use || stands || x.knows_it_stands_by);
   if (input.what.empty())
     return false;
   assert(input.session == x.session);
@@ -146,7 +147,6 @@ void source_selector::on_result(const messages::service_result& result,
     on_result_of(*x, result, now, false, {});
     return;
   }
-  newest_.session = x->session;
   auto judged = x->judge->judge(result.what, newest_, now);
   assert(!(judged.refused && judged.useless));
   if (judged.refused || judged.useless)
@@ -208,7 +208,8 @@ void source_selector::leave_out(source& x, const objection& why,
   port_.watch_useless(x.session, *x.useless);
 }
 
-/// @param in_limits  It came in time.
+/// @param in_limits  Its age can be judged, it came in time, and nothing speaks
+///                   against it.
 void source_selector::on_result_of(source& x,
                                    const messages::service_result& result,
                                    time_point now, bool in_limits,
@@ -334,7 +335,8 @@ void source_selector::on_timer(std::uint64_t number, time_point now) {
       ++x.calls_in_vain;
 }
 
-/// One of several that has not been in time for long is of no use.
+/// One of several that has not been in time for long is of no use, nor is one
+/// that stands by and does not answer.
 void source_selector::give_up_silent(time_point now) {
   assert(in_use() > 1);
   for (auto& x : sources_) {
@@ -345,13 +347,14 @@ void source_selector::give_up_silent(time_point now) {
     if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
       continue;
     x.given_up = true;
-    const auto lies =
+    const auto was_useless =
         x.useless && now - x.useless_at <= patience_periods * options().period;
     const auto found = x.useless.value_or(messages::implausibility{});
-    port_.report(
-        {x.session,
-         lies ? messages::qos_breach::implausible : messages::qos_breach::gap,
-         now, true, found.why, lies ? found.check : std::string{}});
+    port_.report({x.session,
+                  was_useless ? messages::qos_breach::implausible
+                              : messages::qos_breach::gap,
+                  now, true, found.why,
+                  was_useless ? found.check : std::string{}});
   }
 }
 
@@ -391,7 +394,6 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
     port_.watch_end(end);
     if (end.reason == messages::end_reason::implausible)
       newest_.in_use = {}; // the own function does not go on from that
-    newest_.session = {};
     port_.go_local(newest_);
     port_.announce_source(false);
     return;

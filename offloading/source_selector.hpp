@@ -157,12 +157,10 @@ private:
   std::optional<messages::standby> standby_;
   time_point began_;        // the latest cycle of a source that is fed always
   std::uint64_t timer_ = 0; // the one that counts
-  messages::session_id watched_; // by whose name the watchdog watches
-  // The newest input, for the session that it is for, and with the last result
-  // that the client got,
-  messages::service_input newest_;
-  messages::session_id used_from_;     // of which session,
-  time_point used_at_;                 // and when
+  messages::session_id watched_;       // by whose name the watchdog watches
+  messages::service_input newest_;     // of no session; with the result in use,
+  messages::session_id used_from_;     // the session that it is of,
+  time_point used_at_;                 // and when it came
   time_point now_ = time_point::min(); // of the latest call
 };
 

@@ -63,12 +63,12 @@ public:
 private:
   struct service_parts;
 
-  enum class timer_of { requester, selector, dog, own, result };
+  enum class timer_of { requester, selector, watchdog, own, result };
 
   struct timer {
     timer_of of = timer_of::requester;
     service_parts* service = nullptr; // but for the requester's
-    std::uint64_t number = 0;         // as whom it is for has numbered it
+    std::uint64_t number = 0;         // as its owner has numbered it
   };
 
   /// What the vehicle's own function wants.
@@ -89,8 +89,8 @@ private:
     parts& all;
     messages::service_name name;
     source_selector selector;
-    watchdog dog;
-    std::uint64_t dog_timer = 0; // the one that counts
+    watchdog quality;
+    std::uint64_t watchdog_timer = 0; // the one that counts
     own_port wants{*this};
     service_cycle own;
     timer_list<messages::service_result> results; // of its cycles
@@ -101,7 +101,7 @@ private:
         : all{owner}, name{service.name}, selector{{setup.station, service,
                                                     setup.record_margins},
                                                    *this},
-          dog{service.options.limits}, own{cycle(setup, service), wants} {}
+          quality{service.options.limits}, own{cycle(setup, service), wants} {}
 
     cycle_setup cycle(const vehicle_side_setup& setup,
                       const onboard_service& service) {
@@ -166,35 +166,35 @@ private:
     }
 
     void watch(const messages::session_id& session, time_point last) override {
-      dog.arm(session, last);
-      set_dog_timer();
+      quality.arm(session, last);
+      set_watchdog_timer();
     }
     void watch_arrival(const messages::arrival& result) override {
-      if (auto late = dog.on_arrival(result, all.now_))
-        bark(std::move(*late));
+      if (auto late = quality.on_arrival(result, all.now_))
+        report_once(std::move(*late));
     }
     void watch_useless(const messages::session_id& session,
                        const messages::implausibility& found) override {
-      dog.on_useless(session, found);
+      quality.on_useless(session, found);
     }
     void watch_end(const messages::service_end& end) override {
-      if (dog.disarm(end.session))
-        ++dog_timer;
+      if (quality.disarm(end.session))
+        ++watchdog_timer;
     }
 
-    void set_dog_timer() {
-      wake_at(dog.deadline().value(), timer_of::dog, ++dog_timer);
+    void set_watchdog_timer() {
+      wake_at(quality.deadline().value(), timer_of::watchdog, ++watchdog_timer);
     }
-    void on_dog_timer(std::uint64_t number) {
-      if (number != dog_timer)
+    void on_watchdog_timer(std::uint64_t number) {
+      if (number != watchdog_timer)
         return;
-      if (auto gap = dog.on_deadline(all.now_))
-        bark(std::move(*gap));
+      if (auto gap = quality.on_deadline(all.now_))
+        report_once(std::move(*gap));
       else
-        set_dog_timer();
+        set_watchdog_timer();
     }
-    void bark(messages::qos_violation violation) {
-      ++dog_timer;
+    void report_once(messages::qos_violation violation) {
+      ++watchdog_timer;
       report(std::move(violation));
     }
 
@@ -226,8 +226,8 @@ private:
     now_ = now;
   }
 
-  // What selectors and watchdogs have found the requester hears at the end of a
-  // call; it may lead to more.
+  // What selectors and watchdogs have found is reported to the requester at the
+  // end of a call; it may lead to more.
   void end_call() {
     for (std::size_t k = 0; k < reports_.size(); ++k) {
       const auto found = std::move(reports_[k]);
@@ -254,8 +254,8 @@ private:
         return requester_->on_timer(due.number, now_);
       case timer_of::selector:
         return due.service->selector.on_timer(due.number, now_);
-      case timer_of::dog:
-        return due.service->on_dog_timer(due.number);
+      case timer_of::watchdog:
+        return due.service->on_watchdog_timer(due.number);
       case timer_of::own:
         return due.service->own.on_timer(due.number, now_);
       case timer_of::result:
@@ -270,14 +270,18 @@ private:
     requester_->on_offer(x, from, now_);
   }
   void handle(peer_id from, const messages::service_response& x) {
+    if (!requester_->is_peer_of(x.provider, from))
+      return;
     answering_ = from;
     requester_->on_response(x, now_);
   }
-  void handle(peer_id, const messages::service_result& x) {
-    requester_->on_result(x, now_);
+  void handle(peer_id from, const messages::service_result& x) {
+    if (requester_->is_peer_of(x.session.provider, from))
+      requester_->on_result(x, now_);
   }
-  void handle(peer_id, const messages::service_end& x) {
-    requester_->on_end(x, now_);
+  void handle(peer_id from, const messages::service_end& x) {
+    if (requester_->is_peer_of(x.session.provider, from))
+      requester_->on_end(x, now_);
   }
 
   // -- what the requester wants -------------------------------------------

@@ -73,6 +73,8 @@ public:
   void on_input(const messages::service_name& service,
                 const messages::service_input& input, time_point now);
 
+  /// @param from  Whoever has sent it; what it says in the name of a provider
+  ///              that another peer speaks for is ignored.
   void on_message(peer_id from, const to_vehicle& message, time_point now);
 
   /// A provider cannot be reached any more.

@@ -248,3 +248,28 @@ TEST_CASE("whatever vehicles say, a provider ends each session that it has "
   }
   CHECK(started > 100);
 }
+
+TEST_CASE("a peer speaks for no other peer's provider") {
+  constexpr offloading::peer_id honest{1}, other{2};
+  const session_id session{1, 101, "one", 7};
+  const time_point now{1s};
+  deceived_vehicle v;
+  v.side.on_input("one", {{}, now, payload::of(echo{1})}, now);
+  v.side.on_message(honest, service_offer{1, {}, {"one"}, 0, 1, 1ms, now}, now);
+  REQUIRE(v.asked == 1);
+  const service_response yes{1, 101, 1, {{session, true, ""}}};
+  const service_result good{session, 1, now, payload::of(echo{1})};
+  v.side.on_message(other, yes, now);
+  v.side.on_message(honest, good, now);
+  CHECK_FALSE(v.remote["one"]); // there is no session
+  v.side.on_message(honest, yes, now);
+  v.side.on_message(other, good, now);
+  CHECK_FALSE(v.remote["one"]);
+  v.side.on_message(honest, good, now);
+  CHECK(v.remote["one"]);
+  const service_end end{session, end_reason::released, side::provider};
+  v.side.on_message(other, end, now);
+  CHECK(v.remote["one"]);
+  v.side.on_message(honest, end, now);
+  CHECK_FALSE(v.remote["one"]);
+}
