@@ -7,7 +7,7 @@
 namespace sofof::channel {
 
 link_direction::link_direction(channel_draws draws, direction to,
-                               std::shared_ptr<multi_server_queue> cell)
+                               std::shared_ptr<shared_server_queue> cell)
     : draws_{std::move(draws)}, direction_{to}, cell_{std::move(cell)},
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
 
@@ -27,7 +27,7 @@ std::optional<time_point> link_direction::arrival(time_point sent,
                            ? std::max(on_air, stall->end)
                                  + draws_.burst_delay(direction_, stall->number)
                            : on_air + draws_.network_delay(m, sent);
-  last_arrival_ = std::max(last_arrival_, arrives);
+  last_arrival_ = std::max(last_arrival_, arrives); // none overtakes
   return last_arrival_;
 }
 
