@@ -169,6 +169,8 @@ std::string scenario_definition::profiles() const {
 
 void scenario_definition::visit_options(option_visitor& s) {
   s.field("name", name);
+  if (name.empty())
+    s.refuse("name", "must not be empty.");
   s.field("duration", length, 1ns);
   constexpr double max_seed = 0x1p63; // no int64 exceeds it
   s.field("seed", seed, {0, max_seed});

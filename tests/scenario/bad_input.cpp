@@ -157,7 +157,7 @@ TEST_CASE("driving that cannot work is refused") {
   const auto decel = planner("max_decel_mps2 = @2.4");
   const auto soft = planner("comfort_decel_mps2 = 2.4, max_decel_mps2 = @2.99");
   const auto coarse = planner("onboard = { horizon_m = 31.5, step_m = @2 }");
-  const auto fine = planner("mec = { horizon_m = 129, step_m = @0.5 }");
+  const auto fine = planner("provider = { horizon_m = 129, step_m = @0.5 }");
   check_scenario_mistakes({
       {right, decel, {"max_decel_mps2", "from 2.5", "2.4"}},
       {right, soft, {"max_decel_mps2", "at least 3", "comfort_decel_mps2"}},
@@ -169,6 +169,7 @@ TEST_CASE("driving that cannot work is refused") {
   };
   CHECK(loads("comfort_decel_mps2 = 2.0, max_decel_mps2 = 2.5"));
   CHECK(loads("onboard = { horizon_m = 32, step_m = 2 }"));
+  CHECK(loads("mec = { horizon_m = 126 }")); // as it was called
 }
 
 TEST_CASE("a start beyond the speed limit is refused") {
@@ -327,8 +328,9 @@ TEST_CASE("names that must differ are refused where the second stands") {
   });
 }
 
-TEST_CASE("lists that must not be empty are refused") {
+TEST_CASE("names and lists that must not be empty are refused") {
   check_scenario_mistakes({
+      {"name = \"example\"", "name = @\"\"", {"name", "must not be empty"}},
       {"[\"straight\"]", "@[]", {"routes", "at least one"}},
       {"[\"cabin_climate\"]", "@[]", {"services", "at least one"}},
   });
