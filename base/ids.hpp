@@ -49,7 +49,7 @@ using service_place = std::optional<provider_id>;
 ///               < 65536.
 /// @param start  When its process started, in any unit; 0 if it is the only
 ///               one.
-constexpr provider_id boot_of(std::uint32_t place, std::uint64_t start) {
+constexpr provider_id provider_at(std::uint32_t place, std::uint64_t start) {
   return start << 16 | place;
 }
 

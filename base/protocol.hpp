@@ -1,4 +1,4 @@
-// The constants of the offloading protocol; everybody takes them from here.
+// The constants of the offloading protocol, in one place.
 #pragma once
 
 #include "base/time.hpp"
@@ -17,24 +17,25 @@ inline constexpr duration offer_validity = offer_period * 5 / 2;
 inline constexpr duration request_timeout = 500ms;
 /// From acceptance to the first data; the local service runs on meanwhile.
 inline constexpr duration start_timeout = 1s;
-/// After a fallback, per provider and service, before the next request.
+/// From the end of a session by a fault to the next request of that service to
+/// that provider.
 inline constexpr duration cool_down = 1s;
 /// A station has gone of which neither a CAM nor another broadcast message has
 /// come for longer.
 /// Source: Dehler & Buchholz 2025, CAM check.
 inline constexpr duration cam_timeout = 2s;
 /// Between two looks of a vehicle at whether a CAM or a CPM is due
-/// (T_CheckCamGen), and between two words to its own requester.
+/// (T_CheckCamGen), and between two messages of its motion to its requester.
 inline constexpr duration ego_period = 100ms;
-/// Between two answers to results of unknown running services.
+/// Between two answers to results of unknown sessions.
 inline constexpr duration unknown_result_period = 200ms;
 
-/// Between two life signs on a connection between hosts.
-inline constexpr duration life_sign_period = 50ms;
+/// Between two pings on a connection between hosts.
+inline constexpr duration ping_period = 50ms;
 /// Who has been silent for longer is cut off.
 inline constexpr duration silence_limit = 1s;
-/// For every step of an introduction.
-inline constexpr duration introduction_timeout = 2s;
+/// For every step of a handshake.
+inline constexpr duration handshake_timeout = 2s;
 
 /// Clocks of vehicles, sensors and providers agree within this.
 inline constexpr duration clock_tolerance = 200ms;

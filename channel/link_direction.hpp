@@ -4,8 +4,8 @@
 
 #include "base/time.hpp"
 #include "channel/channel_draws.hpp"
-#include "channel/multi_server_queue.hpp"
 #include "channel/outage_process.hpp"
+#include "channel/shared_server_queue.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -20,7 +20,7 @@ public:
   /// @param cell  The radio cell's airtime queue, of one worker, shared by
   ///              the vehicles of a cell in this direction; null for none.
   link_direction(channel_draws draws, direction to,
-                 std::shared_ptr<multi_server_queue> cell);
+                 std::shared_ptr<shared_server_queue> cell);
 
   /// The run begins now: outages are counted from here, else from time zero.
   void begin(time_point start) { start_ = start; }
@@ -39,7 +39,7 @@ public:
 private:
   channel_draws draws_;
   direction direction_;
-  std::shared_ptr<multi_server_queue> cell_;
+  std::shared_ptr<shared_server_queue> cell_;
   outage_process stalls_;
   outage_process fades_;
   time_point start_;

@@ -10,8 +10,8 @@
 
 namespace sofof::channel {
 
-/// First-come-first-served servers: the edge server's workers, or the one
-/// radio cell that all its vehicles share. For one thread.
+/// First-come-first-served servers, for one thread; `shared_server_queue` is
+/// for several.
 class server_queue {
 public:
   /// @param workers  At least 1.

@@ -67,19 +67,19 @@ using requester_manager_actor = result_actor::extend<
     reacts_to<standby>,
     // No provider stands by any more.
     reacts_to<no_standby_atom>,
-    // The running service has ended: the local service plans at once.
+    // The session has ended: the local service plans at once.
     reacts_to<service_end>>;
 
-/// Uses what a service gives; there is one per vehicle and kind.
+/// Uses what a service gives; there is one per vehicle and service.
 using client_actor = result_actor::extend<
     // From now on results come from this source.
     reacts_to<source_change>,
     // Inputs are wanted here.
     reacts_to<requester_manager_actor>>;
 
-/// Barks when results come late or stop coming.
+/// Reports when results come late or stop coming.
 using watchdog_actor = caf::typed_actor<
-    // Watch this running service; its first result came at this time.
+    // Watch this session; its first result came at this time.
     reacts_to<session_id, time_point>,
     // Another result has come.
     reacts_to<arrival>,
@@ -96,16 +96,16 @@ using requester_actor = result_actor::extend<
     // Each requested service is accepted or refused; one manager per accepted
     // service, in the order of the verdicts.
     reacts_to<service_response, std::vector<provider_manager_actor>>,
-    // The provider has ended a running service.
+    // The provider has ended a session.
     reacts_to<service_end>>;
 
 /// SR, as the other actors of its vehicle see it.
 using onboard_requester_actor = requester_actor::extend<
     // The own motion, every protocol::ego_period.
     reacts_to<ego_state>,
-    // The first result of a running service is in use.
+    // The first result of a session is in use.
     reacts_to<session_id>,
-    // The watchdog has barked, or a result was implausible.
+    // The watchdog reports a violation, or a result was implausible.
     reacts_to<qos_violation>>;
 
 /// SP, the edge server's side of offloading, as requesters see it.
@@ -115,7 +115,7 @@ using provider_actor = caf::typed_actor<
     reacts_to<its_pdu, requester_actor>,
     // A station asks for offered services.
     reacts_to<service_request, requester_actor>,
-    // The requester has ended a running service.
+    // The requester has ended a session.
     reacts_to<service_end>>;
 
 /// SP, as its own sensors see it.

@@ -21,7 +21,7 @@ struct cycle_energy {
   double offloaded_j = 0;
 };
 
-/// Providers by boot id; one that has booted again has the name of its place.
+/// Providers by id; one that has started again has the name of its place.
 using provider_names = std::map<provider_id, std::string>;
 
 /// @returns a provider's name; empty for one of no configuration.

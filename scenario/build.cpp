@@ -35,7 +35,7 @@ random_stream noise_of(const scenario_definition& s, std::string_view what) {
 /// So long what was said last may take to leave this process.
 constexpr duration last_words = std::chrono::milliseconds{200};
 
-/// A provider, from one boot to its end, and the radio cell round it.
+/// A provider, from its start to its end, and the radio cell round it.
 struct provider_cell {
   std::uint32_t place; // in the file
   messages::roadside_provider_actor provider;
@@ -44,10 +44,10 @@ struct provider_cell {
 
   bool may_die() const { return options->fails_at.has_value(); }
 
-  std::shared_ptr<channel::multi_server_queue> cell_up =
-      std::make_shared<channel::multi_server_queue>(1);
-  std::shared_ptr<channel::multi_server_queue> cell_down =
-      std::make_shared<channel::multi_server_queue>(1);
+  std::shared_ptr<channel::shared_server_queue> cell_up =
+      std::make_shared<channel::shared_server_queue>(1);
+  std::shared_ptr<channel::shared_server_queue> cell_down =
+      std::make_shared<channel::shared_server_queue>(1);
 };
 
 /// A plan is fresh up to the longest time between two usable ones.
@@ -178,9 +178,9 @@ private:
 
   void add_provider(std::uint32_t number) {
     const auto& options = s_.providers[number];
-    boot(number, here_.start, s_.channel_to(number));
+    start(number, here_.start, s_.channel_to(number));
     if (options.fails_at)
-      world_.power_cuts.push_back(actors::spawn_power_cut(
+      world_.crash_injectors.push_back(actors::spawn_crash_injector(
           sys_, caf::actor_cast<caf::actor>(world_.providers.back()),
           *options.fails_at));
     else
@@ -188,15 +188,15 @@ private:
            fmt::format("provider {}", options.name));
     // It lives from the start on, but nothing reaches it.
     if (options.returns_at)
-      boot(number, here_.start + 1,
-           channel::with_outage(*s_.channel_to(number), {},
-                                *options.returns_at));
+      start(number, here_.start + 1,
+            channel::with_outage(*s_.channel_to(number), {},
+                                 *options.returns_at));
   }
 
-  void boot(std::uint32_t number, std::uint64_t start,
-            std::shared_ptr<const channel::channel_profile> channel) {
-    cells_.push_back({number, spawn_provider(number, start),
-                      &s_.providers[number], std::move(channel)});
+  void start(std::uint32_t number, std::uint64_t at,
+             std::shared_ptr<const channel::channel_profile> channel) {
+    cells_.push_back({number, spawn_provider(number, at), &s_.providers[number],
+                      std::move(channel)});
     world_.providers.push_back(cells_.back().provider);
   }
 
@@ -204,7 +204,7 @@ private:
                                                    std::uint64_t start) {
     const auto& options = s_.providers[number];
     actors::provider_actor_setup setup;
-    setup.boot = boot_of(number + 1, start);
+    setup.id = provider_at(number + 1, start);
     setup.position = options.position_m;
     setup.area = options.area();
     setup.map = {s_.world, &s_.world->map};
@@ -356,7 +356,7 @@ world_actors build(caf::actor_system& sys, const scenario_definition& s,
 void dismiss(const world_actors& actors, runtime& time) {
   if (actors.supervisor)
     end(std::vector{actors.supervisor}, time);
-  end(actors.power_cuts, time);
+  end(actors.crash_injectors, time);
   end(actors.vehicles, time);
   end(actors.providers, time);
   if (actors.has_peers)

@@ -44,15 +44,15 @@ struct world_actors {
   std::vector<messages::link_actor> links;
   std::vector<actors::provider_outbox> connections;
   std::vector<messages::vehicle_actor> vehicles;
-  std::vector<caf::actor> power_cuts;
+  std::vector<caf::actor> crash_injectors;
   caf::actor supervisor;
   bool has_peers = false; ///< On other hosts.
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the
-/// boot id of its place in the file, counting from 1; each vehicle a link to
-/// each provider. A provider that dies and boots again is two, the second with
-/// a boot id of its own.
+/// id of its place in the file, counting from 1; each vehicle a link to each
+/// provider. A provider that dies and starts again is two, the second with an
+/// id of its own.
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.
 /// @param clock  Tells the time of day of the run.

@@ -144,8 +144,8 @@ foresee(const scenario_definition& s) {
     const auto add =
         [&](std::uint64_t start,
             std::shared_ptr<const channel::channel_profile> channel) {
-          all->providers[boot_of(k + 1, start)] = {k, std::move(channel),
-                                                   s.compute_of(k), x.radio};
+          all->providers[provider_at(k + 1, start)] = {
+              k, std::move(channel), s.compute_of(k), x.radio};
         };
     const auto channel = s.channel_to(k);
     add(0, x.fails_at

@@ -311,7 +311,7 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
   const auto open = [&](const world_actors& actors) {
     auto setup = acceptor_of(s, place, keys, *time, board);
     setup.provider = actors.providers.front();
-    setup.boot = boot_of(static_cast<std::uint32_t>(place + 1), here.start);
+    setup.id = provider_at(static_cast<std::uint32_t>(place + 1), here.start);
     setup.recorder = actors.recorder;
     actors::filter_setup filter;
     if (keys)

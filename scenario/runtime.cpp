@@ -104,7 +104,7 @@ struct network_config : caf::actor_system_config {
     actors::host_scheduler::install(*this, error);
     load<caf::io::middleman>();
     set("caf.middleman.heartbeat-interval",
-        caf::timespan{2 * protocol::life_sign_period});
+        caf::timespan{2 * protocol::ping_period});
     set("caf.middleman.connection-timeout",
         caf::timespan{protocol::silence_limit});
   }

@@ -2,7 +2,7 @@
 #include "actors/offloading/provider_links.hpp"
 
 #include "actors/offloading/service_manager.hpp"
-#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
@@ -52,7 +52,7 @@ void provider_links::send(offloading::peer_id to,
 
 void provider_links::send(offloading::peer_id to,
                           const messages::service_end& end) {
-  note_on_air(self_, recorder_, end.what);
+  record_on_air(self_, recorder_, end.what);
   self_->send(requesters_.at(to), end);
 }
 

@@ -1,7 +1,7 @@
 // Service management at the provider: one accepted service, from data in to
 // results out.
 #include "actors/offloading/service_manager.hpp"
-#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 
@@ -68,7 +68,7 @@ manager(provider_manager_impl::stateful_pointer<manager_state> self,
   send_after(self, self, protocol::start_timeout, messages::tick_atom_v);
   return {
       [self](messages::service_result& result) {
-        note_on_air(self, self->state.recorder, result.what);
+        record_on_air(self, self->state.recorder, result.what);
         self->send(self->state.requester, std::move(result));
       },
       [self](messages::service_input& input) { self->state.feed(input); },

@@ -18,8 +18,8 @@ constexpr double doubts_at_once = 50;
 
 provider_services::provider_services(const provider_actor_setup& setup,
                                      std::function<time_point()> clock)
-    : id_{setup.boot}, compute_{setup.compute},
-      workers_{std::make_shared<channel::multi_server_queue>(
+    : id_{setup.id}, compute_{setup.compute},
+      workers_{std::make_shared<channel::shared_server_queue>(
           static_cast<unsigned>(compute_.workers))},
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
@@ -70,7 +70,7 @@ provider_services::record_of(const planners::station_doubt& x) const {
 offloading::provider_setup rules_of(provider_actor_setup setup,
                                     const provider_services& services) {
   const auto& compute = setup.compute;
-  return {.id = setup.boot,
+  return {.id = setup.id,
           .position = setup.position,
           .area = std::move(setup.area),
           .services = services.offered(),

@@ -3,7 +3,7 @@
 
 #include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/service_provider.hpp"
-#include "channel/multi_server_queue.hpp"
+#include "channel/shared_server_queue.hpp"
 #include "network/flow/token_bucket.hpp"
 #include "offloading/provider.hpp"
 #include "offloading/service_cycle.hpp"
@@ -55,7 +55,7 @@ private:
   std::vector<offloading::offered_service> services_;
   std::vector<broadcast_listener*> listeners_; // of some of them
   channel::provider_compute compute_;
-  std::shared_ptr<channel::multi_server_queue> workers_;
+  std::shared_ptr<channel::shared_server_queue> workers_;
   random_stream seed_;
   std::uint32_t number_;
   bool virtual_time_;

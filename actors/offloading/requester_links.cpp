@@ -2,7 +2,7 @@
 #include "actors/offloading/requester_links.hpp"
 
 #include "actors/runtime/cpu_accounts.hpp"
-#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
@@ -46,7 +46,7 @@ void requester_links::send(offloading::peer_id to,
 
 void requester_links::send(offloading::peer_id to,
                            const messages::service_end& end) {
-  note_on_air(self_, recorder_, end.what);
+  record_on_air(self_, recorder_, end.what);
   self_->send(providers_.at(to), end);
 }
 

@@ -54,7 +54,7 @@ private:
   station_id station_;
   messages::recorder_actor recorder_;
   std::map<messages::service_name, messages::requester_manager_actor> managers_;
-  // By the response that is being heard.
+  // Managers given with the response that is handled.
   std::map<messages::session_id, messages::provider_manager_actor> accepted_;
   peers<messages::provider_actor> providers_;
 };

@@ -3,7 +3,7 @@
 
 #include "actors/offloading/qos_watchdog.hpp"
 #include "actors/runtime/cpu_accounts.hpp"
-#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
@@ -47,7 +47,7 @@ void selector_links::feed_local(const messages::service_input& input) {
 }
 
 void selector_links::feed_remote(messages::service_input input) {
-  note_on_air(self_, recorder_, input.what);
+  record_on_air(self_, recorder_, input.what);
   const auto& manager = managers_.at(input.session);
   self_->send(manager, std::move(input));
 }

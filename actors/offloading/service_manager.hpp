@@ -22,16 +22,10 @@ struct requester_manager_setup {
   bool record_margins = false; ///< With the cycles, those of used results.
 };
 
-/// Owns the local instance, activates it, and feeds it always, so that it can
-/// jump in at any moment. Results of a remote service are used from the first
-/// one that comes in time on: then the local instance is deactivated in the
-/// same turn, the watchdog armed and the requester told. Results that come
-/// too late, twice or out of order are not used; those that are not understood
-/// are as if they had not come; one that is implausible ends its episode in the
-/// turn in which it comes (`qos_breach::implausible`). While several providers
-/// run the service, the first result of each planning cycle is used, if the
-/// plan in use may be followed by it; a provider that has not been in time for
-/// a second is given up (`qos_violation::others_hold`).
+/// Owns the local instance and the watchdog, and uses results by the rules of
+/// `offloading::source_selector`. The local instance is fed always, so that it
+/// can take over in any turn, and it is activated or deactivated in the turn in
+/// which the source changes.
 messages::requester_manager_actor
 spawn_requester_manager(caf::actor_system& sys, requester_manager_setup setup);
 

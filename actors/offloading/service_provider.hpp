@@ -18,7 +18,7 @@ namespace sofof::actors {
 
 /// What a provider is made of.
 struct provider_actor_setup {
-  provider_id boot = 0;
+  provider_id id = 0;
   point position; ///< m, east-north.
   polygon area;
   std::shared_ptr<const world::road_map> map; ///< For the policy; not null.

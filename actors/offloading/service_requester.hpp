@@ -46,7 +46,8 @@ struct requester_actor_setup {
 };
 
 /// Weighs offers, requests services, and owns the states of all services of
-/// its vehicle; one state machine per kind and provider:
+/// its vehicle, by the rules of `offloading::requester`; one state machine for
+/// each service and provider:
 ///
 ///   local → requested → starting → remote → local
 ///
@@ -54,9 +55,9 @@ struct requester_actor_setup {
 /// was requested from gives first data (hand-over), or at both of them, if that
 /// was decided.
 ///
-/// It spawns a manager and a client for each kind. At a violation, or when
-/// the provider is lost or ends the service, the local service is activated
-/// at the same time. On exit it closes what still runs (shutdown).
+/// It spawns a manager and a client for each service. When the last provider
+/// that runs a service is lost, ends it or breaks its limits, the local service
+/// is activated at the same time. On exit it closes what still runs (shutdown).
 messages::onboard_requester_actor
 spawn_service_requester(caf::actor_system& sys, requester_actor_setup setup);
 

@@ -23,7 +23,7 @@ struct peer_finding {
 /// What an acceptor is made of. The functions are called from its threads.
 struct acceptor_setup {
   messages::provider_actor provider;
-  provider_id boot = 0;
+  provider_id id = 0;
   std::string name;        ///< Of the provider.
   std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
   messages::etsi::its_clock clock;

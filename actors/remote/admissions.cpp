@@ -91,7 +91,7 @@ struct admissions_state {
     self->monitor(endpoint);
     peers.push_back({endpoint, who->name, stations});
     publish(stations, true);
-    return {messages::peer_welcome{setup->boot, setup->clock.epoch_unix_ms()},
+    return {messages::peer_welcome{setup->id, setup->clock.epoch_unix_ms()},
             endpoint};
   }
 
@@ -144,7 +144,7 @@ struct admissions_state {
           self, setup->recorder,
           messages::event_record{.at = t,
                                  .what = messages::event_type::peer_refused,
-                                 .provider = setup->boot,
+                                 .provider = setup->id,
                                  .detail = std::move(*line)});
   }
 };
@@ -163,7 +163,7 @@ admissions(admissions_impl::stateful_pointer<admissions_state> self,
       },
       [self](const std::string& why) { self->state.on_refusal(why); },
       [self](const messages::handshake_actor& opened) {
-        send_after(self, self, protocol::introduction_timeout,
+        send_after(self, self, protocol::handshake_timeout,
                    messages::tick_atom_v, opened);
       },
       [self](messages::tick_atom, const messages::handshake_actor& opened) {

@@ -18,7 +18,7 @@ using admissions_actor = caf::typed_actor<
         messages::admission),
     // A peer was refused for this reason.
     messages::reacts_to<std::string>,
-    // This handshake has opened; it is closed protocol::introduction_timeout
+    // This handshake has opened; it is closed protocol::handshake_timeout
     // later.
     messages::reacts_to<messages::handshake_actor>>;
 

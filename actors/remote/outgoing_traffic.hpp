@@ -56,7 +56,7 @@ public:
   /// @returns what is to be sent now.
   std::optional<message> offer(station_id station, const messages::its_pdu& x,
                                time_point now);
-  /// The same for the input of a running service.
+  /// The same for the input of a session.
   std::optional<message> offer(const messages::service_input& input,
                                time_point now);
 
@@ -70,7 +70,7 @@ public:
   std::optional<message> acknowledge(const messages::stream_id& stream,
                                      time_point now);
 
-  /// A running service has ended: none of its inputs waits.
+  /// A session has ended: none of its inputs waits.
   void forget(const messages::session_id& ended);
 
 private:

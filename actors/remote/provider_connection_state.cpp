@@ -22,7 +22,7 @@ constexpr duration beginning = std::chrono::seconds{5};
 
 void provider_connection_state::start(provider_connection_setup with) {
   setup = std::make_shared<const provider_connection_setup>(std::move(with));
-  attempts.emplace(setup->noise, protocol::introduction_timeout);
+  attempts.emplace(setup->noise, protocol::handshake_timeout);
   traffic.emplace(setup->stations);
   began = now(self);
   attempts->pause(began);
@@ -37,7 +37,7 @@ void provider_connection_state::on_tick() {
     send_to_provider(life->beat(t));
   else if (attempts->is_due(t))
     attempt();
-  send_after(self, self, protocol::life_sign_period, messages::tick_atom_v);
+  send_after(self, self, protocol::ping_period, messages::tick_atom_v);
 }
 
 void provider_connection_state::attempt() {
@@ -104,7 +104,7 @@ void provider_connection_state::on_welcome(
                                             - setup->clock.epoch_unix_ms()});
   self->monitor(peer);
   send_to_provider(life->beat(t));
-  boot = welcome.boot;
+  provider = welcome.provider;
   log_event(messages::event_type::provider_connected, setup->address);
   publish(fmt::format("connected to provider {} at {}", setup->provider,
                       setup->address));
@@ -151,7 +151,7 @@ void provider_connection_state::log_event(messages::event_type what,
   send_record(self, setup->recorder,
               messages::event_record{.at = now(self),
                                      .what = what,
-                                     .provider = boot,
+                                     .provider = provider,
                                      .detail = std::string{detail}});
 }
 

@@ -48,7 +48,7 @@ struct provider_connection_state {
   network::news_filter news;
   time_point began;
   bool was_connected = false;
-  provider_id boot = 0;                      // of the provider, the last one
+  provider_id provider = 0;                  // since its last start
   messages::vehicle_endpoint_actor endpoint; // from our introduction on
   // While connected:
   messages::provider_endpoint_actor peer;

@@ -49,7 +49,7 @@ void vehicle_connection_state::on_tick() {
     return;
   }
   send_to_peer(life->beat(t));
-  send_after(self, self, protocol::life_sign_period, messages::tick_atom_v);
+  send_after(self, self, protocol::ping_period, messages::tick_atom_v);
 }
 
 void vehicle_connection_state::on_down(const caf::down_msg& down) {

@@ -40,8 +40,7 @@ struct vehicle_endpoint_state {
     self->monitor(owner);
     // A question that was forwarded gets no answer when the connection is gone.
     self->monitor(acceptor);
-    self->request(acceptor, protocol::introduction_timeout, setup->protocol,
-                  types)
+    self->request(acceptor, protocol::handshake_timeout, setup->protocol, types)
         .then(
             [this](std::uint32_t protocol, std::uint64_t theirs,
                    const std::string& nonce, const caf::strong_actor_ptr& in) {
@@ -72,7 +71,7 @@ struct vehicle_endpoint_state {
                                {},
                                {}};
     setup->prove(hello, nonce);
-    self->request(handshake, protocol::introduction_timeout, std::move(hello),
+    self->request(handshake, protocol::handshake_timeout, std::move(hello),
                   messages::vehicle_endpoint_actor{self})
         .then(
             [this, at = handshake.node()](

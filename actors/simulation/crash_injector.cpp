@@ -24,8 +24,8 @@ caf::behavior crash_injector(caf::event_based_actor* self,
 
 } // namespace
 
-caf::actor spawn_power_cut(caf::actor_system& sys, caf::actor victim,
-                           duration after) {
+caf::actor spawn_crash_injector(caf::actor_system& sys, caf::actor victim,
+                                duration after) {
   return sys.spawn(crash_injector, std::move(victim), after);
 }
 

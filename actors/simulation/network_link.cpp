@@ -37,7 +37,7 @@ struct link_state {
   messages::provider_actor far;
   messages::requester_actor near;
   std::optional<link_setup> setup;
-  // Who feeds the running services at the far end.
+  // Who feeds the sessions at the far end.
   std::vector<std::pair<messages::session_id, messages::provider_manager_actor>>
       managers;
   std::uint64_t carried = 0;

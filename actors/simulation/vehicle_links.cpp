@@ -1,7 +1,7 @@
 // What a vehicle sends and to whom: road, recorder, and everybody near.
 #include "actors/simulation/vehicle_links.hpp"
 
-#include "actors/runtime/on_air.hpp"
+#include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 
@@ -29,7 +29,7 @@ void vehicle_links::broadcast(
     const messages::onboard_requester_actor& requester) {
   if (!message || message->octets.empty())
     return;
-  note_on_air(self_, setup_.recorder, *message);
+  record_on_air(self_, setup_.recorder, *message);
   for (const auto& a : setup_.antennas)
     if (distance_m(from, a.position) <= a.range_m)
       self_->send(a.link, *message, messages::requester_actor{requester});

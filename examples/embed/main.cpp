@@ -55,7 +55,7 @@ const service_options options{.limits = {50ms, 100ms}, // latency, gap
 
 // -- the transport: what is sent arrives 8 ms later ---------------------------
 
-struct wire {
+struct transport {
   time_point now;
   std::multimap<time_point, std::function<void()>> due;
 
@@ -79,9 +79,9 @@ struct wire {
 constexpr peer_id car{1}, server{2};
 
 struct roadside final : provider_side_port {
-  wire& net;
+  transport& net;
   std::function<void(const to_vehicle&)> to_car;
-  explicit roadside(wire& x) : net{x} {}
+  explicit roadside(transport& x) : net{x} {}
 
   void send(peer_id, to_vehicle message) override {
     net.carry([this, message] { to_car(message); });
@@ -103,10 +103,10 @@ struct roadside final : provider_side_port {
 };
 
 struct vehicle final : vehicle_port {
-  wire& net;
+  transport& net;
   roadside& near;
   double newest = 0;
-  vehicle(wire& x, roadside& y) : net{x}, near{y} {}
+  vehicle(transport& x, roadside& y) : net{x}, near{y} {}
 
   void send(peer_id, to_provider message) override {
     net.carry([this, message] { near.side.on_message(car, message, net.now); });
@@ -135,7 +135,7 @@ struct vehicle final : vehicle_port {
 };
 
 int main() {
-  wire net;
+  transport net;
   roadside near{net};
   vehicle own{net, near};
   near.to_car = [&](const to_vehicle& message) {

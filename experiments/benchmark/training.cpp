@@ -119,7 +119,7 @@ private:
   const std::atomic<bool>& interrupted_;
   recording::progress shown_;
   stopwatch watch_;
-  // Its clones share its mind.
+  // Its clones share one q_function.
   std::shared_ptr<policies::local_policy> pupil_;
 };
 

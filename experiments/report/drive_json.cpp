@@ -79,16 +79,16 @@ json vehicles_json(std::span<const track_line> lines) {
 }
 
 /// A time in which a service of a vehicle ran at a provider.
-struct offloading_mark {
+struct offloading_span {
   session_key of;
   double from_s = 0;
   double until_s = 0;
 };
 
 /// @param end_s  Ends what nobody has ended.
-std::vector<offloading_mark> switched(std::span<const event_line> events,
+std::vector<offloading_span> switched(std::span<const event_line> events,
                                       double end_s) {
-  std::vector<offloading_mark> all;
+  std::vector<offloading_span> all;
   std::map<std::pair<std::uint64_t, std::string>, std::size_t> open;
   for (const auto& event : events) {
     if (event.what != messages::name_of(messages::event_type::switched))
@@ -106,15 +106,15 @@ std::vector<offloading_mark> switched(std::span<const event_line> events,
   return all;
 }
 
-std::vector<offloading_mark> served(std::span<const episode_line> episodes) {
-  std::vector<offloading_mark> all;
+std::vector<offloading_span> served(std::span<const episode_line> episodes) {
+  std::vector<offloading_span> all;
   for (const auto& one : episodes)
     if (!one.by_requester)
       all.push_back({one.of, one.accepted_s, one.ended_s});
   return all;
 }
 
-json offloadings_json(std::span<const offloading_mark> offloadings) {
+json offloadings_json(std::span<const offloading_span> offloadings) {
   auto all = json::array();
   for (const auto& one : offloadings)
     all.push_back({one.of.station, one.of.service, one.of.provider, one.from_s,

@@ -4,7 +4,7 @@
 #include "base/files/output_file.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 
 #include <nlohmann/json.hpp>
 

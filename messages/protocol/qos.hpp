@@ -43,7 +43,7 @@ struct implausibility {
   std::string check; ///< The check alone.
 };
 
-/// A running service broke its limits.
+/// A session broke its limits.
 struct qos_violation {
   session_id session;
   qos_breach breach = qos_breach::gap;

@@ -5,7 +5,7 @@
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
-#include "world/vehicle/comfort.hpp"
+#include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/ride_comfort.hpp"
 
 #include <optional>
@@ -54,7 +54,7 @@ struct cycle_record {
   std::vector<margin> margins{}; ///< If they are recorded.
 };
 
-/// One side has closed a running service.
+/// One side has closed a session.
 struct episode_record {
   session_id session;
   side of = side::requester;

@@ -43,14 +43,14 @@ void visit_fields(auto& v, peer_hello& x) {
   v("signature", x.signature);
 }
 
-/// Which boot of the provider this is.
+/// The provider, of this start of its process.
 struct peer_welcome {
-  provider_id boot = 0;
+  provider_id provider = 0;
   std::int64_t epoch_unix_ms = 0;
 };
 
 void visit_fields(auto& v, peer_welcome& x) {
-  v("boot", x.boot);
+  v("provider", x.provider);
   v("epoch_unix_ms", x.epoch_unix_ms);
 }
 
@@ -85,7 +85,7 @@ struct stream_id {
 
   station_id station = 0;
   what of = what::cam;
-  std::uint32_t counter = 0; ///< Of the running service; 0 if it is none.
+  std::uint32_t counter = 0; ///< Of the session; 0 if it is none.
 
   friend auto operator<=>(const stream_id&, const stream_id&) = default;
 };
@@ -109,7 +109,7 @@ inline stream_id stream_of(station_id station, const its_pdu& message) {
   return {station, is_cam ? stream_id::what::cam : stream_id::what::cpm, 0};
 }
 
-/// @returns the stream of a running service's inputs, or of its results.
+/// @returns the stream of a session's inputs, or of its results.
 inline stream_id stream_of(const session_id& running, stream_id::what which) {
   return {running.station, which, running.counter};
 }

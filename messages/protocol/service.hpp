@@ -151,7 +151,7 @@ void visit_fields(auto& v, standby& x) {
   v("after", x.after);
 }
 
-/// What a running service works on next; newer input replaces older. A standby
+/// What a session works on next; newer input replaces older. A standby
 /// gives one result at once, and the next one at the next such input.
 struct service_input {
   session_id session;
@@ -171,7 +171,7 @@ void visit_fields(auto& v, service_input& x) {
   v("standby", x.standby);
 }
 
-/// What one cycle of a running service gave.
+/// What one cycle of a session gave.
 struct service_result {
   session_id session;
   std::uint64_t cycle = 0;
@@ -225,7 +225,7 @@ constexpr side last_of(side) {
   return side::provider;
 }
 
-/// One side has ended a running service; saying it twice does no harm.
+/// One side has ended a session; saying it twice does no harm.
 struct service_end {
   session_id session;
   end_reason reason = end_reason::shutdown;

@@ -1,4 +1,4 @@
-// The name of a kind of service, short enough to live inside a message.
+// The name of a service, short enough to live inside a message.
 #pragma once
 
 #include <algorithm>

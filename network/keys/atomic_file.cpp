@@ -67,8 +67,8 @@ private:
 
 } // namespace
 
-void write_new_file(const std::filesystem::path& path, std::string_view text,
-                    mode_t mode) {
+void create_file(const std::filesystem::path& path, std::string_view text,
+                 mode_t mode) {
   temporary_file file{path};
   if (!file.is_open() || !file.allow(mode) || !file.write(text)
       || !file.link_to(path))

@@ -11,8 +11,8 @@ namespace sofof::network {
 /// @param mode  Who may read it from its first byte on, e.g. 0600.
 /// @throws network_error when there is one already, or it cannot be written;
 /// nothing is left behind then.
-void write_new_file(const std::filesystem::path& path, std::string_view text,
-                    mode_t mode);
+void create_file(const std::filesystem::path& path, std::string_view text,
+                 mode_t mode);
 
 /// The same in the place of a file that may be there already.
 void replace_file(const std::filesystem::path& path, std::string_view text,

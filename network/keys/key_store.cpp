@@ -193,11 +193,11 @@ x509_ptr fill(const unfinished_folder& out, const authority& ca,
   if (text.size() > largest_certificate)
     throw network_error{"so many single stations do not fit into one "
                         "certificate: use ranges, or several certificates"};
-  write_new_file(out / "ca.pem", ca.pem, for_all);
-  write_new_file(out / "cert.pem", text, for_all);
-  write_new_file(out / "key.pem", to_pem(*key), for_owner);
+  create_file(out / "ca.pem", ca.pem, for_all);
+  create_file(out / "cert.pem", text, for_all);
+  create_file(out / "key.pem", to_pem(*key), for_owner);
   if (const auto revoked = ca.revoked(); !revoked.empty())
-    write_new_file(out / "revoked", revoked, for_all);
+    create_file(out / "revoked", revoked, for_all);
   return certificate;
 }
 
@@ -276,8 +276,8 @@ void init_keys(const fs::path& folder, const permitted_names& names) {
   make_folder(folder);
   const auto key = make_key();
   const auto ca = make_authority(*key, names);
-  write_new_file(key_file, to_pem(*key), for_owner);
-  write_new_file(ca_file, to_pem(*ca), for_all);
+  create_file(key_file, to_pem(*key), for_owner);
+  create_file(ca_file, to_pem(*ca), for_all);
 }
 
 fs::path issue_keys(const fs::path& folder, const peer_identity& who,

@@ -3,7 +3,7 @@
 
 #include "planners/ocp/status.hpp"
 #include "planners/scene/planning_input.hpp"
-#include "world/vehicle/comfort.hpp"
+#include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/trajectory.hpp"
 
 #include <cstdint>

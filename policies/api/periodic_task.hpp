@@ -23,7 +23,7 @@ double utilisation(std::span<const periodic_task> tasks);
 /// @param computing_s  Of a cycle, mean, s, ≥ 0.
 /// @param period       Of its cycles, > 0.
 /// @param workers      Of the computer, > 0.
-/// @returns the share of all workers' time that a running service takes.
+/// @returns the share of all workers' time that a session takes.
 inline double worker_share(double computing_s, duration period,
                            std::size_t workers) {
   assert(computing_s >= 0 && period > duration{0} && workers > 0);

@@ -2,9 +2,9 @@
 #include "base/options/spelling.hpp"
 #include "policies/algorithms/assignment/branch_and_bound.hpp"
 #include "policies/algorithms/assignment/cbc.hpp"
-#include "policies/algorithms/assignment/central.hpp"
 #include "policies/algorithms/assignment/greedy_regret.hpp"
 #include "policies/algorithms/assignment/min_cost_flow.hpp"
+#include "policies/algorithms/assignment/provider_assignment.hpp"
 #include "policies/entry.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "policies/algorithms/game/best_response.hpp"
 
 #include "base/options/option_helpers.hpp"
-#include "policies/algorithms/game/central.hpp"
+#include "policies/algorithms/game/provider_game.hpp"
 #include "policies/api/central_view.hpp"
 #include "policies/entry.hpp"
 

@@ -1,5 +1,5 @@
 // CODM "cross_entropy": the best for all, sought by sampling.
-#include "policies/algorithms/assignment/central.hpp"
+#include "policies/algorithms/assignment/provider_assignment.hpp"
 #include "policies/algorithms/assignment/sampled.hpp"
 #include "policies/entry.hpp"
 

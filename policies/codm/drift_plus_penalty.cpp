@@ -1,8 +1,8 @@
 // CODM "drift_plus_penalty": the best for all, with a budget of late results
 // for each.
 #include "policies/algorithms/assignment/branch_and_bound.hpp"
-#include "policies/algorithms/assignment/central.hpp"
 #include "policies/algorithms/assignment/min_cost_flow.hpp"
+#include "policies/algorithms/assignment/provider_assignment.hpp"
 #include "policies/entry.hpp"
 
 #include <algorithm>

@@ -120,7 +120,7 @@ lodm_entry lodm_ucb1() {
   return {{"ucb1",
            "Tries the vehicle and all providers, the promising ones most.",
            "max m + sqrt(2 ln t / k); m mean of 1 - K (at least 0) in k of t "
-           "trials, K as of greedy_gain; 0 for who refuses",
+           "trials, K as of greedy_gain; 0 for a place that refuses",
            "latency, energy and punctuality of what it has tried",
            "Auer, Cesa-Bianchi & Fischer, Machine Learning 47, 2002",
            trials_and(weights_and({}))},

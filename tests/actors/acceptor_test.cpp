@@ -75,7 +75,7 @@ struct acceptor_world : virtual_world {
   acceptor_setup setup() {
     acceptor_setup s;
     s.provider = provider.handle;
-    s.boot = 11;
+    s.id = 11;
     s.name = "server";
     s.world = 5;
     s.recorder = recorder.handle;
@@ -199,7 +199,7 @@ TEST_CASE_FIXTURE(acceptor_world,
                   "provider this is") {
   const auto in = enter(knock(), hello);
   REQUIRE(in.welcome);
-  CHECK(in.welcome->boot == 11);
+  CHECK(in.welcome->provider == 11);
   CHECK(in.welcome->epoch_unix_ms == etsi::virtual_epoch_unix_ms);
   CHECK(in.endpoint);
   CHECK(peer->count<ping>() == 1);
@@ -283,7 +283,7 @@ TEST_CASE_FIXTURE(acceptor_world,
                   "who does not introduce himself in time finds "
                   "the handshake closed") {
   const auto at = knock();
-  run_for(protocol::introduction_timeout - 1ns);
+  run_for(protocol::handshake_timeout - 1ns);
   CHECK(!is_gone(at.in));
   run_for(1ns);
   CHECK(is_gone(at.in));

@@ -38,7 +38,7 @@ struct fragile_world : virtual_world {
 
 TEST_CASE_FIXTURE(fragile_world, "when power is cut an actor is gone at once, "
                                  "and says nothing") {
-  own(spawn_power_cut(system(), victim, 5s));
+  own(spawn_crash_injector(system(), victim, 5s));
   run_for(4999ms);
   CHECK_FALSE(*noticed);
   run_for(1ms);
@@ -47,7 +47,7 @@ TEST_CASE_FIXTURE(fragile_world, "when power is cut an actor is gone at once, "
 }
 
 TEST_CASE_FIXTURE(fragile_world, "a cut that is called off never comes") {
-  const auto cut = spawn_power_cut(system(), victim, 5s);
+  const auto cut = spawn_crash_injector(system(), victim, 5s);
   run_for(1s);
   caf::anon_send_exit(cut, caf::exit_reason::user_shutdown);
   run_for(10s);

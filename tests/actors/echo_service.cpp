@@ -56,7 +56,7 @@ struct echo_world : virtual_world {
   }
   provider_actor spawn_provider() {
     provider_actor_setup s;
-    s.boot = 1;
+    s.id = 1;
     s.area = polygon::regular({0, 0}, 100, 24);
     s.map = {world, &world->map};
     s.decode = decode_in_ulm();

@@ -43,7 +43,7 @@ TEST_CASE("a peer that sends more than its share is refused, and one that was "
 TEST_CASE("bounds grow with the stations of a peer") {
   const auto one = bounds_for(1), twenty = bounds_for(20);
   // 10 CAMs, 10 CPMs, 2 services of 20 inputs and 20 acknowledgements, and
-  // 20 life signs, asked and answered.
+  // 20 pings, asked and answered.
   CHECK(one.frames_s > 2 * (10 + 10 + 2 * 40 + 40));
   CHECK(twenty.frames_s > 19 * (one.frames_s - bounds_for(0).frames_s));
   CHECK(twenty.octets_s > one.octets_s);

@@ -43,7 +43,7 @@ struct linked_world : virtual_world {
 
   link_actor join(std::optional<link_fault_options> faults,
                   const channel_profile& profile = steady(),
-                  const std::shared_ptr<multi_server_queue>& cell = nullptr) {
+                  const std::shared_ptr<shared_server_queue>& cell = nullptr) {
     const random_stream seed{1, "network"};
     const channel_draws draws{std::make_shared<const channel_profile>(profile),
                               seed, 101, 0};
@@ -289,7 +289,7 @@ TEST_CASE_FIXTURE(linked_world,
 
 TEST_CASE_FIXTURE(linked_world, "who shares a cell waits for the other's "
                                 "octets") {
-  const auto cell = std::make_shared<multi_server_queue>(1);
+  const auto cell = std::make_shared<shared_server_queue>(1);
   link = join({}, slow(), cell);
   const auto other = join({}, slow(), cell);
   const auto sent = now();

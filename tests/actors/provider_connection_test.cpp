@@ -145,9 +145,9 @@ TEST_CASE_FIXTURE(provider_connection_world,
             "no connection to provider server at 10.0.0.5:4711: it does not "
             "answer; trying again"});
   host->answers = true;
-  const auto end = now() + protocol::introduction_timeout + 1050ms;
+  const auto end = now() + protocol::handshake_timeout + 1050ms;
   while (notes("provider_connected") == 0 && now() < end)
-    run_for(protocol::life_sign_period);
+    run_for(protocol::ping_period);
   CHECK(notes("provider_connected") == 1);
 }
 
@@ -160,7 +160,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   CHECK(attempts.front() == time_point{10s});
   CHECK(attempts[1] - attempts[0] <= 150ms);
   for (std::size_t k = 1; k < attempts.size(); ++k)
-    CHECK(attempts[k] - attempts[k - 1] <= 1s + protocol::life_sign_period);
+    CHECK(attempts[k] - attempts[k - 1] <= 1s + protocol::ping_period);
   CHECK(attempts.back() - attempts[attempts.size() - 2] >= 500ms);
 }
 
@@ -187,7 +187,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   for (std::size_t k = 1; k <= 10; ++k) {
     CHECK(attempts.size() == k);
     finish();
-    run_for(protocol::life_sign_period);
+    run_for(protocol::ping_period);
     CHECK(attempts.size() == k + 1);
     run_for(1s); // longer than any pause
   }
@@ -332,7 +332,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   run_for(1100ms); // silent
   REQUIRE(hung_up.size() == 1);
   REQUIRE(attempts.size() == 1);
-  CHECK(attempts.front() - hung_up.front() == protocol::life_sign_period);
+  CHECK(attempts.front() - hung_up.front() == protocol::ping_period);
 }
 
 TEST_CASE_FIXTURE(provider_connection_world,
@@ -426,7 +426,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   reachable = true;
   const auto end = now() + 1100ms;
   while (notes("provider_connected") == 0 && now() < end)
-    run_for(protocol::life_sign_period);
+    run_for(protocol::ping_period);
   forget();
   say(ping{1, now()});
   run_for(turns);

@@ -154,7 +154,7 @@ struct provider_connection_world : virtual_world {
     start();
     REQUIRE(host->peer);
     say(messages::ping{1, now() + ahead});
-    run_for(protocol::life_sign_period);
+    run_for(protocol::ping_period);
     say_cam();
     tell(other_far, cam_of(neighbour), other.handle);
     acknowledge({station, messages::stream_id::what::cam, 0});
@@ -207,7 +207,7 @@ struct provider_connection_world : virtual_world {
   void accept(const messages::session_id& r) {
     say(messages::service_response{boot, r.station, 1, {{r, true, ""}}});
   }
-  /// The provider answers the latest life sign, which took these ways.
+  /// The provider answers the latest ping, which took these ways.
   void answer(duration up = {}, duration down = {}) {
     const auto signs = provider->all<messages::ping>();
     REQUIRE(!signs.empty());

@@ -35,7 +35,7 @@ struct provider_world : virtual_world {
 
   actors::provider_actor_setup setup() {
     actors::provider_actor_setup s;
-    s.boot = boot;
+    s.id = boot;
     s.position = {1, 2};
     s.area = polygon{{{-100, -100}, {100, -100}, {100, 100}, {-100, 100}}};
     s.map = std::make_shared<const world::road_map>();

@@ -130,7 +130,7 @@ struct remote_world : virtual_world {
   /// The provider's host starts, anew.
   void boot_up() {
     actors::provider_actor_setup s;
-    s.boot = ++boot;
+    s.id = ++boot;
     s.position = {1000, 0};
     s.area = polygon{{{-100, -100}, {3000, -100}, {3000, 100}, {-100, 100}}};
     s.map = {world, &world->map};
@@ -142,7 +142,7 @@ struct remote_world : virtual_world {
     provider = own(actors::spawn_service_provider(system(), std::move(s)));
     actors::acceptor_setup g;
     g.provider = provider;
-    g.boot = boot;
+    g.id = boot;
     g.name = "server";
     g.recorder = there.handle;
     g.draw_nonce = [] { return std::string{"number"}; };

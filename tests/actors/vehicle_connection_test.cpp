@@ -125,7 +125,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   SUBCASE("with an end") {
     say_strangely(service_end{one});
   }
-  SUBCASE("with life signs") {
+  SUBCASE("with pings") {
     say_strangely(ping{1, now()});
   }
   SUBCASE("with echoes") {
@@ -258,7 +258,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
 // -- the connection ----------------------------------------------------------
 
 TEST_CASE_FIXTURE(vehicle_connection_world,
-                  "life signs go out at 20 Hz, and are answered "
+                  "pings go out at 20 Hz, and are answered "
                   "at once") {
   live(1s);
   CHECK(peer->count<ping>() == 20);
@@ -277,7 +277,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   const auto second = voice();
   run_for(1s);
   CHECK(!is_gone(endpoint));
-  run_for(protocol::life_sign_period);
+  run_for(protocol::ping_period);
   CHECK(is_gone(endpoint));
   CHECK(is_gone(first));
   CHECK(is_gone(second));
@@ -354,7 +354,7 @@ TEST_CASE_FIXTURE(vehicle_connection_world,
   caf::anon_send_exit(provider.handle, caf::exit_reason::user_shutdown);
   settle();
   CHECK(!is_gone(endpoint));
-  run_for(2 * protocol::life_sign_period);
+  run_for(2 * protocol::ping_period);
   CHECK(is_gone(endpoint));
   CHECK(notes("peer_lost").front().detail
         == "stations 101-102: the provider has ended");

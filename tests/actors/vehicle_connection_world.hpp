@@ -82,7 +82,7 @@ struct vehicle_connection_world : virtual_world {
     return {boot, of, 1, {"one"}, std::vector<point>(points), 5};
   }
 
-  /// The peer answers the latest life sign, which took these ways.
+  /// The peer answers the latest ping, which took these ways.
   void answer(duration up = {}, duration down = {}) {
     const auto signs = peer->all<messages::ping>();
     REQUIRE(!signs.empty());

@@ -42,8 +42,8 @@ TEST_CASE("ids are kept in sets of either kind") {
 }
 
 TEST_CASE("a provider that boots anew keeps its place") {
-  CHECK(place_of(boot_of(3, 1'700'000'000'000)) == 3);
-  CHECK(boot_of(3, 1) != boot_of(3, 2));
+  CHECK(place_of(provider_at(3, 1'700'000'000'000)) == 3);
+  CHECK(provider_at(3, 1) != provider_at(3, 2));
   CHECK(is_obstacle(obstacle_id(0), 1));
   CHECK_FALSE(is_obstacle(obstacle_id(1), 1));
 }

@@ -22,7 +22,7 @@ void result_through(benchmark::State& state, const std::string& profile) {
   const auto computers = compute_measured_with(profile);
   const auto draws = result_draws(seed, 101, 1);
   link_direction link{channel_draws{definition, seed, 101, 1}, direction::down,
-                      std::make_shared<multi_server_queue>(1)};
+                      std::make_shared<shared_server_queue>(1)};
   std::uint64_t cycle = 0;
   time_point created;
   for (auto _ : state) {

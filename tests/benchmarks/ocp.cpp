@@ -1,6 +1,6 @@
 // What a path, a velocity and both together cost to plan, warm and cold: the
 // mean, and as counters p50 and p99. Carrying the last plan over is part of it.
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 #include "tests/benchmarks/stopwatch.hpp"
 
 #include <benchmark/benchmark.h>

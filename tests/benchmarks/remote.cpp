@@ -124,7 +124,7 @@ void forwarded_round_trip(benchmark::State& state) {
   const auto serving = there->system().spawn(provider);
   acceptor_setup in;
   in.provider = serving;
-  in.boot = boot;
+  in.id = boot;
   in.name = "mec";
   in.clock = there->clock();
   in.recorder = spawn_recorder(there->system(), sink);

@@ -166,7 +166,7 @@ TEST_CASE("stalls without time in between are refused") {
 TEST_CASE("messages of all vehicles queue for the radio cell") {
   auto p = named("ideal");
   p.airtime = delay_distribution::uniform(2ms, 2ms);
-  const auto cell = std::make_shared<multi_server_queue>(1);
+  const auto cell = std::make_shared<shared_server_queue>(1);
   link_direction a{link_channel(p, 1), direction::up, cell};
   link_direction b{link_channel(p, 2), direction::up, cell};
   link_direction elsewhere{link_channel(p, 3), direction::up, nullptr};

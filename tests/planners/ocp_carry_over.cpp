@@ -1,5 +1,5 @@
 // A warm start that moves by any distance, and changes grids.
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 #include "tests/planners/solvers.hpp"
 #include "tests/support/near.hpp"
 

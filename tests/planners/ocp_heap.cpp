@@ -1,5 +1,5 @@
 // A planning cycle takes nothing from the heap.
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 #include "planners/scene/object_tracker.hpp"
 #include "planners/scene/scene_interpreter.hpp"
 #include "planners/trajectory/spatial_planner.hpp"

@@ -1,6 +1,6 @@
 // The path problem, solved: what its plans promise, and what it refuses.
 #include "planners/problems/path_ocp.hpp"
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 #include "tests/planners/solvers.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kkt.hpp"

@@ -1,5 +1,5 @@
 // The velocity problem, solved: what its plans promise, and what it refuses.
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 #include "planners/problems/velocity_ocp.hpp"
 #include "tests/planners/solvers.hpp"
 #include "tests/support/dice.hpp"

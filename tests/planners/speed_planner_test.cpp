@@ -55,7 +55,7 @@ planned_street town_street(double limit_mps = 14) {
   return planned_street{test::straight(600, {{0, limit_mps}})};
 }
 
-speed_constraints speed_task_at(double speed_mps, double accel_mps2 = 0) {
+speed_constraints constraints_at(double speed_mps, double accel_mps2 = 0) {
   speed_constraints t;
   t.speed_mps = speed_mps;
   t.accel_mps2 = accel_mps2;
@@ -105,7 +105,7 @@ TEST_CASE("on random roads a car keeps the limits and the comfort, plan after "
     CAPTURE(seed);
     const auto way = test::random_road(seed, 500);
     planned_street here{way};
-    auto task = speed_task_at(0);
+    auto task = constraints_at(0);
     for (auto at = 5.0; at < 300;) {
       CAPTURE(at);
       const auto r = here.plan(task, at);
@@ -134,7 +134,7 @@ TEST_CASE("on random roads a car keeps the limits and the comfort, plan after "
 
 TEST_CASE("a free car reaches the limit and not more") {
   auto here = town_street();
-  auto task = speed_task_at(0);
+  auto task = constraints_at(0);
   for (auto t = 0.0; t < 20; t += style.step_s) {
     here.plan(task, 5);
     task.speed_mps = here.motion()[1].speed_mps;
@@ -149,7 +149,7 @@ TEST_CASE("a car stops just before where it must, in comfort") {
   auto refused = 0; // then the plan before is kept
   for (auto i = 0; i < 300; ++i) {
     const auto v = dice.between(1, 14);
-    auto task = speed_task_at(v);
+    auto task = constraints_at(v);
     task.stop_m = v * v / 4 + v * 1.5 + dice.between(1, 20);
     CAPTURE(v);
     CAPTURE(task.stop_m);
@@ -189,7 +189,7 @@ TEST_CASE("where comfort is not enough it is an emergency, says so, and "
   test::dice dice{2};
   for (auto i = 0; i < 300; ++i) {
     const auto v = dice.between(2, 20);
-    auto task = speed_task_at(v);
+    auto task = constraints_at(v);
     // Between what 2.7 and 4.8 m/s² need, and some for brakes to build up.
     task.stop_m = v * v / 2 / dice.between(2.7, 4.8) + 0.35 * v + 0.15;
     CAPTURE(v);
@@ -224,7 +224,7 @@ TEST_CASE("behind a car that keeps its speed or brakes as cars do, the gap "
   auto failed = 0;
   for (auto i = 0; i < 300; ++i) {
     const auto v = dice.between(2, 14);
-    auto task = speed_task_at(v);
+    auto task = constraints_at(v);
     const leader lead{std::max(0.0, v + dice.between(-2, 2)),
                       std::min(0.0, dice.between(-1.5, 0.5))};
     task.ahead = {style.standstill_gap_m + style.time_gap_s * v
@@ -255,7 +255,7 @@ TEST_CASE("behind a car that keeps its speed or brakes as cars do, the gap "
 TEST_CASE("a standing car without way to go stands, with a little it moves "
           "up, with more it drives") {
   auto here = town_street();
-  auto task = speed_task_at(0);
+  auto task = constraints_at(0);
   for (const auto& [stop_m, how] :
        {std::pair{-2.0, speed_mode::stands},
         {0.1, speed_mode::stands},
@@ -285,7 +285,7 @@ TEST_CASE("a place that opens later is not passed before, one that closes is "
     const auto v = dice.between(6, 13);
     const auto place = dice.between(35, 60);
     auto here = town_street();
-    auto task = speed_task_at(v);
+    auto task = constraints_at(v);
     here.plan(task);
     const auto free_s = when_s(here.motion(), place);
     if (free_s > 5)
@@ -313,7 +313,7 @@ TEST_CASE("a place that opens later is not passed before, one that closes is "
 
 TEST_CASE("dearer plans are those that lose time or comfort") {
   auto here = town_street();
-  auto task = speed_task_at(10);
+  auto task = constraints_at(10);
   const auto free = here.plan(task).price;
   here.planner.forget();
   task.stop_m = 45;
@@ -327,9 +327,9 @@ TEST_CASE("dearer plans are those that lose time or comfort") {
 
 TEST_CASE("a planner that forgets plans as a new one") {
   auto here = town_street(), fresh = town_street();
-  here.plan(speed_task_at(12));
+  here.plan(constraints_at(12));
   here.planner.forget();
-  auto task = speed_task_at(9, 0.3);
+  auto task = constraints_at(9, 0.3);
   task.stop_m = 60;
   here.plan(task);
   fresh.plan(task);
@@ -344,7 +344,7 @@ TEST_CASE("the last resort comes to rest, firm enough and no firmer than the "
           "car can") {
   test::dice dice{5};
   for (auto i = 0; i < 200; ++i) {
-    auto task = speed_task_at(dice.between(0, 20), dice.between(-2, 1.5));
+    auto task = constraints_at(dice.between(0, 20), dice.between(-2, 1.5));
     if (i % 2 == 0)
       task.stop_m = dice.between(-5, 100);
     auto here = town_street(20);
@@ -365,20 +365,20 @@ TEST_CASE("a motion is clear when it keeps off the line, the car ahead and "
   const auto clear = [&](const speed_constraints& task) {
     return is_clear(steady, 0.1, task);
   };
-  auto task = speed_task_at(10);
+  auto task = constraints_at(10);
   CHECK(clear(task));
   task.stop_m = 61;
   CHECK(clear(task));
   task.stop_m = 59;
   CHECK(!clear(task));
-  task = speed_task_at(10);
+  task = constraints_at(10);
   task.ahead = {5, {10, 0}};
   CHECK(clear(task));
   task.ahead = {5, {8, 0}};
   CHECK(!clear(task));
   task.ahead = {40, {10, -3}};
   CHECK(!clear(task));
-  task = speed_task_at(10);
+  task = constraints_at(10);
   std::array window{speed_constraints::window{30, 2.5, 3.5}};
   task.windows = window;
   CHECK(clear(task));

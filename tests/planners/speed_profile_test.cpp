@@ -1,7 +1,7 @@
 // A speed plan over way, driven in time.
 #include "planners/speed/speed_profile.hpp"
 
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 
 #include <doctest/doctest.h>
 

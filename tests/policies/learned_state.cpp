@@ -39,7 +39,7 @@ struct alto_learner {
   alto learner{{}};
 
   std::uint64_t live(std::uint64_t step) {
-    std::array<provider_id, 3> present{1, boot_of(2, 1'700'000'000'000),
+    std::array<provider_id, 3> present{1, provider_at(2, 1'700'000'000'000),
                                        3 + step / 20};
     const auto bits = chance.uniform(50e3, 400e3, step, 1);
     const auto provider = *learner.choose(bits, present);

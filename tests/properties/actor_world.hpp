@@ -127,7 +127,7 @@ struct actor_world : virtual_world {
 
   void add_provider(int k) {
     actors::provider_actor_setup setup;
-    setup.boot = static_cast<provider_id>(k + 1);
+    setup.id = static_cast<provider_id>(k + 1);
     setup.decode = [where = somewhere()](const messages::its_pdu& message,
                                          time_point now) {
       return messages::decode(message, *where, now);

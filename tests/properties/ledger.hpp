@@ -68,7 +68,7 @@ struct client_diary {
 
   void on_result(const messages::service_result& result) {
     auto& e = of(result.session.service);
-    if (e.remote != (result.session.is_remote()))
+    if (e.remote != result.session.is_remote())
       broken.push_back("a result came from the source that is not in use");
     if (result.created < e.newest_of_source)
       broken.push_back("a source's results came out of order");
@@ -104,7 +104,7 @@ struct shuttle {
   }
 };
 
-/// The way ahead of it, straight on.
+/// The way ahead of the shuttle, straight on.
 inline std::vector<point> path_ahead(const messages::ego_state& ego) {
   std::vector<point> way;
   way.reserve(1

@@ -31,24 +31,24 @@ foreseen_results look(const std::vector<std::string>& set, provider_id provider,
 } // namespace
 
 TEST_CASE("on an ideal channel nothing is late and computing is all it takes") {
-  const auto seen = look({}, boot_of(1, 0), 0s, 60s);
+  const auto seen = look({}, provider_at(1, 0), 0s, 60s);
   CHECK_FALSE(seen.late);
   CHECK(seen.latency_s == doctest::Approx(0.008));
 }
 
 TEST_CASE("where nobody is everything is late") {
-  CHECK(look({}, boot_of(2, 0), 3s, 60s).late == time_point{3s});
+  CHECK(look({}, provider_at(2, 0), 3s, 60s).late == time_point{3s});
 }
 
 TEST_CASE("it is foreseen when a provider fails and when it is back") {
   const std::vector<std::string> set{"provider.0.fails_at=20s",
                                      "provider.0.returns_at=30s"};
-  const auto before = look(set, boot_of(1, 0), 0s, 60s);
+  const auto before = look(set, provider_at(1, 0), 0s, 60s);
   REQUIRE(before.late);
   CHECK(before.late->time_since_epoch() > 19900ms);
   CHECK(before.late->time_since_epoch() <= 20100ms);
-  CHECK(look(set, boot_of(1, 1), 29s, 60s).late);
-  CHECK_FALSE(look(set, boot_of(1, 1), 30s, 60s).late);
+  CHECK(look(set, provider_at(1, 1), 29s, 60s).late);
+  CHECK_FALSE(look(set, provider_at(1, 1), 30s, 60s).late);
 }
 
 // One vehicle, so that nobody waits for a worker or for the radio cell. Delays

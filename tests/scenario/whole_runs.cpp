@@ -191,11 +191,11 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
     CHECK(e.ended == time_point{60s});
   }
   CHECK(lost == 8); // either service of each vehicle
-  CHECK(boots == std::set<provider_id>{boot_of(1, 0), boot_of(1, 1)});
+  CHECK(boots == std::set<provider_id>{provider_at(1, 0), provider_at(1, 1)});
   for (const auto& c : records.cycles) {
     const auto t = c.received.time_since_epoch();
     CHECK((t <= 60s || t >= 90s));
-    CHECK((c.session.provider == boot_of(1, 0)) == (t <= 60s));
+    CHECK((c.session.provider == provider_at(1, 0)) == (t <= 60s));
   }
 }
 

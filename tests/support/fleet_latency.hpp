@@ -3,8 +3,8 @@
 #pragma once
 
 #include "channel/link_direction.hpp"
-#include "channel/multi_server_queue.hpp"
 #include "channel/provider_compute.hpp"
+#include "channel/shared_server_queue.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
   const random_stream seed{f.seed, "fleet"};
   std::vector<random_stream> draws;
   std::vector<channel::link_direction> links;
-  const auto cell = std::make_shared<channel::multi_server_queue>(1);
+  const auto cell = std::make_shared<channel::shared_server_queue>(1);
   const auto computers = channel::compute_measured_with(f.profile->name);
   std::vector<job> jobs;
   const auto cycles = static_cast<std::uint64_t>(f.length / f.period);
@@ -55,7 +55,8 @@ inline std::vector<std::vector<delivery>> run(const fleet& f) {
       jobs.push_back({v, c, time_point{phase + c * f.period}, {}});
   }
   std::ranges::stable_sort(jobs, {}, &job::created);
-  channel::multi_server_queue workers{static_cast<unsigned>(computers.workers)};
+  channel::shared_server_queue workers{
+      static_cast<unsigned>(computers.workers)};
   for (auto& j : jobs)
     j.computed = workers.finish(
         j.created, computers.computing_time(draws[j.vehicle], j.cycle));

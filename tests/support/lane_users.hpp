@@ -1,8 +1,8 @@
 // Road users in lane order, for tests: who is ahead of whom.
 #pragma once
 
-#include "world/traffic/driver.hpp"
 #include "world/traffic/lane_order.hpp"
+#include "world/traffic/road_user_state.hpp"
 
 #include <algorithm>
 #include <map>
@@ -43,7 +43,7 @@ public:
   /// @returns whom `station` follows, if anybody; it must be known.
   std::optional<leader> ahead_of(station_id station) const {
     const auto self =
-        std::ranges::find(drivers_, station, &world::driver::station);
+        std::ranges::find(drivers_, station, &world::road_user_state::station);
     const auto seen =
         order_.ahead_of(static_cast<std::size_t>(self - drivers_.begin()));
     if (!seen)
@@ -57,7 +57,7 @@ private:
   world::lane_order order_;
   std::map<world::route_ptr, std::shared_ptr<const world::unrolled_route>>
       ways_;
-  std::vector<world::driver> drivers_;
+  std::vector<world::road_user_state> drivers_;
 };
 
 } // namespace sofof::toy

@@ -9,7 +9,7 @@ namespace sofof::world {
 /// Looks for the nearest rear bumper of somebody whose axle is ahead of
 /// `after_m`, or level with it and with a lower id than `station`.
 struct lane_order::gaze {
-  const driver& self;
+  const road_user_state& self;
   double after_m;
   station_id station;
   std::optional<road_user_ahead> nearest;
@@ -37,7 +37,7 @@ struct lane_order::gaze {
 lane_order::lane_order(const conflict_sides& all)
     : all_{all}, lanes_(all.size()) {}
 
-void lane_order::sort(std::span<const driver> drivers) {
+void lane_order::sort(std::span<const road_user_state> drivers) {
   drivers_ = drivers;
   for (auto& l : lanes_)
     l.clear();

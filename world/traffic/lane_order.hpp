@@ -1,7 +1,7 @@
 // Who drives ahead of whom: the road users of every lane in order.
 #pragma once
 
-#include "world/traffic/driver.hpp"
+#include "world/traffic/road_user_state.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ public:
 
   /// Sorts everybody into the lanes.
   /// @param drivers  Must stay where they are while this is asked about them.
-  void sort(std::span<const driver> drivers);
+  void sort(std::span<const road_user_state> drivers);
 
   /// @returns the nearest road user ahead of driver number `i`, within
   /// `sight_m`: on its way, or on a lane that begins or ends together with
@@ -64,7 +64,7 @@ private:
                        const conflict_side& e) const;
 
   const conflict_sides& all_;
-  std::span<const driver> drivers_;
+  std::span<const road_user_state> drivers_;
   std::vector<std::vector<occupant>> lanes_;
 };
 

@@ -67,13 +67,13 @@ double gap_m(double now_m) {
 }
 
 /// @returns when a zone is clear of somebody who has to give way there, s.
-double clears_after_s(const driver& d, const zone& z) {
+double clears_after_s(const road_user_state& d, const zone& z) {
   const auto speed_mps = std::min(d.known.speed_mps, z.pace_mps);
   return drive_s(z.to_m - d.rear_m(), speed_mps, z.pace_mps);
 }
 
 /// @returns when somebody with priority reaches a zone, s.
-double arrives_after_s(const driver& d, const zone& z) {
+double arrives_after_s(const road_user_state& d, const zone& z) {
   const auto distance_m = z.from_m - d.front_m();
   const auto speed_mps = d.known.speed_mps;
   if (d.asks_since)
@@ -81,19 +81,20 @@ double arrives_after_s(const driver& d, const zone& z) {
   return speed_mps > 0 ? distance_m / speed_mps : never;
 }
 
-bool owns(const driver& d, const zone& z) {
+bool owns(const road_user_state& d, const zone& z) {
   return z.from_m < d.granted_to_m;
 }
 
 /// @returns whether somebody who asks cannot go, whoever gives way to it.
-bool is_stuck(const driver& d) {
-  return d.last == driver::answer::full || d.last == driver::answer::wait;
+bool is_stuck(const road_user_state& d) {
+  return d.last == road_user_state::answer::full
+         || d.last == road_user_state::answer::wait;
 }
 
 } // namespace
 
-void right_of_way::decide(std::span<driver> drivers, const lane_order& order,
-                          time_point now) {
+void right_of_way::decide(std::span<road_user_state> drivers,
+                          const lane_order& order, time_point now) {
   drivers_ = drivers;
   order_ = &order;
   now_ = now;
@@ -125,7 +126,7 @@ void right_of_way::enter(std::uint32_t who) {
   const auto way_m = d.line_m - stop_margin_m - d.front_m();
   if (way_m > asking_distance_m(d.known.speed_mps)) {
     d.asks_since.reset();
-    d.last = driver::answer::none;
+    d.last = road_user_state::answer::none;
     return;
   }
   if (!d.asks_since)
@@ -134,7 +135,7 @@ void right_of_way::enter(std::uint32_t who) {
 }
 
 /// Finds the first zone that has not been granted.
-void right_of_way::find_line(driver& d) const {
+void right_of_way::find_line(road_user_state& d) const {
   d.line_m = never;
   d.way->for_zones(d.granted_to_m, d.front_m() + sight_m, [&](const zone& z) {
     d.line_m = z.from_m;
@@ -143,12 +144,12 @@ void right_of_way::find_line(driver& d) const {
   });
 }
 
-bool right_of_way::is_impatient(const driver& d) const {
+bool right_of_way::is_impatient(const road_user_state& d) const {
   return d.asks_since && now_ - *d.asks_since > patience;
 }
 
-bool right_of_way::goes_before(const driver& a, int rank_a, const driver& b,
-                               int rank_b) const {
+bool right_of_way::goes_before(const road_user_state& a, int rank_a,
+                               const road_user_state& b, int rank_b) const {
   if (is_impatient(a))
     rank_a = rank_of_the_impatient;
   if (is_impatient(b))
@@ -161,24 +162,24 @@ bool right_of_way::goes_before(const driver& a, int rank_a, const driver& b,
          < std::pair{*b.asks_since, b.known.station};
 }
 
-driver::answer right_of_way::ask(std::uint32_t who) {
+road_user_state::answer right_of_way::ask(std::uint32_t who) {
   party_.clear();
   wanted_.clear();
   looks_ = 0;
   if (!join(who))
-    return driver::answer::full;
+    return road_user_state::answer::full;
   if (is_held(party_.front()))
-    return driver::answer::held;
+    return road_user_state::answer::held;
   if (gives_way(party_.front()))
-    return driver::answer::wait;
+    return road_user_state::answer::wait;
   for (const auto& r : party_) {
     auto& d = drivers_[r.who];
     d.granted_to_m = r.clear_m;
     d.asks_since.reset();
-    d.last = driver::answer::go;
+    d.last = road_user_state::answer::go;
     find_line(d);
   }
-  return driver::answer::go;
+  return road_user_state::answer::go;
 }
 
 /// @returns whether a driver, and all those who must go for it to find room,

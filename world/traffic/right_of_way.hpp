@@ -16,8 +16,8 @@
 #pragma once
 
 #include "base/time.hpp"
-#include "world/traffic/driver.hpp"
 #include "world/traffic/lane_order.hpp"
+#include "world/traffic/road_user_state.hpp"
 
 #include <cstdint>
 #include <span>
@@ -25,7 +25,7 @@
 
 namespace sofof::world {
 
-/// Grants zones to drivers; remembers nothing that is not in `driver`.
+/// Grants zones to drivers; remembers nothing that is not in `road_user_state`.
 class right_of_way {
 public:
   explicit right_of_way(const road_map& map)
@@ -38,7 +38,7 @@ public:
   /// other side, or when somebody with priority there would arrive before it
   /// is clear again, unless that one cannot go itself.
   /// @param drivers  In any fixed order; sorted into `order`.
-  void decide(std::span<driver> drivers, const lane_order& order,
+  void decide(std::span<road_user_state> drivers, const lane_order& order,
               time_point now);
 
 private:
@@ -53,11 +53,11 @@ private:
   };
 
   void enter(std::uint32_t who);
-  void find_line(driver& d) const;
-  bool is_impatient(const driver& d) const;
-  bool goes_before(const driver& a, int rank_a, const driver& b,
-                   int rank_b) const;
-  driver::answer ask(std::uint32_t who);
+  void find_line(road_user_state& d) const;
+  bool is_impatient(const road_user_state& d) const;
+  bool goes_before(const road_user_state& a, int rank_a,
+                   const road_user_state& b, int rank_b) const;
+  road_user_state::answer ask(std::uint32_t who);
   bool join(std::uint32_t who);
   bool can_reach(std::uint32_t who, double front_m);
   bool finds_room(std::uint32_t who, double front_m);
@@ -70,7 +70,7 @@ private:
     return std::span{wanted_}.subspan(r.first_zone, r.end_zone - r.first_zone);
   }
 
-  std::span<driver> drivers_;
+  std::span<road_user_state> drivers_;
   const lane_order* order_ = nullptr;
   time_point now_;
   std::vector<std::vector<user>> users_; // of each side, near or on it

@@ -1,9 +1,9 @@
 // Who is where on the road, who touches whom, and whose turn it is.
 #include "world/traffic/traffic.hpp"
 
-#include "world/traffic/driver.hpp"
 #include "world/traffic/lane_order.hpp"
 #include "world/traffic/right_of_way.hpp"
+#include "world/traffic/road_user_state.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,8 @@ struct traffic::state {
         crossings{map}, standing{std::move(obstacles)} {}
 
   auto find(station_id station) {
-    return std::ranges::lower_bound(drivers, station, {}, &driver::station);
+    return std::ranges::lower_bound(drivers, station, {},
+                                    &road_user_state::station);
   }
 
   /// Road users of one route share what is known of it.
@@ -60,7 +61,7 @@ struct traffic::state {
   const bool grants;
   lane_order order;
   right_of_way crossings;
-  std::vector<driver> drivers; // in order of station ids
+  std::vector<road_user_state> drivers; // in order of station ids
   const std::vector<road_body> standing;
   std::vector<road_body> bodies; // the drivers', then those that stand
   std::vector<extent> from_west;
@@ -80,11 +81,11 @@ void traffic::report(const road_user& user) {
   auto& drivers = state_->drivers;
   const auto d = state_->find(user.station);
   if (d == drivers.end() || d->station() != user.station)
-    drivers.insert(d, driver{user, state_->find_way(user.on)});
+    drivers.insert(d, road_user_state{user, state_->find_way(user.on)});
   else if (d->known.on == user.on)
     d->known = user;
   else
-    *d = driver{user, state_->find_way(user.on)};
+    *d = road_user_state{user, state_->find_way(user.on)};
 }
 
 void traffic::remove(station_id station) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/protocol.hpp"
-#include "world/vehicle/comfort.hpp"
+#include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <array>

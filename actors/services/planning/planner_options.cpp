@@ -11,7 +11,8 @@ void planner_options::visit_options(option_visitor& s) {
   visit_word(s, "name", name, "planner", names_of(planner_table));
   style.visit_options(s);
   s.table("onboard", [this](option_visitor& t) { onboard.visit_options(t); });
-  s.table("mec", [this](option_visitor& t) { mec.visit_options(t); });
+  s.moved("mec", "provider");
+  s.table("provider", [this](option_visitor& t) { provider.visit_options(t); });
 }
 
 std::unique_ptr<planners::trajectory_planner>

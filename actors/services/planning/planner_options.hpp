@@ -19,7 +19,7 @@ struct planner_options {
   std::string name = "al_ilqr"; ///< Or "lane_follow", a simple one.
   planners::comfort_limits style;
   planners::spatial_params onboard;
-  planners::spatial_params mec{
+  planners::spatial_params provider{
       .horizon_m = 125, .step_m = 0.5, .candidates = 16, .alternations = 2};
 
   void visit_options(option_visitor& s);

@@ -18,7 +18,7 @@ namespace sofof::messages {
 /// A suggested maneuver: one offloading of a vehicle's planning. Of both
 /// numbers the last 16 bits travel.
 struct maneuver_name {
-  std::uint16_t maneuver = 0; ///< Counter of the running service.
+  std::uint16_t maneuver = 0; ///< Counter of the session.
   std::uint16_t update = 0;   ///< Cycle of the plan.
 };
 

@@ -61,8 +61,8 @@ local_decision bandit_lodm::decide(const local_context& context) {
   if (!chosen)
     return at_place(context.current, context.current,
                     "nobody comes into question");
-  tried.now = {chosen->at, context.now};
-  return at_place(context.current, chosen->at, "on trial");
+  tried.now = {chosen->place, context.now};
+  return at_place(context.current, chosen->place, "on trial");
 }
 
 void bandit_lodm::observe(const cycle_outcome& outcome) {

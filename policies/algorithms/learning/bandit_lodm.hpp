@@ -14,9 +14,10 @@
 
 namespace sofof::policies {
 
-/// Where a service is tried next.
+/// Where a service is tried next. A struct, as an optional of a place, itself
+/// an optional, would be taken for the place: "no choice" for the vehicle.
 struct chosen_place {
-  service_place at;
+  service_place place;
 };
 
 /// Where one service is tried.

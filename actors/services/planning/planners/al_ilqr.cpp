@@ -11,7 +11,7 @@ planner_entry planner_al_ilqr() {
             bool remote) -> std::unique_ptr<planners::trajectory_planner> {
     return std::make_unique<planners::spatial_planner>(
         std::move(along), options.style,
-        remote ? options.mec : options.onboard);
+        remote ? options.provider : options.onboard);
   };
 }
 

@@ -1,5 +1,5 @@
 // Lining up figures.
-#include "recording/table.hpp"
+#include "recording/console_summary.hpp"
 
 #include "base/overloaded.hpp"
 #include "base/text/terminal_style.hpp"

@@ -1,5 +1,5 @@
 // Going through plans point by point.
-#include "world/vehicle/comfort.hpp"
+#include "world/vehicle/plan_comfort.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 // A queue before a few equal servers.
-#include "channel/multi_server_queue.hpp"
+#include "channel/shared_server_queue.hpp"
 
 #include "base/random.hpp"
 #include "tests/support/near.hpp"
@@ -25,20 +25,20 @@ constexpr time_point at(duration t) {
 } // namespace
 
 TEST_CASE("a job that finds the worker idle is done after its own time") {
-  multi_server_queue workers{1};
+  shared_server_queue workers{1};
   CHECK(workers.finish(at(10ms), 3ms) == at(13ms));
   CHECK(workers.finish(at(20ms), 3ms) == at(23ms));
 }
 
 TEST_CASE("a job that finds the worker busy waits for it") {
-  multi_server_queue workers{1};
+  shared_server_queue workers{1};
   workers.finish(at(0ms), 10ms);
   CHECK(workers.finish(at(4ms), 1ms) == at(11ms));
   CHECK(workers.finish(at(5ms), 1ms) == at(12ms));
 }
 
 TEST_CASE("the worker that is free first takes the job") {
-  multi_server_queue workers{2};
+  shared_server_queue workers{2};
   CHECK(workers.finish(at(0ms), 10ms) == at(10ms));
   CHECK(workers.finish(at(0ms), 4ms) == at(4ms));
   CHECK(workers.finish(at(1ms), 2ms) == at(6ms));
@@ -47,13 +47,13 @@ TEST_CASE("the worker that is free first takes the job") {
 }
 
 TEST_CASE("a job from the past arrives with the last one") {
-  multi_server_queue workers{2};
+  shared_server_queue workers{2};
   workers.finish(at(10ms), 0ms);
   CHECK(workers.finish(at(2ms), 3ms) == at(13ms));
 }
 
 TEST_CASE("a queue without workers is refused") {
-  CHECK_THROWS_AS(multi_server_queue{0}, std::invalid_argument);
+  CHECK_THROWS_AS(shared_server_queue{0}, std::invalid_argument);
 }
 
 // The count misses a missing lock where threads happen to take turns; a thread
@@ -61,7 +61,7 @@ TEST_CASE("a queue without workers is refused") {
 TEST_CASE("no work is lost between threads that share a worker") {
   constexpr auto threads = 4;
   constexpr auto jobs = 300'000;
-  multi_server_queue worker{1};
+  shared_server_queue worker{1};
   worker.finish(at(0ms), 0ms);
   std::latch start{threads};
   {
@@ -79,7 +79,7 @@ TEST_CASE("no work is lost between threads that share a worker") {
 TEST_CASE("random arrivals at one worker wait as queueing theory says") {
   // M/M/1 at load 1/2: the mean wait is the mean work.
   const random_stream s{1, "queue"};
-  multi_server_queue worker{1};
+  shared_server_queue worker{1};
   time_point now{};
   double waited_s = 0;
   constexpr auto jobs = 200'000;

@@ -13,7 +13,7 @@
 namespace sofof::world {
 
 /// What the traffic keeps of a road user.
-struct driver {
+struct road_user_state {
   /// How the last request to cross was answered.
   enum class answer {
     none, ///< There was none.
@@ -23,7 +23,8 @@ struct driver {
     wait, ///< Somebody else goes first.
   };
 
-  driver(const road_user& user, std::shared_ptr<const unrolled_route> on)
+  road_user_state(const road_user& user,
+                  std::shared_ptr<const unrolled_route> on)
       : known{user}, way{std::move(on)}, granted_to_m{front_m()} {
     seen.stop_at_m = front_m();
   }

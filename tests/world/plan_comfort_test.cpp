@@ -1,5 +1,5 @@
 // How smooth plans are, and how far one is from the next.
-#include "world/vehicle/comfort.hpp"
+#include "world/vehicle/plan_comfort.hpp"
 
 #include "tests/support/near.hpp"
 

@@ -9,17 +9,17 @@ namespace sofof::actors {
 
 /// An ITS message leaves now.
 template <class Self>
-void note_on_air(Self* self, const messages::recorder_actor& recorder,
-                 const messages::its_pdu& message) {
+void record_on_air(Self* self, const messages::recorder_actor& recorder,
+                   const messages::its_pdu& message) {
   send_record(self, recorder, messages::air_record{now(self), message});
 }
 
 /// The same, if it is one.
 template <class Self>
-void note_on_air(Self* self, const messages::recorder_actor& recorder,
-                 const messages::payload& what) {
+void record_on_air(Self* self, const messages::recorder_actor& recorder,
+                   const messages::payload& what) {
   if (const auto message = what.as<messages::its_pdu>())
-    note_on_air(self, recorder, *message);
+    record_on_air(self, recorder, *message);
 }
 
 } // namespace sofof::actors

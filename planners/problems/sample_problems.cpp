@@ -1,5 +1,5 @@
 // Roads as sums of sines; obstacles at fixed places.
-#include "planners/problems/practice.hpp"
+#include "planners/problems/sample_problems.hpp"
 
 #include <algorithm>
 #include <cassert>

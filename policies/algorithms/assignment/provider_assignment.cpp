@@ -1,5 +1,5 @@
 // The assignment as one provider sees it.
-#include "policies/algorithms/assignment/central.hpp"
+#include "policies/algorithms/assignment/provider_assignment.hpp"
 
 #include "policies/algorithms/assignment/queueing.hpp"
 

@@ -1,5 +1,5 @@
 // The table in the end, and the line while one waits.
-#include "recording/table.hpp"
+#include "recording/console_summary.hpp"
 
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/mcm.hpp"

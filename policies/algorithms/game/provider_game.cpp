@@ -1,5 +1,5 @@
 // The offloading game as one provider plays it.
-#include "policies/algorithms/game/central.hpp"
+#include "policies/algorithms/game/provider_game.hpp"
 
 #include "policies/api/central_view.hpp"
 
