@@ -254,3 +254,19 @@ TEST_CASE("a station is told of once when it is doubted, and once when it is "
   CHECK_FALSE(road.news[1].begins);
   CHECK(road.believes_in(road.cars[0].is));
 }
+
+TEST_CASE("of what a witness tells, bodies that jump are left out") {
+  watched_road road;
+  road.cars = {watcher(car_on_x(0)), {.is = car_on_x(40)}};
+  road.pass(1s);
+  const station_id who{1};
+  std::vector<std::uint32_t> ids{7, 8};
+  std::vector<perceived_object> bodies{car_on_x(40), car_on_x(60)};
+  road.doubts.sift(who, road.now, ids, bodies);
+  CHECK(bodies.size() == 2);
+  bodies = {car_on_x(90), car_on_x(60)};
+  road.doubts.sift(who, road.now + 100ms, ids, bodies);
+  CHECK(ids == std::vector<std::uint32_t>{8});
+  REQUIRE(bodies.size() == 1);
+  CHECK(bodies[0].centre.x_m == 60);
+}

@@ -247,6 +247,18 @@ TEST_CASE("without time the plan before is not kept where it would hit "
         < ride.input.others.lead->rear_s_m);
 }
 
+TEST_CASE("without time to plan a path round a body the car stops before it") {
+  ride ride{test::straight(600, {{0, 13.9}}), 20, 12};
+  for (auto i = 0; i < 10; ++i)
+    ride.go();
+  const auto s_m = ride.plan.points.front().s_m;
+  ride.input.others.beside = {{s_m + 60, s_m + 64, -2.3, -0.5, 0}};
+  ride.go(ocp::budget{refuse});
+  CHECK(ride.report.origin != plan_origin::kept);
+  CHECK(ride.plan.points.back().speed_mps == 0);
+  CHECK(ride.plan.points.back().s_m + 4.0175 < s_m + 60);
+}
+
 TEST_CASE("without time from the beginning the car stops in its lane") {
   ride ride{test::random_road(3), 30, 8};
   for (auto i = 0; i < 5; ++i) {
