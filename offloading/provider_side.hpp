@@ -47,10 +47,9 @@ public:
   /// A station has sent something else, a CPM say: it lives.
   void on_sign_of_life(station_id station, peer_id from, time_point now);
 
-  /// @param from  Whoever has sent it. Inputs and the end of a session count
-  /// from
-  ///              its requester alone; that a request comes from the station
-  ///              that it names is for the owner to see to.
+  /// @param from  Whoever has sent it. Only its requester feeds and ends a
+  ///              session; that a request comes from the station that it names
+  ///              is for the owner to see to.
   void on_message(peer_id from, const to_provider& message, time_point now);
 
   /// A requester cannot be reached any more.

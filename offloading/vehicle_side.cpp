@@ -89,7 +89,7 @@ private:
     parts& all;
     messages::service_name name;
     source_selector selector;
-    watchdog quality;
+    watchdog qos;
     std::uint64_t watchdog_timer = 0; // the one that counts
     own_port wants{*this};
     service_cycle own;
@@ -101,7 +101,7 @@ private:
         : all{owner}, name{service.name}, selector{{setup.station, service,
                                                     setup.record_margins},
                                                    *this},
-          quality{service.options.limits}, own{cycle(setup, service), wants} {}
+          qos{service.options.limits}, own{cycle(setup, service), wants} {}
 
     cycle_setup cycle(const vehicle_side_setup& setup,
                       const onboard_service& service) {
@@ -166,29 +166,29 @@ private:
     }
 
     void watch(const messages::session_id& session, time_point last) override {
-      quality.arm(session, last);
+      qos.arm(session, last);
       set_watchdog_timer();
     }
     void watch_arrival(const messages::arrival& result) override {
-      if (auto late = quality.on_arrival(result, all.now_))
+      if (auto late = qos.on_arrival(result, all.now_))
         report_once(std::move(*late));
     }
     void watch_useless(const messages::session_id& session,
                        const messages::implausibility& found) override {
-      quality.on_useless(session, found);
+      qos.on_useless(session, found);
     }
     void watch_end(const messages::service_end& end) override {
-      if (quality.disarm(end.session))
+      if (qos.disarm(end.session))
         ++watchdog_timer;
     }
 
     void set_watchdog_timer() {
-      wake_at(quality.deadline().value(), timer_of::watchdog, ++watchdog_timer);
+      wake_at(qos.deadline().value(), timer_of::watchdog, ++watchdog_timer);
     }
     void on_watchdog_timer(std::uint64_t number) {
       if (number != watchdog_timer)
         return;
-      if (auto gap = quality.on_deadline(all.now_))
+      if (auto gap = qos.on_deadline(all.now_))
         report_once(std::move(*gap));
       else
         set_watchdog_timer();

@@ -43,7 +43,8 @@ void visit_fields(auto& v, peer_hello& x) {
   v("signature", x.signature);
 }
 
-/// The provider, of this start of its process.
+/// A provider answers a hello: its id, which is new at each start of its
+/// process.
 struct peer_welcome {
   provider_id provider = 0;
   std::int64_t epoch_unix_ms = 0;

@@ -1,4 +1,5 @@
-// Tests of a provider's side: when a result leaves it.
+// Tests of a provider's side: when results and answers leave it, and whom it
+// hears.
 #include "offloading/provider_side.hpp"
 
 #include "policies/registry.hpp"
@@ -25,35 +26,48 @@ namespace {
 constexpr offloading::peer_id vehicle{7};
 constexpr station_id station = 101;
 
-/// A provider that runs an echo for one vehicle from time 1 s on, whose cycles
-/// are computed in the time given.
-struct echoing final : offloading::provider_side_port {
+/// A provider of an echo, whose cycles are computed in the time given.
+struct roadside final : offloading::provider_side_port {
   duration computing;
   time_point now{1s};
   std::multimap<time_point, std::uint64_t> due;
   std::vector<time_point> results; ///< When they were sent.
-  std::uint32_t accepted = 0;      ///< The counter of the session.
+  std::vector<time_point> answers; ///< Likewise, to requests.
+  std::uint32_t accepted = 0;      ///< The counter of the latest session.
   std::unique_ptr<offloading::provider_side> side;
 
-  explicit echoing(duration x) : computing{x} {
+  explicit roadside(
+      duration x, std::unique_ptr<central_policy> policy = make_codm("always"))
+      : computing{x} {
     offloading::provider_setup setup;
     setup.id = 1;
     setup.area = polygon::regular({0, 0}, 100, 8);
     setup.services.push_back(at_provider(echo_service("one"), {}));
-    setup.policy = make_codm("always");
+    setup.policy = std::move(policy);
     side = std::make_unique<offloading::provider_side>(std::move(setup), *this);
-    side->on_cam({station, now, {0, 0}}, vehicle, now);
-    side->on_message(vehicle, service_request{1, station, 1, {"one"}, {}, 0},
-                     now);
-    side->on_message(
-        vehicle,
-        service_input{{1, station, "one", accepted}, now, payload::of(echo{1})},
-        now);
+  }
+
+  void hear(station_id who, offloading::peer_id from) {
+    side->on_cam({who, now, {0, 0}}, from, now);
+  }
+  void request(station_id who, offloading::peer_id from) {
+    hear(who, from);
+    side->on_message(from, service_request{1, who, 1, {"one"}, {}, 0}, now);
+  }
+  session_id session() const { return {1, station, "one", accepted}; }
+
+  /// The vehicle's session, with its first input.
+  void start() {
+    request(station, vehicle);
+    side->on_message(vehicle,
+                     service_input{session(), now, payload::of(echo{1})}, now);
   }
 
   void send(offloading::peer_id, offloading::to_vehicle message) override {
-    if (const auto* response = std::get_if<service_response>(&message))
+    if (const auto* response = std::get_if<service_response>(&message)) {
       accepted = response->verdicts.front().session.counter;
+      answers.push_back(now);
+    }
     if (std::holds_alternative<service_result>(message))
       results.push_back(now);
   }
@@ -76,7 +90,7 @@ struct echoing final : offloading::provider_side_port {
   }
 };
 
-/// Accepts all, a quarter of a second after the first asked.
+/// Accepts all, a quarter of a second after the first has asked.
 struct patient final : central_policy {
   std::vector<central_decision>
   decide(const central_context& context) override {
@@ -90,39 +104,11 @@ struct patient final : central_policy {
   }
 };
 
-/// A provider with such a policy, and when it answered.
-struct answering final : offloading::provider_side_port {
-  time_point now{1s};
-  std::multimap<time_point, std::uint64_t> due;
-  std::vector<time_point> answers;
-  std::unique_ptr<offloading::provider_side> side;
-
-  answering() {
-    offloading::provider_setup setup;
-    setup.id = 1;
-    setup.area = polygon::regular({0, 0}, 100, 8);
-    setup.services.push_back(at_provider(echo_service("one"), {}));
-    setup.policy = std::make_unique<patient>();
-    side = std::make_unique<offloading::provider_side>(std::move(setup), *this);
-  }
-
-  void send(offloading::peer_id, offloading::to_vehicle message) override {
-    if (std::holds_alternative<service_response>(message))
-      answers.push_back(now);
-  }
-  time_point finish(const session_id&, time_point start,
-                    std::uint64_t) override {
-    return start;
-  }
-  void wake_at(time_point t, std::uint64_t number) override {
-    due.emplace(t, number);
-  }
-};
-
 } // namespace
 
 TEST_CASE("a result leaves a provider when its cycle is done") {
-  echoing slow{3ms};
+  roadside slow{3ms};
+  slow.start();
   CHECK(slow.accepted != 0);
   CHECK(slow.results.empty());
   slow.run_until(time_point{1s + 3ms});
@@ -130,47 +116,36 @@ TEST_CASE("a result leaves a provider when its cycle is done") {
 }
 
 TEST_CASE("a result that is computed in no time leaves a provider at once") {
-  const echoing fast{0ms};
+  roadside fast{0ms};
+  fast.start();
   CHECK(fast.accepted != 0);
   CHECK(fast.results == std::vector{time_point{1s}});
 }
 
 TEST_CASE("a session is ended by its requester alone") {
-  constexpr offloading::peer_id other{8};
-  echoing sp{3ms};
+  roadside sp{3ms};
+  sp.start();
+  const service_end end{sp.session(), end_reason::released, side::requester};
   sp.run_until(time_point{2s});
+  sp.hear(station, vehicle); // it lives
+  sp.side->on_message(offloading::peer_id{8}, end, sp.now);
   const auto before = sp.results.size();
-  REQUIRE(before > 0);
-  const service_end end{
-      {1, station, "one", sp.accepted}, end_reason::released, side::requester};
-  sp.side->on_message(other, end, sp.now);
-  const auto still = sp.results.size();
-  for (int k = 0; k < 3; ++k) { // it lives
-    sp.side->on_cam({station, sp.now, {0, 0}}, vehicle, sp.now);
-    sp.run_until(sp.now + 1s);
-  }
-  CHECK(sp.results.size() > still);
+  sp.run_until(time_point{3s});
+  CHECK(sp.results.size() > before);
+  sp.hear(station, vehicle);
   sp.side->on_message(vehicle, end, sp.now);
   const auto ended = sp.results.size();
-  sp.run_until(sp.now + 1s);
+  sp.run_until(time_point{4s});
   CHECK(sp.results.size() == ended);
 }
 
 TEST_CASE("requests of an epoch are answered together at its end") {
-  answering sp;
-  for (const station_id asking : {station, station_id{102}}) {
-    const offloading::peer_id from{asking.value()};
-    sp.side->on_cam({asking, sp.now, {0, 0}}, from, sp.now);
-    sp.side->on_message(from, service_request{1, asking, 1, {"one"}, {}, 0},
-                        sp.now);
-    sp.now += 100ms;
-  }
+  roadside sp{3ms, std::make_unique<patient>()};
+  sp.request(station, vehicle);
+  sp.run_until(time_point{1100ms});
+  sp.request(station_id{102}, offloading::peer_id{8});
+  sp.run_until(time_point{1250ms - 1ns});
   CHECK(sp.answers.empty());
-  while (sp.answers.empty() && !sp.due.empty()) {
-    const auto [t, number] = *sp.due.begin();
-    sp.due.erase(sp.due.begin());
-    sp.now = t;
-    sp.side->on_timer(number, t);
-  }
+  sp.run_until(time_point{1250ms});
   CHECK(sp.answers == std::vector<time_point>(2, time_point{1250ms}));
 }
