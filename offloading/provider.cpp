@@ -48,6 +48,19 @@ bool provider::station_record::is_consistent() const {
   return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
 }
 
+// Stations are known while they are in the area and have been heard of, and
+// requests wait for the end of an epoch.
+bool provider::is_consistent() const {
+  const auto is_here = [this](const auto& known) {
+    const auto& [id, station] = known;
+    return station.is_consistent() && station.latest.station == id
+           && station.heard <= now_
+           && setup_.area.contains(station.latest.position);
+  };
+  return std::ranges::all_of(stations_, is_here)
+         && (waiting_.empty() || in_epoch_);
+}
+
 void provider::pass(time_point now) {
   assert(now >= now_);
   now_ = now;
@@ -82,6 +95,7 @@ void provider::expire(const epoch_end&, time_point now) {
   in_epoch_ = false;
   if (!waiting_.empty())
     answer(std::exchange(waiting_, {}), now);
+  assert(is_consistent());
 }
 
 // -- stations -----------------------------------------------------------------
@@ -92,6 +106,7 @@ void provider::on_sign_of_life(station_id station, peer_id from,
   const auto known = stations_.find(station);
   if (known != stations_.end() && known->second.requester == from)
     known->second.heard = now;
+  assert(is_consistent());
 }
 
 void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
@@ -104,6 +119,7 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   if (!setup_.area.contains(c.position)) {
     if (known != stations_.end())
       forget(known, messages::end_reason::left_area, now);
+    assert(!stations_.contains(c.station));
     return;
   }
   auto [i, is_new] = stations_.try_emplace(c.station);
@@ -122,6 +138,7 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   station.heard = now;
   if (now >= station.next_offer)
     offer(station, now);
+  assert(is_consistent());
 }
 
 // A new requester knows nothing of what ran for the one before.
@@ -185,6 +202,8 @@ void provider::offer(station_record& station, time_point now) {
 
 void provider::forget(stations::iterator i, messages::end_reason reason,
                       time_point now) {
+  assert(reason != messages::end_reason::cam_timeout
+         || now - i->second.heard > protocol::cam_timeout);
   leave(i->second, reason, now);
   stations_.erase(i);
 }
@@ -197,6 +216,7 @@ void provider::on_lost(peer_id peer, time_point now) {
       forget(i, messages::end_reason::peer_lost, now);
     i = next;
   }
+  assert(is_consistent());
 }
 
 void provider::shut_down(time_point now) {
@@ -214,6 +234,7 @@ void provider::on_end(const messages::service_end& e, time_point now) {
   const auto i = stations_.find(e.session.station);
   if (i != stations_.end())
     end(i->second, e.session, e.reason, false, now);
+  assert(is_consistent());
 }
 
 void provider::on_function_lost(const messages::session_id& session,
@@ -222,6 +243,7 @@ void provider::on_function_lost(const messages::session_id& session,
   const auto i = stations_.find(session.station);
   if (i != stations_.end())
     end(i->second, session, why, true, now);
+  assert(is_consistent());
 }
 
 // Closes a session, once; one that is not known has been closed before.
@@ -251,6 +273,7 @@ void provider::end(station_record& station, messages::session_id session,
       session.service.view(), setup_.id, to_seconds(now - i->since),
       messages::name_of(reason), session.station});
   station.sessions.erase(i);
+  assert(!station.find(session.service));
   station.next_offer = now + protocol::offer_period;
 }
 

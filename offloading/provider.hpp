@@ -194,6 +194,7 @@ private:
   };
 
   void pass(time_point now);
+  bool is_consistent() const;
   void wake_at(time_point t, timer what);
   void expire(const station_check& x, time_point now);
   void expire(const epoch_end&, time_point now);

@@ -25,6 +25,7 @@ void provider::on_request(const messages::service_request& request,
   station.last_request = request.number;
   if (epoch_ == duration{0}) {
     answer({{request, from}}, now);
+    assert(is_consistent());
     return;
   }
   assert(waiting_.empty() || in_epoch_);
@@ -32,12 +33,15 @@ void provider::on_request(const messages::service_request& request,
   waiting_.push_back({request, from});
   if (!std::exchange(in_epoch_, true))
     wake_at(now + epoch_, epoch_end{});
+  assert(is_consistent());
 }
 
 void provider::drop_waiting(station_id station) {
-  std::erase_if(waiting_, [station](const open_request& open) {
+  const auto is_of = [station](const open_request& open) {
     return open.what.station == station;
-  });
+  };
+  std::erase_if(waiting_, is_of);
+  assert(std::ranges::none_of(waiting_, is_of));
 }
 
 void provider::refuse(const messages::service_request& request, peer_id from,
@@ -112,6 +116,9 @@ provider::question provider::question_of(const open_request& open,
   }
   assert(all.verdicts.size() == request.services.size());
   assert(all.asked.size() == all.places.size());
+  assert(std::ranges::none_of(all.asked, [&](const policies::request_view& x) {
+    return stations_.at(x.station).find(messages::service_name{x.service});
+  }));
   return all;
 }
 
@@ -175,6 +182,7 @@ void provider::respond(const open_request& open,
     } else {
       v.instead = std::get<policies::refused>(decision.what).instead;
     }
+    assert(v.accepted == v.session.is_remote());
     response.verdicts.push_back(std::move(v));
   }
   assert(response.verdicts.size() == request.services.size());

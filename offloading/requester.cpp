@@ -29,10 +29,13 @@ void requester::pass(time_point now) {
   now_ = now;
 }
 
-// Only providers that are known run or are asked for anything.
+// Only providers that are known run or are asked for anything, and what a
+// provider is asked for waits for the answer to an open request.
 bool requester::is_consistent() const {
   const auto is_known = [this](const requester_session& x) {
-    return providers_.contains(x.provider);
+    const auto provider = providers_.find(x.provider);
+    return provider != providers_.end()
+           && (x.at != phase::requested || provider->second.open_request);
   };
   return std::ranges::all_of(services_, [&](const service_state& service) {
     return service.is_consistent()
@@ -79,6 +82,7 @@ void requester::expire(const request_timeout& x, time_point now) {
     return;
   i->second.open_request.reset();
   refuse_requested(x.provider, "no answer", now);
+  assert(is_consistent());
 }
 
 void requester::expire(const start_timeout& x, time_point now) {
@@ -86,6 +90,7 @@ void requester::expire(const start_timeout& x, time_point now) {
   if (found && found.session->at == phase::starting)
     end(*found.service, x.session.provider, messages::end_reason::no_data, true,
         now);
+  assert(is_consistent());
 }
 
 // The policy learns of cycles on board once an epoch.
@@ -221,10 +226,8 @@ void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
            decide(service, service.views(providers_, offering, now), offering,
                   path, now))
         wanted[id].push_back(service.service.name);
-  for (auto& [id, names] : wanted) {
-    assert(providers_.at(id).offered_at <= now);
+  for (auto& [id, names] : wanted)
     request(id, std::move(names), path, now);
-  }
 }
 
 // @param providers  That come into question.
@@ -301,6 +304,7 @@ void requester::set_standby(service_state& service, duration after) {
   std::optional<messages::standby> chosen;
   if (after > duration{0})
     chosen = {service.wanted.back(), after};
+  assert(!chosen || service.wanted.size() > 1);
   if (chosen == service.standing_by)
     return;
   service.standing_by = chosen;
@@ -313,7 +317,9 @@ void requester::request(provider_id id,
   assert(id != 0);
   assert(!wanted.empty());
   auto& provider = providers_.at(id);
-  assert(!provider.open_request);
+  assert(std::ranges::all_of(wanted, [&](const messages::service_name& name) {
+    return find(name)->may_ask(provider, now);
+  }));
   auto candidates =
       find(wanted.front())->candidates(providers_, ego_.own.position, now);
   const auto number = ++last_request_;

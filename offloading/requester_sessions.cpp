@@ -72,6 +72,7 @@ void requester::accept(service_state& service, requester_session& session,
   assert(session.at == phase::requested);
   assert(v.session.provider == session.provider);
   assert(v.session.is_remote());
+  assert(v.accepted && !find(v.session));
   session.at = phase::starting;
   session.session = v.session;
   session.accepted = now;
@@ -91,6 +92,7 @@ void requester::refuse(service_state& service, provider_id provider,
   setup_.policy->observe(policies::refusal_outcome{
       now, service.service.name.view(), provider, why});
   service.drop(provider);
+  assert(!service.find(provider));
   if (!instead)
     return;
   const auto other = providers_.find(*instead);
@@ -141,6 +143,7 @@ void requester::complain(const messages::session_id& session, time_point now) {
   const auto i = providers_.find(session.provider);
   if (i == providers_.end())
     return;
+  assert(!find(session));
   auto& last = i->second.last_complaint;
   if (last && now - *last < protocol::unknown_result_period)
     return;
@@ -213,6 +216,7 @@ void requester::on_violation(const messages::qos_violation& violation,
         .energy_j = service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, now);
+  assert(service.find(session.provider));
   end(service, session.provider, reason, true, now);
   assert(!service.find(session.provider));
   assert(is_consistent());
@@ -223,6 +227,8 @@ void requester::on_end(const messages::service_end& e, time_point now) {
   if (const auto found = find(e.session);
       found && e.from == messages::side::provider)
     end(*found.service, e.session.provider, e.reason, false, now);
+  assert(e.from != messages::side::provider || !find(e.session));
+  assert(is_consistent());
 }
 
 void requester::shut_down(time_point now) {
@@ -233,6 +239,7 @@ void requester::shut_down(time_point now) {
       if (session.at != phase::requested)
         end(service, session.provider, messages::end_reason::shutdown, true,
             now);
+    assert(!service.is_remote());
   }
 }
 
@@ -244,13 +251,15 @@ requester::leave(service_state& service, messages::end_reason reason,
                  const std::function<bool(provider_id)>& is_meant) {
   assert(is_meant);
   std::vector<provider_id> left;
+  const auto is_left = [&](const requester_session& x) {
+    return x.at == phase::remote && is_meant(x.provider);
+  };
   for (const auto& session : service.sessions)
-    if (session.at == phase::remote && is_meant(session.provider))
+    if (is_left(session))
       left.push_back(session.provider);
   for (const auto id : left)
     end(service, id, reason, true, now);
-  assert(std::ranges::none_of(
-      left, [&](provider_id id) { return service.find(id); }));
+  assert(std::ranges::none_of(service.sessions, is_left));
   return left;
 }
 
@@ -278,7 +287,9 @@ void requester::end(service_state& service, provider_id provider,
   const auto ended = *service.find(provider);
   assert(ended.at != phase::requested);
   assert(ended.session.provider == provider);
+  assert(ended.at == phase::remote || ended.first_data == time_point{});
   service.drop(provider);
+  assert(!find(ended.session));
   messages::service_end e{ended.session, reason, messages::side::requester};
   port_.end(e);
   if (tell) {
@@ -314,6 +325,7 @@ void requester::log_end(service_state& service, const requester_session& ended,
     service.since = now;
     log_switch(ended.session, false, now);
   } else if (was_remote) {
+    assert(service.is_remote());
     log(messages::event_type::left, ended.session, messages::name_of(reason),
         now);
     auto& other = *service.find(service.current().value());

@@ -51,6 +51,7 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
   stop_timer();
   if (state_ == messages::lifecycle_state::active)
     begin(now);
+  assert(is_consistent());
 }
 
 void service_cycle::on_input(const messages::service_input& input,
@@ -60,6 +61,7 @@ void service_cycle::on_input(const messages::service_input& input,
     stop_timer();
   if (state_ == messages::lifecycle_state::active && !has_timer_)
     begin(now);
+  assert(is_consistent());
 }
 
 void service_cycle::on_timer(std::uint64_t number, time_point now) {
@@ -69,6 +71,13 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
   assert(state_ == messages::lifecycle_state::active);
   await_next(now);
   run(now);
+  assert(is_consistent());
+}
+
+// A timer is under way while it is active, unless it stands by.
+bool service_cycle::is_consistent() const {
+  const auto is_active = state_ == messages::lifecycle_state::active;
+  return has_timer_ == (is_active && !newest_.standby);
 }
 
 void service_cycle::begin(time_point now) {
@@ -102,12 +111,15 @@ void service_cycle::run(time_point now) {
   const auto is_ahead = cycle > on_grid + 1;
   if (newest_.what.empty() || is_ahead)
     return;
+  assert(cycle >= on_grid && cycle <= on_grid + 1);
   auto output = setup_.function->run(now, newest_);
   if (output.what.empty())
     return;
+  assert(cycle >= after_any_ || !newest_.standby);
   after_any_ = cycle + 1;
   if (newest_.standby || cycle > on_grid)
     after_off_grid_ = after_any_;
+  assert(after_off_grid_ <= after_any_);
   const auto done = setup_.finish(now, cycle);
   assert(done >= now);
   port_.deliver_at(done, {setup_.session, cycle, now, std::move(output.what),

@@ -73,6 +73,7 @@ public:
   messages::lifecycle_state state() const { return state_; }
 
 private:
+  bool is_consistent() const;
   void begin(time_point now);
   void stop_timer();
   void await_next(time_point now);

@@ -84,9 +84,11 @@ bool service_state::is_consistent() const {
                       && x.session.service == service.name
                       && x.session.is_remote();
     return (x.at == phase::requested || runs) && find(x.provider) == &x
-           && (x.at != phase::remote || x.accepted <= x.first_data);
+           && (x.at != phase::remote || x.accepted <= x.first_data)
+           && (x.at == phase::remote || !x.joined);
   };
   return std::ranges::all_of(sessions, is_sound)
+         && is_remote() == current().has_value()
          && (!standing_by || wants(standing_by->provider));
 }
 

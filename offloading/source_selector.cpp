@@ -45,12 +45,14 @@ void source_selector::pass(time_point now) {
   now_ = now;
 }
 
-// Each source has a session of its own; while one is in use, the watchdog
-// watches by the name of such a one.
+// Each source has a session of its own, and is in use from a result on; while
+// one is in use, the watchdog watches by the name of such a one.
 bool source_selector::is_consistent() const {
   const auto has_its_own = [this](const source& x) {
     return x.judge && x.session.is_remote()
-           && std::ranges::count(sources_, x.session, &source::session) == 1;
+           && std::ranges::count(sources_, x.session, &source::session) == 1
+           && (x.in_use || (!x.given_up && x.calls_in_vain == 0))
+           && (!x.in_use || x.last_cycle);
   };
   const auto is_watched = [this](const source& x) {
     return x.in_use && x.session == watched_;
@@ -106,6 +108,7 @@ bool source_selector::feed(source& x, time_point now) {
   if (input.what.empty())
     return false;
   assert(input.session == x.session);
+  assert(!stands || in_use() > 1 || !x.in_use);
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
   input.standby = x.knows_it_stands_by = stands;
@@ -196,6 +199,7 @@ void source_selector::refuse(const messages::session_id& session,
   on_end(
       {session, messages::end_reason::implausible, messages::side::requester},
       now);
+  assert(!find(session));
   auto found = told(why);
   port_.report({session, messages::qos_breach::implausible, now, true,
                 std::move(found.why), std::move(found.check)});
@@ -226,6 +230,7 @@ void source_selector::on_result_of(source& x,
   const auto start = is_standby(x) ? began_ : result.created;
   const auto first = fits && answers_.use(start);
   const auto usable = fits && (alone || first);
+  assert(in_limits || !usable);
   record_cycle(x, result, now, usable, margins);
   if (is_standby(x))
     x.last_received.reset();
@@ -251,6 +256,7 @@ void source_selector::on_result_of(source& x,
     give_up_silent(now);
   if (is_standby(x) && input_due(x, now))
     feed(x, now); // it has not heard that it stands by
+  assert(is_consistent());
 }
 
 void source_selector::record_cycle(const source& x,
@@ -286,6 +292,10 @@ bool source_selector::may_follow(const messages::service_result& result,
 
 void source_selector::use(const messages::service_result& result,
                           time_point now) {
+  assert(result.session.is_remote() == is_remote());
+  assert(!is_remote() || find(result.session)->in_use);
+  assert(!is_remote()
+         || in_time(result.created, now, options().limits.max_latency));
   newest_.in_use = result.what;
   used_from_ = result.session;
   used_at_ = now;
@@ -376,6 +386,8 @@ void source_selector::begin(source& x, time_point now) {
 
 void source_selector::watch(const messages::session_id& session,
                             time_point last) {
+  assert(find(session)->in_use);
+  assert(last <= now_);
   watched_ = session;
   port_.watch(session, last);
 }
@@ -396,6 +408,7 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
       newest_.in_use = {}; // the own function does not go on from that
     port_.go_local(newest_);
     port_.announce_source(false);
+    assert(is_consistent());
     return;
   }
   announce_roles(now);

@@ -19,6 +19,7 @@ bool watchdog::disarm(const messages::session_id& session) {
   if (watched_ != session)
     return false;
   watched_.reset();
+  assert(!deadline());
   return true;
 }
 
@@ -30,6 +31,7 @@ watchdog::on_arrival(const messages::arrival& result, time_point now) {
     return std::nullopt;
   gaps_.arrived(result.received);
   useless_.reset();
+  assert(!gaps_.too_long(result.received));
   if (in_time(result.created, result.received, limits_.max_latency))
     return std::nullopt;
   return found(messages::qos_breach::latency, now);
@@ -56,6 +58,7 @@ std::optional<messages::qos_violation> watchdog::on_deadline(time_point now) {
 messages::qos_violation watchdog::found(messages::qos_breach breach,
                                         time_point now) {
   assert(watched_);
+  assert(breach == messages::qos_breach::latency || gaps_.too_long(now));
   messages::qos_violation violation{*watched_, breach, now};
   if (breach == messages::qos_breach::gap && useless_) {
     violation.breach = messages::qos_breach::implausible;

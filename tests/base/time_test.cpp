@@ -25,7 +25,7 @@ TEST_CASE("seconds become the nearest whole number of nanoseconds, halves the "
   CHECK(from_seconds(-0.5e-9).count() == -1);
   CHECK(from_seconds(0.49e-9).count() == 0);
   CHECK(from_seconds(1.5).count() == 1'500'000'000);
-  dice random{5};
+  test::dice random{5};
   for (int k = 0; k < 100'000; ++k) {
     const auto magnitude = std::exp2(random.between(-35, 33));
     check_as_llround(magnitude);

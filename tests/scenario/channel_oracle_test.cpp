@@ -63,7 +63,7 @@ TEST_CASE("what is foreseen of a channel is what comes in a run") {
     CAPTURE(name);
     const auto s = load_scenario(folder / (name + ".toml"), set);
     const auto future = foresee(s)(101);
-    const auto records = play(s);
+    const auto records = test::play(s);
     std::size_t in_time = 0, off_grid = 0;
     for (const auto& cycle : records.cycles) {
       const auto seen = future->look(cycle.session.provider, planning,
