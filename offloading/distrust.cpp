@@ -2,6 +2,7 @@
 #include "offloading/distrust.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 namespace sofof::offloading {
@@ -13,6 +14,7 @@ duration distrust::add(time_point now) {
       first * (std::int64_t{1} << std::min(refused_, most_doublings));
   ++refused_;
   until_ = std::max(until_, now + pause);
+  assert(holds(now));
   return pause;
 }
 

@@ -48,13 +48,14 @@ bool provider::station_record::is_consistent() const {
   return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
 }
 
-// Stations are known while they are in the area and have been heard of, and
-// requests wait for the end of an epoch.
+// The stations that are known are in the area by their latest CAM, and requests
+// wait for the end of an epoch.
 bool provider::is_consistent() const {
   const auto is_here = [this](const auto& known) {
     const auto& [id, station] = known;
     return station.is_consistent() && station.latest.station == id
            && station.heard <= now_
+           && !protocol::is_of_future(station.latest.at, now_)
            && setup_.area.contains(station.latest.position);
   };
   return std::ranges::all_of(stations_, is_here)
@@ -134,6 +135,7 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   assert(station.requester == from);
   assert(station.heard <= now);
   assert(station.is_consistent());
+  assert(is_new || station.latest.at <= c.at);
   station.latest = c;
   station.heard = now;
   if (now >= station.next_offer)

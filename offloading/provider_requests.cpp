@@ -37,11 +37,9 @@ void provider::on_request(const messages::service_request& request,
 }
 
 void provider::drop_waiting(station_id station) {
-  const auto is_of = [station](const open_request& open) {
+  std::erase_if(waiting_, [station](const open_request& open) {
     return open.what.station == station;
-  };
-  std::erase_if(waiting_, is_of);
-  assert(std::ranges::none_of(waiting_, is_of));
+  });
 }
 
 void provider::refuse(const messages::service_request& request, peer_id from,
@@ -57,6 +55,9 @@ void provider::refuse(const messages::service_request& request, peer_id from,
 // Answers requests that are decided together.
 void provider::answer(std::vector<open_request> requests, time_point now) {
   assert(!requests.empty());
+  assert(std::ranges::all_of(requests, [this](const open_request& open) {
+    return open.what.provider == setup_.id;
+  }));
   std::vector<question> questions;
   for (const auto& open : requests)
     questions.push_back(question_of(open, now));

@@ -186,6 +186,7 @@ void requester::distrust_peer_of(provider_id provider, time_point now) {
   for (auto& [id, known] : providers_)
     if (known.peer == doubted->second.peer)
       known.doubted.add(now);
+  assert(doubted->second.doubted.holds(now));
 }
 
 void requester::on_lost(peer_id peer, time_point now) {
@@ -208,6 +209,9 @@ void requester::on_lost(peer_id peer, time_point now) {
     }
     assert(!is_in_use(id));
   }
+  assert(std::ranges::none_of(providers_, [peer](const auto& known) {
+    return known.second.peer == peer;
+  }));
   assert(is_consistent());
 }
 
@@ -217,7 +221,7 @@ void requester::on_lost(peer_id peer, time_point now) {
 template <class Predicate>
 void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
                       time_point now) {
-  assert(!offering || providers_.contains(*offering));
+  assert(!offering || !providers_.at(*offering).open_request);
   std::map<provider_id, std::vector<messages::service_name>> wanted;
   const auto path = setup_.path_ahead(ego_);
   for (auto& service : services_)
@@ -238,6 +242,7 @@ requester::decide(service_state& service,
                   std::optional<provider_id> offering,
                   std::span<const point> path, time_point now) {
   assert(service.is_consistent());
+  assert(!offering || providers_.contains(*offering));
   const auto knows = [&](provider_id id) {
     return std::ranges::find(providers, id, &policies::provider_view::id)
            != providers.end();
@@ -308,6 +313,7 @@ void requester::set_standby(service_state& service, duration after) {
   if (chosen == service.standing_by)
     return;
   service.standing_by = chosen;
+  assert(service.is_consistent());
   port_.set_standby(service.service.name, chosen);
 }
 

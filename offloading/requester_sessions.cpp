@@ -93,7 +93,7 @@ void requester::refuse(service_state& service, provider_id provider,
       now, service.service.name.view(), provider, why});
   service.drop(provider);
   assert(!service.find(provider));
-  if (!instead)
+  if (!instead || *instead == provider)
     return;
   const auto other = providers_.find(*instead);
   if (other == providers_.end() || service.find(*instead)
@@ -273,6 +273,7 @@ void requester::leave_unwanted(service_state& service, time_point now) {
 // Nothing usable has come from the others either; but it is one violation.
 void requester::leave_beside(service_state& service, provider_id violator,
                              time_point now) {
+  assert(service.find(violator));
   const auto left = leave(service, messages::end_reason::released, now,
                           [&](provider_id id) { return id != violator; });
   for (const auto id : left)

@@ -17,7 +17,9 @@ time_point next_on_grid(time_point t, duration phase, duration period) {
   auto k = since / period;
   if (since >= duration{0})
     ++k;
-  return time_point{phase + k * period};
+  const time_point next{phase + k * period};
+  assert(next > t && next - t <= period);
+  return next;
 }
 
 } // namespace
@@ -99,9 +101,7 @@ void service_cycle::stop_timer() {
 
 void service_cycle::await_next(time_point now) {
   has_timer_ = true;
-  const auto next = next_on_grid(now, setup_.phase, setup_.period);
-  assert(next > now && next <= now + setup_.period);
-  port_.wake_at(next, timer_);
+  port_.wake_at(next_on_grid(now, setup_.phase, setup_.period), timer_);
 }
 
 void service_cycle::run(time_point now) {

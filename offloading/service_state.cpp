@@ -53,6 +53,7 @@ void service_state::drop(provider_id provider) {
   std::erase_if(sessions, [provider](const requester_session& x) {
     return x.provider == provider;
   });
+  assert(!find(provider));
 }
 
 bool service_state::wants(provider_id provider) const {
@@ -164,6 +165,9 @@ service_state::views(const known_providers& providers,
     if (known.first != offering)
       add(known);
   assert(all.size() <= providers.size()); // none of them twice
+  assert(std::ranges::all_of(all, [&](const policies::provider_view& view) {
+    return find(view.id) || may_ask(providers.at(view.id), now);
+  }));
   return all;
 }
 
@@ -181,6 +185,9 @@ service_state::candidates(const known_providers& providers, point from,
     std::ranges::sort(all, {}, &policies::provider_view::id);
   }
   assert(all.size() <= protocol::most_candidates);
+  assert(std::ranges::none_of(all, [this](const policies::provider_view& view) {
+    return find(view.id);
+  }));
   assert(std::ranges::is_sorted(all, {}, &policies::provider_view::id));
   std::vector<candidate> told;
   for (const auto& view : all)

@@ -190,6 +190,7 @@ bool source_selector::can_judge(source& x,
         .counter = result.session.counter,
         .detail = in_ms(result.doubt)});
   }
+  assert(x.in_doubt == !can);
   return can;
 }
 
@@ -219,6 +220,7 @@ void source_selector::on_result_of(source& x,
                                    time_point now, bool in_limits,
                                    std::span<const margin> margins) {
   assert(result.session == x.session);
+  assert(result.cycle == x.last_cycle);
   assert(!in_limits || !x.in_doubt);
   assert(in_limits || margins.empty());
   if (in_limits && !is_standby(x) && result.created > began_)
@@ -398,7 +400,8 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
   if (!ended)
     return;
   const auto was_in_use = ended->in_use;
-  sources_.erase(sources_.begin() + (ended - sources_.data()));
+  std::erase_if(sources_,
+                [&](const source& x) { return x.session == end.session; });
   assert(!find(end.session));
   if (!was_in_use)
     return;

@@ -563,6 +563,12 @@ TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "
     refuse_and_name(*this, last_request(), name);
     CHECK(requests() == before);
   }
+  // Itself, which has offered once more before it refused.
+  offer({one});
+  const auto before = requests();
+  offer({one});
+  refuse_and_name(*this, last_request(), here);
+  CHECK(requests() == before);
   // Its offer was of something else.
   lodm->wanted = {};
   offer_from(other, elsewhere, {two});
