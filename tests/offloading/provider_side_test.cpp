@@ -139,6 +139,21 @@ TEST_CASE("a session is ended by its requester alone") {
   CHECK(sp.results.size() == ended);
 }
 
+TEST_CASE("a station lives by what its own requester sends, if that is known") {
+  for (const auto from : {vehicle, offloading::peer_id{8}}) {
+    CAPTURE(from == vehicle);
+    roadside sp{3ms};
+    sp.side->on_sign_of_life(station, from, sp.now); // of nobody yet
+    sp.start();
+    sp.run_until(time_point{2s});
+    sp.side->on_sign_of_life(station, from, sp.now);
+    sp.run_until(time_point{3500ms}); // 2.5 s after its CAM
+    const auto before = sp.results.size();
+    sp.run_until(time_point{3900ms});
+    CHECK((sp.results.size() > before) == (from == vehicle));
+  }
+}
+
 TEST_CASE("requests of an epoch are answered together at its end") {
   roadside sp{3ms, std::make_unique<patient>()};
   sp.request(station, vehicle);
