@@ -82,7 +82,7 @@ void requester::accept(service_state& service, requester_session& session,
 }
 
 // @param instead  The provider that it would have asked. The vehicle decides
-// about that one anew.
+// about that one anew; the one that refuses is not asked again at once.
 void requester::refuse(service_state& service, provider_id provider,
                        std::string_view why, std::optional<provider_id> instead,
                        time_point now) {

@@ -76,7 +76,7 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
   assert(is_consistent());
 }
 
-// A timer is under way while it is active, unless it stands by.
+// While the cycle is active a timer is under way, unless it stands by.
 bool service_cycle::is_consistent() const {
   const auto is_active = state_ == messages::lifecycle_state::active;
   return has_timer_ == (is_active && !newest_.standby);

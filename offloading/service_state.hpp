@@ -77,8 +77,8 @@ struct service_state {
   bool is_moving() const; ///< Whether an answer or first data is awaited.
   bool is_remote() const;
   /// Whether no provider runs it twice, those that have accepted have a session
-  /// of it, one of those that run it does not stand by, and whoever stands by
-  /// is wanted; it always is.
+  /// of it, only those that run it have joined another, one of them does not
+  /// stand by, if there are any, and whoever stands by is wanted; it always is.
   bool is_consistent() const;
   /// @returns the provider that has run it for longest, of those that do not
   /// stand by; nullopt: it is local.

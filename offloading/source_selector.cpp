@@ -45,8 +45,9 @@ void source_selector::pass(time_point now) {
   now_ = now;
 }
 
-// Each source has a session of its own, and is in use from a result on; while
-// one is in use, the watchdog watches by the name of such a one.
+// Each source has a session of its own. None is in use before a result of it
+// has come, and those in use alone are called in vain or given up. While one is
+// in use, the watchdog watches by the name of such a one.
 bool source_selector::is_consistent() const {
   const auto has_its_own = [this](const source& x) {
     return x.judge && x.session.is_remote()

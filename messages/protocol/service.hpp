@@ -112,7 +112,7 @@ struct verdict {
   session_id session; ///< Counter 0 when refused.
   bool accepted = false;
   std::string why;                      ///< Short; for records.
-  std::optional<provider_id> instead{}; ///< If refused: the provider to ask.
+  std::optional<provider_id> instead{}; ///< If refused: another one to ask.
 };
 
 void visit_fields(auto& v, verdict& x) {

@@ -88,7 +88,7 @@ struct accepted {
 
 /// The service does not run at the provider, or ends there.
 struct refused {
-  std::optional<provider_id> instead{}; ///< The provider to ask.
+  std::optional<provider_id> instead{}; ///< Another one to ask.
 };
 
 /// What a CODM says of one request or one session.
