@@ -326,7 +326,6 @@ void requester::log_end(service_state& service, const requester_session& ended,
     service.since = now;
     log_switch(ended.session, false, now);
   } else if (was_remote) {
-    assert(service.is_remote());
     log(messages::event_type::left, ended.session, messages::name_of(reason),
         now);
     auto& other = *service.find(service.current().value());
