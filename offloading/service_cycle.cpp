@@ -111,7 +111,6 @@ void service_cycle::run(time_point now) {
   const auto is_ahead = cycle > on_grid + 1;
   if (newest_.what.empty() || is_ahead)
     return;
-  assert(cycle >= on_grid && cycle <= on_grid + 1);
   auto output = setup_.function->run(now, newest_);
   if (output.what.empty())
     return;

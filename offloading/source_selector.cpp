@@ -109,7 +109,6 @@ bool source_selector::feed(source& x, time_point now) {
   if (input.what.empty())
     return false;
   assert(input.session == x.session);
-  assert(!stands || in_use() > 1 || !x.in_use);
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
   input.standby = x.knows_it_stands_by = stands;
