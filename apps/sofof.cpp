@@ -3,7 +3,7 @@
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
 #include "network/network_error.hpp"
-#include "scenario/runtime.hpp"
+#include "scenario/init_messages.hpp"
 
 #include <algorithm>
 #include <csignal>

@@ -6,6 +6,7 @@
 #include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
+#include "actors/services/service_client.hpp"
 #include "actors/simulation/crash_injector.hpp"
 #include "actors/simulation/network_link.hpp"
 #include "actors/simulation/road.hpp"
@@ -299,7 +300,7 @@ private:
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
           {services_[k], [type = s_.services[k]](auto& sys, const auto& car) {
-             return type->spawn_client(sys, car);
+             return type->spawn_client({sys, car}).actor;
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,

@@ -10,6 +10,8 @@
 #include "network/keys/key_ring.hpp"
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_connector.hpp"
+#include "scenario/build.hpp"
+#include "scenario/runtime.hpp"
 #include "scenario/secure_listener.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,6 @@
 #include "base/input_error.hpp"
 #include "recording/progress.hpp"
 #include "recording/write_failure.hpp"
-#include "scenario/build.hpp"
-#include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
 
 #include <atomic>
@@ -17,6 +15,10 @@
 #include <vector>
 
 namespace sofof::scenario {
+
+class runtime;        // scenario/runtime.hpp
+struct process_share; // scenario/build.hpp, as
+struct world_actors;
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.

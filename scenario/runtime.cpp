@@ -8,6 +8,7 @@
 #include "base/input_error.hpp"
 #include "base/protocol.hpp"
 #include "messages/type_ids.hpp"
+#include "scenario/init_messages.hpp"
 
 #include <caf/actor_system_config.hpp>
 #include <caf/init_global_meta_objects.hpp>

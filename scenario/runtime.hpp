@@ -80,7 +80,4 @@ std::unique_ptr<runtime> make_accounting_runtime();
 std::unique_ptr<network_runtime>
 make_network_runtime(actors::clock_error clock = {});
 
-/// Makes CAF know our messages; once per process, before any runtime.
-void init_messages();
-
 } // namespace sofof::scenario

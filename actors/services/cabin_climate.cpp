@@ -1,6 +1,7 @@
 // Cabin climate as a service: a thermal model of the cabin is its client, the
 // choice of heating or cooling power its function.
 #include "actors/services/climate/cabin.hpp"
+#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
 #include "planners/judges/climate_judge.hpp"
 
@@ -128,10 +129,8 @@ public:
                 }};
   }
 
-  messages::client_actor
-  spawn_client(caf::actor_system& sys,
-               const messages::vehicle_actor&) const override {
-    return spawn_cabin(sys, climate_, options.period);
+  service_client spawn_client(const client_place& where) const override {
+    return {spawn_cabin(where.system, climate_, options.period)};
   }
 
 private:

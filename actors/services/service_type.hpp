@@ -4,13 +4,10 @@
 
 #include "actors/simulation/plan_client.hpp"
 #include "base/options/option_visitor.hpp"
-#include "messages/type_ids.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
 #include "world/roads/streets.hpp"
 #include "world/vehicle/vehicle.hpp"
-
-#include <caf/actor_system.hpp>
 
 #include <memory>
 #include <string_view>
@@ -27,6 +24,10 @@ struct service_world {
   bool crossings_granted = true;
 };
 
+// actors/services/service_client.hpp has both.
+struct client_place;
+struct service_client;
+
 /// A service with its options, before it knows the world.
 class service_type {
 public:
@@ -40,11 +41,9 @@ public:
   /// @returns the service with these options in this world.
   virtual offloading::service in(const service_world& world) const = 0;
 
-  /// @param vehicle  The vehicle that the client belongs to. It is itself the
-  ///                 client of the service that has `plans`, and of no other.
-  virtual messages::client_actor
-  spawn_client(caf::actor_system& sys,
-               const messages::vehicle_actor& vehicle) const = 0;
+  /// @returns who asks it in a vehicle and uses its results. The vehicle is
+  /// itself the client of the service that has `plans`, and of no other.
+  virtual service_client spawn_client(const client_place& where) const = 0;
 
   /// @returns how vehicles ask it for plans to drive by; null for a service
   /// that makes none.

@@ -1,6 +1,7 @@
 // Trajectory planning as a service: the vehicle is its client; the planner at
 // a provider may plan farther and more thoroughly than the vehicle's own.
 #include "actors/services/planning/planning_sides.hpp"
+#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
 
 #include <chrono>
@@ -53,10 +54,8 @@ public:
                 }};
   }
 
-  messages::client_actor
-  spawn_client(caf::actor_system&,
-               const messages::vehicle_actor& vehicle) const override {
-    return vehicle;
+  service_client spawn_client(const client_place& where) const override {
+    return {where.vehicle};
   }
 
   std::shared_ptr<const plan_client> plans() const override {

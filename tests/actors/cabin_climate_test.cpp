@@ -1,5 +1,6 @@
 // Tests of cabin climate as a service: the cabin asks, the function answers,
 // the cabin becomes comfortable.
+#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
 #include "messages/protocol/bytes.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -19,7 +20,8 @@ struct cabin_world : virtual_world {
   service_type_ptr kind = make_service_type("cabin_climate");
   probe<requester_manager_actor> manager = listen<requester_manager_actor>();
   probe<vehicle_actor> vehicle = listen<vehicle_actor>();
-  client_actor cabin = own(kind->spawn_client(system(), vehicle.handle));
+  client_actor cabin =
+      own(kind->spawn_client({system(), vehicle.handle}).actor);
   std::shared_ptr<offloading::service_function> function =
       kind->in({}).in_vehicle({})->make_function();
 

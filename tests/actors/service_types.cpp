@@ -1,5 +1,6 @@
 // Tests of the kinds of services: names, options, functions.
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "tests/support/echo_service.hpp"
@@ -320,7 +321,7 @@ TEST_CASE("other services say no farewell") {
 TEST_CASE_FIXTURE(virtual_world, "the vehicle itself uses its plans") {
   const auto vehicle = listen<vehicle_actor>();
   const auto kind = make_service_type("trajectory_planning");
-  CHECK(
-      caf::actor_cast<caf::actor>(kind->spawn_client(system(), vehicle.handle))
-      == caf::actor_cast<caf::actor>(vehicle.handle));
+  CHECK(caf::actor_cast<caf::actor>(
+            kind->spawn_client({system(), vehicle.handle}).actor)
+        == caf::actor_cast<caf::actor>(vehicle.handle));
 }

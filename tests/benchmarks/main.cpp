@@ -1,5 +1,5 @@
 // The entry point of the benchmarks.
-#include "scenario/runtime.hpp"
+#include "scenario/init_messages.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/offloading/broadcast_listener.hpp"
+#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
 
 #include <functional>
@@ -29,10 +30,9 @@ public:
     how_(service, world);
     return service;
   }
-  messages::client_actor
-  spawn_client(caf::actor_system& sys,
-               const messages::vehicle_actor& vehicle) const override {
-    return real_->spawn_client(sys, vehicle);
+  actors::service_client
+  spawn_client(const actors::client_place& where) const override {
+    return real_->spawn_client(where);
   }
   std::shared_ptr<const actors::plan_client> plans() const override {
     return real_->plans();

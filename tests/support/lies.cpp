@@ -11,6 +11,7 @@
 #include "network/network_address.hpp"
 #include "planners/judges/plan_judge.hpp"
 #include "scenario/hosts.hpp"
+#include "scenario/init_messages.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"

@@ -1,0 +1,22 @@
+// Who asks a service and uses what it gives: an actor, so that CAF is for those
+// who spawn or make one, and not for all who read a service's options.
+#pragma once
+
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+namespace sofof::actors {
+
+/// Where a client is spawned.
+struct client_place {
+  caf::actor_system& system;
+  const messages::vehicle_actor& vehicle; ///< That it belongs to.
+};
+
+/// What a service's `spawn_client` has spawned.
+struct service_client {
+  messages::client_actor actor;
+};
+
+} // namespace sofof::actors
