@@ -1,5 +1,6 @@
 // What vehicles send to a provider on another host all the time, and when. What
-// waits when the way stalls, and what is left out: network/flow/conflating_queue.
+// waits when the way stalls, and what is left out:
+// network/flow/conflating_queue.
 #include "actors/remote/outgoing_traffic.hpp"
 
 #include "base/protocol.hpp"
