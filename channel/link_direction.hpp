@@ -13,6 +13,14 @@
 
 namespace sofof::channel {
 
+/// How a message gets through.
+struct passage {
+  time_point arrives;
+  /// Of its time on the way, what it waited: for its turn in the cell, for the
+  /// end of an outage, or for a message before it.
+  duration wait{};
+};
+
 /// Carries the messages of one vehicle one way. Has one owner; only the cell
 /// may be shared between threads.
 class link_direction {
@@ -32,9 +40,17 @@ public:
   /// @param octets  What the message takes on the air.
   /// @returns when it arrives, never before an earlier message; nullopt when
   /// it is lost.
+  std::optional<passage> carry(time_point sent, message_class kind,
+                               std::uint64_t number,
+                               std::size_t octets = usual_octets);
+
+  /// @returns the same without the wait.
   std::optional<time_point> arrival(time_point sent, message_class kind,
                                     std::uint64_t number,
-                                    std::size_t octets = usual_octets);
+                                    std::size_t octets = usual_octets) {
+    const auto through = carry(sent, kind, number, octets);
+    return through ? std::optional{through->arrives} : std::nullopt;
+  }
 
 private:
   channel_draws draws_;

@@ -19,7 +19,8 @@ cycle_setup cycle_of(const offered_service& service,
           .period = service.options.period,
           .phase = start.phase,
           .finish = {},
-          .keeps_phase = start.keeps_phase};
+          .keeps_phase = start.keeps_phase,
+          .per_input = service.options.per_input};
 }
 
 provider::provider(provider_setup setup, provider_port& port)

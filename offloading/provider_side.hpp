@@ -1,6 +1,7 @@
 // All that an edge server needs to offer services, behind one port.
 #pragma once
 
+#include "offloading/cycle_work.hpp"
 #include "offloading/provider.hpp"
 #include "offloading/vehicle_side.hpp"
 
@@ -18,7 +19,7 @@ public:
   virtual void send(peer_id requester, to_vehicle message) = 0;
   /// @returns when a cycle of this session that starts now will be done, not
   /// before `start`; by default at once, as where time is real.
-  virtual time_point finish(const messages::session_id&, time_point start,
+  virtual cycle_work finish(const messages::session_id&, time_point start,
                             std::uint64_t /*cycle*/) {
     return start;
   }

@@ -4,14 +4,24 @@
 
 #include "base/time.hpp"
 
+#include <string>
+#include <string_view>
+
 namespace sofof::offloading {
 
 /// @returns whether a result came in time: exactly at the limit is in time,
 /// from the future is not.
-constexpr bool in_time(time_point created, time_point received,
-                       duration max_latency) {
-  return created <= received && received - created <= max_latency;
+/// @param since  When it was created, or its input was made.
+constexpr bool in_time(time_point since, time_point received,
+                       duration longest) {
+  return since <= received && received - since <= longest;
 }
+
+/// @param limit  Its name.
+/// @param value  More than `most`, or negative.
+/// @returns how an event tells that it was exceeded:
+/// "latency value_ms=61.200000 limit_ms=50.000000".
+std::string in_words(std::string_view limit, duration value, duration most);
 
 /// Watches the gaps between received results.
 class gap_monitor {
@@ -27,6 +37,9 @@ public:
   time_point deadline() const {
     return last_ + max_interarrival_ + duration{1};
   }
+
+  /// @returns when the latest result came.
+  time_point last() const { return last_; }
 
   bool too_long(time_point now) const { return now >= deadline(); }
 

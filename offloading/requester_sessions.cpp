@@ -16,6 +16,8 @@ messages::end_reason reason_of(messages::qos_breach breach) {
   switch (breach) {
     case messages::qos_breach::latency:
       return messages::end_reason::qos_latency;
+    case messages::qos_breach::input_age:
+      return messages::end_reason::qos_input_age;
     case messages::qos_breach::gap:
       return messages::end_reason::qos_gap;
     case messages::qos_breach::implausible:
@@ -203,8 +205,7 @@ void requester::on_violation(const messages::qos_violation& violation,
   if (!found)
     return;
   if (violation.breach != messages::qos_breach::implausible)
-    log(messages::event_type::violation, session, messages::name_of(reason),
-        now);
+    log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
   if (violation.breach != messages::qos_breach::latency)
     setup_.policy->observe(policies::cycle_outcome{

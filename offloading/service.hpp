@@ -21,14 +21,19 @@ struct service_options {
   messages::qos_limits limits; ///< Of the remote service.
   duration period{};           ///< Of a cycle, local and remote.
   duration input_period{};     ///< At least this between two inputs on the air.
+  /// Whether each input has one result, whose latency begins with the input;
+  /// else a result comes in every period, from the newest input.
+  bool per_input = false;
   world::cycle_options compute; ///< What a cycle asks of who computes it.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
     s.field("max_latency", limits.max_latency, duration{1});
     s.field("max_interarrival", limits.max_interarrival, duration{1});
+    s.field("max_input_age", limits.max_input_age, duration{1});
     s.field("period", period, 1ms);
     s.field("input_period", input_period, 1ms);
+    s.field("per_input", per_input);
     for (const std::string key :
          {"demand", "run_time_mean", "run_time_sd", "run_time_max"})
       s.moved(key, "compute." + key);

@@ -34,7 +34,8 @@ cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
           .function = service.own->make_function(),
           .period = period,
           .phase = random_phase(drawn, period),
-          .finish = {}};
+          .finish = {},
+          .per_input = service.options.per_input};
 }
 
 service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
@@ -59,7 +60,7 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
 void service_cycle::on_input(const messages::service_input& input,
                              time_point now) {
   newest_ = input;
-  if (newest_.standby)
+  if (waits_for_input())
     stop_timer();
   if (state_ == messages::lifecycle_state::active && !has_timer_)
     begin(now);
@@ -76,16 +77,20 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
   assert(is_consistent());
 }
 
-// While the cycle is active a timer is under way, unless it stands by.
+// While the cycle is active a timer is under way, unless it waits for inputs.
 bool service_cycle::is_consistent() const {
   const auto is_active = state_ == messages::lifecycle_state::active;
-  return has_timer_ == (is_active && !newest_.standby);
+  return has_timer_ == (is_active && !waits_for_input());
+}
+
+bool service_cycle::waits_for_input() const {
+  return setup_.per_input || newest_.standby;
 }
 
 void service_cycle::begin(time_point now) {
   assert(state_ == messages::lifecycle_state::active);
   assert(!has_timer_);
-  if (newest_.standby) {
+  if (waits_for_input()) {
     run(now);
     return;
   }
@@ -114,15 +119,24 @@ void service_cycle::run(time_point now) {
   auto output = setup_.function->run(now, newest_);
   if (output.what.empty())
     return;
-  assert(cycle >= after_any_ || !newest_.standby);
+  assert(cycle >= after_any_ || !waits_for_input());
   after_any_ = cycle + 1;
-  if (newest_.standby || cycle > on_grid)
+  if (waits_for_input() || cycle > on_grid)
     after_off_grid_ = after_any_;
   assert(after_off_grid_ <= after_any_);
-  const auto done = setup_.finish(now, cycle);
-  assert(done >= now);
-  port_.deliver_at(done, {setup_.session, cycle, now, std::move(output.what),
-                          std::move(output.about)});
+  const auto work = setup_.finish(now, cycle);
+  assert(work.computing >= duration{0});
+  assert(work.done - work.computing >= now);
+  port_.deliver_at(work.done,
+                   {.session = setup_.session,
+                    .cycle = cycle,
+                    .created = setup_.per_input ? newest_.at : now,
+                    .what = std::move(output.what),
+                    .about = std::move(output.about),
+                    .timing = {.input_at = newest_.at,
+                               .up = newest_.up,
+                               .queue = work.done - work.computing - now,
+                               .computing = work.computing}});
 }
 
 std::uint64_t service_cycle::grid_number(time_point t) const {
@@ -132,7 +146,7 @@ std::uint64_t service_cycle::grid_number(time_point t) const {
 
 // A call off the grid may run one cycle more than the grid has by then.
 std::uint64_t service_cycle::next_number(std::uint64_t on_grid) const {
-  return std::max(on_grid, newest_.standby ? after_any_ : after_off_grid_);
+  return std::max(on_grid, waits_for_input() ? after_any_ : after_off_grid_);
 }
 
 } // namespace sofof::offloading

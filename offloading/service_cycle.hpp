@@ -3,6 +3,7 @@
 
 #include "base/random.hpp"
 #include "messages/protocol/lifecycle.hpp"
+#include "offloading/cycle_work.hpp"
 #include "offloading/service.hpp"
 
 #include <cstdint>
@@ -18,10 +19,13 @@ struct cycle_setup {
   duration period{};                          ///< > 0.
   duration phase{}; ///< Cycles start at phase + k · period; in [0, period).
   /// @returns when the cycle that starts now will be done, not before `start`:
-  /// a model of the computer in virtual time, the identity where time is real.
-  std::function<time_point(time_point start, std::uint64_t cycle)> finish;
+  /// a model of the computer in virtual time; what the clock says, where time
+  /// is real and the cycle has been computed by then.
+  std::function<cycle_work(time_point start, std::uint64_t cycle)> finish;
   /// Whether the first cycle waits for its phase too, and is not run at once.
   bool keeps_phase = false;
+  /// Whether a cycle is run for each input, and in no period without one.
+  bool per_input = false;
 };
 
 /// @returns the cycle of a vehicle's own function, with a phase that is drawn;
@@ -45,8 +49,8 @@ public:
 /// * It begins unconfigured. Active, it runs a cycle at once and then on its
 ///   grid (or on its grid only), always from the newest input; without any
 ///   input it waits.
-/// * While it stands by it runs one cycle for each input, at once, but at most
-///   one more than the grid has by then.
+/// * While it stands by, or if each input has one result, it runs one cycle for
+///   each input, at once, but at most one more than the grid has by then.
 /// * A cycle that takes longer than a period does not delay the next one in
 ///   virtual time (`finish` says when each is done, a wait for a worker
 ///   included); where time is real, it does, and what the grid had meanwhile
@@ -74,6 +78,7 @@ public:
 
 private:
   bool is_consistent() const;
+  bool waits_for_input() const;
   void begin(time_point now);
   void stop_timer();
   void await_next(time_point now);

@@ -38,6 +38,7 @@ source_selector::source_selector(selector_setup setup, selector_port& port)
   assert(setup_.service.own);
   assert(options().period > duration{0});
   assert(options().limits.max_latency > duration{0});
+  assert(options().limits.max_input_age > duration{0});
 }
 
 void source_selector::pass(time_point now) {
@@ -143,9 +144,10 @@ void source_selector::on_result(const messages::service_result& result,
   if (!x || !(result.cycle > x->last_cycle))
     return;
   x->last_cycle = result.cycle;
-  const auto in_limits =
-      can_judge(*x, result, now)
-      && in_time(result.created, now, options().limits.max_latency);
+  const auto can = can_judge(*x, result, now);
+  const auto in_limits = can && keeps_limits(result, now);
+  if (can && !in_limits)
+    record_refusal(result, now);
   if (!in_limits) {
     on_result_of(*x, result, now, false, {});
     return;
@@ -158,7 +160,8 @@ void source_selector::on_result(const messages::service_result& result,
                                         .created = result.created,
                                         .received = now,
                                         .interarrival = {},
-                                        .doubt = result.doubt});
+                                        .doubt = result.doubt,
+                                        .timing = result.timing});
   if (judged.refused)
     refuse(result.session, *judged.refused, now);
   else if (judged.useless)
@@ -166,8 +169,33 @@ void source_selector::on_result(const messages::service_result& result,
   else if (!judged.what.empty())
     on_result_of(*x,
                  {result.session, result.cycle, result.created,
-                  std::move(judged.what), result.about, result.doubt},
+                  std::move(judged.what), result.about, result.doubt,
+                  result.timing},
                  now, true, judged.margins);
+}
+
+bool source_selector::keeps_limits(const messages::service_result& result,
+                                   time_point now) const {
+  const auto& limits = options().limits;
+  return in_time(result.created, now, limits.max_latency)
+         && in_time(result.timing.input_at, now, limits.max_input_age);
+}
+
+void source_selector::record_refusal(const messages::service_result& result,
+                                     time_point now) {
+  const auto& limits = options().limits;
+  const auto is_late = !in_time(result.created, now, limits.max_latency);
+  port_.record(messages::event_record{
+      .at = now,
+      .what = messages::event_type::result_refused,
+      .station = setup_.station,
+      .provider = result.session.provider,
+      .service = setup_.service.name,
+      .counter = result.session.counter,
+      .detail = is_late ? in_words("latency", now - result.created,
+                                   limits.max_latency)
+                        : in_words("input_age", now - result.timing.input_at,
+                                   limits.max_input_age)});
 }
 
 /// A latency is not judged by a clock that is not known well enough: results
@@ -244,11 +272,12 @@ void source_selector::on_result_of(source& x,
     x.calls_in_vain = 0;
   }
   if (x.in_use && alone && !x.in_doubt)
-    port_.watch_arrival({watched_, result.created, now});
+    port_.watch_arrival(
+        {watched_, result.created, now, result.timing.input_at});
   else if (is_remote() && usable)
     // The gap between results that are used is what counts; one that is late
     // harms nothing.
-    port_.watch_arrival({watched_, now, now});
+    port_.watch_arrival({watched_, now, now, now});
   if (!x.in_use && in_limits)
     begin(x, now);
   assert(x.in_use || !usable);
@@ -276,7 +305,8 @@ void source_selector::record_cycle(const source& x,
                                 .received = now,
                                 .interarrival = gap,
                                 .used = used,
-                                .doubt = result.doubt};
+                                .doubt = result.doubt,
+                                .timing = result.timing};
   if (used && setup_.record_margins)
     for (const auto& m : margins)
       record.margins.push_back({std::string{m.name}, m.left});
@@ -296,8 +326,7 @@ void source_selector::use(const messages::service_result& result,
                           time_point now) {
   assert(result.session.is_remote() == is_remote());
   assert(!is_remote() || find(result.session)->in_use);
-  assert(!is_remote()
-         || in_time(result.created, now, options().limits.max_latency));
+  assert(!is_remote() || keeps_limits(result, now));
   newest_.in_use = result.what;
   used_from_ = result.session;
   used_at_ = now;
@@ -365,7 +394,10 @@ void source_selector::give_up_silent(time_point now) {
     port_.report({x.session,
                   was_useless ? messages::qos_breach::implausible
                               : messages::qos_breach::gap,
-                  now, true, found.why,
+                  now, true,
+                  was_useless
+                      ? found.why
+                      : in_words("qos_gap", silent, protocol::start_timeout),
                   was_useless ? found.check : std::string{}});
   }
 }

@@ -1,6 +1,7 @@
 // All that a vehicle needs to offload services, behind one port.
 #pragma once
 
+#include "offloading/cycle_work.hpp"
 #include "offloading/requester.hpp"
 #include "offloading/source_selector.hpp"
 
@@ -42,7 +43,7 @@ public:
                          bool remote) = 0;
   /// @returns when a cycle of the vehicle's own function that starts now will
   /// be done, not before `start`; by default at once, as where time is real.
-  virtual time_point finish(const messages::service_name&, time_point start,
+  virtual cycle_work finish(const messages::service_name&, time_point start,
                             std::uint64_t /*cycle*/) {
     return start;
   }

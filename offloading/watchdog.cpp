@@ -9,6 +9,7 @@ namespace sofof::offloading {
 void watchdog::arm(const messages::session_id& session, time_point first) {
   assert(limits_.max_latency > duration{0});
   assert(limits_.max_interarrival > duration{0});
+  assert(limits_.max_input_age > duration{0});
   watched_ = session;
   gaps_ = gap_monitor{limits_.max_interarrival};
   gaps_.arrived(first);
@@ -30,9 +31,15 @@ watchdog::on_arrival(const messages::arrival& result, time_point now) {
     return std::nullopt;
   gaps_.arrived(result.received);
   useless_.reset();
-  if (in_time(result.created, result.received, limits_.max_latency))
-    return std::nullopt;
-  return found(messages::qos_breach::latency, now);
+  if (!in_time(result.created, result.received, limits_.max_latency))
+    return found(messages::qos_breach::latency, now,
+                 in_words("qos_latency", result.received - result.created,
+                          limits_.max_latency));
+  if (!in_time(result.input_at, result.received, limits_.max_input_age))
+    return found(messages::qos_breach::input_age, now,
+                 in_words("qos_input_age", result.received - result.input_at,
+                          limits_.max_input_age));
+  return std::nullopt;
 }
 
 void watchdog::on_useless(const messages::session_id& session,
@@ -50,14 +57,17 @@ std::optional<time_point> watchdog::deadline() const {
 std::optional<messages::qos_violation> watchdog::on_deadline(time_point now) {
   if (!watched_ || !gaps_.too_long(now))
     return std::nullopt;
-  return found(messages::qos_breach::gap, now);
+  return found(
+      messages::qos_breach::gap, now,
+      in_words("qos_gap", now - gaps_.last(), limits_.max_interarrival));
 }
 
 messages::qos_violation watchdog::found(messages::qos_breach breach,
-                                        time_point now) {
+                                        time_point now, std::string why) {
   assert(watched_);
-  assert(breach == messages::qos_breach::latency || gaps_.too_long(now));
-  messages::qos_violation violation{*watched_, breach, now};
+  assert(breach != messages::qos_breach::gap || gaps_.too_long(now));
+  messages::qos_violation violation{
+      .session = *watched_, .breach = breach, .at = now, .why = std::move(why)};
   if (breach == messages::qos_breach::gap && useless_) {
     violation.breach = messages::qos_breach::implausible;
     violation.why = std::move(useless_->why);

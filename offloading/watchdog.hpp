@@ -5,6 +5,7 @@
 #include "offloading/qos_monitor.hpp"
 
 #include <optional>
+#include <string>
 
 namespace sofof::offloading {
 
@@ -15,7 +16,7 @@ namespace sofof::offloading {
 /// moves: a timer may be set once and again when it has run out in vain.
 class watchdog {
 public:
-  /// @param limits  Both of them > 0; results exactly at a limit keep it.
+  /// @param limits  All of them > 0; results exactly at a limit keep it.
   explicit watchdog(messages::qos_limits limits) : limits_{limits} {}
 
   /// Watches `session` from now on, and no other.
@@ -27,8 +28,8 @@ public:
   bool disarm(const messages::session_id& session);
 
   /// A result of the session has come.
-  /// @returns the violation if it came late: then the session is watched no
-  /// longer. Nullopt for a result of another session.
+  /// @returns the violation if it came late, or its input is too old: then the
+  /// session is watched no longer. Nullopt for a result of another session.
   /// @param now  When the violation is found, not before the result came.
   std::optional<messages::qos_violation>
   on_arrival(const messages::arrival& result, time_point now);
@@ -48,7 +49,8 @@ public:
   std::optional<messages::qos_violation> on_deadline(time_point now);
 
 private:
-  messages::qos_violation found(messages::qos_breach breach, time_point now);
+  messages::qos_violation found(messages::qos_breach breach, time_point now,
+                                std::string why);
 
   messages::qos_limits limits_;
   std::optional<messages::session_id> watched_;

@@ -119,6 +119,10 @@ inline constexpr csv_column<cycle_row> of_cycles[]{
     {"received_s", received},
     {"latency_ms",
      [](const auto& r) { return milliseconds(r.x.received - r.x.created); }},
+    {"input_age_ms",
+     [](const auto& r) {
+       return milliseconds(r.x.received - r.x.timing.input_at);
+     }},
     {"interarrival_ms",
      [](const auto& r) { return milliseconds(r.x.interarrival); }},
     {"used", [](const auto& r) { return r.x.used; }},
@@ -126,6 +130,18 @@ inline constexpr csv_column<cycle_row> of_cycles[]{
      [](const auto& r) {
        return r.x.doubt > duration{} ? milliseconds(r.x.doubt) : decimal{};
      }},
+    {"uplink_wait_ms",
+     [](const auto& r) { return milliseconds(r.x.timing.up.wait); }},
+    {"uplink_ms",
+     [](const auto& r) { return milliseconds(r.x.timing.up.travel); }},
+    {"queue_ms", [](const auto& r) { return milliseconds(r.x.timing.queue); }},
+    {"computing_ms",
+     [](const auto& r) { return milliseconds(r.x.timing.computing); }},
+    {"downlink_wait_ms",
+     [](const auto& r) { return milliseconds(r.x.timing.down.wait); }},
+    {"downlink_ms",
+     [](const auto& r) { return milliseconds(r.x.timing.down.travel); }},
+    {"rest_ms", [](const auto& r) { return milliseconds(r.x.rest()); }},
 };
 
 inline constexpr csv_column<margin_row> of_margins[]{

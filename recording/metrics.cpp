@@ -125,6 +125,7 @@ void metrics::add(const messages::decision_record& x) {
 void metrics::add(const messages::cycle_record& x) {
   auto& service = of(x.session.service);
   service.latency.add(x.received - x.created);
+  service.input_age.add(x.received - x.timing.input_at);
   service.results_used += x.used;
   for (const auto& margin : x.margins) {
     const auto [least, is_first] =

@@ -61,6 +61,7 @@ struct service_metrics {
 
   std::uint64_t results_used = 0; ///< Of those that `latency` counts.
   distribution latency;           ///< t_receiving − t_creation.
+  distribution input_age;         ///< t_receiving − that of the input.
   distribution interarrival;      ///< Between two results of an episode.
 
   /// @returns the share of driving time that was offloaded, all episodes of

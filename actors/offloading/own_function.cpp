@@ -21,7 +21,8 @@ own_function(const requester_actor_setup& vehicle,
     const auto drawn =
         from_seconds(draws.normal(to_seconds(compute.run_time_mean),
                                   to_seconds(compute.run_time_sd), cycle));
-    return start + std::clamp(drawn, duration{0}, compute.run_time_max);
+    const auto work = std::clamp(drawn, duration{0}, compute.run_time_max);
+    return offloading::cycle_work{start + work, work};
   };
   return own;
 }

@@ -41,15 +41,19 @@ provider_services::make(const offloading::session_start& start) const {
   return made;
 }
 
-std::function<time_point(time_point, std::uint64_t)>
+std::function<offloading::cycle_work(time_point, std::uint64_t)>
 provider_services::computing_time(const offloading::service_options& options,
                                   station_id station) const {
   if (!virtual_time_)
-    return [](time_point start, std::uint64_t) { return start; };
+    return [clock = clock_](time_point start, std::uint64_t) {
+      const auto done = std::max(clock(), start);
+      return offloading::cycle_work{done, done - start};
+    };
   return [draws = channel::result_draws(seed_, station, number_),
           compute = compute_, demand = options.compute.demand,
           queue = workers_](time_point start, std::uint64_t cycle) {
-    return queue->finish(start, compute.computing_time(draws, cycle, demand));
+    const auto work = compute.computing_time(draws, cycle, demand);
+    return offloading::cycle_work{queue->finish(start, work), work};
   };
 }
 

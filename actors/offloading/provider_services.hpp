@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  std::function<time_point(time_point, std::uint64_t)>
+  std::function<offloading::cycle_work(time_point, std::uint64_t)>
   computing_time(const offloading::service_options& options,
                  station_id station) const;
   messages::event_record record_of(const planners::station_doubt& doubt) const;

@@ -1,6 +1,7 @@
 // Messages of another host, with their times on our clock.
 #include "actors/remote/clock_translation.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sofof::actors {
@@ -44,6 +45,7 @@ on_our_clock(messages::service_input input, const heartbeat& peer,
   if (!clock)
     return std::nullopt;
   input.at -= clock->ahead;
+  input.up = {{}, std::max(now - input.at, duration{0})};
   input.what = on_our_clock(std::move(input.what), peer, *clock);
   return input;
 }
@@ -58,6 +60,12 @@ on_our_clock(messages::service_result result, const heartbeat& peer,
   result.created -= clock->ahead;
   if (result.created > now && result.created - now <= clock->doubt)
     result.created = now;
+  auto& timing = result.timing;
+  timing.input_at -= clock->ahead;
+  if (timing.input_at > now && timing.input_at - now <= clock->doubt)
+    timing.input_at = now;
+  const auto sent = result.created + timing.queue + timing.computing;
+  timing.down = {{}, std::max(now - sent, duration{0})};
   result.what = on_our_clock(std::move(result.what), peer, *clock);
   return result;
 }

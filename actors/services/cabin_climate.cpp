@@ -97,7 +97,7 @@ private:
 class cabin_climate final : public service_type {
 public:
   cabin_climate() {
-    options.limits = {2s, 5s};
+    options.limits = {2s, 5s, 5s};
     options.period = 1s;
     options.input_period = 1s;
     options.compute = {.run_time_mean = 200us,

@@ -9,6 +9,7 @@
 #include <caf/typed_event_based_actor.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,16 @@ std::size_t octets_on_air(const Message& message) {
     if (const auto pdu = message.what.template as<messages::its_pdu>())
       return octets_on_air(*pdu);
   return messages::octets_of(message);
+}
+
+// @returns the message as it arrives after that way.
+template <class Message>
+Message after(Message message, const messages::transit& way) {
+  if constexpr (std::same_as<Message, messages::service_input>)
+    message.up = way;
+  else if constexpr (std::same_as<Message, messages::service_result>)
+    message.timing.down = way;
+  return message;
 }
 
 struct link_state {
@@ -74,20 +85,22 @@ struct link_state {
   void carry(channel::link_direction& direction, channel::message_class kind,
              std::uint64_t number, const Receiver& receiver,
              const Message& message, Ts&&... xs) {
-    const auto t =
-        direction.arrival(now(self), kind, number, octets_on_air(message));
-    if (!t)
+    const auto through =
+        direction.carry(now(self), kind, number, octets_on_air(message));
+    if (!through)
       return;
-    if (!setup->faults) {
-      send_at(self, receiver, *t, message, std::forward<Ts>(xs)...);
-      return;
-    }
-    const auto fate = setup->faults->of(carried++);
+    const auto deliver = [&](time_point arrives) {
+      const auto wait = through->wait;
+      send_at(self, receiver, arrives,
+              after(message, {wait, arrives - now(self) - wait}), xs...);
+    };
+    const auto fate = setup->faults ? setup->faults->of(carried++)
+                                    : channel::link_faults::fate{};
     if (fate.lost)
       return;
-    send_at(self, receiver, *t + fate.extra_delay, message, xs...);
+    deliver(through->arrives + fate.extra_delay);
     if (fate.copy_after)
-      send_at(self, receiver, *t + *fate.copy_after, message, xs...);
+      deliver(through->arrives + *fate.copy_after);
   }
 
   void meet(const messages::requester_actor& requester) {

@@ -49,7 +49,7 @@ struct root_at_server final : provider_service {
   }
 };
 
-const service_options options{.limits = {50ms, 100ms}, // latency, gap
+const service_options options{.limits = {50ms, 100ms, 1s}, // latency, gap, age
                               .period = 50ms,
                               .input_period = 50ms};
 

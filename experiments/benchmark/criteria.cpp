@@ -36,8 +36,8 @@ public:
     return found != run_.served_s.end() ? found->second : 0;
   }
   double violations() const {
-    return must("ended_by.qos_latency") + must("ended_by.qos_gap")
-           + may("ended_by.implausible").value_or(0);
+    return must("ended_by.qos_latency") + must("ended_by.qos_input_age")
+           + must("ended_by.qos_gap") + may("ended_by.implausible").value_or(0);
   }
   double offloaded_share() const { return may("offloaded_share").value_or(0); }
   double energy_saved() const { return may("energy.saved_share").value_or(0); }

@@ -62,8 +62,12 @@ private:
   template <class T>
   void write(const std::vector<T>& xs) {
     write(static_cast<std::uint32_t>(xs.size()));
-    for (const auto& x : xs)
-      write(x);
+    if constexpr (std::is_same_v<T, std::byte>) {
+      sink_.append(xs.data(), xs.size());
+    } else {
+      for (const auto& x : xs)
+        write(x);
+    }
   }
   void write(const std::string& text) {
     write(static_cast<std::uint32_t>(text.size()));
@@ -171,8 +175,13 @@ private:
     xs.clear();
     if (!fits(size)) // every element takes a byte or more
       return;
-    for (std::uint32_t i = 0; i < size && ok_; ++i)
-      read(xs.emplace_back());
+    if constexpr (std::is_same_v<T, std::byte>) {
+      xs.assign(in_.begin(), in_.begin() + size);
+      in_ = in_.subspan(size);
+    } else {
+      for (std::uint32_t i = 0; i < size && ok_; ++i)
+        read(xs.emplace_back());
+    }
   }
   void read(std::string& text) {
     std::uint32_t size = 0;

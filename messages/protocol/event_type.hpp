@@ -22,6 +22,7 @@ enum class event_type : std::uint8_t {
   left,
   plan_switch,
   implausible,
+  result_refused, ///< It has come, but too late, or from too old an input.
   violation,
   clock_in_doubt,
   clock_known,
@@ -58,6 +59,7 @@ inline constexpr event_name event_names[]{
     {event_type::left, "left"},
     {event_type::plan_switch, "plan_switch"},
     {event_type::implausible, "implausible"},
+    {event_type::result_refused, "result_refused"},
     {event_type::violation, "violation"},
     {event_type::clock_in_doubt, "clock_in_doubt"},
     {event_type::clock_known, "clock_known"},

@@ -11,11 +11,15 @@ namespace sofof::messages {
 struct qos_limits {
   duration max_latency{};      ///< From t_creation to t_receiving.
   duration max_interarrival{}; ///< Between two received results.
+  /// Of the input that a result was made from, when the result is received: it
+  /// counts the way up, which the latency leaves out.
+  duration max_input_age = duration::max();
 };
 
 void visit_fields(auto& v, qos_limits& x) {
   v("max_latency", x.max_latency);
   v("max_interarrival", x.max_interarrival);
+  v("max_input_age", x.max_input_age);
 }
 
 /// A remote result came in.
@@ -23,15 +27,17 @@ struct arrival {
   session_id session;
   time_point created; ///< Start of the cycle that made the result.
   time_point received;
+  time_point input_at; ///< When the input was made that it is a result of.
 };
 
 void visit_fields(auto& v, arrival& x) {
   v("session", x.session);
   v("created", x.created);
   v("received", x.received);
+  v("input_at", x.input_at);
 }
 
-enum class qos_breach : std::uint8_t { latency, gap, implausible };
+enum class qos_breach : std::uint8_t { latency, input_age, gap, implausible };
 
 constexpr qos_breach last_of(qos_breach) {
   return qos_breach::implausible;
@@ -51,8 +57,8 @@ struct qos_violation {
   /// Another provider runs the service as it should, or the manager has left
   /// the one that broke them already.
   bool others_hold = false;
-  std::string why{};   ///< Of an implausible result: check, value and limit.
-  std::string check{}; ///< Likewise, the check alone.
+  std::string why{};   ///< Which limit or check, its value and limit.
+  std::string check{}; ///< Of an implausible result: the check alone.
 };
 
 void visit_fields(auto& v, qos_violation& x) {

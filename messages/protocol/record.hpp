@@ -50,8 +50,17 @@ struct cycle_record {
   time_point received;
   std::optional<duration> interarrival; ///< None for the first in use.
   bool used = false;
-  duration doubt{};              ///< `created` may be off by this.
+  duration doubt{}; ///< `created` may be off by this.
+  result_timing timing{};
   std::vector<margin> margins{}; ///< If they are recorded.
+
+  /// @returns of the time between input and arrival what no part of `timing`
+  /// is: for that long the input waited for the cycle.
+  duration rest() const {
+    const auto& [input_at, up, queue, computing, down] = timing;
+    return received - input_at - up.wait - up.travel - queue - computing
+           - down.wait - down.travel;
+  }
 };
 
 /// One side has closed a session.

@@ -151,16 +151,31 @@ void visit_fields(auto& v, standby& x) {
   v("after", x.after);
 }
 
+/// How long a message was on its way.
+struct transit {
+  duration wait{};   ///< For its turn in the cell, or for an outage to end.
+  duration travel{}; ///< On the air and through the network.
+
+  friend bool operator==(const transit&, const transit&) = default;
+};
+
+void visit_fields(auto& v, transit& x) {
+  v("wait", x.wait);
+  v("travel", x.travel);
+}
+
 /// What a session works on next; newer input replaces older. A standby
 /// gives one result at once, and the next one at the next such input.
 struct service_input {
   session_id session;
-  time_point at;
+  time_point at; ///< When it was made.
   payload what;
   /// The result in use, for a source that takes over from another one, which
   /// shall go on from there; else empty.
   payload in_use{};
   bool standby = false; ///< Else a result comes in every period.
+  /// Its way to the provider. Does not travel: whoever carries it fills it in.
+  transit up{};
 };
 
 void visit_fields(auto& v, service_input& x) {
@@ -171,15 +186,36 @@ void visit_fields(auto& v, service_input& x) {
   v("standby", x.standby);
 }
 
+/// Where the time went between an input and the arrival of its result; the rest
+/// is what the input waited for the cycle. No part of it is negative.
+struct result_timing {
+  time_point input_at{}; ///< When the input was made that this is a result of.
+  transit up{};          ///< Of the input.
+  duration queue{};      ///< Of the cycle, for a worker.
+  duration computing{};
+  /// Does not travel: whoever carries the result fills it in.
+  transit down{};
+};
+
+void visit_fields(auto& v, result_timing& x) {
+  v("input_at", x.input_at);
+  v("up", x.up);
+  v("queue", x.queue);
+  v("computing", x.computing);
+}
+
 /// What one cycle of a session gave.
 struct service_result {
   session_id session;
   std::uint64_t cycle = 0;
-  time_point created; ///< Start of the cycle (t_creation).
+  /// Start of the cycle (t_creation); of its input, where there is one result
+  /// for each.
+  time_point created;
   payload what;
   payload about{}; ///< How it came about, for records; often empty.
   /// `created` may be off by this: clocks of two hosts never quite agree.
   duration doubt{};
+  result_timing timing{};
 };
 
 void visit_fields(auto& v, service_result& x) {
@@ -189,6 +225,7 @@ void visit_fields(auto& v, service_result& x) {
   v("what", x.what);
   v("about", x.about);
   v("doubt", x.doubt);
+  v("timing", x.timing);
 }
 
 /// Why an offloading ended.
@@ -196,6 +233,7 @@ enum class end_reason : std::uint8_t {
   left_area,
   cam_timeout,
   qos_latency,
+  qos_input_age,
   qos_gap,
   no_data,
   refused,
@@ -213,9 +251,9 @@ constexpr end_reason last_of(end_reason) {
 
 inline constexpr std::string_view name_of(end_reason reason) {
   constexpr std::string_view names[] = {
-      "left_area", "cam_timeout", "qos_latency", "qos_gap",
-      "no_data",   "refused",     "peer_lost",   "handed_over",
-      "released",  "revoked",     "implausible", "shutdown"};
+      "left_area", "cam_timeout", "qos_latency", "qos_input_age", "qos_gap",
+      "no_data",   "refused",     "peer_lost",   "handed_over",   "released",
+      "revoked",   "implausible", "shutdown"};
   return names[static_cast<std::size_t>(reason)];
 }
 

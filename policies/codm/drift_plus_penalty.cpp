@@ -51,7 +51,9 @@ public:
     auto& service = i->second;
     const auto period_s = to_seconds(service.period);
     service.cycles += std::max(1.0, outcome.remote_s / period_s);
-    if (outcome.end_reason == "qos_latency" || outcome.end_reason == "qos_gap"
+    if (outcome.end_reason == "qos_latency"
+        || outcome.end_reason == "qos_input_age"
+        || outcome.end_reason == "qos_gap"
         || outcome.end_reason == "implausible") {
       ++service.missed;
       ++service.debt;

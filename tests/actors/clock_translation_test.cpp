@@ -124,3 +124,20 @@ TEST_CASE_FIXTURE(
   peer.on_pong({of, at(100s), at(100s)}, at(2s));
   CHECK(peer.is_lost(at(3s + 1ns)));
 }
+
+TEST_CASE_FIXTURE(peer_ahead, "the ways of an input and of its result are told "
+                              "by whoever gets them") {
+  const auto peer = known_peer();
+  const service_input input{running, at(2s) - 30ms + ahead, {}};
+  CHECK(on_our_clock(input, peer, at(2s))->up == transit{0ms, 30ms});
+  service_result result{running, 1, at(2s) - 20ms + ahead, {}};
+  result.timing = {.input_at = at(2s) - 90ms + ahead,
+                   .up = {0ms, 12ms},
+                   .queue = 1ms,
+                   .computing = 4ms};
+  const auto here = on_our_clock(result, peer, at(2s));
+  REQUIRE(here.has_value());
+  CHECK(here->timing.input_at == at(2s) - 90ms);
+  CHECK(here->timing.up == transit{0ms, 12ms});
+  CHECK(here->timing.down == transit{0ms, 15ms});
+}

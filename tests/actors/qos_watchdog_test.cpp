@@ -66,7 +66,7 @@ TEST_CASE_FIXTURE(watchdog_world,
     REQUIRE(requester->count<qos_violation>() == 1);
     const auto violation = requester->all<qos_violation>().front();
     CHECK(violation.breach == qos_breach::gap);
-    CHECK(violation.why.empty());
+    CHECK(violation.why.starts_with("qos_gap value_ms=100.000001 "));
   }
 }
 

@@ -255,3 +255,43 @@ TEST_CASE("a profile is found by its name alone") {
     CHECK(named(name).name == name);
   CHECK(!find_channel_profile("5g"));
 }
+
+TEST_CASE("what a message waits for is told apart from what it travels") {
+  SUBCASE("its turn in the cell") {
+    auto p = named("ideal");
+    p.airtime = delay_distribution::uniform(2ms, 2ms);
+    p.more_delay = 5ms;
+    const auto cell = std::make_shared<shared_server_queue>(1);
+    link_direction link{link_channel(p), direction::up, cell};
+    CHECK(link.carry(time_point{0ms}, kind::other, 0)->wait == 0ms);
+    const auto second = link.carry(time_point{1ms}, kind::other, 1);
+    CHECK(second->arrives == time_point{9ms});
+    CHECK(second->wait == 1ms);
+  }
+  SUBCASE("messages before it") {
+    auto p = named("ideal");
+    p.network = delay_distribution::uniform(0ms, 200ms);
+    link_direction link{link_channel(p), direction::up, nullptr};
+    auto last = time_point{};
+    auto waited = 0;
+    for (std::uint64_t n = 0; n < 100; ++n) {
+      const auto through = link.carry(time_point{n * 10ms}, kind::other, n);
+      REQUIRE(through->wait >= 0ms);
+      if (through->wait > 0ms) {
+        CHECK(through->arrives == last);
+        ++waited;
+      }
+      last = through->arrives;
+    }
+    CHECK(waited > 10);
+  }
+  SUBCASE("the end of a stall") {
+    auto p = named("ideal");
+    p.stalls = {0.5, 200ms, 300ms};
+    link_direction link{link_channel(p), direction::down, nullptr};
+    auto waited = 0;
+    for (std::uint64_t n = 0; n < 1000; ++n)
+      waited += link.carry(cycle(n), kind::result, n)->wait > 0ms;
+    CHECK(waited > 10);
+  }
+}

@@ -32,6 +32,7 @@ study::measured_run one_hour() {
                  {"offloaded_share", 0.5},
                  {"fairness", 0.8},
                  {"ended_by.qos_latency", 3},
+                 {"ended_by.qos_input_age", 0},
                  {"ended_by.qos_gap", 2},
                  {"latency_ms.mean", 20},
                  {"latency_ms.p50", 18},
@@ -136,8 +137,9 @@ TEST_CASE("who never offloads has the cost of planning on board") {
                            "time_s.mean"})
     run.figures.erase(name);
   run.served_s.clear();
-  for (const auto* name : {"offloaded_share", "requests", "rejected",
-                           "ended_by.qos_latency", "ended_by.qos_gap"})
+  for (const auto* name :
+       {"offloaded_share", "requests", "rejected", "ended_by.qos_latency",
+        "ended_by.qos_input_age", "ended_by.qos_gap"})
     run.figures[name] = 0;
   const auto judged = judge(run, usual());
   CHECK(value(judged, score_name) == near(0.3 * 0.01 / 0.05 + 0.3, 1e-12));

@@ -36,15 +36,19 @@ inline constexpr std::size_t arity<messages::verdict> = 4;
 template <>
 inline constexpr std::size_t arity<messages::service_response> = 4;
 template <>
-inline constexpr std::size_t arity<messages::service_input> = 5;
+inline constexpr std::size_t arity<messages::service_input> = 6;
 template <>
-inline constexpr std::size_t arity<messages::service_result> = 6;
+inline constexpr std::size_t arity<messages::transit> = 2;
+template <>
+inline constexpr std::size_t arity<messages::result_timing> = 5;
+template <>
+inline constexpr std::size_t arity<messages::service_result> = 7;
 template <>
 inline constexpr std::size_t arity<messages::service_end> = 4;
 template <>
-inline constexpr std::size_t arity<messages::qos_limits> = 2;
+inline constexpr std::size_t arity<messages::qos_limits> = 3;
 template <>
-inline constexpr std::size_t arity<messages::arrival> = 3;
+inline constexpr std::size_t arity<messages::arrival> = 4;
 template <>
 inline constexpr std::size_t arity<messages::qos_violation> = 6;
 template <>
@@ -178,6 +182,16 @@ public:
   void fill(messages::its_pdu& x) {
     fill(x.octets);
   } // the rest does not travel
+  void fill(messages::service_input& x) {
+    const auto keep = x.up; // does not travel
+    std::apply([this](auto&... xs) { (fill(xs), ...); }, members(x));
+    x.up = keep;
+  }
+  void fill(messages::result_timing& x) {
+    const auto keep = x.down; // does not travel
+    std::apply([this](auto&... xs) { (fill(xs), ...); }, members(x));
+    x.down = keep;
+  }
   template <class T>
   void fill(std::optional<T>& x) {
     x.reset();
@@ -194,13 +208,13 @@ public:
 private:
   void fill_enum(std::byte& x) { x = static_cast<std::byte>(below(256)); }
   void fill_enum(messages::end_reason& x) {
-    x = static_cast<messages::end_reason>(below(12));
+    x = static_cast<messages::end_reason>(below(13));
   }
   void fill_enum(messages::side& x) {
     x = static_cast<messages::side>(below(2));
   }
   void fill_enum(messages::qos_breach& x) {
-    x = static_cast<messages::qos_breach>(below(3));
+    x = static_cast<messages::qos_breach>(below(4));
   }
   void fill_enum(messages::lifecycle_step& x) {
     x = static_cast<messages::lifecycle_step>(below(4));

@@ -145,8 +145,8 @@ TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
       CHECK(value == known);
       ++known;
     }
-  const auto expected = std::is_same_v<T, end_reason>        ? 12
-                        : std::is_same_v<T, qos_breach>      ? 3
+  const auto expected = std::is_same_v<T, end_reason>        ? 13
+                        : std::is_same_v<T, qos_breach>      ? 4
                         : std::is_same_v<T, lifecycle_step>  ? 4
                         : std::is_same_v<T, stream_id::what> ? 4
                                                              : 2;

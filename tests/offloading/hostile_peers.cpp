@@ -162,8 +162,8 @@ struct deceived_provider final : offloading::provider_side_port {
   int ended = 0, started = 0;
 
   void send(offloading::peer_id, offloading::to_vehicle) override {}
-  time_point finish(const session_id&, time_point start,
-                    std::uint64_t) override {
+  offloading::cycle_work finish(const session_id&, time_point start,
+                                std::uint64_t) override {
     return start + 2ms;
   }
   void record(sofof::messages::record&& x) override {

@@ -71,8 +71,8 @@ struct roadside final : offloading::provider_side_port {
     if (std::holds_alternative<service_result>(message))
       results.push_back(now);
   }
-  time_point finish(const session_id&, time_point start,
-                    std::uint64_t) override {
+  offloading::cycle_work finish(const session_id&, time_point start,
+                                std::uint64_t) override {
     return start + computing;
   }
   void wake_at(time_point t, std::uint64_t number) override {

@@ -32,7 +32,9 @@ struct cycle_world : offloading::cycle_port {
        std::make_shared<copier>(),
        50ms,
        20ms,
-       [](time_point start, std::uint64_t) { return start + 5ms; }},
+       [](time_point start, std::uint64_t) {
+         return offloading::cycle_work{start + 5ms, 3ms};
+       }},
       *this};
 
   void wake_at(time_point t, std::uint64_t number) override {
@@ -125,4 +127,77 @@ TEST_CASE_FIXTURE(cycle_world, "numbers of cycles rise, and follow the grid "
   run_for(1s);
   cycle.on_step(lifecycle_step::activate, now);
   CHECK(results.back().second.cycle == last + 20);
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a result tells when its input was made, how "
+                               "that came, and where the cycle's time went") {
+  const auto made = now - 30ms;
+  cycle.on_input({.session = {1, 101, "echo", 7},
+                  .at = made,
+                  .what = payload::of(echo{1}),
+                  .up = {4ms, 8ms}},
+                 now);
+  activate();
+  REQUIRE(results.size() == 1);
+  const auto& timing = results.front().second.timing;
+  CHECK(timing.input_at == made);
+  CHECK(timing.up == transit{4ms, 8ms});
+  CHECK(timing.queue == 2ms);
+  CHECK(timing.computing == 3ms);
+}
+
+namespace {
+
+/// One result for each input.
+struct per_input_world : cycle_world {
+  offloading::service_cycle each{
+      {.session = {1, 101, "echo", 7},
+       .function = std::make_shared<copier>(),
+       .period = 50ms,
+       .phase = 20ms,
+       .finish = [](time_point start,
+                    std::uint64_t) { return offloading::cycle_work{start}; },
+       .per_input = true},
+      *this};
+
+  per_input_world() {
+    each.on_step(lifecycle_step::configure, now);
+    each.on_step(lifecycle_step::activate, now);
+  }
+  void feed(std::uint64_t number, duration age) {
+    each.on_input({.session = {1, 101, "echo", 7},
+                   .at = now - age,
+                   .what = payload::of(echo{number})},
+                  now);
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(per_input_world,
+                  "with one result per input, each input is computed at once, "
+                  "its latency begins with it, and no other result comes") {
+  for (std::uint64_t n = 0; n < 4; ++n) {
+    feed(n, 15ms);
+    run_for(50ms);
+  }
+  run_for(1s);
+  REQUIRE(results.size() == 4);
+  for (std::uint64_t n = 0; n < 4; ++n) {
+    const auto& [done, result] = results[n];
+    CHECK(done == time_point{1s} + n * 50ms);
+    CHECK(result.created == done - 15ms);
+    CHECK(result.what.as<echo>()->number == n);
+  }
+  CHECK(timers.empty());
+}
+
+TEST_CASE_FIXTURE(per_input_world, "with one result per input, inputs beyond "
+                                   "the period's rate have none") {
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    feed(n, 1ms);
+    run_for(1ms);
+  }
+  CHECK(results.size() >= 20);
+  CHECK(results.size() <= 22);
 }

@@ -57,7 +57,7 @@ struct numbers final : offloading::vehicle_service {
 
 offloading::selector_setup numbers_setup() {
   offloading::service_options options;
-  options.limits = {50ms, 100ms};
+  options.limits = {50ms, 100ms, 500ms};
   options.period = 50ms;
   options.input_period = 100ms;
   return {101, {"numbers", options, std::make_shared<numbers>()}};
@@ -66,6 +66,7 @@ offloading::selector_setup numbers_setup() {
 /// Writes down what a selector wants, a word or two for each call.
 struct diary final : offloading::selector_port {
   std::vector<std::string> lines;
+  std::string detail; ///< Of the latest event.
 
   void write(std::string line) { lines.push_back(std::move(line)); }
   static std::string name(const session_id& x) {
@@ -104,8 +105,10 @@ struct diary final : offloading::selector_port {
   }
   void watch_end(const service_end&) override { write("watch nothing"); }
   void record(sofof::messages::record&& x) override {
-    if (const auto* event = std::get_if<event_record>(&x))
+    if (const auto* event = std::get_if<event_record>(&x)) {
       write(std::string{name_of(event->what)});
+      detail = event->detail;
+    }
   }
   void wake_at(time_point t, std::uint64_t number) override {
     wakes.emplace_back(t, number);
@@ -122,6 +125,7 @@ struct selecting {
   diary port;
   source_selector selector{numbers_setup(), port};
   std::uint64_t cycle = 0;
+  duration input_age = 100ms; ///< Of results.
 
   selecting() { selector.on_input({own, at(0s), of(1)}, at(0s)); }
 
@@ -130,7 +134,12 @@ struct selecting {
   }
   void result(const session_id& x, duration t, duration latency = 10ms,
               std::uint64_t number = 1) {
-    selector.on_result({x, ++cycle, at(t) - latency, of(number)}, at(t));
+    selector.on_result({.session = x,
+                        .cycle = ++cycle,
+                        .created = at(t) - latency,
+                        .what = of(number),
+                        .timing = {.input_at = at(t) - input_age}},
+                       at(t));
   }
   void end(const session_id& x, duration t,
            end_reason why = end_reason::qos_gap) {
@@ -153,7 +162,7 @@ TEST_CASE_FIXTURE(selecting, "a provider is fed at once, and used from its "
   session(a, 100ms);
   CHECK(news() == lines{"feed A"});
   result(a, 200ms, 50ms + 1ns);
-  CHECK(news().empty());
+  CHECK(news() == lines{"result_refused"});
   CHECK_FALSE(selector.is_remote());
   result(a, 250ms, 50ms);
   CHECK(news()
@@ -162,6 +171,20 @@ TEST_CASE_FIXTURE(selecting, "a provider is fed at once, and used from its "
   CHECK(selector.is_remote());
   result(own, 260ms);
   CHECK(news().empty());
+}
+
+TEST_CASE_FIXTURE(selecting, "a result of an input that is too old is refused, "
+                             "however fast it was made, and an event says so") {
+  session(a, 100ms);
+  news();
+  input_age = 500ms + 1ns;
+  result(a, 200ms, 1ms);
+  CHECK(news() == lines{"result_refused"});
+  CHECK(port.detail == "input_age value_ms=500.000001 limit_ms=500.000000");
+  CHECK_FALSE(selector.is_remote());
+  input_age = 500ms;
+  result(a, 250ms, 1ms);
+  CHECK(selector.is_remote());
 }
 
 TEST_CASE_FIXTURE(selecting, "the own function plans on at once when the last "

@@ -82,7 +82,8 @@ TEST_CASE_FIXTURE(armed_watchdog, "a gap in which results came that could not "
     const auto found = dog.on_deadline(at(2s));
     REQUIRE(found);
     CHECK(found->breach == qos_breach::gap);
-    CHECK(found->why.empty());
+    CHECK(found->why == "qos_gap value_ms=950.000000 limit_ms=100.000000");
+    CHECK(found->check.empty());
   }
   SUBCASE("of this session, not of another one") {
     dog.arm(session, at(1s));
@@ -97,4 +98,29 @@ TEST_CASE_FIXTURE(armed_watchdog, "only the session that is watched can be "
   CHECK(dog.deadline());
   CHECK(dog.disarm(session));
   CHECK_FALSE(dog.deadline());
+}
+
+TEST_CASE("a result in time is a violation if its input is too old by then, "
+          "which the violation tells with value and limit") {
+  offloading::watchdog dog{{50ms, 100ms, 500ms}};
+  const auto result = [&dog](duration age) {
+    dog.arm(session, at(1s));
+    const auto t = at(1050ms);
+    return dog.on_arrival({session, t - 10ms, t, t - age}, t);
+  };
+  CHECK_FALSE(result(500ms));
+  const auto found = result(500ms + 1ns);
+  REQUIRE(found);
+  CHECK(found->breach == qos_breach::input_age);
+  CHECK(found->why == "qos_input_age value_ms=500.000001 limit_ms=500.000000");
+  CHECK_FALSE(dog.deadline());
+  CHECK(result(-1ns)); // of an input that is still to come
+}
+
+TEST_CASE_FIXTURE(armed_watchdog, "a violation tells its value and the limit") {
+  CHECK(result(1050ms, 61200us)->why
+        == "qos_latency value_ms=61.200000 limit_ms=50.000000");
+  dog.arm(session, at(2s));
+  CHECK(dog.on_deadline(at(2600ms))->why
+        == "qos_gap value_ms=600.000000 limit_ms=100.000000");
 }

@@ -10,7 +10,8 @@ using namespace sofof::test;
 
 namespace {
 
-constexpr double longest_ms = 50; // latency of trajectory_planning
+constexpr double longest_ms = 50;      // latency of trajectory_planning
+constexpr double longest_age_ms = 500; // of its inputs
 
 bool same_service(const row& r, const event& e) {
   return r.at("station") == std::to_string(e["station"].get<int>())
@@ -33,8 +34,10 @@ void check_violations(const std::filesystem::path& folder) {
         last = &r;
     CAPTURE(e);
     REQUIRE(last != nullptr);
-    if (e["detail"] == "qos_latency")
+    if (e["detail"].get<std::string>().starts_with("qos_latency "))
       CHECK(number(*last, "latency_ms") > longest_ms);
+    else if (e["detail"].get<std::string>().starts_with("qos_input_age "))
+      CHECK(number(*last, "input_age_ms") > longest_age_ms);
     else
       CHECK(t_s - number(*last, "received_s") > longest_gap_s);
   }

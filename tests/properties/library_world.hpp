@@ -235,8 +235,8 @@ struct library_world {
                 result ? result->cycle : link.time_number(), octets, number,
                 std::move(message));
     }
-    time_point finish(const messages::session_id&, time_point start,
-                      std::uint64_t cycle) override {
+    offloading::cycle_work finish(const messages::session_id&, time_point start,
+                                  std::uint64_t cycle) override {
       return workers.finish(start,
                             computers.computing_time(draws_of_results, cycle));
     }
@@ -253,8 +253,8 @@ struct library_world {
     library_world& world;
     explicit vehicle_node(library_world& w) : world{w} {}
 
-    time_point finish(const messages::service_name&, time_point start,
-                      std::uint64_t) override {
+    offloading::cycle_work finish(const messages::service_name&,
+                                  time_point start, std::uint64_t) override {
       return start + echo_options().compute.run_time_mean;
     }
 

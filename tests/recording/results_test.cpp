@@ -212,23 +212,34 @@ TEST_CASE("the summary says what happened") {
 TEST_CASE("times in files count from the start and are exact to the ns") {
   const scratch dir;
   results r{dir.path(), run()};
-  r.on_record(result(running(), 3, 60s, 12'345'678ns, std::nullopt));
+  auto first = result(running(), 3, 60s, 12'345'678ns, std::nullopt);
+  first.timing = {.input_at = first.created - 30ms,
+                  .up = {2ms, 8ms},
+                  .queue = 1ms,
+                  .computing = 4ms,
+                  .down = {300us, 7'045'678ns}};
+  r.on_record(first);
   auto late = result(running(), 4, 60s + 50ms + 1ns, 9ms, 46'654'323ns);
   late.used = false;
   late.doubt = 250us;
+  late.timing.input_at = late.created;
   r.on_record(late);
   r.finish(at(100s), 2, false);
   const auto all = lines(dir / "cycles.csv");
   REQUIRE(all.size() == 3);
   CHECK(all[0]
         == "station,provider,provider_id,service,counter,cycle,created_s,"
-           "received_s,latency_ms,interarrival_ms,used,doubt_ms");
+           "received_s,latency_ms,input_age_ms,interarrival_ms,used,doubt_ms,"
+           "uplink_wait_ms,uplink_ms,queue_ms,computing_ms,downlink_wait_ms,"
+           "downlink_ms,rest_ms");
   CHECK(all[1]
         == "101,mec,18000000000000000000,trajectory_planning,1,3,"
-           "60.000000000,60.012345678,12.345678,,1,");
+           "60.000000000,60.012345678,12.345678,42.345678,,1,,2.000000,"
+           "8.000000,1.000000,4.000000,0.300000,7.045678,20.000000");
   CHECK(all[2]
         == "101,mec,18000000000000000000,trajectory_planning,1,4,"
-           "60.050000001,60.059000001,9.000000,46.654323,0,0.250000");
+           "60.050000001,60.059000001,9.000000,9.000000,46.654323,0,0.250000,"
+           "0.000000,0.000000,0.000000,0.000000,0.000000,0.000000,9.000000");
 }
 
 TEST_CASE("each closed side is a line in episodes.csv") {

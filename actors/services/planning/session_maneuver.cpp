@@ -17,6 +17,7 @@ messages::etsi::termination_status status_of(messages::end_reason why) {
     case messages::end_reason::no_data:
       return abort_by_timeout;
     case messages::end_reason::qos_latency:
+    case messages::end_reason::qos_input_age:
     case messages::end_reason::qos_gap:
       return abort_by_constraint_violation;
     case messages::end_reason::refused:
