@@ -2,11 +2,15 @@
 #include "actors/remote/clock_translation.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace sofof::actors {
 
 namespace {
+
+/// Of a result's time: a peer may claim anything.
+constexpr duration longest_part = std::chrono::hours{1};
 
 /// @param what  Of an input or a result: an ITS message or anything else.
 messages::payload on_our_clock(messages::payload what, const heartbeat& peer,
@@ -64,6 +68,9 @@ on_our_clock(messages::service_result result, const heartbeat& peer,
   timing.input_at -= clock->ahead;
   if (timing.input_at > now && timing.input_at - now <= clock->doubt)
     timing.input_at = now;
+  for (auto* part :
+       {&timing.up.wait, &timing.up.travel, &timing.queue, &timing.computing})
+    *part = std::clamp(*part, duration{0}, longest_part);
   const auto sent = result.created + timing.queue + timing.computing;
   timing.down = {{}, std::max(now - sent, duration{0})};
   result.what = on_our_clock(std::move(result.what), peer, *clock);

@@ -141,3 +141,20 @@ TEST_CASE_FIXTURE(peer_ahead, "the ways of an input and of its result are told "
   CHECK(here->timing.up == transit{0ms, 12ms});
   CHECK(here->timing.down == transit{0ms, 15ms});
 }
+
+TEST_CASE_FIXTURE(peer_ahead, "no claim of a peer makes a part of the time "
+                              "negative or endless") {
+  const auto peer = known_peer();
+  for (const auto claimed : {duration::min(), duration{-1}, duration::max()}) {
+    service_result result{running, 1, at(1s) + ahead, {}};
+    result.timing = {at(1s) + ahead, {claimed, claimed}, claimed, claimed, {}};
+    const auto here = on_our_clock(result, peer, at(2s));
+    REQUIRE(here.has_value());
+    const auto& t = here->timing;
+    for (const auto part :
+         {t.up.wait, t.up.travel, t.queue, t.computing, t.down.travel}) {
+      CHECK(part >= 0ns);
+      CHECK(part <= 1h);
+    }
+  }
+}
