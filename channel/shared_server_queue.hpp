@@ -1,9 +1,12 @@
 // A server queue that several threads share.
 #pragma once
 
+#include "channel/load_meter.hpp"
 #include "channel/server_queue.hpp"
 
+#include <memory>
 #include <mutex>
+#include <utility>
 
 namespace sofof::channel {
 
@@ -12,18 +15,25 @@ namespace sofof::channel {
 class shared_server_queue {
 public:
   /// @param workers  At least 1.
+  /// @param meter    Learns of every job, if there is one.
   /// @throws std::invalid_argument  for none.
-  explicit shared_server_queue(unsigned workers) : queue_{workers} {}
+  explicit shared_server_queue(unsigned workers,
+                               std::shared_ptr<load_meter> meter = nullptr)
+      : queue_{workers}, meter_{std::move(meter)} {}
 
   /// As `server_queue::finish`.
   time_point finish(time_point now, duration work) {
     const std::lock_guard lock{mutex_};
-    return queue_.finish(now, work);
+    const auto done = queue_.finish(now, work);
+    if (meter_)
+      meter_->add(now, done - work - now, work);
+    return done;
   }
 
 private:
   std::mutex mutex_;
   server_queue queue_;
+  std::shared_ptr<load_meter> meter_;
 };
 
 } // namespace sofof::channel

@@ -2,7 +2,10 @@
 #include "offloading/provider.hpp"
 
 #include "base/protocol.hpp"
+#include "offloading/qos_monitor.hpp"
 #include "policies/api/periodic_task.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
@@ -87,7 +90,11 @@ void provider::expire(const station_check& x, time_point now) {
     return;
   const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
   if (now >= deadline)
-    forget(i, messages::end_reason::cam_timeout, now);
+    forget(
+        i,
+        {messages::end_reason::cam_timeout,
+         in_words("cam_timeout", now - i->second.heard, protocol::cam_timeout)},
+        now);
   else
     wake_at(deadline, x);
 }
@@ -120,7 +127,11 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
     return; // all true ones would seem overtaken
   if (!setup_.area.contains(c.position)) {
     if (known != stations_.end())
-      forget(known, messages::end_reason::left_area, now);
+      forget(known,
+             {messages::end_reason::left_area,
+              fmt::format("x_m={:.3f} y_m={:.3f}", c.position.x_m,
+                          c.position.y_m)},
+             now);
     assert(!stations_.contains(c.station));
     return;
   }
@@ -150,7 +161,9 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
   assert(station.requester != requester);
   if (station.requester) {
     drop_waiting(id);
-    leave(station, messages::end_reason::peer_lost, now);
+    leave(station,
+          {messages::end_reason::peer_lost, "the station has a new requester"},
+          now);
   }
   assert(station.sessions.empty());
   if (!serves(requester))
@@ -162,11 +175,11 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
 }
 
 // Its requester speaks for the station no longer.
-void provider::leave(station_record& station, messages::end_reason reason,
+void provider::leave(station_record& station, const ending& why,
                      time_point now) {
   assert(station.requester);
   while (!station.sessions.empty())
-    end(station, station.sessions.front().session, reason, true, now);
+    end(station, station.sessions.front().session, why, true, now);
   const auto requester = *std::exchange(station.requester, std::nullopt);
   if (!serves(requester))
     port_.leave(requester);
@@ -203,11 +216,10 @@ void provider::offer(station_record& station, time_point now) {
                  .created = now});
 }
 
-void provider::forget(stations::iterator i, messages::end_reason reason,
-                      time_point now) {
-  assert(reason != messages::end_reason::cam_timeout
+void provider::forget(stations::iterator i, const ending& why, time_point now) {
+  assert(why.reason != messages::end_reason::cam_timeout
          || now - i->second.heard > protocol::cam_timeout);
-  leave(i->second, reason, now);
+  leave(i->second, why, now);
   stations_.erase(i);
 }
 
@@ -236,7 +248,7 @@ void provider::on_end(const messages::service_end& e, time_point now) {
     return;
   const auto i = stations_.find(e.session.station);
   if (i != stations_.end())
-    end(i->second, e.session, e.reason, false, now);
+    end(i->second, e.session, {e.reason, "told by the vehicle"}, false, now);
   assert(is_consistent());
 }
 
@@ -245,19 +257,20 @@ void provider::on_function_lost(const messages::session_id& session,
   pass(now);
   const auto i = stations_.find(session.station);
   if (i != stations_.end())
-    end(i->second, session, why, true, now);
+    end(i->second, session, {why, "its function was lost"}, true, now);
   assert(is_consistent());
 }
 
 // Closes a session, once; one that is not known has been closed before.
 void provider::end(station_record& station, messages::session_id session,
-                   messages::end_reason reason, bool tell, time_point now) {
+                   const ending& why, bool tell, time_point now) {
   const auto i =
       std::ranges::find(station.sessions, session, &provider_session::session);
   if (i == station.sessions.end())
     return;
   assert(station.requester);
   assert(i->since <= now);
+  const auto reason = why.reason;
   messages::service_end e{session, reason, messages::side::provider};
   port_.end(e);
   if (tell) {
@@ -271,7 +284,8 @@ void provider::end(station_record& station, messages::session_id session,
                                         .first_data = i->since,
                                         .got_data = true,
                                         .ended = now,
-                                        .reason = reason});
+                                        .reason = reason,
+                                        .because = why.because});
   setup_.policy->observe(policies::episode_outcome{
       session.service.view(), setup_.id, to_seconds(now - i->since),
       messages::name_of(reason), session.station});

@@ -4,6 +4,7 @@
 
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
+#include "offloading/ending.hpp"
 #include "offloading/peer.hpp"
 #include "offloading/service_cycle.hpp"
 #include "offloading/timer_list.hpp"
@@ -201,11 +202,9 @@ private:
 
   void meet(station_id id, station_record& station, peer_id requester,
             time_point now);
-  void leave(station_record& station, messages::end_reason reason,
-             time_point now);
+  void leave(station_record& station, const ending& why, time_point now);
   void offer(station_record& station, time_point now);
-  void forget(stations::iterator i, messages::end_reason reason,
-              time_point now);
+  void forget(stations::iterator i, const ending& why, time_point now);
   void drop_waiting(station_id station);
 
   void answer(std::vector<open_request> requests, time_point now);
@@ -222,7 +221,7 @@ private:
              time_point now);
 
   void end(station_record& station, messages::session_id session,
-           messages::end_reason reason, bool tell, time_point now);
+           const ending& why, bool tell, time_point now);
 
   const offered_service* find(const messages::service_name& service) const;
   policies::periodic_task task_of(const offered_service& service) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace sofof::offloading {
@@ -102,8 +103,9 @@ provider::question provider::question_of(const open_request& open,
     } else {
       // A station that asks again does not run it: its service_end was lost.
       if (const auto* session = station->second.find(name))
-        end(station->second, session->session, messages::end_reason::no_data,
-            true, now);
+        end(station->second, session->session,
+            {messages::end_reason::no_data, "the vehicle asks again"}, true,
+            now);
       all.verdicts.emplace_back();
       all.places.push_back(k);
       all.asked.push_back({.station = request.station,
@@ -156,8 +158,9 @@ provider::ask_policy(std::span<const policies::request_view> asked,
   for (auto k = asked.size(); k < std::min(decided.size(), most); ++k)
     if (const auto& session = running[k - asked.size()];
         !policies::terms_of(decided[k]))
-      end(stations_.at(session.station), session, messages::end_reason::revoked,
-          true, now);
+      end(stations_.at(session.station), session,
+          {messages::end_reason::revoked, std::string{decided[k].why}}, true,
+          now);
   if (decided.size() > asked.size())
     decided.resize(asked.size());
   assert(decided.size() <= asked.size());

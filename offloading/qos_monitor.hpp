@@ -18,8 +18,8 @@ constexpr bool in_time(time_point since, time_point received,
 }
 
 /// @param limit  Its name.
-/// @param value  More than `most`, or negative.
-/// @returns how an event tells that it was exceeded:
+/// @param value  At least `most`, or negative.
+/// @returns how an event tells that it was reached or exceeded:
 /// "latency value_ms=61.200000 limit_ms=50.000000".
 std::string in_words(std::string_view limit, duration value, duration most);
 

@@ -3,6 +3,7 @@
 #include "offloading/requester.hpp"
 
 #include "base/protocol.hpp"
+#include "offloading/qos_monitor.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -88,8 +89,11 @@ void requester::expire(const request_timeout& x, time_point now) {
 void requester::expire(const start_timeout& x, time_point now) {
   const auto found = find(x.session);
   if (found && found.session->at == phase::starting)
-    end(*found.service, x.session.provider, messages::end_reason::no_data, true,
-        now);
+    end(*found.service, x.session.provider,
+        {messages::end_reason::no_data,
+         in_words("no_data", now - found.session->accepted,
+                  protocol::start_timeout)},
+        true, now);
   assert(is_consistent());
 }
 
@@ -250,8 +254,8 @@ requester::decide(service_state& service,
     return {};
   const auto decision = ask_policy(service, providers, path, now);
   if (std::holds_alternative<policies::come_home>(decision.what)) {
-    leave(service, messages::end_reason::released, now,
-          [](provider_id) { return true; });
+    leave(service, {messages::end_reason::released, std::string{decision.why}},
+          now, [](provider_id) { return true; });
     return {};
   }
   const auto second = policies::second_of(decision);

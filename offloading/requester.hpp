@@ -5,6 +5,7 @@
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
+#include "offloading/ending.hpp"
 #include "offloading/peer.hpp"
 #include "offloading/service_state.hpp"
 #include "offloading/standby.hpp"
@@ -190,17 +191,17 @@ private:
   void complain(const messages::session_id& session, time_point now);
 
   std::vector<provider_id>
-  leave(service_state& service, messages::end_reason reason, time_point now,
+  leave(service_state& service, const ending& why, time_point now,
         const std::function<bool(provider_id)>& is_meant);
   void leave_unwanted(service_state& service, time_point now);
   void leave_beside(service_state& service, provider_id violator,
-                    time_point now);
-  void end(service_state& service, provider_id provider,
-           messages::end_reason reason, bool tell, time_point now);
+                    std::string_view why, time_point now);
+  void end(service_state& service, provider_id provider, const ending& why,
+           bool tell, time_point now);
   void learn_from(const service_state& service, const requester_session& ended,
                   messages::end_reason reason, time_point now);
   void log_end(service_state& service, const requester_session& ended,
-               messages::end_reason reason, time_point now);
+               const ending& why, time_point now);
   void send_end(const messages::service_end& end);
 
   void log_verdict(const service_state& service, provider_id provider,

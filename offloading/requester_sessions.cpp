@@ -3,6 +3,8 @@
 #include "offloading/qos_monitor.hpp"
 #include "offloading/requester.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -216,9 +218,9 @@ void requester::on_violation(const messages::qos_violation& violation,
         .missed = true,
         .energy_j = service.offloaded.energy_j});
   if (!violation.others_hold && found.session->at == phase::remote)
-    leave_beside(service, session.provider, now);
+    leave_beside(service, session.provider, violation.why, now);
   assert(service.find(session.provider));
-  end(service, session.provider, reason, true, now);
+  end(service, session.provider, {reason, violation.why}, true, now);
   assert(!service.find(session.provider));
   assert(is_consistent());
 }
@@ -227,7 +229,8 @@ void requester::on_end(const messages::service_end& e, time_point now) {
   pass(now);
   if (const auto found = find(e.session);
       found && e.from == messages::side::provider)
-    end(*found.service, e.session.provider, e.reason, false, now);
+    end(*found.service, e.session.provider, {e.reason, "told by the provider"},
+        false, now);
   assert(e.from != messages::side::provider || !find(e.session));
   assert(is_consistent());
 }
@@ -247,8 +250,7 @@ void requester::shut_down(time_point now) {
 // Ends a service at those of the providers that run it of which that is true.
 // @returns at which.
 std::vector<provider_id>
-requester::leave(service_state& service, messages::end_reason reason,
-                 time_point now,
+requester::leave(service_state& service, const ending& why, time_point now,
                  const std::function<bool(provider_id)>& is_meant) {
   assert(is_meant);
   std::vector<provider_id> left;
@@ -259,24 +261,32 @@ requester::leave(service_state& service, messages::end_reason reason,
     if (is_left(session))
       left.push_back(session.provider);
   for (const auto id : left)
-    end(service, id, reason, true, now);
+    end(service, id, why, true, now);
   assert(std::ranges::none_of(service.sessions, is_left));
   return left;
 }
 
 void requester::leave_unwanted(service_state& service, time_point now) {
-  const auto left = leave(service, messages::end_reason::handed_over, now,
-                          [&](provider_id id) { return !service.wants(id); });
+  const auto left =
+      leave(service,
+            {messages::end_reason::handed_over,
+             service.wanted.empty()
+                 ? std::string{}
+                 : fmt::format("to provider_id {}", service.wanted.front())},
+            now, [&](provider_id id) { return !service.wants(id); });
   if (!left.empty())
     service.since = now;
 }
 
 // Nothing usable has come from the others either; but it is one violation.
 void requester::leave_beside(service_state& service, provider_id violator,
-                             time_point now) {
+                             std::string_view why, time_point now) {
   assert(service.find(violator));
-  const auto left = leave(service, messages::end_reason::released, now,
-                          [&](provider_id id) { return id != violator; });
+  const auto left =
+      leave(service,
+            {messages::end_reason::released,
+             fmt::format("beside provider_id {}: {}", violator, why)},
+            now, [&](provider_id id) { return id != violator; });
   for (const auto id : left)
     service.cool_until[id] = now + protocol::cool_down;
 }
@@ -284,8 +294,9 @@ void requester::leave_beside(service_state& service, provider_id violator,
 // Closes a session, once. The selector goes on with the vehicle's own function,
 // unless another provider runs the service too.
 void requester::end(service_state& service, provider_id provider,
-                    messages::end_reason reason, bool tell, time_point now) {
+                    const ending& why, bool tell, time_point now) {
   assert(service.find(provider));
+  const auto reason = why.reason;
   const auto ended = *service.find(provider);
   assert(ended.at != phase::requested);
   assert(ended.session.provider == provider);
@@ -298,7 +309,7 @@ void requester::end(service_state& service, provider_id provider,
     e.what = service.service.own->termination_message(e, now, ego_.own);
     send_end(e);
   }
-  log_end(service, ended, reason, now);
+  log_end(service, ended, why, now);
   learn_from(service, ended, reason, now);
   std::erase_if(service.cool_until,
                 [now](const auto& other) { return other.second <= now; });
@@ -309,7 +320,7 @@ void requester::end(service_state& service, provider_id provider,
 }
 
 void requester::log_end(service_state& service, const requester_session& ended,
-                        messages::end_reason reason, time_point now) {
+                        const ending& why, time_point now) {
   assert(ended.accepted <= now);
   assert(!service.find(ended.provider));
   const auto was_remote = ended.at == phase::remote;
@@ -321,14 +332,15 @@ void requester::log_end(service_state& service, const requester_session& ended,
       .first_data = was_remote ? ended.first_data : ended.accepted,
       .got_data = was_remote,
       .ended = now,
-      .reason = reason,
-      .fallback = is_fallback(reason) && comes_home});
+      .reason = why.reason,
+      .fallback = is_fallback(why.reason) && comes_home,
+      .because = why.because});
   if (comes_home) {
     service.since = now;
     log_switch(ended.session, false, now);
   } else if (was_remote) {
-    log(messages::event_type::left, ended.session, messages::name_of(reason),
-        now);
+    log(messages::event_type::left, ended.session,
+        messages::name_of(why.reason), now);
     auto& other = *service.find(service.current().value());
     if (!ended.joined && std::exchange(other.joined, false))
       log_switch(other.session, true, now);

@@ -59,6 +59,8 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
 
 void service_cycle::on_input(const messages::service_input& input,
                              time_point now) {
+  if (input.at < newest_.at)
+    return; // overtaken on its way
   newest_ = input;
   if (waits_for_input())
     stop_timer();

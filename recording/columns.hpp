@@ -105,6 +105,7 @@ inline constexpr csv_column<episode_row> of_episodes[]{
      [](const auto& r) { return r.if_data(r.x.ended - r.x.first_data); }},
     {"reason", [](const auto& r) { return name_of(r.x.reason); }},
     {"fallback", [](const auto& r) { return r.x.fallback; }},
+    {"because", [](const auto& r) { return std::string_view{r.x.because}; }},
 };
 
 inline constexpr csv_column<cycle_row> of_cycles[]{

@@ -30,6 +30,8 @@ constexpr std::size_t least_column_width = 18;
 constexpr std::size_t column_gap = 2;
 constexpr std::size_t drive_label_width = 24;
 constexpr std::size_t drive_column_width = 14;
+constexpr std::size_t load_column_width = 13;
+constexpr std::size_t most_load_lines = 9;
 
 /// What a reader sees of an absent figure.
 constexpr auto absent = "-";
@@ -244,6 +246,55 @@ void lines_of(std::string& out, const terminal_style& paint, const whole_run& x,
   drive_lines(out, x, which, [](const run_figure&) { return std::string{}; });
 }
 
+/// @returns a line about servers, its figures in columns.
+std::string load_line(std::string_view label, std::string_view busy,
+                      std::string_view peak, std::string_view mean,
+                      std::string_view p99) {
+  constexpr auto width = load_column_width;
+  return fmt::format("{:<{}}{:>{}}{:>{}}{:>{}}{:>{}}", label,
+                     drive_label_width + 2, busy, width, peak, width, mean,
+                     width, p99, width);
+}
+
+/// How busy workers and cells were, those of the most work alone if there are
+/// many.
+void load_lines(std::string& out, const terminal_style& paint,
+                const load_table& table, duration length) {
+  if (table.servers.empty())
+    return;
+  std::vector<std::pair<const server_load*, load_summary>> all;
+  for (const auto& x : table.servers)
+    all.emplace_back(&x, summary_of(x.of, length));
+  const auto count = all.size();
+  if (count > most_load_lines) {
+    std::ranges::stable_sort(all, std::ranges::greater{},
+                             [](const auto& x) { return x.second.peak_share; });
+    all.resize(most_load_lines);
+  }
+  const auto percent = [](double x) {
+    return fmt::format("{:.1f} %", 100 * x);
+  };
+  const auto ms = [](std::optional<double> x) {
+    return x ? fmt::format("{:.2f} ms", *x) : std::string{absent};
+  };
+  out += '\n'
+         + paint.heading(
+             load_line("load", "busy", "peak", "wait mean", "wait p99"))
+         + '\n';
+  for (const auto& [of, sum] : all)
+    out += load_line(fmt::format("  {} {}", of->provider, of->what),
+                     percent(sum.busy_share), percent(sum.peak_share),
+                     ms(sum.mean_wait_ms), ms(sum.p99_wait_ms))
+           + '\n';
+  if (count > all.size())
+    out += fmt::format("  {} more, with less to do: load.csv\n",
+                       count - all.size());
+  auto warnings = warnings_of(table, length);
+  warnings.resize(std::min(warnings.size(), most_load_lines));
+  for (const auto& warning : warnings)
+    out += "  " + paint.bad(warning) + '\n';
+}
+
 std::uint64_t messages_of(const air_metrics& air) {
   return air.cam.messages + air.cpm.messages + air.mcm_up.messages
          + air.mcm_down.messages;
@@ -314,6 +365,7 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
       lines_of(out, paint, whole, "energy of planning in the vehicles",
                console_block::energy);
   }
+  load_lines(out, paint, m.load(), from_seconds(end.virtual_s));
   air_lines(out, paint, m.air());
   if (folder.empty())
     return out;

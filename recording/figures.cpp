@@ -21,6 +21,7 @@ constexpr int wall_places = 3;
 constexpr double as_percent = 100;
 constexpr double ms_per_s = 1000;
 constexpr double km_per_m = 1e-3;
+constexpr double mb_per_octet = 1e-6;
 
 template <class T>
 std::optional<T> only_if(bool known, T x) {
@@ -39,6 +40,12 @@ std::optional<double> if_planned(const whole_run& x, double value) {
 
 std::optional<double> if_costed(const whole_run& x, double value) {
   return only_if(x.of.cycles().all_on_board_j > 0, value);
+}
+
+// Only modelled cells count what they carry.
+std::optional<double> if_sent(const service_in_run& x, std::uint64_t octets) {
+  return only_if(x.of.octets_up + x.of.octets_down > 0,
+                 static_cast<double>(octets));
 }
 
 std::optional<double> energy_per_km(const whole_run& x) {
@@ -185,6 +192,16 @@ constexpr service_figure of_service[]{
      [](const auto& x) { return x.of.input_age.ms().max(); },
      {report_table::service, 166, "age of the input, largest, ms", 2},
      {console_block::results, 66, "  max", 2, "ms"}},
+    {"octets.up",
+     0,
+     [](const auto& x) { return if_sent(x, x.of.octets_up); },
+     {report_table::service, 192, "sent up, MB", 3, mb_per_octet},
+     {console_block::results, 92, "sent up", 3, "MB", mb_per_octet}},
+    {"octets.down",
+     0,
+     [](const auto& x) { return if_sent(x, x.of.octets_down); },
+     {report_table::service, 194, "sent down, MB", 3, mb_per_octet},
+     {console_block::results, 94, "sent down", 3, "MB", mb_per_octet}},
     {"interarrival_ms.count", 0,
      [](const auto& x) { return x.of.interarrival.ms().count(); }},
     {"interarrival_ms.mean",

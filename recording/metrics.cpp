@@ -211,6 +211,18 @@ void metrics::add(const messages::plan_switch_record& x) {
   switches_.accel_mps2.add(x.jump.accel_mps2);
 }
 
+void metrics::add(load_table of_all) {
+  for (const auto& cell : of_all.cells)
+    for (const auto& line : cell.lines) {
+      const auto service = std::ranges::find(
+          services_, line.what, [](const auto& x) { return x.service.view(); });
+      if (service != services_.end())
+        (cell.direction == "up" ? service->octets_up : service->octets_down) +=
+            line.sent.octets;
+    }
+  load_ = std::move(of_all);
+}
+
 void metrics::finish(time_point end) {
   for (const auto& [who, episode] : open_) {
     auto& service = of(who.first);

@@ -3,6 +3,7 @@
 
 #include "base/statistics.hpp"
 #include "messages/protocol/record.hpp"
+#include "recording/load_table.hpp"
 #include "recording/run_info.hpp"
 
 #include <array>
@@ -63,6 +64,10 @@ struct service_metrics {
   distribution latency;           ///< t_receiving − t_creation.
   distribution input_age;         ///< t_receiving − that of the input.
   distribution interarrival;      ///< Between two results of an episode.
+
+  // Given to the modelled cells of all providers; on the air.
+  std::uint64_t octets_up = 0;
+  std::uint64_t octets_down = 0;
 
   /// @returns the share of driving time that was offloaded, all episodes of
   /// all vehicles together; nullopt for no vehicle or no time.
@@ -154,6 +159,9 @@ public:
 
   void on_record(const messages::record& x);
 
+  /// What providers and their cells had to do; once, before the end.
+  void add(load_table of_all);
+
   /// The run ends: what is still offloaded counts up to here.
   void finish(time_point end);
 
@@ -174,6 +182,7 @@ public:
   cycle_figures cycles(station_id station) const;
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
+  const load_table& load() const { return load_; }
   /// @returns the vehicles whose headline service is remote just now.
   std::size_t offloaded_now() const;
 
@@ -225,6 +234,7 @@ private:
   std::map<station_id, drive_metrics> vehicles_;
   switch_metrics switches_;
   air_metrics air_;
+  load_table load_;
 };
 
 } // namespace sofof::recording

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace sofof::recording {
 
@@ -34,6 +35,9 @@ public:
 
   /// Who computed how much, for cpu.csv.
   void add_cpu(const cpu_table& x);
+
+  /// What providers and cells had to do, for load.csv and octets.csv.
+  void add_load(load_table x) { metrics_.add(std::move(x)); }
 
   const metrics& so_far() const { return metrics_; }
 

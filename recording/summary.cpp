@@ -20,6 +20,7 @@ namespace sofof::recording {
 namespace {
 
 constexpr int places_of_margin = 4;
+constexpr int places_of_load = 6;
 
 /// Writes a figure as what it is.
 class member_writer {
@@ -96,6 +97,28 @@ void margins_of(json_object& to, const std::map<std::string, double>& least) {
     object.member(name, rounded(left, places_of_margin));
 }
 
+/// How busy workers and cells were.
+void loads(json_object& to, const load_table& table, duration length) {
+  auto all = to.object("load");
+  for (auto x = table.servers.begin(); x != table.servers.end();) {
+    auto of = all.object(x->provider);
+    for (const auto name = x->provider;
+         x != table.servers.end() && x->provider == name; ++x) {
+      const auto sum = summary_of(x->of, length);
+      auto what = of.object(x->what);
+      what.member("jobs", sum.jobs);
+      what.member("busy_share", rounded(sum.busy_share, places_of_load));
+      what.member("asked_share", rounded(sum.asked_share, places_of_load));
+      what.member("peak_share", rounded(sum.peak_share, places_of_load));
+      what.member("full_s", sum.full_s);
+      auto wait = what.object("wait_ms");
+      wait.member("mean", rounded(sum.mean_wait_ms, places_of_load));
+      wait.member("p99", rounded(sum.p99_wait_ms, places_of_load));
+      wait.member("max", rounded(sum.max_wait_ms, places_of_load));
+    }
+  }
+}
+
 /// The provider's view.
 void served(json_object& to, const service_in_run& x) {
   constexpr std::string_view path = "served.";
@@ -135,6 +158,7 @@ std::string summary_json(const metrics& m, const run_info& run,
         served(object, x);
       }
     }
+    loads(top, m.load(), from_seconds(end.virtual_s));
     write(top, clock_figures(), whole);
   }
   text += '\n';

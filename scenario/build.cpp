@@ -6,6 +6,7 @@
 #include "actors/remote/provider_connection.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
+#include "actors/runtime/time.hpp"
 #include "actors/services/service_client.hpp"
 #include "actors/simulation/crash_injector.hpp"
 #include "actors/simulation/network_link.hpp"
@@ -45,10 +46,10 @@ struct provider_cell {
 
   bool may_die() const { return options->fails_at.has_value(); }
 
-  std::shared_ptr<channel::shared_server_queue> cell_up =
-      std::make_shared<channel::shared_server_queue>(1);
-  std::shared_ptr<channel::shared_server_queue> cell_down =
-      std::make_shared<channel::shared_server_queue>(1);
+  std::shared_ptr<channel::shared_server_queue> cell_up;
+  std::shared_ptr<channel::shared_server_queue> cell_down;
+  std::shared_ptr<channel::octet_ledger> octets_up;
+  std::shared_ptr<channel::octet_ledger> octets_down;
 };
 
 /// A plan is fresh up to the longest time between two usable ones.
@@ -92,12 +93,13 @@ actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
                         station_id station, const provider_cell& at) {
   const channel::channel_draws draws{at.channel, noise_of(s, "network"),
                                      station, at.place, at.options->radio};
-  return {actors::spawn_network_link(
-              sys, at.provider,
-              {{draws, channel::direction::up, at.cell_up},
-               {draws, channel::direction::down, at.cell_down},
-               std::nullopt}),
-          at.options->position_m, at.options->range_m};
+  return {
+      actors::spawn_network_link(
+          sys, at.provider,
+          {{{draws, channel::direction::up, at.cell_up}, at.octets_up},
+           {{draws, channel::direction::down, at.cell_down}, at.octets_down},
+           std::nullopt}),
+      at.options->position_m, at.options->range_m};
 }
 
 // Real delays take the place of modelled ones.
@@ -109,6 +111,20 @@ actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
   actors::introduce(outbox, station, far);
   const auto& at = s.providers[to.place];
   return {std::move(far), at.position_m, at.range_m};
+}
+
+provider_load measured(const provider_options& provider, std::int64_t workers,
+                       time_point start) {
+  const auto meter = [start](std::int64_t servers) {
+    return std::make_shared<channel::load_meter>(static_cast<unsigned>(servers),
+                                                 start);
+  };
+  return {provider.name,
+          meter(workers),
+          meter(1),
+          meter(1),
+          std::make_shared<channel::octet_ledger>(),
+          std::make_shared<channel::octet_ledger>()};
 }
 
 /// Actors that must live as long as the run, and what they are called.
@@ -179,6 +195,8 @@ private:
 
   void add_provider(std::uint32_t number) {
     const auto& options = s_.providers[number];
+    world_.loads.push_back(
+        measured(options, s_.compute_of(number).workers, actors::now(sys_)));
     start(number, here_.start, s_.channel_to(number));
     if (options.fails_at)
       world_.crash_injectors.push_back(actors::spawn_crash_injector(
@@ -196,8 +214,13 @@ private:
 
   void start(std::uint32_t number, std::uint64_t at,
              std::shared_ptr<const channel::channel_profile> channel) {
+    const auto& load = world_.loads.back();
+    const auto cell = [](const std::shared_ptr<channel::load_meter>& meter) {
+      return std::make_shared<channel::shared_server_queue>(1, meter);
+    };
     cells_.push_back({number, spawn_provider(number, at), &s_.providers[number],
-                      std::move(channel)});
+                      std::move(channel), cell(load.cell_up),
+                      cell(load.cell_down), load.octets_up, load.octets_down});
     world_.providers.push_back(cells_.back().provider);
   }
 
@@ -216,6 +239,7 @@ private:
     setup.codm = s_.policies.codm->clone();
     setup.recorder = world_.recorder;
     setup.compute = s_.compute_of(number);
+    setup.load = world_.loads.back().workers;
     setup.seed = noise_of(s_, "network");
     setup.number = number;
     setup.virtual_time = virtual_time_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "actors/remote/provider_proxy.hpp"
+#include "channel/load_meter.hpp"
+#include "channel/octet_ledger.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 #include "scenario/runtime.hpp"
@@ -36,6 +38,14 @@ struct process_share {
   bool serves_others = false;
 };
 
+/// What is measured of a provider and of the radio cell round it. One that has
+/// started again goes on with the same.
+struct provider_load {
+  std::string name;
+  std::shared_ptr<channel::load_meter> workers, cell_up, cell_down;
+  std::shared_ptr<channel::octet_ledger> octets_up, octets_down;
+};
+
 /// Everything that lives in a run, in the order in which it was spawned.
 struct world_actors {
   messages::recorder_actor recorder;
@@ -46,7 +56,8 @@ struct world_actors {
   std::vector<messages::vehicle_actor> vehicles;
   std::vector<caf::actor> crash_injectors;
   caf::actor supervisor;
-  bool has_peers = false; ///< On other hosts.
+  bool has_peers = false;           ///< On other hosts.
+  std::vector<provider_load> loads; ///< Of the providers that live here.
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the

@@ -6,6 +6,7 @@
 #include "base/stopwatch.hpp"
 #include "recording/console_summary.hpp"
 #include "recording/cpu_table.hpp"
+#include "recording/load_table.hpp"
 #include "recording/locked_results.hpp"
 #include "recording/pcap_file.hpp"
 #include "recording/results_folder.hpp"
@@ -223,7 +224,31 @@ struct played {
   time_point ended;
   std::optional<recording::cpu_table> computed;
   std::vector<std::pair<std::string, double>> decisions; ///< For timing.csv.
+  recording::load_table load;
 };
+
+/// What was measured of providers, as far as they had anything to do.
+recording::load_table table_of(const std::vector<provider_load>& loads,
+                               time_point end) {
+  recording::load_table all;
+  for (const auto& x : loads) {
+    const auto add = [&](std::string_view what, const auto& meter) {
+      if (auto read = meter->read();
+          read.between(duration{0}, duration::max()).asked > duration{0})
+        all.servers.push_back({x.name, what, std::move(read)});
+    };
+    add("workers", x.workers);
+    add("uplink", x.cell_up);
+    add("downlink", x.cell_down);
+    const auto count = [&](std::string_view direction, const auto& octets) {
+      if (auto lines = octets->read(end); !lines.empty())
+        all.cells.push_back({x.name, direction, std::move(lines)});
+    };
+    count("up", x.octets_up);
+    count("down", x.octets_down);
+  }
+  return all;
+}
 
 /// From the first actor to the last.
 /// @param on_start  Called once all are there; a run that it refuses has not
@@ -265,6 +290,7 @@ played play(const scenario_definition& s, const process_share& here,
     throw;
   }
   dismiss(actors, time);
+  run.load = table_of(actors.loads, run.ended);
   if (deciding)
     run.decisions = deciding->figures();
   return run;
@@ -277,6 +303,7 @@ run_outcome finish(const played& run, const recording::run_info& info,
   const auto last = on.keeper.with([&](recording::results& r) {
     if (run.computed)
       r.add_cpu(*run.computed);
+    r.add_load(run.load);
     for (const auto& [name, value] : run.decisions)
       r.add_timing(name, value);
     return r.finish(run.ended, on.watch.elapsed_s(), is_cut);

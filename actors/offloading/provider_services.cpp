@@ -18,9 +18,9 @@ constexpr double doubts_at_once = 50;
 
 provider_services::provider_services(const provider_actor_setup& setup,
                                      std::function<time_point()> clock)
-    : id_{setup.id}, compute_{setup.compute},
+    : id_{setup.id}, compute_{setup.compute}, load_{setup.load},
       workers_{std::make_shared<channel::shared_server_queue>(
-          static_cast<unsigned>(compute_.workers))},
+          static_cast<unsigned>(compute_.workers), load_)},
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
@@ -45,8 +45,10 @@ std::function<offloading::cycle_work(time_point, std::uint64_t)>
 provider_services::computing_time(const offloading::service_options& options,
                                   station_id station) const {
   if (!virtual_time_)
-    return [clock = clock_](time_point start, std::uint64_t) {
+    return [clock = clock_, load = load_](time_point start, std::uint64_t) {
       const auto done = std::max(clock(), start);
+      if (load)
+        load->add(start, duration{0}, done - start);
       return offloading::cycle_work{done, done - start};
     };
   return [draws = channel::result_draws(seed_, station, number_),

@@ -55,6 +55,7 @@ private:
   std::vector<offloading::offered_service> services_;
   std::vector<broadcast_listener*> listeners_; // of some of them
   channel::provider_compute compute_;
+  std::shared_ptr<channel::load_meter> load_;
   std::shared_ptr<channel::shared_server_queue> workers_;
   random_stream seed_;
   std::uint32_t number_;

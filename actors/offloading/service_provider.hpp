@@ -2,6 +2,7 @@
 #pragma once
 
 #include "channel/channel_draws.hpp"
+#include "channel/load_meter.hpp"
 #include "channel/provider_compute.hpp"
 #include "messages/type_ids.hpp"
 #include "messages/v2x/decode_broadcast.hpp"
@@ -29,6 +30,7 @@ struct provider_actor_setup {
   std::unique_ptr<policies::central_policy> codm;
   messages::recorder_actor recorder;
   channel::provider_compute compute;
+  std::shared_ptr<channel::load_meter> load; ///< Of its workers; may be null.
   random_stream seed{0, ""};
   std::uint32_t number = 0; ///< Of the provider, for its draws.
   bool virtual_time = true; ///< Model computing times.

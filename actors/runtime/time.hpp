@@ -5,6 +5,7 @@
 #include "base/time.hpp"
 
 #include <caf/actor_clock.hpp>
+#include <caf/actor_system.hpp>
 
 #include <functional>
 #include <utility>
@@ -15,6 +16,11 @@ namespace sofof::actors {
 template <class Self>
 time_point now(const Self* self) {
   return time_point{self->clock().now().time_since_epoch()};
+}
+
+/// @returns the time of the run that all actors of a system live in.
+inline time_point now(caf::actor_system& sys) {
+  return time_point{sys.clock().now().time_since_epoch()};
 }
 
 /// @returns the same as a function, for those that are no actors. It must not

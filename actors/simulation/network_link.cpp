@@ -2,8 +2,7 @@
 #include "actors/simulation/network_link.hpp"
 
 #include "actors/runtime/time.hpp"
-#include "messages/protocol/octets.hpp"
-#include "messages/v2x/geonet.hpp"
+#include "actors/simulation/on_air.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
@@ -16,20 +15,6 @@
 namespace sofof::actors {
 
 namespace {
-
-/// What a message takes on the air: an ITS message with what the layers below
-/// add to it, anything else as our own protocol has it.
-std::size_t octets_on_air(const messages::its_pdu& message) {
-  return message.octets.size() + messages::geonet_octets;
-}
-
-template <class Message>
-std::size_t octets_on_air(const Message& message) {
-  if constexpr (requires { message.what.type(); })
-    if (const auto pdu = message.what.template as<messages::its_pdu>())
-      return octets_on_air(*pdu);
-  return messages::octets_of(message);
-}
 
 // @returns the message as it arrives after that way.
 template <class Message>
@@ -82,22 +67,25 @@ struct link_state {
   }
 
   template <class Receiver, class Message, class... Ts>
-  void carry(channel::link_direction& direction, channel::message_class kind,
-             std::uint64_t number, const Receiver& receiver,
-             const Message& message, Ts&&... xs) {
-    const auto through =
-        direction.carry(now(self), kind, number, octets_on_air(message));
-    if (!through)
+  void carry(link_way& on, channel::message_class kind, std::uint64_t number,
+             const Receiver& receiver, const Message& message, Ts&&... xs) {
+    const auto sent = now(self);
+    const auto octets = octets_on_air(message);
+    const auto through = on.air.carry(sent, kind, number, octets);
+    const auto fate = through && setup->faults ? setup->faults->of(carried++)
+                                               : channel::link_faults::fate{};
+    if (!through || fate.lost) {
+      if (on.octets)
+        on.octets->lose(purpose_of(message), octets);
       return;
+    }
     const auto deliver = [&](time_point arrives) {
+      if (on.octets)
+        on.octets->send(purpose_of(message), octets, sent, arrives);
       const auto wait = through->wait;
       send_at(self, receiver, arrives,
-              after(message, {wait, arrives - now(self) - wait}), xs...);
+              after(message, {wait, arrives - sent - wait}), xs...);
     };
-    const auto fate = setup->faults ? setup->faults->of(carried++)
-                                    : channel::link_faults::fate{};
-    if (fate.lost)
-      return;
     deliver(through->arrives + fate.extra_delay);
     if (fate.copy_after)
       deliver(through->arrives + *fate.copy_after);
@@ -154,8 +142,8 @@ link(messages::link_actor::stateful_pointer<link_state> self,
   state.self = self;
   state.far = std::move(far);
   state.setup.emplace(std::move(setup));
-  state.setup->up.begin(now(self));
-  state.setup->down.begin(now(self));
+  state.setup->up.air.begin(now(self));
+  state.setup->down.air.begin(now(self));
   self->monitor(state.far);
   self->set_down_handler([self](const caf::down_msg& down) {
     self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);

@@ -3,6 +3,7 @@
 
 #include "channel/link_direction.hpp"
 #include "channel/link_faults.hpp"
+#include "channel/octet_ledger.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
@@ -12,10 +13,17 @@
 
 namespace sofof::actors {
 
+/// One direction of a link.
+struct link_way {
+  channel::link_direction air;
+  /// Counts all that is sent, if there is one.
+  std::shared_ptr<channel::octet_ledger> octets = nullptr;
+};
+
 /// How a link carries what it is given.
 struct link_setup {
-  channel::link_direction up;
-  channel::link_direction down;
+  link_way up;
+  link_way down;
   std::optional<channel::link_faults> faults; ///< For tests.
 };
 

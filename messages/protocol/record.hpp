@@ -73,6 +73,7 @@ struct episode_record {
   time_point ended;
   end_reason reason = end_reason::shutdown;
   bool fallback = false; ///< Requester: the local service had to jump in.
+  std::string because{}; ///< A value and its limit, or who wanted it.
 };
 
 /// Where a vehicle is, and how old the plan is that it follows.

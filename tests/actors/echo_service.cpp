@@ -69,8 +69,8 @@ struct echo_world : virtual_world {
     const channel_draws draws{profile(), random_stream{1, "network"}, station,
                               0};
     return spawn_network_link(system(), provider,
-                              {{draws, direction::up, nullptr},
-                               {draws, direction::down, nullptr},
+                              {{{draws, direction::up, nullptr}},
+                               {{draws, direction::down, nullptr}},
                                {}});
   }
   onboard_requester_actor spawn_requester() {

@@ -1,6 +1,7 @@
 // Tests of the network link: it looks like the far end, later or never.
 #include "actors/simulation/network_link.hpp"
 
+#include "messages/protocol/octets.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -26,6 +27,8 @@ struct linked_world : virtual_world {
   probe<requester_actor> near = listen<requester_actor>();
   probe<provider_manager_actor> first = listen<provider_manager_actor>();
   probe<provider_manager_actor> second = listen<provider_manager_actor>();
+  std::shared_ptr<octet_ledger> octets_up = std::make_shared<octet_ledger>();
+  std::shared_ptr<octet_ledger> octets_down = std::make_shared<octet_ledger>();
   link_actor link = join({});
 
   static channel_profile steady() {
@@ -47,8 +50,9 @@ struct linked_world : virtual_world {
     const random_stream seed{1, "network"};
     const channel_draws draws{std::make_shared<const channel_profile>(profile),
                               seed, 101, 0};
-    link_setup setup{
-        {draws, direction::up, cell}, {draws, direction::down, cell}, {}};
+    link_setup setup{{{draws, direction::up, cell}, octets_up},
+                     {{draws, direction::down, cell}, octets_down},
+                     {}};
     if (faults)
       setup.faults.emplace(seed.part("faults"), *faults);
     return own(spawn_network_link(system(), far.handle, std::move(setup)));
@@ -253,12 +257,15 @@ TEST_CASE_FIXTURE(linked_world, "an ITS message is in the air for as long as "
     tell(link, message, near.handle);
     run_for(1s);
     CHECK(far->times<its_pdu>().back() == sent + 20ms + 8us * (n + 44));
-    // As a result of a service it takes as long.
+    // A result of a service that it is a part of takes as much longer as the
+    // rest of it is.
     const auto again = now();
-    tell(link, service_result{one, n, again, payload::of(message)});
+    const service_result result{one, n, again, payload::of(message)};
+    const auto octets = octets_of(result) + 44;
+    CHECK(octets > n + 44);
+    tell(link, result);
     run_for(1s);
-    CHECK(near->times<service_result>().back()
-          == again + 20ms + 8us * (n + 44));
+    CHECK(near->times<service_result>().back() == again + 20ms + 8us * octets);
   }
 }
 
@@ -298,6 +305,49 @@ TEST_CASE_FIXTURE(linked_world, "who shares a cell waits for the other's "
   run_for(1s);
   CHECK(far->times<its_pdu>()
         == std::vector{sent + 20ms + 8ms, sent + 20ms + 8ms + 800us});
+}
+
+TEST_CASE_FIXTURE(linked_world, "all that is sent is counted by what it is "
+                                "for, until it arrives or is lost") {
+  meet();
+  accept();
+  link = join(link_fault_options{0.3, 0.2, 0, 300ms});
+  say_cam();
+  tell(link, service_response{11, 101, 3, {{one, true, ""}, {two, true, ""}}},
+       std::vector{first.handle, second.handle});
+  run_for(1s);
+  far->clear();
+  near->clear();
+  first->clear();
+  std::size_t octets = 0;
+  for (std::uint64_t k = 1; k <= 100; ++k) {
+    const service_result result{one, k, now(), payload::of(echo{k})};
+    octets = octets_of(result);
+    tell(link, result);
+    tell(link, service_input{one, now(), payload::of(echo{k})});
+    say_cam();
+    run_for(10ms);
+  }
+  const auto line = [&](octet_ledger& ledger, std::string_view what) {
+    for (const auto& x : ledger.read(now()))
+      if (x.what == what)
+        return x;
+    return octet_line{};
+  };
+  const auto down = line(*octets_down, "one");
+  CHECK(down.sent.octets == down.sent.messages * octets);
+  CHECK(down.sent.messages > 100); // some twice
+  CHECK(down.lost.messages > 0);
+  CHECK(down.under_way.messages > 0);
+  CHECK(down.delivered.messages == near->count<service_result>());
+  CHECK(line(*octets_up, "one").delivered.messages
+        == first->count<service_input>());
+  CHECK(line(*octets_up, "CAM").delivered.messages > 0);
+  run_for(1s);
+  const auto later = line(*octets_down, "one");
+  CHECK(later.under_way.messages == 0);
+  CHECK(later.delivered.messages == near->count<service_result>());
+  CHECK(later.sent.octets == later.delivered.octets + later.lost.octets);
 }
 
 TEST_CASE_FIXTURE(linked_world, "the link does not outlive the provider") {

@@ -115,8 +115,8 @@ TEST_CASE("one sentence tells what is wrong with a results folder, and where") {
   };
   const std::array all{
       spoilt{"episodes.csv",
-             "left_area,0\n",
-             "left_area,0",
+             "left_area,0,\n",
+             "left_area,0,",
              "episodes.csv:2: ",
              {"23 fields", "12 columns"}},
       spoilt{"episodes.csv",

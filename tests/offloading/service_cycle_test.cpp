@@ -201,3 +201,18 @@ TEST_CASE_FIXTURE(per_input_world, "with one result per input, inputs beyond "
   CHECK(results.size() >= 20);
   CHECK(results.size() <= 22);
 }
+
+TEST_CASE_FIXTURE(cycle_world, "an input that a newer one has overtaken on its "
+                               "way is not used") {
+  const service_input older{{1, 101, "echo", 7}, now, payload::of(echo{1})};
+  now += 10ms;
+  feed(2);
+  activate();
+  cycle.on_input(older, now);
+  run_for(100ms);
+  REQUIRE(results.size() >= 2);
+  for (const auto& [done, result] : results) {
+    CHECK(result.what.as<echo>()->number == 2);
+    CHECK(result.timing.input_at == older.at + 10ms);
+  }
+}

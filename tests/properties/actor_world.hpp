@@ -147,8 +147,8 @@ struct actor_world : virtual_world {
                                        static_cast<std::uint32_t>(k)};
     links.push_back(actors::spawn_network_link(
         system(), providers.back(),
-        {{draws, channel::direction::up, nullptr},
-         {draws, channel::direction::down, nullptr},
+        {{{draws, channel::direction::up, nullptr}},
+         {{draws, channel::direction::down, nullptr}},
          channel::link_faults{
              random_stream{seed, "faults"}.part(providers.size()), faults}}));
   }

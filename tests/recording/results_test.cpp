@@ -251,16 +251,16 @@ TEST_CASE("each closed side is a line in episodes.csv") {
   REQUIRE(all.size() == 5);
   CHECK(all[0]
         == "side,station,provider,provider_id,service,counter,accepted_s,"
-           "first_data_s,ended_s,t_off_s,reason,fallback");
+           "first_data_s,ended_s,t_off_s,reason,fallback,because");
   CHECK(all[1]
         == "requester,101,mec,18000000000000000000,trajectory_planning,1,"
-           "9.900000000,10.000000000,30.000000000,20.000000000,left_area,0");
+           "9.900000000,10.000000000,30.000000000,20.000000000,left_area,0,");
   CHECK(all[2]
         == "provider,101,mec,18000000000000000000,trajectory_planning,1,"
-           "9.000000000,,30.000000000,,left_area,0");
+           "9.000000000,,30.000000000,,left_area,0,x_m=1 y_m=2");
   CHECK(all[4]
         == "requester,102,mec,18000000000000000000,trajectory_planning,3,"
-           "40.000000000,,41.000000000,,no_data,0");
+           "40.000000000,,41.000000000,,no_data,0,");
 }
 
 TEST_CASE("tracks have millimetres, and zero has no sign") {

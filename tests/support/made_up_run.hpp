@@ -116,7 +116,7 @@ void play(Sink& to) {
       episode(running(101, 1), 10s, 30s, messages::end_reason::left_area));
   to.on_record(messages::episode_record{
       running(101, 1), messages::side::provider, at(9s), at(9s), true, at(30s),
-      messages::end_reason::left_area, false});
+      messages::end_reason::left_area, false, "x_m=1 y_m=2"});
 
   to.on_record(switched(running(101, 2), true, 60s));
   to.on_record(result(running(101, 2), 1200, 60s, 12'345'678ns, std::nullopt));

@@ -1,0 +1,57 @@
+// What a message takes on the air, and what it is for.
+#pragma once
+
+#include "messages/etsi/cam.hpp"
+#include "messages/etsi/mcm.hpp"
+#include "messages/protocol/its_pdu.hpp"
+#include "messages/protocol/octets.hpp"
+#include "messages/protocol/service.hpp"
+#include "messages/v2x/geonet.hpp"
+
+#include <cstddef>
+#include <string_view>
+
+namespace sofof::actors {
+
+/// @returns an ITS message with what the layers below add to it.
+inline std::size_t octets_on_air(const messages::its_pdu& message) {
+  return message.octets.size() + messages::geonet_octets;
+}
+
+/// @returns anything else as our own protocol has it, and what the layers
+/// below add to an ITS message that is a part of it.
+template <class Message>
+std::size_t octets_on_air(const Message& message) {
+  auto octets = messages::octets_of(message);
+  if constexpr (requires { message.what.type(); })
+    if (message.what.template as<messages::its_pdu>())
+      octets += messages::geonet_octets;
+  return octets;
+}
+
+/// @returns the kind of an ITS message.
+inline std::string_view purpose_of(const messages::its_pdu& message) {
+  constexpr std::size_t id = 1; // the octet of the message's id
+  if (message.octets.size() <= id)
+    return "other";
+  switch (std::to_integer<unsigned>(message.octets[id])) {
+    case messages::etsi::cam::message_id:
+      return "CAM";
+    case messages::etsi::mcm::message_id:
+      return "MCM";
+    default:
+      return "CPM";
+  }
+}
+
+/// @returns the service that a message is for; of those that agree on several,
+/// the protocol.
+template <class Message>
+std::string_view purpose_of(const Message& message) {
+  if constexpr (requires { message.session.service; })
+    return message.session.service.view();
+  else
+    return "protocol";
+}
+
+} // namespace sofof::actors

@@ -1,0 +1,58 @@
+// How much servers were asked for over time, and how long jobs waited.
+#pragma once
+
+#include "base/statistics.hpp"
+#include "base/time.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace sofof::channel {
+
+/// What was asked of some equal servers.
+struct load_figures {
+  /// A part of the time.
+  struct bin {
+    std::uint64_t jobs = 0; ///< That arrived in it.
+    duration asked{};       ///< Servers' time that these need.
+    duration waited{};      ///< By these, until a server took them.
+    duration busy{};        ///< Servers' time that was used in this bin.
+
+    bin& operator+=(const bin& other);
+  };
+  static constexpr duration width = std::chrono::milliseconds{100};
+
+  unsigned servers = 1;
+  std::vector<bin> bins; ///< From the start, as far as there was work.
+  distribution waits;    ///< Of all jobs.
+
+  /// @returns the sum of the bins that begin in [from, to), since the start.
+  bin between(duration from, duration to) const;
+};
+
+/// Adds up the jobs of some equal servers: workers, or the airtime of a radio
+/// cell. Safe to share between threads.
+class load_meter {
+public:
+  /// @param servers  At least 1.
+  /// @param start    Bin 0 begins then.
+  load_meter(unsigned servers, time_point start);
+
+  /// A job arrives; one from before the start counts from there.
+  /// @param wait  Until a server takes it, >= 0.
+  /// @param work  What it takes there, >= 0.
+  void add(time_point arrives, duration wait, duration work);
+
+  load_figures read() const;
+
+private:
+  load_figures::bin& at(time_point t);
+
+  time_point start_;
+  mutable std::mutex mutex_;
+  load_figures all_;
+};
+
+} // namespace sofof::channel

@@ -1,0 +1,137 @@
+// Load, second by second.
+#include "recording/load_table.hpp"
+
+#include "base/text/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace sofof::recording {
+
+namespace {
+
+using bin = channel::load_figures::bin;
+
+constexpr duration one_second = std::chrono::seconds{1};
+constexpr duration peak_length = std::chrono::milliseconds{500};
+constexpr int places_of_share = 6;
+
+double share(duration used, unsigned servers, duration of) {
+  const auto all_s = to_seconds(of) * servers;
+  return all_s > 0 ? to_seconds(used) / all_s : 0;
+}
+
+struct load_row {
+  const server_load& x;
+  std::uint64_t second;
+  bin in;
+  duration length; ///< Of this second.
+};
+
+constexpr csv_column<load_row> of_load[]{
+    {"t_s", [](const auto& r) { return r.second; }},
+    {"provider", [](const auto& r) { return std::string_view{r.x.provider}; }},
+    {"what", [](const auto& r) { return r.x.what; }},
+    {"jobs", [](const auto& r) { return r.in.jobs; }},
+    {"asked_share",
+     [](const auto& r) {
+       return rounded(share(r.in.asked, r.x.of.servers, r.length),
+                      places_of_share);
+     }},
+    {"busy_share",
+     [](const auto& r) {
+       return rounded(share(r.in.busy, r.x.of.servers, r.length),
+                      places_of_share);
+     }},
+    {"mean_wait_ms",
+     [](const auto& r) {
+       return r.in.jobs == 0
+                  ? decimal{}
+                  : milliseconds(r.in.waited
+                                 / static_cast<duration::rep>(r.in.jobs));
+     }},
+};
+
+struct octet_row {
+  const cell_octets& cell;
+  const channel::octet_line& x;
+};
+
+constexpr csv_column<octet_row> of_octets[]{
+    {"provider",
+     [](const auto& r) { return std::string_view{r.cell.provider}; }},
+    {"direction", [](const auto& r) { return r.cell.direction; }},
+    {"what", [](const auto& r) { return std::string_view{r.x.what}; }},
+    {"messages", [](const auto& r) { return r.x.sent.messages; }},
+    {"sent", [](const auto& r) { return r.x.sent.octets; }},
+    {"delivered", [](const auto& r) { return r.x.delivered.octets; }},
+    {"lost", [](const auto& r) { return r.x.lost.octets; }},
+    {"under_way", [](const auto& r) { return r.x.under_way.octets; }},
+};
+
+template <class Row>
+void append_line(std::string& out, csv_columns<Row> columns, const Row& row) {
+  append_fields(out, columns, row);
+  out += '\n';
+}
+
+} // namespace
+
+load_summary summary_of(const channel::load_figures& x, duration length) {
+  const auto all = x.between(duration{0}, length);
+  load_summary sum{.jobs = all.jobs,
+                   .busy_share = share(all.busy, x.servers, length),
+                   .asked_share = share(all.asked, x.servers, length),
+                   .mean_wait_ms = x.waits.ms().mean(),
+                   .p99_wait_ms = x.waits.quantile_ms(0.99),
+                   .max_wait_ms = x.waits.ms().max()};
+  const auto asked_from = [&x](duration t, duration of) {
+    return share(x.between(t, t + of).asked, x.servers, of);
+  };
+  for (duration t{}; t + peak_length <= length; t += x.width)
+    sum.peak_share = std::max(sum.peak_share, asked_from(t, peak_length));
+  for (duration t{}; t + one_second <= length; t += one_second)
+    sum.full_s += asked_from(t, one_second) > full_share ? 1U : 0U;
+  return sum;
+}
+
+std::vector<std::string> warnings_of(const load_table& table, duration length) {
+  std::vector<std::string> all;
+  for (const auto& x : table.servers) {
+    const auto of = summary_of(x.of, length);
+    if (of.full_s == 0)
+      continue;
+    all.push_back(fmt::format("{} {}: asked for over {:.0f} % in {} of {:.0f} "
+                              "s, for {:.0f} % at most",
+                              x.provider, x.what, 100 * full_share, of.full_s,
+                              to_seconds(length), 100 * of.peak_share));
+  }
+  return all;
+}
+
+std::string load_csv(const load_table& table, duration length) {
+  std::string text;
+  append_names<load_row>(text, of_load);
+  text += '\n';
+  for (const auto& x : table.servers)
+    for (duration t{}; t < length; t += one_second)
+      append_line<load_row>(text, of_load,
+                            {x, static_cast<std::uint64_t>(t / one_second),
+                             x.of.between(t, std::min(t + one_second, length)),
+                             std::min(one_second, length - t)});
+  return text;
+}
+
+std::string octets_csv(const load_table& table) {
+  std::string text;
+  append_names<octet_row>(text, of_octets);
+  text += '\n';
+  for (const auto& cell : table.cells)
+    for (const auto& line : cell.lines)
+      append_line<octet_row>(text, of_octets, {cell, line});
+  return text;
+}
+
+} // namespace sofof::recording

@@ -1,0 +1,66 @@
+// How busy providers and their radio cells were: what load.csv and octets.csv
+// hold, and what of it stands in the summary.
+#pragma once
+
+#include "base/time.hpp"
+#include "channel/load_meter.hpp"
+#include "channel/octet_ledger.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sofof::recording {
+
+/// Above this share of what servers can do in a second, they count as full.
+/// A queue's mean wait grows as 1 / (1 - share): tenfold here.
+inline constexpr double full_share = 0.9;
+
+/// The workers of a provider, or its radio cell in one direction.
+struct server_load {
+  std::string provider;  ///< Its name.
+  std::string_view what; ///< "workers", "uplink" or "downlink".
+  channel::load_figures of;
+};
+
+/// What a provider's cell was given in one direction.
+struct cell_octets {
+  std::string provider;
+  std::string_view direction; ///< "up" or "down".
+  std::vector<channel::octet_line> lines;
+};
+
+/// All that was measured in a run.
+struct load_table {
+  std::vector<server_load> servers; ///< Those that had work.
+  std::vector<cell_octets> cells;   ///< Those that were given anything.
+};
+
+/// What servers did in a run. Shares are of all their time.
+struct load_summary {
+  std::uint64_t jobs = 0;
+  double busy_share = 0;    ///< In [0, 1].
+  double asked_share = 0;   ///< Work that arrived; above 1 it piles up.
+  double peak_share = 0;    ///< The same in the half second of the most work.
+  std::uint64_t full_s = 0; ///< Seconds in which it was above `full_share`.
+  std::optional<double> mean_wait_ms;
+  std::optional<double> p99_wait_ms;
+  std::optional<double> max_wait_ms;
+};
+
+/// @param length  Of the run. Seconds and half seconds that it cuts short
+///                count for the mean shares alone.
+load_summary summary_of(const channel::load_figures& x, duration length);
+
+/// @returns a sentence for each of the servers that were full for a second.
+std::vector<std::string> warnings_of(const load_table& table, duration length);
+
+/// @returns load.csv: a line for each second and server.
+std::string load_csv(const load_table& table, duration length);
+
+/// @returns octets.csv: a line for each cell, direction and purpose.
+std::string octets_csv(const load_table& table);
+
+} // namespace sofof::recording

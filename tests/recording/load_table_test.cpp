@@ -1,0 +1,82 @@
+// What of the load stands in the summary, and who is warned of.
+#include "recording/load_table.hpp"
+
+#include "channel/shared_server_queue.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+using namespace sofof;
+using namespace sofof::recording;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// One server that is asked for `work` every 100 ms for 10 s.
+channel::load_figures asked_for(duration work) {
+  const auto meter = std::make_shared<channel::load_meter>(1U, time_point{});
+  channel::shared_server_queue queue{1, meter};
+  for (int k = 0; k < 100; ++k)
+    queue.finish(time_point{k * 100ms}, work);
+  return meter->read();
+}
+
+} // namespace
+
+TEST_CASE(
+    "an uplink of 50 kB frames at 10 Hz on 1 Mbit/s is asked for 400 % of "
+    "what it carries, and is busy all the time") {
+  const auto sum = summary_of(asked_for(400ms), 10s);
+  CHECK(sum.jobs == 100);
+  CHECK(sum.asked_share == doctest::Approx(4));
+  CHECK(sum.peak_share == doctest::Approx(4));
+  CHECK(sum.busy_share == doctest::Approx(1));
+  CHECK(sum.full_s == 10);
+  CHECK(sum.max_wait_ms == 99 * 300.0);
+  CHECK(sum.mean_wait_ms == doctest::Approx(99 * 150.0));
+}
+
+TEST_CASE("below nine tenths nobody is warned, above all are") {
+  const load_table calm{{{"mec", "uplink", asked_for(90ms)}}, {}};
+  CHECK(warnings_of(calm, 10s).empty());
+  const load_table full{{{"mec", "uplink", asked_for(90ms)},
+                         {"east", "workers", asked_for(91ms)}},
+                        {}};
+  const auto warnings = warnings_of(full, 10s);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings.front()
+        == "east workers: asked for over 90 % in 10 of 10 s, for 91 % at most");
+}
+
+TEST_CASE("a run that is over before a second is counts its shares") {
+  const auto sum = summary_of(asked_for(50ms), 300ms);
+  CHECK(sum.asked_share == doctest::Approx(0.5));
+  CHECK(sum.peak_share == 0);
+  CHECK(sum.full_s == 0);
+}
+
+TEST_CASE("load.csv has a line for each second of the run") {
+  const load_table table{{{"mec", "uplink", asked_for(50ms)}}, {}};
+  CHECK(load_csv(table, 2500ms)
+        == "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
+           "0,mec,uplink,10,0.500000,0.500000,0.000000\n"
+           "1,mec,uplink,10,0.500000,0.500000,0.000000\n"
+           "2,mec,uplink,5,0.500000,0.500000,0.000000\n");
+  const auto after = load_csv(table, 11s);
+  CHECK(after.ends_with("10,mec,uplink,0,0.000000,0.000000,\n"));
+}
+
+TEST_CASE("octets.csv has a line for each cell, direction and purpose") {
+  channel::octet_ledger ledger;
+  ledger.send("CAM", 100, time_point{}, time_point{20ms});
+  ledger.send("one", 400, time_point{}, time_point{9s});
+  ledger.lose("CAM", 90);
+  const load_table table{{}, {{"mec", "up", ledger.read(time_point{1s})}}};
+  CHECK(octets_csv(table)
+        == "provider,direction,what,messages,sent,delivered,lost,under_way\n"
+           "mec,up,CAM,2,190,100,90,0\n"
+           "mec,up,one,1,400,0,0,400\n");
+}
