@@ -129,9 +129,7 @@ struct road_state {
 
   // Of vehicles only: what stands on the road is passed closely.
   void record_near_misses(time_point t) {
-    const auto all = users->bodies();
-    for (const auto& x :
-         conflict_sides.look(all.first(all.size() - setup.obstacles.size()), t))
+    for (const auto& x : conflict_sides.look(users->users(), t))
       send_record(self, setup.recorder,
                   messages::event_record{
                       .at = t,

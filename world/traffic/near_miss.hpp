@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 #include "world/roads/road_body.hpp"
+#include "world/traffic/traffic.hpp"
 
 #include <chrono>
 #include <optional>
@@ -18,6 +19,13 @@ namespace sofof::world {
 /// Source: Hayward 1972, with whole bodies as in Gettman et al. 2008.
 std::optional<double> time_to_collision_s(const road_body& a,
                                           const road_body& b);
+
+/// The same of road users that follow their lanes: each goes on along its route
+/// as fast as now, and drifts across it as now, so that who takes a bend is not
+/// taken to leave it. On straight lanes there is no difference.
+/// @returns as above; nullopt also when they touch later than `near_miss_s`.
+std::optional<double> time_to_collision_s(const road_user& a,
+                                          const road_user& b);
 
 /// A time to collision below this is a near miss.
 /// Source: Gettman et al. 2008, Surrogate Safety Assessment Model and
@@ -36,11 +44,11 @@ struct near_miss {
 /// Finds near misses, each encounter once.
 class near_miss_watch {
 public:
-  /// @param bodies  All that count, as they are now. Not the same two twice.
-  /// @param now     Not before that of the last call.
+  /// @param users  All that count, as they are now. Not the same two twice.
+  /// @param now    Not before that of the last call.
   /// @returns the encounters that have just begun, by their ids; valid until
   /// the next call.
-  std::span<const near_miss> look(std::span<const road_body> bodies,
+  std::span<const near_miss> look(std::span<const road_user> users,
                                   time_point now);
 
 private:
@@ -50,10 +58,10 @@ private:
   };
   struct extent { // whom a body can reach in time
     double west_m, east_m;
-    const road_body* who;
+    const road_user* who;
   };
 
-  void meet(const road_body& a, const road_body& b, time_point now);
+  void meet(const road_user& a, const road_user& b, time_point now);
 
   std::vector<extent> from_west_;
   std::vector<encounter> open_;

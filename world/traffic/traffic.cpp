@@ -64,6 +64,7 @@ struct traffic::state {
   std::vector<road_user_state> drivers; // in order of station ids
   const std::vector<road_body> standing;
   std::vector<road_body> bodies; // the drivers', then those that stand
+  std::vector<road_user> users;  // the same, as they were reported
   std::vector<extent> from_west;
   std::vector<std::pair<station_id, station_id>> touching;
 };
@@ -119,9 +120,12 @@ void traffic::state::perceive(time_point now) {
 
 void traffic::state::list_bodies() {
   bodies.clear();
-  for (const auto& d : drivers)
+  users.clear();
+  for (const auto& d : drivers) {
     bodies.push_back(
         {d.known.station, d.known.body, d.known.speed_mps, d.known.accel_mps2});
+    users.push_back(d.known);
+  }
   bodies.insert(bodies.end(), standing.begin(), standing.end());
 }
 
@@ -155,6 +159,10 @@ perception traffic::perceive(station_id station) const {
 
 std::span<const road_body> traffic::bodies() const {
   return state_->bodies;
+}
+
+std::span<const road_user> traffic::users() const {
+  return state_->users;
 }
 
 std::vector<std::pair<station_id, station_id>> traffic::collisions() const {

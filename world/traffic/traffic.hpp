@@ -71,6 +71,10 @@ public:
   /// on the road, as of the last `update`; valid until the next one.
   std::span<const road_body> bodies() const;
 
+  /// @returns all road users in the order of their stations, as of the last
+  /// `update`; valid until the next one.
+  std::span<const road_user> users() const;
+
   /// @returns the pairs of bodies that touch, lower id first, in rising order,
   /// as of the last `update`; not those of which neither is a road user.
   std::vector<std::pair<station_id, station_id>> collisions() const;
