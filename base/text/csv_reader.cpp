@@ -25,7 +25,8 @@ bool parse(std::string_view text, T& value) {
 } // namespace
 
 csv_reader::csv_reader(const std::filesystem::path& file,
-                       std::span<const std::string_view> wanted, ending end)
+                       std::span<const std::string_view> wanted, ending end,
+                       std::span<const std::string_view> optional)
     : file_{file.string()}, wanted_(wanted.begin(), wanted.end()) {
   content_ = require_text(file, longest_results);
   if (end == ending::killed) {
@@ -37,12 +38,22 @@ csv_reader::csv_reader(const std::filesystem::path& file,
     throw input_error{fmt::format("{}: the file is empty; its first line "
                                   "should name its columns.",
                                   file_)};
-  const auto header = std::span{fields_}.first(count_);
+  header_.assign(fields_.begin(),
+                 fields_.begin() + static_cast<std::ptrdiff_t>(count_));
+  const auto place_of = [this](std::string_view name) {
+    const auto found = std::ranges::find(header_, name);
+    return found == header_.end()
+               ? missing
+               : static_cast<std::size_t>(found - header_.begin());
+  };
   for (const auto& name : wanted_) {
-    const auto found = std::ranges::find(header, name);
-    if (found == header.end())
+    places_.push_back(place_of(name));
+    if (places_.back() == missing)
       refuse(fmt::format("the column \"{}\" is missing.", name));
-    places_.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  for (const auto name : optional) {
+    wanted_.emplace_back(name);
+    places_.push_back(place_of(name));
   }
 }
 

@@ -23,14 +23,23 @@ public:
     killed, ///< Anywhere: what follows the last line end is dropped.
   };
 
-  /// @param wanted  Names of columns that must be there.
+  /// @param wanted    Names of columns that must be there.
+  /// @param optional  Names of columns that may be missing; their places
+  ///                  follow those of `wanted`.
   csv_reader(const std::filesystem::path& file,
              std::span<const std::string_view> wanted,
-             ending end = ending::whole);
+             ending end = ending::whole,
+             std::span<const std::string_view> optional = {});
 
   /// Goes on to the next row. @returns false after the last one.
   bool next();
 
+  /// @returns whether the file has a column at all.
+  bool has(std::size_t column) const {
+    return column < places_.size() && places_[column] != missing;
+  }
+
+  /// Of a column that the file has, as all below.
   const std::string& text(std::size_t column) const {
     return fields_[places_[column]];
   }
@@ -39,10 +48,17 @@ public:
   std::uint64_t whole(std::size_t column) const;
   bool flag(std::size_t column) const; ///< 1 or 0.
 
+  /// @returns the names of all columns, in the order of the file.
+  std::span<const std::string> header() const { return header_; }
+  /// @returns this row's text below one of these.
+  const std::string& field(std::size_t i) const { return fields_[i]; }
+
   /// Says what is wrong with a field of this row.
   [[noreturn]] void refuse(std::size_t column, std::string_view why) const;
 
 private:
+  static constexpr std::size_t missing = -1;
+
   bool read_row();
   void read_quoted(std::string& field);
   [[noreturn]] void refuse(std::string_view why) const;
@@ -53,6 +69,7 @@ private:
   std::size_t line_ = 0;      // of this row
   std::size_t next_line_ = 1; // of the next one
   std::vector<std::string> wanted_;
+  std::vector<std::string> header_;
   std::vector<std::size_t> places_; // of the columns wanted
   std::vector<std::string> fields_;
   std::size_t count_ = 0; // of the row's fields
