@@ -1,4 +1,4 @@
-# Text files of a folder, in the program by their names.
+# Text files in the program.
 
 # Builds the files FOLDER/*.EXTENSION into a library: FUNCTION(NAME) of NAMESPACE,
 # which HEADER declares, returns the text of one; an empty one if there is none.
@@ -33,6 +33,26 @@ std::string_view @function@(std::string_view name) {
       return text;
   return {};
 }
+
+} // namespace @namespace@
+" @ONLY)
+  target_sources(sofof_${library} PRIVATE ${generated})
+endfunction()
+
+# Builds one FILE into a library: the string_view NAME of NAMESPACE, which HEADER
+# declares.
+function(sofof_text library file header namespace name)
+  set(path ${PROJECT_SOURCE_DIR}/${file})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+  file(READ ${path} text)
+  set(generated ${PROJECT_BINARY_DIR}/generated/${name}.cpp)
+  file(CONFIGURE OUTPUT ${generated} CONTENT
+"// Generated from @file@.
+#include \"@header@\"
+
+namespace @namespace@ {
+
+const std::string_view @name@ = R\"text(@text@)text\";
 
 } // namespace @namespace@
 " @ONLY)

@@ -1,9 +1,9 @@
 // From results folders to sections.
 #include "experiments/report/describe.hpp"
 
+#include "experiments/report/comparison.hpp"
 #include "experiments/report/episode_table.hpp"
 #include "experiments/report/key_figures.hpp"
-#include "experiments/report/options.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/remote_results.hpp"
 #include "experiments/report/vehicle_table.hpp"
@@ -13,6 +13,7 @@
 #include <array>
 #include <cassert>
 #include <string>
+#include <variant>
 
 namespace sofof::experiments::report {
 
@@ -91,17 +92,6 @@ void add_vehicles(std::vector<section>& to, runs_view runs) {
 
 section configuration(runs_view runs) {
   section all{.title = "Configuration", .blocks = {}};
-  if (runs.size() == 2) {
-    auto differing =
-        differing_options(runs[0].config_toml, runs[1].config_toml);
-    differing.title = "Options that differ";
-    differing.columns = {"option", runs[0].label, runs[1].label};
-    if (differing.rows.empty())
-      all.blocks.emplace_back(
-          paragraph{"Both runs have the same configuration."});
-    else
-      all.blocks.emplace_back(std::move(differing));
-  }
   for (const auto& run : runs)
     all.blocks.emplace_back(
         listing{runs.size() == 1 ? "config.toml" : run.label + "/config.toml",
@@ -111,7 +101,11 @@ section configuration(runs_view runs) {
 
 /// One run, or two side by side.
 std::vector<section> sections_of(runs_view runs) {
-  std::vector<section> all{drives(runs), figures(runs)};
+  std::vector<section> all;
+  if (runs.size() > 1)
+    all.push_back(what_differs(runs));
+  all.push_back(drives(runs));
+  all.push_back(figures(runs));
   add_results(all, runs);
   add_episodes(all, runs);
   add_vehicles(all, runs);
@@ -134,7 +128,8 @@ std::string what_was_run(const recorded_run& run) {
 }
 
 std::vector<section> one_after_the_other(runs_view runs) {
-  std::vector<section> all{figures(runs)};
+  std::vector<section> all{what_differs(runs), figures(runs)};
+  add_results(all, runs);
   for (const auto& run : runs)
     for (auto& one : sections_of({&run, 1})) {
       one.title = fmt::format("{}: {}", run.label, one.title);
@@ -167,6 +162,11 @@ document describe(std::span<const fs::path> folders, std::string_view version) {
   all.subtitle += fmt::format(" · report by sofof {}", version);
   all.sections =
       runs.size() > 2 ? one_after_the_other(runs) : sections_of(runs);
+  if (runs.size() > 1)
+    for (const auto& block : all.sections.front().blocks)
+      if (const auto* options = std::get_if<table>(&block))
+        all.subtitle = fmt::format("Differs in: {}. {}",
+                                   difference_in_short(*options), all.subtitle);
   return all;
 }
 

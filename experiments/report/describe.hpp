@@ -15,14 +15,14 @@ namespace sofof::experiments::report {
 /// @throws input_error when it is no results folder, or broken.
 std::vector<section> describe_run(const std::filesystem::path& folder);
 
-/// The same of two runs: drives side by side under one clock, both curves in
-/// each figure, key figures with their difference, options that differ.
+/// The same of two runs: first what differs, then drives side by side under one
+/// clock, key figures with their difference, both curves in each figure.
 /// @throws input_error as above.
 std::vector<section> compare_runs(const std::filesystem::path& first,
                                   const std::filesystem::path& second);
 
 /// A report on one folder, on two side by side, or on more, one after the
-/// other, behind a table of their key figures.
+/// other, behind what differs, a table of their key figures and common figures.
 /// @param folders  At least one.
 /// @param version  Of this program.
 /// @throws input_error as above.

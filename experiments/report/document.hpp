@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,17 +18,25 @@ struct paragraph {
 };
 
 struct table {
+  /// What a comparison makes of a row.
+  enum class verdict { different, same, better, worse };
+
   std::string title;
   std::vector<std::string> columns;
   /// As many cells as columns; what looks like a number sorts as one.
   std::vector<std::vector<std::string>> rows;
-  std::string note; ///< Below it; may be empty.
+  std::string note{}; ///< Below it; may be empty.
+  /// What a column, or a row's first cell, means: none, or one for each.
+  std::vector<std::string> column_meanings{};
+  std::vector<std::string> row_meanings{};
+  std::vector<verdict> verdicts{}; ///< Of rows: none, or one for each.
 };
 
 /// Points of one curve, x ascending. `low` and `high` are a band round `y`, or
 /// empty; NaN is a gap.
 struct curve {
-  enum class style { line, points, steps };
+  /// Of `tail` each y is the share of values that are x or more.
+  enum class style { line, points, steps, tail };
 
   std::string name;
   std::vector<double> x;
@@ -36,6 +45,10 @@ struct curve {
   std::vector<double> high;
   style drawn = style::line;
   bool dashed = false; ///< Somebody else's: the paper's, say.
+  /// Whose colour it has: a provider's, by its place in the configuration.
+  std::optional<std::size_t> provider{};
+  /// Whose each point is: none, or one for each.
+  std::vector<double> stations{};
 };
 
 struct figure {
@@ -44,8 +57,11 @@ struct figure {
   std::string y_label;
   std::vector<curve> curves;
   /// Vertical lines with their names: limits, say.
-  std::vector<std::pair<double, std::string>> marks;
-  std::string caption;
+  std::vector<std::pair<double, std::string>> marks{};
+  std::string caption{};
+  /// Horizontal lines with their names.
+  std::vector<std::pair<double, std::string>> levels{};
+  bool by_clock = false; ///< x is the time of the drives.
 };
 
 /// Named points of a plane, of which more than one quantity counts.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -25,23 +26,26 @@ constexpr int metre_places = 3;   // as in tracks.csv
 constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
 
-/// What befell an offloading or a vehicle: shown on the map when it happens.
-constexpr messages::event_type alarming[]{
-    messages::event_type::violation,     messages::event_type::collision,
-    messages::event_type::near_miss,     messages::event_type::peer_lost,
-    messages::event_type::provider_lost, messages::event_type::requester_lost};
-/// What else is worth a line.
-constexpr messages::event_type notable[]{
-    messages::event_type::refused, messages::event_type::clock_in_doubt,
-    messages::event_type::clock_known, messages::event_type::provider_connected,
-    messages::event_type::arrived};
+/// Events that are shown, and which group of them each is counted in. All but
+/// the last group are marked on the map and the strips.
+struct shown_event {
+  messages::event_type type;
+  std::string_view group;
+};
 
-bool is_one_of(std::span<const messages::event_type> types,
-               std::string_view name) {
-  return std::ranges::any_of(types, [name](messages::event_type x) {
-    return messages::name_of(x) == name;
-  });
-}
+constexpr shown_event shown_events[]{
+    {messages::event_type::violation, "qos"},
+    {messages::event_type::collision, "collision"},
+    {messages::event_type::near_miss, "near_miss"},
+    {messages::event_type::peer_lost, "lost"},
+    {messages::event_type::provider_lost, "lost"},
+    {messages::event_type::requester_lost, "lost"},
+    {messages::event_type::implausible, "implausible"},
+    {messages::event_type::refused, "other"},
+    {messages::event_type::clock_in_doubt, "other"},
+    {messages::event_type::clock_known, "other"},
+    {messages::event_type::provider_connected, "other"},
+    {messages::event_type::arrived, "other"}};
 
 json car_json() {
   const world::vehicle_params car;
@@ -125,10 +129,13 @@ json offloadings_json(std::span<const offloading_span> offloadings) {
 json events_json(std::span<const event_line> events) {
   auto all = json::array();
   for (const auto& one : events) {
-    const auto alarm = is_one_of(alarming, one.what);
-    if (alarm || is_one_of(notable, one.what))
+    const auto found =
+        std::ranges::find(shown_events, one.what, [](const shown_event& x) {
+          return messages::name_of(x.type);
+        });
+    if (found != std::end(shown_events))
       all.push_back({one.t_s, one.what, one.of.station, one.of.provider,
-                     one.of.service, one.detail, alarm});
+                     one.of.service, one.detail, found->group});
   }
   return all;
 }

@@ -1,6 +1,8 @@
 // Episodes with what their results were like.
 #include "experiments/report/episode_table.hpp"
 
+#include "experiments/report/documented.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,41 +56,44 @@ struct episode_entry {
 
 struct episode_column {
   std::string_view title;
+  std::string_view name; ///< In episodes.csv; empty if reckoned from cycles.
   std::string (*text)(const episode_entry& of);
 };
 
 constexpr episode_column episode_columns[]{
-    {"vehicle",
+    {"vehicle", "station",
      [](const episode_entry& e) { return std::to_string(e.x.of.station); }},
-    {"service", [](const episode_entry& e) { return e.x.of.service; }},
-    {"provider", [](const episode_entry& e) { return e.x.of.provider; }},
-    {"accepted, s",
+    {"service", "service",
+     [](const episode_entry& e) { return e.x.of.service; }},
+    {"provider", "provider",
+     [](const episode_entry& e) { return e.x.of.provider; }},
+    {"accepted, s", "accepted_s",
      [](const episode_entry& e) { return seconds_text(e.x.accepted_s); }},
-    {"first data, s",
+    {"first data, s", "first_data_s",
      [](const episode_entry& e) { return seconds_text(e.x.first_data_s); }},
-    {"ended, s",
+    {"ended, s", "ended_s",
      [](const episode_entry& e) { return seconds_text(e.x.ended_s); }},
-    {"offloaded, s",
+    {"offloaded, s", "t_off_s",
      [](const episode_entry& e) { return seconds_text(e.x.t_off_s); }},
-    {"ended by", [](const episode_entry& e) { return e.x.reason; }},
-    {"fallback",
+    {"ended by", "reason", [](const episode_entry& e) { return e.x.reason; }},
+    {"fallback", "fallback",
      [](const episode_entry& e) {
        return std::string{e.x.fallback ? "yes" : ""};
      }},
-    {"results",
+    {"results", "",
      [](const episode_entry& e) {
        return e.results.count > 0 ? std::to_string(e.results.count) : "";
      }},
-    {"mean latency, ms",
+    {"mean latency, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.latency_sum_ms
                                      / static_cast<double>(e.results.count));
      }},
-    {"longest latency, ms",
+    {"longest latency, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.longest_latency_ms);
      }},
-    {"longest gap, ms",
+    {"longest gap, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.longest_gap_ms);
      }},
@@ -98,8 +103,16 @@ constexpr episode_column episode_columns[]{
 
 table episode_table(const recorded_run& run) {
   table all;
-  for (const auto& column : episode_columns)
+  for (const auto& column : episode_columns) {
     all.columns.emplace_back(column.title);
+    all.column_meanings.push_back(
+        column.name.empty() ? "" : documented("episodes.csv", column.name));
+  }
+  if (!run.episodes.empty())
+    for (const auto& [name, text] : run.episodes.front().others) {
+      all.columns.push_back(name);
+      all.column_meanings.push_back(documented("episodes.csv", name));
+    }
   const auto by_vehicles =
       std::ranges::any_of(run.episodes, &episode_line::by_requester);
   const auto results = results_by_episode(run);
@@ -112,6 +125,8 @@ table episode_table(const recorded_run& run) {
     auto& row = all.rows.emplace_back();
     for (const auto& column : episode_columns)
       row.push_back(column.text(entry));
+    for (const auto& [name, text] : one.others)
+      row.push_back(text);
   }
   if (!by_vehicles && !all.rows.empty())
     all.note = "As the provider closed them.";

@@ -18,14 +18,22 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view style_names[]{"line", "points", "steps"};
+constexpr std::string_view style_names[]{"line", "points", "steps", "tail"};
+constexpr std::string_view verdict_names[]{"different", "same", "better",
+                                           "worse"};
 
 json to_json(const curve& x) {
   json all{{"name", x.name},
            {"x", delta_encoding(x.x)},
-           {"y", delta_encoding(x.y)},
            {"style", style_names[static_cast<std::size_t>(x.drawn)]},
            {"dashed", x.dashed}};
+  // The page reckons the shares of a tail, of all vehicles or of one.
+  if (x.drawn != curve::style::tail)
+    all["y"] = delta_encoding(x.y);
+  if (x.provider)
+    all["provider"] = *x.provider;
+  if (!x.stations.empty())
+    all["stations"] = delta_encoding(x.stations, 0);
   if (!x.low.empty() && !x.high.empty()) {
     all["low"] = delta_encoding(x.low);
     all["high"] = delta_encoding(x.high);
@@ -38,22 +46,34 @@ json to_json(const paragraph& x) {
 }
 
 json to_json(const table& x) {
-  return {{"kind", "table"},
-          {"title", x.title},
-          {"columns", x.columns},
-          {"rows", x.rows},
-          {"note", x.note}};
+  json all{{"kind", "table"},
+           {"title", x.title},
+           {"columns", x.columns},
+           {"rows", x.rows},
+           {"note", x.note}};
+  if (!x.column_meanings.empty())
+    all["column_meanings"] = x.column_meanings;
+  if (!x.row_meanings.empty())
+    all["row_meanings"] = x.row_meanings;
+  for (const auto one : x.verdicts)
+    all["verdicts"].push_back(verdict_names[static_cast<std::size_t>(one)]);
+  return all;
 }
 
 json to_json(const figure& x) {
   auto curves = json::array();
   for (const auto& one : x.curves)
     curves.push_back(to_json(one));
-  auto marks = json::array();
-  for (const auto& [at, name] : x.marks)
-    marks.push_back({at, name});
-  return {{"kind", "figure"},     {"title", x.title}, {"x_label", x.x_label},
-          {"y_label", x.y_label}, {"curves", curves}, {"marks", marks},
+  const auto lines = [](const auto& named) {
+    auto all = json::array();
+    for (const auto& [at, name] : named)
+      all.push_back({at, name});
+    return all;
+  };
+  return {{"kind", "figure"},          {"title", x.title},
+          {"x_label", x.x_label},      {"y_label", x.y_label},
+          {"curves", curves},          {"marks", lines(x.marks)},
+          {"levels", lines(x.levels)}, {"by_clock", x.by_clock},
           {"caption", x.caption}};
 }
 

@@ -9,7 +9,8 @@
 
 namespace sofof::experiments::report {
 
-/// @param runs  Columns; of two the difference follows. Where a run has no
+/// @param runs  Columns; of two the difference follows, as `comparison` has it.
+/// Where a run has no
 ///              figure there is a dash; figures that no run has are left out.
 /// @returns a table for the run, one for each service, one for safety and
 /// comfort, one for what was on the air; none of no rows.

@@ -6,9 +6,12 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sofof::experiments::report {
 
@@ -49,17 +52,21 @@ std::string value_in(const leaves& all, const std::string& name) {
 
 } // namespace
 
-table differing_options(std::string_view first, std::string_view second) {
-  const auto ours = leaves_of(first);
-  const auto theirs = leaves_of(second);
-  auto names = ours;
-  names.insert(theirs.begin(), theirs.end());
+table differing_options(std::span<const std::string_view> texts) {
+  std::vector<leaves> all;
+  leaves names;
+  for (const auto text : texts) {
+    all.push_back(leaves_of(text));
+    names.insert(all.back().begin(), all.back().end());
+  }
   table differing;
   for (const auto& [name, any] : names) {
-    auto one = value_in(ours, name);
-    auto other = value_in(theirs, name);
-    if (one != other)
-      differing.rows.push_back({name, std::move(one), std::move(other)});
+    std::vector<std::string> row{name};
+    for (const auto& one : all)
+      row.push_back(value_in(one, name));
+    if (std::ranges::any_of(row.begin() + 2, row.end(),
+                            [&row](const auto& x) { return x != row[1]; }))
+      differing.rows.push_back(std::move(row));
   }
   return differing;
 }

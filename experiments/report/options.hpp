@@ -1,15 +1,16 @@
-// The options in which two configurations differ.
+// The options in which configurations differ.
 #pragma once
 
 #include "experiments/report/document.hpp"
 
+#include <span>
 #include <string_view>
 
 namespace sofof::experiments::report {
 
-/// @param first, second  Right TOML.
-/// @returns a table of options by their dotted names; what stands in one of
-/// them only has a dash for the other.
-table differing_options(std::string_view first, std::string_view second);
+/// @param texts  Right TOML, each a column.
+/// @returns a table of options by their dotted names; what does not stand in
+/// one of them has a dash there.
+table differing_options(std::span<const std::string_view> texts);
 
 } // namespace sofof::experiments::report

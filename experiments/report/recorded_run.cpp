@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace sofof::experiments::report {
@@ -57,6 +58,17 @@ recorded_run open_run(const fs::path& folder) {
 }
 
 std::vector<recorded_run> open_runs(std::span<const fs::path> folders) {
+  for (auto one = folders.begin(); one != folders.end(); ++one)
+    if (const auto again = std::find_if(folders.begin(), one,
+                                        [one](const fs::path& other) {
+                                          std::error_code ignored;
+                                          return fs::equivalent(other, *one,
+                                                                ignored);
+                                        });
+        again != one)
+      throw input_error{fmt::format(
+          "{} and {} are one folder; name another run to compare it with.",
+          again->string(), one->string())};
   std::vector<recorded_run> runs;
   for (const auto& folder : folders)
     runs.push_back(open_run(folder));

@@ -36,6 +36,7 @@ struct recorded_run {
 recorded_run open_run(const std::filesystem::path& folder);
 
 /// The same for several; folders of the same name are known by their path.
+/// @throws input_error also when one is named twice.
 std::vector<recorded_run>
 open_runs(std::span<const std::filesystem::path> folders);
 

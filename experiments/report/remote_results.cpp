@@ -1,4 +1,4 @@
-// Two quantities, each by time and as a distribution.
+// Three quantities, each by time and as a distribution.
 #include "experiments/report/remote_results.hpp"
 
 #include "base/time.hpp"
@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace sofof::experiments::report {
 
@@ -25,30 +26,72 @@ constexpr quantity quantities[]{
     {"Latency", "latency, ms",
      [](const cycle_line& x) { return std::optional{x.latency_ms}; },
      &messages::qos_limits::max_latency},
+    {"Age of the input", "age of the input, ms",
+     [](const cycle_line& x) { return x.input_age_ms; },
+     &messages::qos_limits::max_input_age},
     {"Inter-arrival time", "inter-arrival time, ms",
      [](const cycle_line& x) { return x.interarrival_ms; },
      &messages::qos_limits::max_interarrival},
 };
 
-/// One run's values in the order of their time.
-struct series {
-  std::string name;
-  std::vector<double> at_s;
-  std::vector<double> ms;
+/// One result's value.
+struct value {
+  double at_s = 0;
+  double ms = 0;
+  double station = 0;
 };
 
-series series_of(const recorded_run& run, std::string_view service,
-                 const quantity& what) {
-  std::vector<std::pair<double, double>> points;
+/// What becomes one curve: values in the order of their time.
+struct series {
+  std::string name;
+  std::optional<std::size_t> provider; ///< Its place in the configuration.
+  std::vector<value> values;
+};
+
+std::vector<value> values_of(const recorded_run& run, std::string_view service,
+                             const quantity& what,
+                             std::optional<std::string_view> provider) {
+  std::vector<value> all;
   for (const auto& line : *run.cycles)
-    if (const auto ms = what.of(line); ms && line.of.service == service)
-      points.emplace_back(line.received_s, *ms);
-  std::ranges::stable_sort(points, {}, &std::pair<double, double>::first);
-  series all{run.label, {}, {}};
-  for (const auto& [at_s, ms] : points) {
-    all.at_s.push_back(at_s);
-    all.ms.push_back(ms);
-  }
+    if (line.of.service == service
+        && (!provider || line.of.provider == *provider))
+      if (const auto ms = what.of(line))
+        all.push_back(
+            {line.received_s, *ms, static_cast<double>(line.of.station)});
+  std::ranges::stable_sort(all, {}, &value::at_s);
+  return all;
+}
+
+/// Of a run by itself: a series for each provider, in their order.
+std::vector<series> by_provider(const recorded_run& run,
+                                std::string_view service,
+                                const quantity& what) {
+  std::vector<series> all;
+  std::set<std::string_view> others;
+  for (const auto& line : *run.cycles)
+    others.insert(line.of.provider);
+  const auto& providers = run.what.providers;
+  for (std::size_t i = 0; i < providers.size(); ++i)
+    if (others.erase(providers[i].name) > 0)
+      all.push_back({providers[i].name, i,
+                     values_of(run, service, what, providers[i].name)});
+  for (const auto name : others)
+    all.push_back({name.empty() ? "a provider" : std::string{name},
+                   std::nullopt, values_of(run, service, what, name)});
+  return all;
+}
+
+std::vector<series> series_of(std::span<const recorded_run> runs,
+                              std::string_view service, const quantity& what) {
+  std::vector<series> all;
+  if (runs.size() == 1 && runs[0].cycles)
+    all = by_provider(runs[0], service, what);
+  else
+    for (const auto& run : runs)
+      if (run.cycles)
+        all.push_back({run.label, std::nullopt,
+                       values_of(run, service, what, std::nullopt)});
+  std::erase_if(all, [](const series& one) { return one.values.empty(); });
   return all;
 }
 
@@ -57,8 +100,9 @@ std::set<double> limits_ms(std::span<const recorded_run> runs,
   std::set<double> all;
   for (const auto& run : runs)
     for (const auto& type : run.what.services)
-      if (type->name() == service)
-        all.insert(to_seconds(type->options.limits.*what.limit) * 1000);
+      if (const auto limit = type->options.limits.*what.limit;
+          type->name() == service && limit != duration::max())
+        all.insert(to_seconds(limit) * 1000);
   return all;
 }
 
@@ -73,21 +117,22 @@ public:
     constexpr double farthest = 5; // times the longest
     for (const auto limit_ms : limits_ms)
       if (limit_ms <= farthest * longest_ms)
-        shown_ms.push_back(limit_ms);
+        shown.emplace_back(limit_ms, limit_name(limit_ms));
       else
         caption +=
             fmt::format("{}The {} is far beyond.", caption.empty() ? "" : " ",
                         limit_name(limit_ms));
   }
 
-  std::vector<double> shown_ms;
+  std::vector<std::pair<double, std::string>> shown;
   std::string caption;
 };
 
 double longest_ms(const std::vector<series>& all) {
   double longest = 0;
   for (const auto& one : all)
-    longest = std::max(longest, *std::ranges::max_element(one.ms));
+    longest = std::max(
+        longest, std::ranges::max_element(one.values, {}, &value::ms)->ms);
   return longest;
 }
 
@@ -98,44 +143,46 @@ figure by_time(const std::vector<series>& all, const limit_lines& limits,
   shown.x_label = "time, s";
   shown.y_label = what.axis;
   shown.caption = limits.caption;
-  double end_s = 0;
+  shown.levels = limits.shown;
+  shown.by_clock = true;
   for (const auto& one : all) {
-    end_s = std::max(end_s, one.at_s.back());
     auto& points = shown.curves.emplace_back();
     points.name = one.name;
-    points.x = one.at_s;
-    points.y = one.ms;
+    points.provider = one.provider;
     points.drawn = curve::style::points;
-  }
-  for (const auto limit_ms : limits.shown_ms) {
-    auto& line = shown.curves.emplace_back();
-    line.name = limit_name(limit_ms);
-    line.x = {0, end_s};
-    line.y = {limit_ms, limit_ms};
-    line.dashed = true;
+    for (const auto& [at_s, ms, station] : one.values) {
+      points.x.push_back(at_s);
+      points.y.push_back(ms);
+      points.stations.push_back(station);
+    }
   }
   return shown;
 }
 
+/// The share of values that are x or more: near 1 a distribution hides what
+/// this shows, the one in ten thousand that came too late.
 figure by_share(std::vector<series> all, const limit_lines& limits,
                 const quantity& what) {
   figure shown;
-  shown.title = fmt::format("{}, cumulative distribution", what.name);
+  shown.title = fmt::format("{}, distribution", what.name);
   shown.x_label = what.axis;
-  shown.y_label = "share of results";
+  shown.y_label = "share of results, 1 − F";
   shown.caption = limits.caption;
+  shown.marks = limits.shown;
   for (auto& one : all) {
-    std::ranges::sort(one.ms);
-    auto& steps = shown.curves.emplace_back();
-    steps.name = one.name;
-    steps.drawn = curve::style::steps;
-    const auto count = static_cast<double>(one.ms.size());
-    for (std::size_t i = 1; i <= one.ms.size(); ++i)
-      steps.y.push_back(static_cast<double>(i) / count);
-    steps.x = std::move(one.ms);
+    std::ranges::stable_sort(one.values, {}, &value::ms);
+    auto& tail = shown.curves.emplace_back();
+    tail.name = one.name;
+    tail.provider = one.provider;
+    tail.drawn = curve::style::tail;
+    const auto count = static_cast<double>(one.values.size());
+    auto left = count;
+    for (const auto& [at_s, ms, station] : one.values) {
+      tail.x.push_back(ms);
+      tail.y.push_back(left-- / count);
+      tail.stations.push_back(station);
+    }
   }
-  for (const auto limit_ms : limits.shown_ms)
-    shown.marks.emplace_back(limit_ms, limit_name(limit_ms));
   return shown;
 }
 
@@ -145,16 +192,7 @@ std::vector<figure> remote_results(std::span<const recorded_run> runs,
                                    std::string_view service) {
   std::vector<figure> figures;
   for (const auto& what : quantities) {
-    std::vector<series> all;
-    for (const auto& run : runs) {
-      if (!run.cycles)
-        continue;
-      auto one = series_of(run, service, what);
-      if (runs.size() == 1)
-        one.name = "results";
-      if (!one.ms.empty())
-        all.push_back(std::move(one));
-    }
+    auto all = series_of(runs, service, what);
     if (all.empty())
       continue;
     const limit_lines limits{limits_ms(runs, service, what), longest_ms(all)};

@@ -1,4 +1,5 @@
-// Latency and inter-arrival time of remote results, as figures.
+// Latency, age of the input and inter-arrival time of remote results, as
+// figures.
 #pragma once
 
 #include "experiments/report/document.hpp"
@@ -10,10 +11,10 @@
 
 namespace sofof::experiments::report {
 
-/// @param runs  Each is a curve; what it has not recorded is left out.
-/// @returns latency and inter-arrival time by time and as cumulative
-/// distributions with the limits of the service; a point for each result.
-/// Nothing when there was no result.
+/// @param runs  What they have not recorded is left out.
+/// @returns each quantity by time and as a distribution, with the limits of the
+/// service and a point for each result; a curve for each provider of a run by
+/// itself, for each run of several. Nothing when there was no result.
 std::vector<figure> remote_results(std::span<const recorded_run> runs,
                                    std::string_view service);
 

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 namespace sofof::experiments::report {
@@ -118,7 +120,7 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
   enum { side = 5, accepted, first_data, ended, t_off, reason, fallback };
   csv_reader row{folder / "episodes.csv", names, ending_of(folder)};
   std::vector<episode_line> all;
-  while (row.next())
+  while (row.next()) {
     all.push_back({.of = name_at(row, 0),
                    .by_requester = one_of(row, side, "requester", "provider"),
                    .accepted_s = row.number(accepted),
@@ -127,6 +129,10 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
                    .t_off_s = row.number_if_any(t_off),
                    .reason = row.text(reason),
                    .fallback = row.flag(fallback)});
+    for (std::size_t i = 0; i < row.header().size(); ++i)
+      if (std::ranges::find(names, row.header()[i]) == std::end(names))
+        all.back().others.emplace_back(row.header()[i], row.field(i));
+  }
   return all;
 }
 
@@ -134,17 +140,21 @@ std::optional<std::vector<cycle_line>> read_cycles(const fs::path& folder) {
   static constexpr columns names{"provider",   "service",        "provider_id",
                                  "station",    "counter",        "received_s",
                                  "latency_ms", "interarrival_ms"};
-  enum { received = 5, latency, interarrival };
+  static constexpr columns newer{"input_age_ms"};
+  enum { received = 5, latency, interarrival, input_age };
   const auto file = folder / "cycles.csv";
   if (!fs::exists(file))
     return std::nullopt;
-  csv_reader row{file, names, ending_of(folder)};
+  csv_reader row{file, names, ending_of(folder), newer};
   std::vector<cycle_line> all;
   while (row.next())
     all.push_back({.of = name_at(row, 0),
                    .received_s = row.number(received),
                    .latency_ms = row.number(latency),
-                   .interarrival_ms = row.number_if_any(interarrival)});
+                   .interarrival_ms = row.number_if_any(interarrival),
+                   .input_age_ms = row.has(input_age)
+                                       ? row.number_if_any(input_age)
+                                       : std::nullopt});
   return all;
 }
 

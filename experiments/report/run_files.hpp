@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof::experiments::report {
@@ -31,6 +32,8 @@ struct episode_line {
   std::optional<double> t_off_s;
   std::string reason;
   bool fallback = false;
+  /// Columns that the report does not read itself, by their names.
+  std::vector<std::pair<std::string, std::string>> others{};
 };
 
 /// Of cycles.csv.
@@ -39,6 +42,7 @@ struct cycle_line {
   double received_s = 0;
   double latency_ms = 0;
   std::optional<double> interarrival_ms;
+  std::optional<double> input_age_ms; ///< Not in folders of older versions.
 };
 
 /// Of tracks.csv.

@@ -2,6 +2,7 @@
 #include "experiments/report/vehicle_table.hpp"
 
 #include "base/text/csv_reader.hpp"
+#include "experiments/report/documented.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ table vehicle_table(const recorded_run& run) {
   std::vector<std::string_view> wanted;
   for (const auto& [name, shown, decimals] : vehicle_columns) {
     all.columns.emplace_back(shown);
+    all.column_meanings.push_back(documented("vehicles.csv", name));
     wanted.push_back(name);
   }
   csv_reader line{file, wanted};

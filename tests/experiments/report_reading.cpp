@@ -3,6 +3,7 @@
 #include "experiments/report/html.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "tests/experiments/report_folder.hpp"
+#include "tests/experiments/report_sections.hpp"
 #include "tests/support/mistakes.hpp"
 #include "tests/support/report_document.hpp"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 
 namespace sofof::experiments::report {
 
@@ -35,28 +37,6 @@ std::vector<std::string> titles_of(std::span<const section> sections) {
   for (const auto& one : sections)
     all.push_back(one.title);
   return all;
-}
-
-/// @returns the first block of a kind.
-template <class Block>
-const Block& first_of(std::span<const section> sections,
-                      std::string_view title) {
-  for (const auto& one : sections)
-    if (one.title == title)
-      for (const auto& block : one.blocks)
-        if (const auto* found = std::get_if<Block>(&block))
-          return *found;
-  FAIL("there is no such block in ", title);
-  throw std::logic_error{"unreachable"};
-}
-
-const std::string& cell(const table& in, std::string_view row,
-                        std::size_t column) {
-  const auto found = std::ranges::find(in.rows, row, [](const auto& cells) {
-    return std::string_view{cells[0]};
-  });
-  REQUIRE(found != in.rows.end());
-  return found->at(column);
 }
 
 } // namespace
@@ -280,7 +260,12 @@ TEST_CASE("a run comes down to figures, a point for each result and a row for "
   const auto& by_time =
       first_of<figure>(sections, "Remote results of trajectory_planning");
   CHECK(by_time.curves.at(0).y.size() == 401);
-  CHECK(by_time.curves.at(1).name == "limit 50 ms");
+  CHECK(by_time.curves.at(0).name == "mec");
+  CHECK(by_time.curves.at(0).provider == 0);
+  CHECK(by_time.curves.at(0).stations.size() == 401);
+  REQUIRE(by_time.levels.size() == 1);
+  CHECK(by_time.levels[0].second == "limit 50 ms");
+  CHECK(by_time.by_clock);
   CHECK(std::ranges::is_sorted(by_time.curves.at(0).x));
 
   const auto& episodes = first_of<table>(sections, "Episodes");
@@ -307,57 +292,89 @@ TEST_CASE("results that stand out of order are drawn in the order of time") {
   CHECK(std::ranges::is_sorted(by_time.curves.at(0).x));
 }
 
-TEST_CASE("a distribution reaches one at its largest value") {
+TEST_CASE("a tail begins at one and ends with the largest value's share") {
   const played_folder folder;
   const auto sections = describe_run(folder.path());
+  auto tails = 0;
   for (const auto& block : sections[2].blocks) {
     const auto& shown = std::get<figure>(block);
-    if (shown.y_label != "share of results")
+    if (shown.by_clock)
       continue;
-    CHECK(std::ranges::is_sorted(shown.curves.at(0).x));
-    CHECK(shown.curves.at(0).y.back() == 1);
-    CHECK(shown.marks.size() == 1);
+    ++tails;
+    const auto& tail = shown.curves.at(0);
+    CHECK(tail.drawn == curve::style::tail);
+    CHECK(std::ranges::is_sorted(tail.x));
+    CHECK(tail.y.front() == 1);
+    CHECK(tail.y.back()
+          == doctest::Approx(1.0 / static_cast<double>(tail.y.size())));
+    CHECK(tail.stations.size() == tail.x.size());
   }
+  CHECK(tails == 3);
 }
 
-TEST_CASE("two runs are compared side by side") {
-  const played_folder one{"one"};
-  const played_folder other{"other"};
-  other.spoil("summary.json", "\"virtual_s\": 100", "\"virtual_s\": 80");
-  other.spoil("config.toml", "seed = 7", "seed = 8");
-  const auto sections = compare_runs(one.path(), other.path());
-  const auto& key = first_of<table>(sections, "Key figures");
-  CHECK(key.columns
-        == std::vector<std::string>{"figure", "one", "other", "difference"});
-  CHECK(cell(key, "length, s", 1) == "100.0");
-  CHECK(cell(key, "length, s", 2) == "80.0");
-  CHECK(cell(key, "length, s", 3) == "-20.0");
-  CHECK(cell(key, "vehicles", 3) == "0");
-  CHECK(std::ranges::count_if(sections[0].blocks,
-                              [](const auto& block) {
-                                return std::holds_alternative<drive>(block);
-                              })
-        == 2);
-  const auto& by_time =
-      first_of<figure>(sections, "Remote results of trajectory_planning");
-  CHECK(by_time.curves.at(0).name == "one");
-  CHECK(by_time.curves.at(1).name == "other");
-  const auto& options = first_of<table>(sections, "Configuration");
-  REQUIRE(options.rows.size() == 1);
-  CHECK(options.rows[0] == std::vector<std::string>{"seed", "7", "8"});
+TEST_CASE("the age of inputs is drawn beside the latency") {
+  const played_folder folder;
+  const auto title = "Remote results of trajectory_planning";
+  const auto sections = describe_run(folder.path());
+  std::vector<std::string> titles;
+  for (const auto& one : sections)
+    if (one.title == title)
+      for (const auto& block : one.blocks) {
+        titles.push_back(std::get<figure>(block).title);
+      }
+  CHECK(titles
+        == std::vector<std::string>{
+            "Latency by time", "Latency, distribution",
+            "Age of the input by time", "Age of the input, distribution",
+            "Inter-arrival time by time", "Inter-arrival time, distribution"});
 }
 
-TEST_CASE("of more than two runs the key figures come first, then each run") {
-  const played_folder one{"a"};
-  const played_folder two{"b"};
-  const played_folder three{"c"};
-  const std::array folders{one.path(), two.path(), three.path()};
-  const auto whole = describe(folders, "0.1.0");
-  CHECK(whole.title == "a · b · c");
-  CHECK(whole.sections.front().title == "Key figures");
-  CHECK(first_of<table>(whole.sections, "Key figures").columns
-        == std::vector<std::string>{"figure", "a", "b", "c"});
-  CHECK(first_of<drive>(whole.sections, "c: Drive").folder == three.path());
+TEST_CASE("cycles of a version without ages of inputs are shown without them") {
+  const played_folder folder;
+  folder.spoil("cycles.csv", "input_age_ms", "another");
+  const auto sections = describe_run(folder.path());
+  for (const auto& one : sections)
+    if (one.title == "Remote results of trajectory_planning")
+      CHECK(one.blocks.size() == 4);
+}
+
+TEST_CASE("a column of episodes.csv that the report does not know is shown") {
+  const played_folder folder;
+  auto text = folder.read("episodes.csv");
+  const auto head = text.find('\n');
+  text.insert(head, ",because");
+  for (auto at = text.find('\n', head + 9); at != text.npos;
+       at = text.find('\n', at + 12))
+    text.insert(at, ",31 ms > 30");
+  folder.write("episodes.csv", text);
+  const auto sections = describe_run(folder.path());
+  const auto& episodes = first_of<table>(sections, "Episodes");
+  CHECK(episodes.columns.back() == "because");
+  for (const auto& row : episodes.rows)
+    CHECK(row.back() == "31 ms > 30");
+}
+
+TEST_CASE("near misses are counted apart from QoS events") {
+  const played_folder folder;
+  folder.write("events.jsonl",
+               folder.read("events.jsonl")
+                   + R"({"t_s":66,"what":"near_miss","station":101,)"
+                     R"("provider":"","provider_id":0,"service":"",)"
+                     R"("counter":0,"detail":"with 102 ttc_s=1.463"})"
+                     "\n");
+  const auto got = document_in(html({"", "", describe_run(folder.path())}));
+  std::map<std::string, int> groups;
+  for (const auto& event : got["sections"][0]["blocks"][0]["events"])
+    ++groups[event[6]];
+  CHECK(groups["qos"] == 1);
+  CHECK(groups["near_miss"] == 1);
+  const auto sections = describe_run(folder.path());
+  for (const auto& one : sections)
+    if (one.title == "Key figures")
+      for (const auto& block : one.blocks)
+        if (const auto& t = std::get<table>(block);
+            t.title == "Safety and comfort")
+          CHECK(cell(t, "near misses", 1) == "0"); // as the summary says
 }
 
 TEST_CASE("folders of the same name are known by their paths") {

@@ -173,6 +173,18 @@ class Browser:
             self.ask("Input.dispatchMouseEvent", type=kind, x=x, y=y,
                      button="left", clickCount=1)
 
+    def save_into(self, folder):
+        """Downloads go there."""
+        self.ask("Browser.setDownloadBehavior", behavior="allow",
+                 downloadPath=os.path.abspath(folder))
+
+    def paper(self, file):
+        """The page as PDF, as a reader prints it."""
+        data = self.ask("Page.printToPDF", printBackground=True,
+                        preferCSSPageSize=True)["data"]
+        with open(file, "wb") as to:
+            to.write(base64.b64decode(data))
+
     def picture(self, file, whole=False):
         """A screenshot of what is in sight, or of the whole page."""
         data = self.ask("Page.captureScreenshot",

@@ -69,13 +69,14 @@ def look(report, folder):
         seen["arrow_steps_s"] = (
             page.run("sofof.players[0].clock.time") - paused_at)
         page.run("sofof.draw_all()")
-        points = page.run("""sofof.charts.reduce((sum, chart) => sum +
-            (chart.points.results ?? 0), 0)""")
+        points = page.run("""sofof.charts.flatMap(
+            chart => Object.values(chart.points)).reduce((a, b) => a + b, 0)""")
         gaps = [one for one in cycles if one["interarrival_ms"]]
+        ages = [one for one in cycles if one["input_age_ms"]]
         seen |= {
             "points": points,
             # Each quantity by time and as a distribution.
-            "csv_rows": 2 * (len(cycles) + len(gaps)),
+            "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages)),
             "track_points":
                 page.run("sofof.players[0].track_rows[0]"),
             "track_rows": len(rows_of(folder, "tracks.csv")),

@@ -2,6 +2,8 @@
 exits with 77 where there is no Chromium."""
 
 import base64
+import collections
+import csv
 import hashlib
 import json
 import os
@@ -10,8 +12,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 import zlib
 
+import pdf
 from browser import Browser, program
 from look import look, rows_of
 
@@ -124,6 +128,202 @@ class Report(unittest.TestCase):
         with open(os.path.join(self.folder, "episodes.csv")) as lines:
             return sorted(line.split(",")[1] for line in lines
                           if line.startswith("requester"))
+
+
+    def opened(self, page):
+        page.show(1280, 900)
+        page.open(self.file)
+        page.run("sofof.ready")
+
+    def test_qos_events_and_near_misses_are_counted_apart(self):
+        with Browser() as page:
+            self.opened(page)
+            self.assertRegex(
+                page.run("document.querySelector('.events summary').innerText"),
+                r"^QoS events: 0 . Near misses: 0")
+
+    def test_one_vehicle_s_results_can_be_looked_at_alone(self):
+        cycles = rows_of(self.folder, "cycles.csv")
+        one = cycles[0]["station"]
+        service = "trajectory_planning"
+        with Browser() as page:
+            self.opened(page)
+            page.run("sofof.draw_all()")
+            self.assertEqual(page.run(f"""(() => {{
+                const choice = document.querySelector(".choice select");
+                choice.value = "{one}";
+                choice.dispatchEvent(new Event("change"));
+                return Object.values(sofof.charts[0].points)[0];
+            }})()"""), sum(row["station"] == one and row["service"] == service
+                          for row in cycles))
+            self.assertEqual(page.errors, [])
+
+    def test_a_tail_is_shown_as_distribution_when_asked(self):
+        with Browser() as page:
+            self.opened(page)
+            page.run("sofof.draw_all()")
+            self.assertEqual(page.run("""(() => {
+                const button = [...document.querySelectorAll(
+                    ".downloads button")].find(one => one.textContent === "F");
+                button.click();
+                return button.textContent;
+            })()"""), "1 − F, log")
+            self.assertEqual(page.errors, [])
+
+    def test_a_click_on_a_chart_goes_to_that_time(self):
+        with Browser() as page:
+            self.opened(page)
+            page.run("""sofof.draw_all(),
+                document.querySelector(".u-over").scrollIntoView(
+                    {block: "center", behavior: "instant"})""")
+            page.wait(0.3)
+            page.click(".u-over", 0.5)
+            self.assertAlmostEqual(page.run("sofof.players[0].clock.time"),
+                                   10, delta=1.5)
+            page.wait(0.1)
+            self.assertFalse(page.run(
+                "document.querySelector('.clock-line').hidden"))
+
+    def test_every_figure_says_what_it_means(self):
+        with Browser() as page:
+            self.opened(page)
+            terms = page.run("""[...document.querySelectorAll(
+                "#section-1 tbody td:first-child")].map(
+                one => one.querySelector(".term")?.title ?? "")""")
+            self.assertGreater(len(terms), 60)
+            self.assertNotIn("", terms)
+            self.assertTrue(page.run("""(() => {
+                const term = document.querySelector(".term");
+                term.click();
+                return !term.nextSibling.hidden
+                    && term.nextSibling.textContent === term.title;
+            })()"""))
+
+    def test_pictures_and_tables_can_be_saved(self):
+        folder = os.path.join(WORK, "saved")
+        os.mkdir(folder)
+        with Browser() as page:
+            page.save_into(folder)
+            self.opened(page)
+            for kind in ("SVG", "PNG", "CSV"):
+                buttons = page.run(f"""(() => {{
+                    const all = [...document.querySelectorAll(
+                        ".downloads button")].filter(
+                        one => one.textContent === "{kind}");
+                    window.wanted = all;
+                    return all.length;
+                }})()""")
+                self.assertGreater(buttons, 10)
+                for i in range(buttons):
+                    page.run(f"wanted[{i}].click()")
+                    page.wait(0.1)
+            page.wait(1)
+            self.assertEqual(page.errors, [])
+        names = os.listdir(folder)
+        for name in names:
+            file = os.path.join(folder, name)
+            if name.endswith(".svg"):
+                picture = xml.etree.ElementTree.parse(file).getroot()
+                self.assertGreater(len(picture), 3, name)
+            elif name.endswith(".png"):
+                with open(file, "rb") as picture:
+                    self.assertEqual(picture.read(8),
+                                     b"\x89PNG\r\n\x1a\n")
+                self.assertGreater(os.path.getsize(file), 5000, name)
+        charts = "one-Remote_results_of_trajectory_planning-"
+        for name in ("one-Drive-Map_of_one.svg", "one-Drive-Map_of_one.png",
+                     "one-Drive-Offloading_of_one.svg",
+                     charts + "Latency_by_time.svg",
+                     charts + "Latency_distribution.png",
+                     "one-Key_figures-The_run.csv", "one-Episodes.csv"):
+            self.assertIn(name, names)
+        with open(os.path.join(folder, charts + "Latency_by_time.csv"),
+                  newline="") as saved:
+            rows = list(csv.DictReader(saved))
+        cycles = [row for row in rows_of(self.folder, "cycles.csv")
+                  if row["service"] == "trajectory_planning"]
+        self.assertEqual(len(rows), len(cycles))
+        self.assertEqual(rows[0]["station"], cycles[0]["station"])
+
+    def test_the_map_shows_all_areas(self):
+        with Browser() as page:
+            self.opened(page)
+            self.assertTrue(page.run("""(() => {
+                const {views, drives} = sofof.players[0];
+                return drives.every((drive, i) => drive.providers.every(
+                    ({area}) => area.every(([x, y]) => {
+                        const [left, top] = [views[i].left(x), views[i].top(y)];
+                        return left > 0 && left < views[i].width
+                            && top > 0 && top < views[i].height;
+                    })));
+            })()"""))
+
+
+class Paper(unittest.TestCase):
+    """Who prints the page, or saves it as PDF, gets all of it."""
+
+    @classmethod
+    def setUpClass(cls):
+        if not pdf.program():
+            raise unittest.SkipTest("poppler-utils is not installed")
+        cls.folder = run("printed")
+        file = os.path.join(cls.folder, "report.html")
+        sofof("report", cls.folder)
+        cls.pdf = os.path.join(WORK, "printed.pdf")
+        with Browser() as page:
+            page.show(1280, 900, dark=True)
+            page.open(file)
+            page.run("sofof.ready")
+            page.paper(cls.pdf)
+            cls.charts = page.run("sofof.charts.map(one => one.title)")
+            cls.figures = page.run("""[...document.querySelectorAll(
+                "#section-1 tbody td:first-child .term")].map(
+                one => one.textContent)""")
+            cls.errors = page.errors
+        cls.text = pdf.text_of(cls.pdf)
+        cls.sheets = pdf.sheets_of(cls.pdf)
+
+    def test_every_chart_has_its_title_and_its_curve(self):
+        self.assertEqual(self.errors, [])
+        self.assertEqual(len(self.charts), 12)
+        for title in self.charts:
+            self.assertIn(title, self.text)
+        self.assertEqual(self.text.count("share of results, 1 − F"), 6)
+        self.assertEqual(self.text.count("time, s"), 6)
+        with_curves = [sheet for sheet in self.sheets
+                       if len(sheet.places_of((0x00, 0x72, 0xB2), 40)) > 300]
+        self.assertGreaterEqual(len(with_curves), 3)
+
+    def test_every_row_is_there(self):
+        words = set(self.text.split())
+        for row in rows_of(self.folder, "episodes.csv"):
+            if row["side"] == "requester":
+                self.assertIn(f"{float(row['ended_s']):.3f}", words)
+                self.assertIn(f"{float(row['t_off_s']):.3f}", words)
+        for row in rows_of(self.folder, "vehicles.csv"):
+            self.assertIn(f"{float(row['comfort_cost_m2ps3']):.1f}", words)
+        flat = " ".join(self.text.split())
+        for figure in self.figures:
+            self.assertIn(figure.split(",")[0].split()[0], flat)
+        with open(os.path.join(self.folder, "config.toml")) as config:
+            last = config.read().split()[-1]
+        self.assertIn(last, flat)
+
+    def test_circles_are_round_and_the_ground_is_white(self):
+        sheet = self.sheets[0]
+        self.assertEqual(sheet.pixels[:3], b"\xff\xff\xff")
+        places = sheet.places_of((0xE8, 0xF2, 0xF8), 3)  # the area's tint
+        self.assertGreater(len(places), 1000)
+        wide, high = (self.extent(place[axis] for place in places)
+                      for axis in (0, 1))
+        self.assertAlmostEqual(wide / high, 1, delta=0.05)
+
+    @staticmethod
+    def extent(places):
+        """From the first to the last line with more than a few of them."""
+        lines = [line for line, count in collections.Counter(places).items()
+                 if count > 20]
+        return max(lines) - min(lines)
 
 
 class Page(unittest.TestCase):
@@ -249,10 +449,27 @@ class Comparison(unittest.TestCase):
         with Browser() as page:
             page.open(self.file)
             page.run("sofof.ready")
-            heads = page.run("""[...document.querySelectorAll("table")[0]
-                .querySelectorAll("th")].map(one => one.textContent)""")
-            self.assertEqual(heads,
-                             ["figure", "never", "seven", "difference"])
+            heads = page.run("""[...document.querySelectorAll("table")]
+                .slice(0, 2).map(table => [...table.querySelectorAll("th")]
+                    .map(one => one.textContent))""")
+            self.assertEqual(heads, [
+                ["option", "never", "seven"],
+                ["figure", "never", "seven", "difference"]])
+
+    def test_what_differs_comes_first_and_equal_rows_when_asked(self):
+        with Browser() as page:
+            page.open(self.file)
+            page.run("sofof.ready")
+            self.assertEqual(
+                page.run("document.querySelector('h2').textContent"),
+                "What differs")
+            before = page.run("document.querySelectorAll('tr').length")
+            page.run("""[...document.querySelectorAll(".more")].forEach(
+                one => one.click())""")
+            self.assertGreater(
+                page.run("document.querySelectorAll('tr').length"), before)
+            self.assertGreater(
+                page.run("document.querySelectorAll('tr.same').length"), 2)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 // What tests, and the curious, find under `window.sofof`.
 
-/// ready: a promise that all of the page is there; players: { clock, vehicles() } for each group of maps; charts: { title,
-/// drawn, points }, the numbers of points by the names of the curves.
+/// ready: a promise that all of the page is there; players: { clock, drives,
+/// views, vehicles() } for each group of maps; charts: { title, drawn, points },
+/// the numbers of points by the names of the curves.
 export const hook = {
   ready: null,
   players: [],

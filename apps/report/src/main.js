@@ -5,5 +5,4 @@ import { inflate } from "./unpack.js";
 
 const text = document.getElementById("document").textContent;
 window.sofof = hook;
-addEventListener("beforeprint", () => hook.draw_all());
 hook.ready = inflate(text).then((report) => render_page(document.getElementById("report"), report));

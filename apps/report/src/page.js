@@ -1,10 +1,11 @@
 // Header, contents, sections.
-import { figure_block } from "./blocks/figure.js";
+import { figures_block } from "./blocks/figures.js";
 import { listing_block } from "./blocks/listing.js";
 import { scatter_block } from "./blocks/scatter.js";
 import { table_block } from "./blocks/table.js";
 import { player } from "./drive/player.js";
 import { element, marked_up } from "./element.js";
+import { on_print } from "./print.js";
 import { theme_button } from "./theme.js";
 
 const paragraph_block = (block) => element("p", {}, ...marked_up(block.text));
@@ -24,7 +25,7 @@ function table_classes(blocks) {
 // What follows its like is shown together with it.
 const group_blocks = {
   drive: (blocks) => player(blocks),
-  figure: (blocks) => element("div.figures", {}, ...blocks.map(figure_block)),
+  figure: figures_block,
   table: (blocks) => element(table_classes(blocks), {}, ...blocks.map(table_block)),
 };
 
@@ -103,9 +104,17 @@ export async function render_page(into, report) {
     element("div.sections", {}, ...sections),
   );
   follow_reader(wide, sections);
-  for (const [i, section] of report.sections.entries()) {
-    await shown();
+  const rest = [...report.sections.entries()];
+  const fill_next = () => {
+    const [i, section] = rest.shift();
     sections[i].append(...blocks_of(section));
+  };
+  on_print(() => {
+    while (rest.length) fill_next();
+  });
+  while (rest.length) {
+    await shown();
+    if (rest.length) fill_next();
   }
   document.getElementById(location.hash.slice(1))?.scrollIntoView();
 }

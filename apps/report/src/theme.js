@@ -5,8 +5,10 @@ const system = window.matchMedia("(prefers-color-scheme: dark)");
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
 const listeners = [];
 let chosen = null;
+let on_paper = false;
 
-export const is_dark = () => (chosen ?? (system.matches ? "dark" : "light")) === "dark";
+export const is_dark = () =>
+  !on_paper && (chosen ?? (system.matches ? "dark" : "light")) === "dark";
 
 /// @returns whether movement that nobody asked for is to be left out.
 export const is_calm = () => calm.matches;
@@ -25,10 +27,10 @@ export function colour(name) {
   return known.get(name);
 }
 
-const series_count = 6;
+const series_count = 12;
 
-/// @returns the colour of the i-th curve or provider; safe for the
-/// colour-blind (Okabe and Ito).
+/// @returns the colour of the i-th curve or provider; the first six are safe
+/// for the colour-blind (Okabe and Ito).
 export const series_colour = (i) => colour(`series-${i % series_count}`);
 
 function change() {
@@ -39,6 +41,12 @@ function change() {
 
 system.addEventListener("change", change);
 change();
+
+/// Ink is dark, whatever the screen shows.
+export function force_light(yes) {
+  on_paper = yes;
+  change();
+}
 
 export function theme_button() {
   const flip = () => {

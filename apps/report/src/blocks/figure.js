@@ -2,11 +2,18 @@
 import uPlot from "uplot";
 import { element, marked_up } from "../element.js";
 import { hook } from "../hook.js";
-import { colour, is_dark, on_theme, series_colour } from "../theme.js";
-import { unpack } from "../unpack.js";
+import { downloads } from "../pictures/download.js";
+import { on_paper } from "../print.js";
+import { colour, is_dark, on_theme } from "../theme.js";
 import { aligned } from "./aligned.js";
+import { decade_text, decades_to_one } from "./axis_steps.js";
+import { chart_svg } from "./chart_svg.js";
+import { colours_of, drawn_columns, unpacked } from "./curves.js";
+import { draw_limits } from "./limits.js";
 
 const height = 280;
+const saved_size = { width: 720, height: 400 };
+const paper_size = { width: 520, height: 300 };
 const font = "12px system-ui, sans-serif";
 const crowds = [ // points in sight, at most; their size in CSS pixels, opacity
   [300, 5, 1],
@@ -14,18 +21,6 @@ const crowds = [ // points in sight, at most; their size in CSS pixels, opacity
   [Infinity, 2, 0.4],
 ];
 const letter_width = 7; // of a figure on an axis, CSS pixels
-
-/// Curves take colours in their order. Somebody else's, dashed, share those of
-/// ours; a single one, a limit perhaps, is grey.
-function colours_of(curves) {
-  const dashed = curves.filter((curve) => curve.dashed);
-  const solid = curves.filter((curve) => !curve.dashed);
-  return curves.map((curve) => {
-    if (curve.dashed && dashed.length === 1) return () => colour("soft");
-    const place = (curve.dashed ? dashed : solid).indexOf(curve);
-    return () => series_colour(place);
-  });
-}
 
 /// Small squares instead of a path: there may be a hundred thousand.
 function squares(plot, series, from, to) {
@@ -52,47 +47,25 @@ function squares(plot, series, from, to) {
 const paths = {
   line: uPlot.paths.linear(),
   steps: uPlot.paths.stepped({ align: 1 }),
+  tail: uPlot.paths.stepped({ align: -1 }),
   points: squares,
 };
-
-/// Vertical lines with their names, below each other where they are close.
-function draw_marks(plot, marks) {
-  const { ctx, bbox } = plot;
-  const pixel = devicePixelRatio;
-  ctx.save();
-  ctx.strokeStyle = ctx.fillStyle = colour("alarm");
-  ctx.lineWidth = pixel;
-  ctx.setLineDash([4 * pixel, 3 * pixel]);
-  ctx.font = `${12 * pixel}px system-ui, sans-serif`;
-  ctx.textBaseline = "top";
-  marks.forEach(([at, name], i) => {
-    const x = Math.round(plot.valToPos(at, "x", true));
-    if (x < bbox.left || x > bbox.left + bbox.width) return;
-    ctx.beginPath();
-    ctx.moveTo(x, bbox.top);
-    ctx.lineTo(x, bbox.top + bbox.height);
-    ctx.stroke();
-    const left = x - bbox.left > bbox.width / 2;
-    ctx.textAlign = left ? "right" : "left";
-    const lower = bbox.height - (1.8 + i * 1.4) * 12 * pixel;
-    ctx.fillText(name, x + (left ? -6 : 6) * pixel, bbox.top + lower);
-  });
-  ctx.restore();
-}
 
 /// All of x at first, marks too; what the reader zooms to afterwards.
 function x_range(plot, low, high, marks) {
   const x = plot.data[0];
-  if (low === null || low !== x[0] || high !== x[x.length - 1]) return [low, high];
+  if (low === null) return [0, 1];
+  if (low !== x[0] || high !== x[x.length - 1]) return [low, high];
   const places = [low, high, ...marks.map(([at]) => at)];
   const [from, to] = [Math.min(...places), Math.max(...places)];
   const room = (to - from || Math.abs(to) || 1) * 0.03;
   return [from >= 0 ? Math.max(0, from - room) : from - room, to + room];
 }
 
-/// Shares end at 1, all else where uPlot likes.
-function y_range(plot, low, high) {
+/// Shares end at 1, all else where uPlot likes; levels are in sight.
+function y_range(plot, low, high, levels) {
   if (low === null) return [0, 1];
+  high = Math.max(high, ...levels.map(([at]) => at));
   if (low >= 0 && high <= 1 && high > 0.99) return [0, 1.03];
   return uPlot.rangeNum(low, high, {
     min: { pad: 0.05, soft: 0, mode: 2 },
@@ -146,20 +119,177 @@ function legend_of(block, colours, toggle) {
 
 const short = (x) => (x == null ? "" : Number(x.toPrecision(5)).toString());
 
+/// What is drawn of a figure now, and its numbers.
+class Shown {
+  constructor(block) {
+    this.block = block;
+    this.colours = colours_of(block.curves);
+    this.hidden = new Set();
+    this.station = null;
+    this.cumulative = false;
+    this.columns = null;
+  }
+
+  get is_tail() {
+    return this.block.curves.some(({ style }) => style === "tail");
+  }
+
+  get log() {
+    return this.is_tail && !this.cumulative;
+  }
+
+  /// Labels as they are now.
+  get labels() {
+    const { block } = this;
+    return this.is_tail && this.cumulative
+      ? { ...block, y_label: block.y_label.replace("1 − F", "F") }
+      : block;
+  }
+
+  /// @returns { x, y, low, high } of each curve.
+  get drawn() {
+    this.columns ??= this.block.curves.map(unpacked);
+    return this.block.curves.map((curve, i) => drawn_columns(curve, this.columns[i], this));
+  }
+
+  style_of({ style }) {
+    return style === "tail" && this.cumulative ? "steps" : style;
+  }
+
+  /// @returns all that is in sight, for a picture.
+  get curves() {
+    return this.drawn
+      .map((columns, i) => {
+        const curve = this.block.curves[i];
+        return {
+          ...columns,
+          name: curve.name,
+          dashed: curve.dashed,
+          style: this.style_of(curve),
+          paint: this.colours[i](),
+        };
+      })
+      .filter((_, i) => !this.hidden.has(i));
+  }
+
+  picture(size) {
+    return chart_svg(this.labels, this.curves, { ...size, log: this.log });
+  }
+
+  /// @returns a line for each point: the curve's name, x, y and what else.
+  get rows() {
+    const { x_label, y_label } = this.labels;
+    const rows = [["curve", x_label, y_label, "low", "high", "station"]];
+    this.drawn.forEach(({ x, y, low, high, stations }, i) => {
+      for (let k = 0; k < x.length; ++k)
+        rows.push([this.block.curves[i].name, x[k], y[k], low?.[k], high?.[k], stations?.[k]]);
+    });
+    return rows;
+  }
+}
+
+function series_of(shown, layout) {
+  return layout.map(([i, role]) => {
+    const curve = shown.block.curves[i];
+    const line = role === "y";
+    return {
+      label: curve.name,
+      show: !shown.hidden.has(i),
+      stroke: line ? shown.colours[i] : () => "transparent",
+      width: line ? 1.75 : 0,
+      dash: curve.dashed ? [6, 4] : undefined,
+      paths: line ? paths[shown.style_of(curve)] : paths.line,
+      points: { show: false },
+      spanGaps: false,
+    };
+  });
+}
+
+function bands_of(shown, layout) {
+  const all = [];
+  layout.forEach(([i, role], k) => {
+    if (role === "high")
+      all.push({ series: [k + 1, k], fill: `${shown.colours[i]()}${is_dark() ? "38" : "2e"}` });
+  });
+  return all;
+}
+
+function scales_of(shown) {
+  const { marks, levels } = shown.block;
+  return {
+    x: { time: false, range: (u, low, high) => x_range(u, low, high, marks) },
+    y: shown.log
+      ? { distr: 3, log: 10, range: (u, low) => [low === null ? 0.1 : decades_to_one(low)[0], 1] }
+      : { range: (u, low, high) => y_range(u, low, high, levels) },
+  };
+}
+
+function axes_of(shown) {
+  const { x_label, y_label } = shown.labels;
+  const decades = shown.log
+    ? {
+        splits: (u) => decades_to_one(u.scales.y.min),
+        filter: (u, splits) => splits,
+        values: (u, splits) => splits.map(decade_text),
+      }
+    : {};
+  return [axis(x_label, 26), { ...axis(y_label, width_of), ...decades }];
+}
+
+/// The time of the drives, on charts by time; a click there goes to its time.
+function follow_clock(space, plot_now) {
+  const clock = hook.players.at(-1)?.clock;
+  if (!clock) return () => {};
+  const line = element("div.clock-line", { hidden: true });
+  let pressed_at = null;
+  space.addEventListener("pointerdown", (event) => (pressed_at = event.clientX), true);
+  space.addEventListener("click", (event) => {
+    const plot = plot_now();
+    if (!plot || Math.abs(event.clientX - pressed_at) > 3) return;
+    const left = event.clientX - plot.over.getBoundingClientRect().left;
+    if (left >= 0 && left <= plot.over.clientWidth) clock.seek(plot.posToVal(left, "x"));
+  });
+  const show = () => {
+    const plot = plot_now();
+    if (!plot) return;
+    const left = plot.valToPos(clock.time, "x");
+    line.hidden = !(left >= 0 && left <= plot.over.clientWidth);
+    line.style.transform = `translateX(${left}px)`;
+    if (line.parentElement !== plot.over) plot.over.append(line);
+  };
+  clock.on_change(show);
+  return show;
+}
+
+/// F or 1 − F.
+function tail_choice(shown, redraw) {
+  const flip = () => {
+    shown.cumulative = !shown.cumulative;
+    button.textContent = shown.cumulative ? "1 − F, log" : "F";
+    redraw();
+  };
+  const button = element(
+    "button",
+    { type: "button", click: flip, title: "Show the distribution, or its tail on a logarithmic axis" },
+    "F",
+  );
+  return button;
+}
+
+/// @returns { shown, of_station }: the figure, and what makes it show one
+/// vehicle's points, or all for null.
 export function figure_block(block) {
-  const colours = colours_of(block.curves);
+  const shown = new Shown(block);
   const space = element("div.chart", { role: "img", "aria-label": block.title });
   space.style.height = `${height}px`;
-  const hidden = new Set();
   let plot = null;
-  let data = null;
-  let layout = null; // of the series: [curve, role]
+  let layout = []; // of the series: [curve, role]
 
-  const legend = legend_of(block, colours, (i, shown) => {
-    if (shown) hidden.delete(i);
-    else hidden.add(i);
-    layout?.forEach(([curve], k) => {
-      if (curve === i) plot?.setSeries(k + 1, { show: shown });
+  const legend = legend_of(block, shown.colours, (i, yes) => {
+    if (yes) shown.hidden.delete(i);
+    else shown.hidden.add(i);
+    layout.forEach(([curve], k) => {
+      if (curve === i) plot?.setSeries(k + 1, { show: yes });
     });
   });
   const at_x = element("output.at");
@@ -167,41 +297,15 @@ export function figure_block(block) {
 
   function load() {
     layout = [];
-    const curves = block.curves.map((curve, i) => {
-      const roles = curve.low ? ["y", "low", "high"] : ["y"];
+    const curves = shown.drawn.map((columns, i) => {
+      const roles = ["y", "low", "high"].filter((role) => columns[role]);
       for (const role of roles) layout.push([i, role]);
-      return { x: unpack(curve.x), columns: roles.map((role) => unpack(curve[role])) };
+      return { x: columns.x, columns: roles.map((role) => columns[role]) };
     });
     entry.points = Object.fromEntries(
       block.curves.map((curve, i) => [curve.name, curves[i].x.length]),
     );
-    data = aligned(curves);
-  }
-
-  function series() {
-    return layout.map(([i, role]) => {
-      const { style, dashed, name } = block.curves[i];
-      const line = role === "y";
-      return {
-        label: name,
-        show: !hidden.has(i),
-        stroke: line ? colours[i] : () => "transparent",
-        width: line ? 1.75 : 0,
-        dash: dashed ? [6, 4] : undefined,
-        paths: line ? paths[style] : paths.line,
-        points: { show: false },
-        spanGaps: false,
-      };
-    });
-  }
-
-  function bands() {
-    const all = [];
-    layout.forEach(([i, role], k) => {
-      if (role === "high")
-        all.push({ series: [k + 1, k], fill: `${colours[i]()}${is_dark() ? "38" : "2e"}` });
-    });
-    return all;
+    return aligned(curves);
   }
 
   function show_values() {
@@ -216,36 +320,39 @@ export function figure_block(block) {
   }
 
   function draw() {
-    if (!data) load();
+    const data = load();
     plot?.destroy();
+    plot = null;
     plot = new uPlot(
       {
         width: Math.max(space.clientWidth, 100),
         height,
         legend: { show: false },
-        scales: {
-          x: { time: false, range: (u, low, high) => x_range(u, low, high, block.marks) },
-          y: { range: y_range },
-        },
-        axes: [axis(block.x_label, 26), axis(block.y_label, width_of)],
+        scales: scales_of(shown),
+        axes: axes_of(shown),
         padding: [8, 12, 0, 0],
-        series: [{}, ...series()],
-        bands: bands(),
+        series: [{}, ...series_of(shown, layout)],
+        bands: bands_of(shown, layout),
         cursor: {
           points: { size: 6 },
           hover: { skip: [null, undefined] },
           drag: { x: true, y: false },
         },
         hooks: {
-          draw: [(u) => draw_marks(u, block.marks)],
+          draw: [(u) => draw_limits(u, block)],
           setCursor: [show_values],
+          setScale: [() => show_time()],
+          setSize: [() => show_time()],
         },
       },
       data,
       space,
     );
     entry.drawn = true;
+    show_time();
   }
+  const redraw = () => plot && draw();
+  const show_time = block.by_clock ? follow_clock(space, () => plot) : () => {};
 
   const entry = { title: block.title, drawn: false, points: null, draw };
   hook.charts.push(entry);
@@ -253,21 +360,40 @@ export function figure_block(block) {
     (changes, observer) => {
       if (!changes.some((change) => change.isIntersecting)) return;
       observer.disconnect();
-      draw();
+      if (!plot) draw();
     },
     { rootMargin: "300px" },
   ).observe(space);
   new ResizeObserver(() => {
     if (plot && space.clientWidth) plot.setSize({ width: space.clientWidth, height });
   }).observe(space);
-  on_theme(() => plot && draw());
+  on_theme(redraw);
 
-  return element(
+  const tools = downloads(block.title, {
+    picture: () =>
+      chart_svg(shown.labels, shown.curves, { ...saved_size, log: shown.log, alone: true }),
+    rows: () => shown.rows,
+  });
+  if (shown.is_tail) tools.prepend(tail_choice(shown, redraw));
+  const whole = element(
     "figure",
     {},
-    block.title ? element("figcaption.title", {}, block.title) : null,
+    element(
+      "div.head",
+      {},
+      block.title ? element("figcaption.title", {}, block.title) : null,
+      tools,
+    ),
     space,
+    on_paper(element("div.on-paper", {}), () => shown.picture(paper_size)),
     legend.shown,
     block.caption ? element("p.note", {}, ...marked_up(block.caption)) : null,
   );
+  return {
+    shown: whole,
+    of_station(station) {
+      shown.station = station;
+      redraw();
+    },
+  };
 }

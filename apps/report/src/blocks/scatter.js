@@ -1,32 +1,16 @@
 // Named points of a plane, as SVG: few enough to call each by its name.
 import { element, marked_up } from "../element.js";
 import { hook } from "../hook.js";
+import { downloads } from "../pictures/download.js";
+import { picture, standalone, svg } from "../pictures/svg.js";
+import { on_print } from "../print.js";
+import { round_steps, short } from "./axis_steps.js";
 
 const height = 420;
 const room = { left: 64, right: 20, top: 16, bottom: 48 };
 const radius = 5;
 const letter = { width: 6.6, height: 15 }; // at 12 px
 const most_names = 3; // of dots that lie upon each other
-
-const svg = (name, attributes = {}, ...children) => {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-};
-
-/// @returns round numbers from the last one below `low` to the first above
-/// `high`, about `count` of them.
-function round_steps(low, high, count) {
-  const wanted = (high - low || Math.abs(high) || 1) / count;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const step = power * [1, 2, 5, 10].find((part) => power * part >= wanted);
-  const first = Math.floor(low / step);
-  const last = Math.max(Math.ceil(high / step), first + 1);
-  return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
-}
-
-const short = (x) => Number(x.toPrecision(6)).toString().replace("-", "−");
 
 /// From figures to pixels; zero is in sight.
 function scale_of(values, from, to, count) {
@@ -194,9 +178,10 @@ function drawing(block, width) {
     width - room.right,
   );
   const names = named(crowds_of(order.map((i) => dots[i])), boxes_of(line), width);
-  return svg(
-    "svg",
-    { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": block.title },
+  return picture(
+    width,
+    height,
+    block.title,
     ...axes(block, x, y, width),
     ...line_through(line),
     ...names.flatMap(leader_of),
@@ -206,6 +191,8 @@ function drawing(block, width) {
     ),
   );
 }
+
+const paper_width = 680;
 
 export function scatter_block(block) {
   const space = element("div.scatter", {});
@@ -217,10 +204,22 @@ export function scatter_block(block) {
     draw();
     entry.drawn = true;
   }).observe(space);
+  on_print(() => space.replaceChildren(drawing(block, paper_width)), draw);
   return element(
     "figure.alone",
     {},
-    block.title ? element("figcaption.title", {}, block.title) : null,
+    element(
+      "div.head",
+      {},
+      block.title ? element("figcaption.title", {}, block.title) : null,
+      downloads(block.title, {
+        picture: () => standalone(space.firstChild),
+        rows: () => [
+          ["name", block.x_label, block.y_label],
+          ...block.dots.map(({ name, x, y }) => [name, x, y]),
+        ],
+      }),
+    ),
     space,
     block.caption ? element("p.note", {}, ...marked_up(block.caption)) : null,
   );

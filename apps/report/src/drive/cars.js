@@ -1,9 +1,10 @@
 // What moves on a map: vehicles, and rings round those that something befell.
 import { colour, is_calm, series_colour } from "../theme.js";
+import { event_groups } from "./event_groups.js";
 
 // However far away a car is, it is as many pixels long; of a crowd, fewer.
 const smallest_car = 15;
-const smallest_of_crowd = 8;
+const smallest_of_crowd = 5;
 const crowd = 100;
 const ring_s = 1.4; // of the reader's time
 
@@ -48,18 +49,19 @@ function provider_of({ provider }, drive) {
   return found && { x: found.at[0], y: found.at[1] };
 }
 
-/// Draws a ring round whoever met with an alarm just now, the latest of each.
+/// Draws a ring round whom an event concerned just now, the latest of each.
 export function draw_rings(context, view, drive, vehicles, { time, speed }) {
   const lasts = ring_s * Math.max(speed, 1);
-  const alarms = drive.alarms_between(time - lasts, time);
-  const latest = new Map(alarms.map((alarm) => [alarm.station || alarm.provider, alarm]));
-  context.strokeStyle = colour("alarm");
-  context.lineWidth = 3;
-  for (const alarm of latest.values()) {
+  const events = drive.marked_between(time - lasts, time);
+  const latest = new Map(events.map((event) => [event.station || event.provider, event]));
+  for (const event of latest.values()) {
     const at =
-      vehicles.find(({ station }) => station === alarm.station) ?? provider_of(alarm, drive);
+      vehicles.find(({ station }) => station === event.station) ?? provider_of(event, drive);
     if (!at) continue;
-    const age = (time - alarm.t) / lasts;
+    const age = (time - event.t) / lasts;
+    const { paint, quiet } = event_groups.find(({ key }) => key === event.group);
+    context.strokeStyle = colour(paint);
+    context.lineWidth = quiet ? 1.5 : 3;
     context.globalAlpha = 1 - age;
     context.beginPath();
     context.arc(view.left(at.x), view.top(at.y), is_calm() ? 16 : 10 + 18 * age, 0, 2 * Math.PI);

@@ -1,5 +1,6 @@
 // One run: where its vehicles are at any time, and who plans for them.
 import { unpack } from "../unpack.js";
+import { EventGroups } from "./event_groups.js";
 
 /// @returns the last index whose value is not after `x`; -1 for none.
 export function last_before(column, x) {
@@ -41,12 +42,13 @@ export class Drive {
       station, service, provider, from, until,
     }));
     this.events = block.events.map(
-      ([t, what, station, provider, service, detail, alarm]) => ({
-        t, what, station, provider, service, detail, alarm,
+      ([t, what, station, provider, service, detail, group]) => ({
+        t, what, station, provider, service, detail, group,
       }),
     );
-    this.alarms = this.events.filter((event) => event.alarm);
-    this.alarm_times = this.alarms.map((event) => event.t);
+    this.groups = new EventGroups(this.events);
+    this.marked = this.events.filter(({ group }) => group !== "other");
+    this.marked_times = this.marked.map((event) => event.t);
     this.stations = [
       ...new Set([
         ...this.vehicles.map((vehicle) => vehicle.station),
@@ -107,11 +109,10 @@ export class Drive {
       .filter((vehicle) => vehicle !== null);
   }
 
-  /// @returns alarms of (from, until].
-  alarms_between(from, until) {
-    return this.alarms.slice(
-      last_before(this.alarm_times, from) + 1,
-      last_before(this.alarm_times, until) + 1,
-    );
+  /// @returns events of (from, until] that the reader wants to see marked.
+  marked_between(from, until) {
+    return this.marked
+      .slice(last_before(this.marked_times, from) + 1, last_before(this.marked_times, until) + 1)
+      .filter(({ group }) => this.groups.shows(group));
   }
 }

@@ -1,11 +1,18 @@
 // The map of one drive: streets that stand, vehicles that move.
 import { element } from "../element.js";
+import { downloads } from "../pictures/download.js";
+import { SvgContext } from "../pictures/svg_context.js";
+import { on_paper } from "../print.js";
 import { colour, on_theme } from "../theme.js";
 import { draw_car, draw_rings } from "./cars.js";
 import { draw_scenery, draw_text } from "./scenery.js";
+import { clock_text } from "./timeline.js";
 import { View, bounds_of } from "./view.js";
 
 const reach = 18; // pixels from the pointer to a vehicle
+const saved_width = 900;
+const paper_width = 680;
+const letter_width = 6.4; // of a station's digit, pixels
 
 export class DriveMap {
   constructor(drive, clock) {
@@ -42,8 +49,18 @@ export class DriveMap {
         }),
       ),
     );
+    // As high as the world needs at this width, but not higher than the CSS says.
+    const { west, east, south, north } = this.view.bounds;
+    this.ratio = (east - west) / (north - south);
+    this.shown.style.aspectRatio = `${this.ratio}`;
+    this.paper = on_paper(element("div.on-paper", {}), () => [
+      element("p.note", {}, `At ${clock_text(clock.time)}.`),
+      this.picture(paper_width),
+    ]);
+    this.tools = downloads(`Map of ${drive.name}`, { picture: () => this.picture(saved_width) });
     new ResizeObserver(() => this.resize()).observe(this.shown);
     on_theme(() => this.renew());
+    drive.groups.on_change(() => this.draw());
     clock.on_change(() => this.draw());
   }
 
@@ -101,12 +118,47 @@ export class DriveMap {
     }
     const context = this.context(this.canvas);
     context.drawImage(this.streets, 0, 0, view.width, view.height);
-    for (const vehicle of vehicles) draw_car(context, view, this.drive, vehicle, clock.time);
-    if (this.labels)
-      for (const { station, x, y } of vehicles)
-        draw_text(context, `${station}`, view.left(x) + 10, view.top(y) - 11, "11px", colour("ink"));
-    draw_rings(context, view, this.drive, vehicles, clock);
+    this.draw_vehicles(context, view, vehicles);
     this.show_tip(vehicles);
+  }
+
+  draw_vehicles(context, view, vehicles) {
+    for (const vehicle of vehicles) draw_car(context, view, this.drive, vehicle, this.clock.time);
+    if (this.labels) this.draw_labels(context, view, vehicles);
+    draw_rings(context, view, this.drive, vehicles, this.clock);
+  }
+
+  /// Beside each vehicle, where no other label stands.
+  draw_labels(context, view, vehicles) {
+    const taken = [];
+    for (const { station, x, y } of vehicles) {
+      const text = `${station}`;
+      const wide = text.length * letter_width;
+      const [left, top] = [view.left(x), view.top(y)];
+      const places = [
+        [left + 10, top - 11],
+        [left + 10, top + 12],
+        [left - 10 - wide, top - 11],
+        [left - 10 - wide, top + 12],
+      ];
+      const free = places.find(([a, b]) =>
+        taken.every(([c, d, w]) => a + wide < c || c + w < a || Math.abs(b - d) > 12),
+      );
+      const [a, b] = free ?? places[0];
+      taken.push([a, b, wide]);
+      draw_text(context, text, a, b, "11px", colour("ink"));
+    }
+  }
+
+  /// @returns all of the map as it is at this time, as SVG.
+  picture(width) {
+    const height = Math.round(Math.min(width / this.ratio, 1.2 * width));
+    const view = new View(this.view.bounds);
+    view.resize(width, height);
+    const context = new SvgContext();
+    draw_scenery(context, view, this.drive);
+    this.draw_vehicles(context, view, this.drive.vehicles_at(this.clock.time));
+    return context.picture(width, height, `Map of ${this.drive.name}`);
   }
 
   nearest(vehicles, { x, y }) {

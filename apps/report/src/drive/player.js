@@ -4,6 +4,7 @@ import { hook } from "../hook.js";
 import { on_theme, colour, series_colour } from "../theme.js";
 import { Clock } from "./clock.js";
 import { Drive } from "./drive.js";
+import { event_groups } from "./event_groups.js";
 import { event_list } from "./event_list.js";
 import { DriveMap } from "./map.js";
 import { Timeline, clock_text } from "./timeline.js";
@@ -80,7 +81,9 @@ function legend(drives) {
       entry("car", `planned by ${name}`, () => series_colour(i)),
     ),
     entry("area", "offloading area", () => series_colour(0)),
-    entry("ring", "QoS event", () => colour("alarm")),
+    ...event_groups
+      .filter(({ key }) => key !== "other" && drives.some(({ groups }) => groups.counts.get(key)))
+      .map(({ one, paint }) => entry("ring", one, () => colour(paint))),
   );
 }
 
@@ -137,8 +140,9 @@ export function player(blocks) {
     return element(
       "div.drive",
       {},
-      several ? element("h3", {}, drive.name) : null,
+      element("div.head", {}, several ? element("h3", {}, drive.name) : null, maps[i].tools),
       maps[i].shown,
+      maps[i].paper,
       remark ? element("p.note", {}, remark) : null,
     );
   });
@@ -148,7 +152,7 @@ export function player(blocks) {
       {},
       several ? element("h3", {}, drive.name) : null,
       drive.stations.length ? new Timeline(drive, clock).shown : null,
-      drive.events.length ? event_list(drive, clock) : null,
+      event_list(drive, clock),
     ),
   );
   const shown = element(
@@ -165,6 +169,8 @@ export function player(blocks) {
   players.push({ shown, clock });
   hook.players.push({
     clock,
+    drives,
+    views: maps.map((map) => map.view),
     vehicles: () => drives.map((drive) => drive.vehicles_at(clock.time)),
     track_rows: drives.map((drive) =>
       drive.vehicles.reduce((sum, { t }) => sum + t.length, 0),

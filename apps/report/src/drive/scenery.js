@@ -53,6 +53,37 @@ function draw_scale(context, { scale, height }) {
   draw_text(context, text, 8, height - 20, "11px", colour("soft"));
 }
 
+const arrow_gap = 90; // pixels between two on a lane
+const shortest_lane = 40; // pixels, with an arrow
+const narrowest_lane = 3.5; // pixels, with arrows
+
+/// Draws which way lanes go: an arrow in the middle of each stretch.
+function draw_directions(context, view, { x, y, half_width }) {
+  const half = Math.min(half_width * view.scale * 0.55, 4);
+  if (2 * half_width * view.scale < narrowest_lane) return;
+  const [left, top] = [Array.from(x, (one) => view.left(one)), Array.from(y, (one) => view.top(one))];
+  const ways = left.map((_, i) => (i ? Math.hypot(left[i] - left[i - 1], top[i] - top[i - 1]) : 0));
+  const length = ways.reduce((sum, way) => sum + way, 0);
+  if (length < shortest_lane) return;
+  const count = Math.max(1, Math.floor(length / arrow_gap));
+  let passed = 0;
+  let next = length / count / 2;
+  for (let i = 1; i < left.length; ++i) {
+    for (; passed + ways[i] >= next; next += length / count) {
+      const share = (next - passed) / ways[i];
+      const [dx, dy] = [(left[i] - left[i - 1]) / ways[i], (top[i] - top[i - 1]) / ways[i]];
+      const a = left[i - 1] + share * (left[i] - left[i - 1]);
+      const b = top[i - 1] + share * (top[i] - top[i - 1]);
+      context.beginPath();
+      context.moveTo(a - half * (dx + dy), b - half * (dy - dx));
+      context.lineTo(a + half * dx, b + half * dy);
+      context.lineTo(a - half * (dx - dy), b - half * (dy + dx));
+      context.stroke();
+    }
+    passed += ways[i];
+  }
+}
+
 export function draw_scenery(context, view, drive) {
   drive.providers.forEach(({ area }, i) => {
     outline(context, view, area);
@@ -73,6 +104,9 @@ export function draw_scenery(context, view, drive) {
     for (let i = 0; i < x.length; ++i) context.lineTo(view.left(x[i]), view.top(y[i]));
     context.stroke();
   }
+  context.strokeStyle = colour("arrow");
+  context.lineWidth = 1.1;
+  for (const lane of drive.lanes) draw_directions(context, view, lane);
   context.fillStyle = colour("soft");
   for (const obstacle of drive.obstacles) {
     outline(context, view, obstacle);

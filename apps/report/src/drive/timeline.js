@@ -1,7 +1,11 @@
 // Who planned for each vehicle and when: a strip per vehicle.
 import { element } from "../element.js";
+import { downloads } from "../pictures/download.js";
+import { SvgContext } from "../pictures/svg_context.js";
+import { on_paper } from "../print.js";
 import { colour, on_theme, series_colour } from "../theme.js";
 import { last_before } from "./drive.js";
+import { draw_mark } from "./event_groups.js";
 
 const row_height = 24;
 const strip_height = 10;
@@ -10,6 +14,10 @@ const gutter = 46; // for the stations
 const rim = 18;
 const axis_height = 22;
 const most_height = 384;
+const paper_width = 680;
+const paper_rows = 30; // of one picture, so that it fits on a sheet
+const saved_width = 900;
+const searched_from = 20; // rows
 const steps = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400];
 
 export function clock_text(time) {
@@ -24,10 +32,11 @@ export class Timeline {
   constructor(drive, clock) {
     this.drive = drive;
     this.clock = clock;
-    this.alarms = new Map(drive.stations.map((station) => [station, []]));
-    this.alarms_of_all = [];
-    for (const alarm of drive.alarms)
-      (this.alarms.get(alarm.station) ?? this.alarms_of_all).push(alarm);
+    this.rows = drive.stations;
+    this.marked = new Map(drive.stations.map((station) => [station, []]));
+    this.marked_of_all = [];
+    for (const event of drive.marked)
+      (this.marked.get(event.station) ?? this.marked_of_all).push(event);
     this.canvas = element("canvas", {
       role: "img",
       "aria-label": `Offloading of each vehicle in ${drive.name}, by time`,
@@ -41,18 +50,80 @@ export class Timeline {
     // strips scroll.
     this.window = element("div.window", {}, this.canvas, this.cursor, this.tip);
     this.room = element("div.room", {}, this.window);
-    this.shown = element("div.timeline", { scroll: () => this.draw() }, this.room);
-    new ResizeObserver(() => this.resize()).observe(this.shown);
+    this.strips = element("div.timeline", { scroll: () => this.draw() }, this.room);
+    this.shown = element(
+      "div",
+      {},
+      element(
+        "div.head",
+        {},
+        drive.stations.length > searched_from ? this.search() : null,
+        downloads(`Offloading of ${drive.name}`, {
+          picture: () => this.picture(saved_width, this.rows),
+          rows: () => this.table(),
+        }),
+      ),
+      this.strips,
+      on_paper(element("div.on-paper", {}), () => this.on_sheets()),
+    );
+    new ResizeObserver(() => this.resize()).observe(this.strips);
     on_theme(() => this.draw());
+    drive.groups.on_change(() => this.draw());
     clock.on_change(() => this.show_time());
   }
 
   get rows_height() {
-    return this.drive.stations.length * row_height;
+    return this.rows.length * row_height;
+  }
+
+  /// Leaves the stations that begin with what is written.
+  search() {
+    const field = element("input", {
+      type: "search",
+      inputmode: "numeric",
+      placeholder: `one of ${this.drive.stations.length}`,
+      input: () => {
+        this.rows = this.drive.stations.filter((one) => `${one}`.startsWith(field.value.trim()));
+        this.strips.scrollTop = 0;
+        this.resize();
+      },
+    });
+    return element("label.choice", {}, "vehicle ", field);
+  }
+
+  /// @returns a line for each offloading.
+  table() {
+    return [
+      ["station", "service", "provider", "from_s", "until_s"],
+      ...this.drive.offloadings.map((one) => [
+        one.station, one.service, one.provider, one.from, one.until,
+      ]),
+    ];
+  }
+
+  /// @returns pictures of all strips, no more on each than a sheet has room for.
+  on_sheets() {
+    const { stations } = this.drive;
+    const sheets = [];
+    for (let from = 0; from < stations.length; from += paper_rows)
+      sheets.push(this.picture(paper_width, stations.slice(from, from + paper_rows)));
+    return sheets;
+  }
+
+  /// @returns the strips of some stations, as SVG.
+  picture(width, stations) {
+    const context = new SvgContext();
+    context.font = "11px system-ui, sans-serif";
+    const bottom = stations.length * row_height;
+    const own = this.width;
+    this.width = width;
+    this.draw_strips(context, stations, bottom, 0);
+    this.width = own;
+    return context.picture(width, bottom + axis_height, `Offloading in ${this.drive.name}`);
   }
 
   resize() {
-    this.width = this.shown.clientWidth;
+    this.width = this.strips.clientWidth;
     if (!this.width) return;
     this.height = Math.min(this.rows_height + axis_height, most_height);
     this.room.style.height = `${this.rows_height + axis_height}px`;
@@ -76,7 +147,7 @@ export class Timeline {
 
   /// @returns the row at a place in the window.
   row_at(top) {
-    return Math.floor((top + this.shown.scrollTop) / row_height);
+    return Math.floor((top + this.strips.scrollTop) / row_height);
   }
 
   draw() {
@@ -85,19 +156,24 @@ export class Timeline {
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
     context.font = "11px system-ui, sans-serif";
+    this.draw_strips(context, this.rows, this.height - axis_height, this.strips.scrollTop);
+  }
+
+  /// Draws those strips that are in sight.
+  draw_strips(context, stations, bottom, scrolled) {
     context.textBaseline = "middle";
-    const bottom = this.height - axis_height;
     this.draw_axis(context, bottom);
     context.save();
     context.beginPath();
     context.rect(0, 0, this.width, bottom);
     context.clip();
-    const { stations } = this.drive;
-    const last = Math.min(this.row_at(bottom), stations.length - 1);
-    for (let row = this.row_at(0); row <= last; ++row)
-      this.draw_row(context, stations[row], row * row_height - this.shown.scrollTop);
+    const first = Math.floor(scrolled / row_height);
+    const last = Math.min(Math.floor((bottom + scrolled) / row_height), stations.length - 1);
+    for (let row = first; row <= last; ++row)
+      this.draw_row(context, stations[row], row * row_height - scrolled);
     context.fillStyle = colour("alarm");
-    for (const { t } of this.alarms_of_all) context.fillRect(this.left(t) - 0.75, 0, 1.5, bottom);
+    for (const { t, group } of this.marked_of_all)
+      if (this.drive.groups.shows(group)) context.fillRect(this.left(t) - 0.75, 0, 1.5, bottom);
     context.restore();
   }
 
@@ -130,22 +206,14 @@ export class Timeline {
       if (place <= 0) this.bar(context, [from, until], top, strip_height, paint);
       else this.bar(context, [from, until], lower, thin_height, paint);
     }
-    context.fillStyle = colour("alarm");
-    for (const { t } of this.alarms.get(station)) this.draw_alarm(context, this.left(t), row_top + 1);
+    for (const { t, group } of this.marked.get(station))
+      if (drive.groups.shows(group)) draw_mark(context, group, this.left(t), row_top + 1);
   }
 
   bar(context, [from, until], top, height, paint) {
     const left = this.left(from);
     context.fillStyle = paint;
     context.fillRect(left, top, Math.max(this.left(until) - left, 1.5), height);
-  }
-
-  draw_alarm(context, left, top) {
-    context.beginPath();
-    context.moveTo(left - 4, top);
-    context.lineTo(left + 4, top);
-    context.lineTo(left, top + 7);
-    context.fill();
   }
 
   show_time() {
@@ -163,7 +231,7 @@ export class Timeline {
     const box = this.canvas.getBoundingClientRect();
     const [left, top] = [event.clientX - box.left, event.clientY - box.top];
     const time = this.time_at(event);
-    const station = this.drive.stations[this.row_at(top)];
+    const station = this.rows[this.row_at(top)];
     const planned = this.drive.planned.get(station) ?? [];
     const one = planned[last_before(planned.map(({ from }) => from), time)];
     this.tip.hidden = !one || time > one.until;
