@@ -2,6 +2,7 @@
 #include "experiments/benchmark/bench.hpp"
 
 #include "apps/command.hpp"
+#include "apps/find_scenario.hpp"
 #include "apps/signals.hpp"
 #include "apps/sweep_arguments.hpp"
 
@@ -55,7 +56,8 @@ struct bench_arguments {
 
   int obey() const {
     experiments::bench::bench_options what;
-    what.scenarios.assign(files.begin(), files.end());
+    for (const auto& file : files)
+      what.scenarios.emplace_back(find_scenario(file));
     what.entrants = experiments::bench::chosen_from(known(), policies);
     what.set = set;
     what.seeds = seeds;

@@ -1,8 +1,10 @@
 // sofof policies: what decides, and by what.
 #include "apps/annotated_options.hpp"
 #include "apps/command.hpp"
+#include "apps/terminal.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
+#include "base/text/wrapped.hpp"
 #include "policies/registry.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unistd.h>
 #include <vector>
 
 namespace sofof::apps {
@@ -52,10 +55,18 @@ std::vector<role> roles() {
        policies::governor_notes(), options_by(policies::make_governor), true}};
 }
 
+/// A line, or several where a terminal is too narrow for it: below each other.
+/// @param first  ASCII.
+std::string hanging(const std::string& first, std::string_view text) {
+  const auto line = fmt::format("{}{}\n", first, text);
+  const auto width = terminal_width(STDOUT_FILENO);
+  return width ? wrapped(line, *width, first.size()) : line;
+}
+
 std::string list(const role& one) {
   auto text = fmt::format("{}, {}\n", one.key, one.what);
   for (const auto& notes : one.all)
-    text += fmt::format("  {:<18} {}\n", notes.name, notes.summary);
+    text += hanging(fmt::format("  {:<18} ", notes.name), notes.summary);
   return text;
 }
 
@@ -67,15 +78,11 @@ std::string describe(const role& sort, const policies::policy_info& one) {
     s.field("name", name);
     sort.options(s, name);
   };
-  return fmt::format("{} as {}: {}\n"
-                     "  decides by: {}\n"
-                     "  sees:       {}\n"
-                     "  source:     {}\n"
-                     "\n"
-                     "{}",
-                     one.name, sort.key, one.summary, one.rule, one.sees,
-                     one.source,
-                     print_documented(header, options, one.parameters));
+  return hanging(fmt::format("{} as {}: ", one.name, sort.key), one.summary)
+         + hanging("  decides by: ", one.rule)
+         + hanging("  sees:       ", one.sees)
+         + hanging("  source:     ", one.source) + "\n"
+         + print_documented(header, options, one.parameters);
 }
 
 std::string describe(std::string_view name) {

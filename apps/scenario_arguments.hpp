@@ -1,6 +1,8 @@
 // The command-line arguments that name a scenario and change it.
 #pragma once
 
+#include "apps/find_scenario.hpp"
+#include "base/input_error.hpp"
 #include "scenario/load.hpp"
 
 #include <CLI/CLI.hpp>
@@ -17,7 +19,9 @@ struct scenario_arguments {
   std::string length;
 
   void add_to(CLI::App& command) {
-    command.add_option("FILE", file, "Scenario file (TOML)")
+    command
+        .add_option("FILE", file,
+                    "Scenario file (TOML), or its name in config/")
         ->required()
         ->type_name(" ");
     command.add_option("--seed", seed, "Seed of all randomness")
@@ -38,7 +42,13 @@ struct scenario_arguments {
       overrides.push_back("seed=" + seed);
     if (!length.empty())
       overrides.push_back("duration=" + length);
-    return scenario::load_scenario(file, overrides);
+    const auto found = find_scenario(file);
+    try {
+      return scenario::load_scenario(found, overrides);
+    } catch (const input_error&) {
+      refuse_map(found);
+      throw;
+    }
   }
 };
 

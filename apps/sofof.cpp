@@ -1,9 +1,14 @@
 // The `sofof` command.
 #include "apps/command.hpp"
+#include "apps/terminal.hpp"
+#include "apps/usage.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
+#include "base/text/wrapped.hpp"
 #include "network/network_error.hpp"
 #include "scenario/init_messages.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <csignal>
@@ -11,7 +16,9 @@
 #include <exception>
 #include <iostream>
 #include <malloc.h>
+#include <string>
 #include <string_view>
+#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -19,8 +26,11 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_input = 2;
 
-int complain(const char* what, int exit_code) {
-  std::fprintf(stderr, "sofof: %s\n", what);
+int complain(std::string_view what, int exit_code) {
+  auto line = fmt::format("sofof: {}", what);
+  if (const auto width = sofof::apps::terminal_width(STDERR_FILENO))
+    line = sofof::wrapped(line, *width, 2);
+  std::fprintf(stderr, "%s\n", line.c_str());
   return exit_code;
 }
 
@@ -36,6 +46,16 @@ void check_command(const CLI::App& app, std::string_view word) {
     throw sofof::input_error{sofof::unknown_word("command", word, known)};
 }
 
+/// "help run" is "run --help".
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  return words;
+}
+
 int obey(int argc, char** argv) {
   CLI::App app{"SOFOF: function offloading for connected automated vehicles",
                "sofof"};
@@ -43,7 +63,7 @@ int obey(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.footer("First steps:\n  sofof run config/ulm_lehr.toml\n"
              "  sofof report results/ulm_lehr-1\n"
-             "  sofof test        (through ./sofof at the root)\n\n"
+             "  sofof help run\n\n"
              "Exit codes: 0 done, 1 the run was unsafe or failed, or a message "
              "is wrong,\n2 wrong input or usage, 130 interrupted.");
   int exit_code = 0;
@@ -61,12 +81,15 @@ int obey(int argc, char** argv) {
   sofof::apps::add_decode(app, exit_code);
   sofof::apps::add_encode(app, exit_code);
   sofof::apps::add_keys(app, exit_code);
-  if (argc > 1)
-    check_command(app, argv[1]);
+  const auto words = words_of(argc, argv);
+  if (!words.empty())
+    check_command(app, words.front());
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : wrong_input;
+    return complain(sofof::apps::usage_error(app, e, words), wrong_input);
   }
   if (app.get_subcommands().empty())
     std::cout << app.help();

@@ -1,5 +1,6 @@
 // sofof train: a policy learns by driving.
 #include "apps/command.hpp"
+#include "apps/find_scenario.hpp"
 #include "apps/signals.hpp"
 #include "experiments/benchmark/training.hpp"
 #include "scenario/run.hpp"
@@ -21,7 +22,8 @@ struct train_arguments {
   experiments::bench::training_options options;
 
   int obey() {
-    options.scenarios.assign(files.begin(), files.end());
+    for (const auto& file : files)
+      options.scenarios.emplace_back(find_scenario(file));
     options.out = out.empty() ? options.policy + ".txt" : out;
     if (!quiet)
       options.show = isatty(STDOUT_FILENO) != 0
