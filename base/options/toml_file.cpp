@@ -3,6 +3,7 @@
 
 #include "base/files/regular_file.hpp"
 #include "base/input_error.hpp"
+#include "base/options/spelling.hpp"
 #include "base/options/toml_depth.hpp"
 #include "base/options/toml_nodes.hpp"
 #include "base/options/toml_options.hpp"
@@ -14,6 +15,7 @@
 #include <charconv>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace sofof {
 
@@ -49,6 +51,23 @@ toml::node* find_child(toml::node& parent, std::string_view segment) {
   if (auto* list = parent.as_array())
     return list->get(find_index(*list, segment));
   return nullptr;
+}
+
+/// @returns what to say of a list's element that there is none of.
+std::string no_such_element(const toml::node& list, std::string_view segment) {
+  std::vector<std::string_view> names;
+  if (const auto* all = list.as_array())
+    for (const auto& element : *all)
+      if (const auto* table = element.as_table())
+        if (const auto name = (*table)["name"].value<std::string_view>())
+          names.push_back(*name);
+  if (names.empty())
+    return fmt::format("there is no \"{}\".", segment);
+  const auto meant = nearest_word(segment, names);
+  return fmt::format(
+      "there is no \"{}\"{} Known: {}.", segment,
+      meant.empty() ? "." : fmt::format(", did you mean \"{}\"?", meant),
+      fmt::join(names, ", "));
 }
 
 /// Puts `what` under `segment` into a table, or into an element that a list
@@ -90,7 +109,7 @@ public:
         refuse("a part of the key is empty.");
       auto* next = find_child(*at, segment);
       if (!next && !at->is_table())
-        refuse(fmt::format("there is no \"{}\".", segment));
+        refuse(no_such_element(*at, segment));
       if (key.empty())
         return put_child(*at, segment, std::move(*value().get("value")));
       if (!next || next->is_string())

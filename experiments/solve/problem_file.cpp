@@ -204,8 +204,8 @@ json parse(const std::filesystem::path& path) {
   try {
     return json::parse(text);
   } catch (const json::parse_error& e) {
-    throw input_error(
-        fmt::format("{}: this is no JSON: {}", path.string(), e.what()));
+    throw input_error(fmt::format("{}: this is no JSON from character {} on.",
+                                  path.string(), e.byte));
   }
 }
 
