@@ -109,15 +109,6 @@ void provider::expire(const epoch_end&, time_point now) {
 
 // -- stations -----------------------------------------------------------------
 
-void provider::on_sign_of_life(station_id station, peer_id from,
-                               time_point now) {
-  pass(now);
-  const auto known = stations_.find(station);
-  if (known != stations_.end() && known->second.requester == from)
-    known->second.heard = now;
-  assert(is_consistent());
-}
-
 void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   pass(now);
   const auto known = stations_.find(c.station);

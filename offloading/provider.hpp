@@ -111,13 +111,10 @@ public:
   /// @param port  Outlives the provider.
   provider(provider_setup setup, provider_port& port);
 
-  /// A station tells where it is.
+  /// A station tells where it is, which alone shows that it is still there.
+  /// Source: Dehler & Buchholz 2025, "CAM check" of fig. 2.
   /// @param from  Where its requester is reached.
   void on_cam(const messages::cam& c, peer_id from, time_point now);
-
-  /// A known station has sent something else than a CAM that all may hear (a
-  /// CPM): it is not silent. Inputs do not count.
-  void on_sign_of_life(station_id station, peer_id from, time_point now);
 
   /// A request with a number that is not above the last one is ignored.
   void on_request(const messages::service_request& request, peer_id from,

@@ -24,11 +24,6 @@ public:
     provider_->on_cam(c, from, now);
   }
 
-  void on_sign_of_life(station_id station, peer_id from, time_point now) {
-    begin_call(now);
-    provider_->on_sign_of_life(station, from, now);
-  }
-
   void on_message(peer_id from, const to_provider& message, time_point now) {
     begin_call(now);
     std::visit([&](const auto& x) { handle(from, x); }, message);
@@ -208,11 +203,6 @@ provider_side::~provider_side() = default;
 void provider_side::on_cam(const messages::cam& c, peer_id from,
                            time_point now) {
   parts_->on_cam(c, from, now);
-}
-
-void provider_side::on_sign_of_life(station_id station, peer_id from,
-                                    time_point now) {
-  parts_->on_sign_of_life(station, from, now);
 }
 
 void provider_side::on_message(peer_id from, const to_provider& message,

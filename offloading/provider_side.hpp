@@ -45,9 +45,6 @@ public:
   /// @param from  Where its requester is reached.
   void on_cam(const messages::cam& c, peer_id from, time_point now);
 
-  /// A station has sent something else, a CPM say: it lives.
-  void on_sign_of_life(station_id station, peer_id from, time_point now);
-
   /// @param from  Whoever has sent it. Only its requester feeds and ends a
   ///              session; that a request comes from the station that it names
   ///              is for the owner to see to.

@@ -80,7 +80,7 @@ public:
 ///   to say so or is lost.
 /// * A provider with an implausible result is not asked for a while, for no
 ///   service (distrust.hpp). One whose session gave results and then ended by
-///   a fault (is_fallback, service_state.hpp) is not asked for that service for
+///   a fault (not messages::is_planned) is not asked for that service for
 ///   protocol::cool_down, nor are those that ran it beside that one.
 /// * Results of a session that is not known are dropped; its provider is told
 ///   so every protocol::unknown_result_period at most.

@@ -313,7 +313,7 @@ void requester::end(service_state& service, provider_id provider,
   learn_from(service, ended, reason, now);
   std::erase_if(service.cool_until,
                 [now](const auto& other) { return other.second <= now; });
-  if (ended.at == phase::remote && is_fallback(reason))
+  if (ended.at == phase::remote && !messages::is_planned(reason))
     service.cool_until[provider] = now + protocol::cool_down;
   if (ended.at == phase::remote)
     announce_placement();
@@ -333,7 +333,7 @@ void requester::log_end(service_state& service, const requester_session& ended,
       .got_data = was_remote,
       .ended = now,
       .reason = why.reason,
-      .fallback = is_fallback(why.reason) && comes_home,
+      .fallback = !messages::is_planned(why.reason) && comes_home,
       .because = why.because});
   if (comes_home) {
     service.since = now;

@@ -196,16 +196,4 @@ service_state::candidates(const known_providers& providers, point from,
   return told;
 }
 
-bool is_fallback(messages::end_reason reason) {
-  switch (reason) {
-    case messages::end_reason::left_area:
-    case messages::end_reason::handed_over:
-    case messages::end_reason::released:
-    case messages::end_reason::shutdown:
-      return false;
-    default:
-      return true;
-  }
-}
-
 } // namespace sofof::offloading

@@ -105,7 +105,4 @@ struct service_state {
                                     point from, time_point now);
 };
 
-/// @returns whether a service that ends so comes home unplanned.
-bool is_fallback(messages::end_reason reason);
-
 } // namespace sofof::offloading

@@ -47,9 +47,6 @@ struct provider_state {
     } else if (const auto* seen = std::get_if<messages::object_list>(&heard)) {
       const auto sender = sender_of(message, seen->from);
       tell([&](broadcast_listener& x) { x.on_objects(*seen, sender); });
-      links->with(requester, *rules, [&](auto from) {
-        rules->on_sign_of_life(seen->from, from, now(self));
-      });
     }
   }
 

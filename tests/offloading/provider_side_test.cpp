@@ -139,19 +139,18 @@ TEST_CASE("a session is ended by its requester alone") {
   CHECK(sp.results.size() == ended);
 }
 
-TEST_CASE("a station lives by what its own requester sends") {
-  for (const auto from : {vehicle, offloading::peer_id{8}}) {
-    CAPTURE(from == vehicle);
+TEST_CASE("a station lives by its CAMs") {
+  for (const auto again : {true, false}) {
+    CAPTURE(again);
     roadside sp{3ms};
-    sp.side->on_sign_of_life(station, from, sp.now); // nobody knows it yet
-    CHECK(!sp.accepted);
     sp.start();
     sp.run_until(time_point{2s});
-    sp.side->on_sign_of_life(station, from, sp.now);
-    sp.run_until(time_point{3500ms}); // 2.5 s after its CAM
+    if (again)
+      sp.hear(station, vehicle);
+    sp.run_until(time_point{3500ms}); // 2.5 s after the CAM before
     const auto before = sp.results.size();
     sp.run_until(time_point{3900ms});
-    CHECK((sp.results.size() > before) == (from == vehicle));
+    CHECK((sp.results.size() > before) == again);
   }
 }
 
