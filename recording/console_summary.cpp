@@ -3,7 +3,9 @@
 
 #include "base/overloaded.hpp"
 #include "base/text/terminal_style.hpp"
+#include "base/text/wrapped.hpp"
 #include "recording/figures.hpp"
+#include "recording/headline.hpp"
 #include "recording/safety_line.hpp"
 
 #include <fmt/format.h>
@@ -289,10 +291,14 @@ void load_lines(std::string& out, const terminal_style& paint,
   if (count > all.size())
     out += fmt::format("  {} more, with less to do: load.csv\n",
                        count - all.size());
-  auto warnings = warnings_of(table, length);
-  warnings.resize(std::min(warnings.size(), most_load_lines));
-  for (const auto& warning : warnings)
-    out += "  " + paint.bad(warning) + '\n';
+  auto full = full_ones(table, length);
+  full.resize(std::min(full.size(), most_load_lines));
+  for (const auto& [of, sum] : full)
+    out += paint.bad(fmt::format("  {} {} asked for over {:.0f} % in {:g} of "
+                                 "{:.0f} s",
+                                 of->provider, of->what, 100 * full_share,
+                                 sum.full_s, to_seconds(length)))
+           + '\n';
 }
 
 std::uint64_t messages_of(const air_metrics& air) {
@@ -322,6 +328,17 @@ void air_lines(std::string& out, const terminal_style& paint,
   count("  CPM", air.cpm);
   count("  MCM up", air.mcm_up);
   count("  MCM down", air.mcm_down);
+}
+
+/// The run in three sentences, where the eye ends.
+void headline_lines(std::string& out, const terminal_style& paint,
+                    const headline& x, bool is_safe) {
+  const auto line = [](const std::string& text) {
+    return wrapped(text, line_width);
+  };
+  const auto safety = line(x.safety);
+  out += fmt::format("\n{}\n{}\n{}\n", line(x.offloading),
+                     is_safe ? safety : paint.bad(safety), line(x.load));
 }
 
 } // namespace
@@ -367,12 +384,14 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   }
   load_lines(out, paint, m.load(), from_seconds(end.virtual_s));
   air_lines(out, paint, m.air());
-  if (folder.empty())
-    return out;
-  out += fmt::format("\nresults in {}\n", folder.string());
-  if (!run.pcap.empty())
+  out += '\n';
+  if (!folder.empty())
+    out += fmt::format("results in {}\n", folder.string());
+  if (!folder.empty() && !run.pcap.empty())
     out += fmt::format("{} message{} in {}\n", messages_of(m.air()),
                        messages_of(m.air()) == 1 ? "" : "s", run.pcap);
+  if (run.provider.empty())
+    headline_lines(out, paint, headline_of(m, run, end), m.safety().ok());
   return out;
 }
 

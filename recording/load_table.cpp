@@ -3,8 +3,6 @@
 
 #include "base/text/csv.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
@@ -92,22 +90,19 @@ load_summary summary_of(const channel::load_figures& x, duration length) {
   };
   for (duration t{}; t + peak_length <= length; t += x.width)
     sum.peak_share = std::max(sum.peak_share, asked_from(t, peak_length));
-  for (duration t{}; t + one_second <= length; t += one_second)
-    sum.full_s += asked_from(t, one_second) > full_share ? 1U : 0U;
+  for (duration t{}; t + peak_length <= length; t += peak_length)
+    if (asked_from(t, peak_length) > full_share)
+      sum.full_s += to_seconds(peak_length);
   return sum;
 }
 
-std::vector<std::string> warnings_of(const load_table& table, duration length) {
-  std::vector<std::string> all;
-  for (const auto& x : table.servers) {
-    const auto of = summary_of(x.of, length);
-    if (of.full_s == 0)
-      continue;
-    all.push_back(fmt::format("{} {}: asked for over {:.0f} % in {} of {:.0f} "
-                              "s, for {:.0f} % at most",
-                              x.provider, x.what, 100 * full_share, of.full_s,
-                              to_seconds(length), 100 * of.peak_share));
-  }
+std::vector<full_servers> full_ones(const load_table& table, duration length) {
+  std::vector<full_servers> all;
+  for (const auto& x : table.servers)
+    if (const auto of = summary_of(x.of, length); of.full_s > 0)
+      all.push_back({&x, of});
+  std::ranges::stable_sort(all, std::ranges::greater{},
+                           [](const auto& x) { return x.sum.peak_share; });
   return all;
 }
 

@@ -14,7 +14,7 @@
 
 namespace sofof::recording {
 
-/// Above this share of what servers can do in a second, they count as full.
+/// Above this share of what servers can do in half a second they count as full.
 /// A queue's mean wait grows as 1 / (1 - share): tenfold here.
 inline constexpr double full_share = 0.9;
 
@@ -41,21 +41,27 @@ struct load_table {
 /// What servers did in a run. Shares are of all their time.
 struct load_summary {
   std::uint64_t jobs = 0;
-  double busy_share = 0;    ///< In [0, 1].
-  double asked_share = 0;   ///< Work that arrived; above 1 it piles up.
-  double peak_share = 0;    ///< The same in the half second of the most work.
-  std::uint64_t full_s = 0; ///< Seconds in which it was above `full_share`.
+  double busy_share = 0;  ///< In [0, 1].
+  double asked_share = 0; ///< Work that arrived; above 1 it piles up.
+  double peak_share = 0;  ///< The same in the half second of the most work.
+  double full_s = 0; ///< Of half seconds in which it was above `full_share`.
   std::optional<double> mean_wait_ms;
   std::optional<double> p99_wait_ms;
   std::optional<double> max_wait_ms;
 };
 
-/// @param length  Of the run. Seconds and half seconds that it cuts short
-///                count for the mean shares alone.
+/// @param length  Of the run. A half second that it cuts short counts for the
+///                mean shares alone.
 load_summary summary_of(const channel::load_figures& x, duration length);
 
-/// @returns a sentence for each of the servers that were full for a second.
-std::vector<std::string> warnings_of(const load_table& table, duration length);
+/// Servers that were full for half a second or more.
+struct full_servers {
+  const server_load* of; ///< In the table.
+  load_summary sum;
+};
+
+/// @returns them all, the one of the highest peak first.
+std::vector<full_servers> full_ones(const load_table& table, duration length);
 
 /// @returns load.csv: a line for each second and server.
 std::string load_csv(const load_table& table, duration length);

@@ -86,6 +86,12 @@ void metrics::add(const messages::event_record& x) {
       ++of(x.service)
             .implausible[std::string{name_of(x.provider, names_)}][x.check];
       break;
+    case messages::event_type::refused:
+      ++of(x.service).refused[x.detail];
+      break;
+    case messages::event_type::stay_local:
+      ++of(x.service).stayed[x.detail];
+      break;
     case messages::event_type::switched:
       source_changed(x);
       break;
@@ -159,6 +165,9 @@ void metrics::add(const messages::episode_record& x) {
     return;
   }
   ++service.episodes;
+  if (!messages::is_planned(x.reason))
+    ++service
+          .early[{x.reason, std::string{name_of(x.session.provider, names_)}}];
   service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.session.service, x.session.station});

@@ -48,6 +48,12 @@ struct service_metrics {
   std::uint64_t ping_pongs = 0;
   /// Reasons of all that ended, with data or without.
   end_counts ended_by{};
+  /// Of the episodes those that ended early, by reason and provider's name.
+  std::map<std::pair<messages::end_reason, std::string>, std::uint64_t> early;
+  /// How often a provider refused, and how often the vehicle wanted no
+  /// provider, by the reason that was given.
+  std::map<std::string, std::uint64_t> refused;
+  std::map<std::string, std::uint64_t> stayed;
   refusal_counts implausible; ///< Results that vehicles refused.
   /// Of those that were used, the least by check; empty unless recorded.
   std::map<std::string, double> margins;

@@ -79,8 +79,10 @@ void results::flush() {
     files_->flush();
 }
 
-run_end results::finish(time_point end, double wall_s, bool interrupted) {
-  const run_end outcome{to_seconds(end - run_.start), wall_s, interrupted};
+run_end results::finish(time_point end, double wall_s, bool interrupted,
+                        standstill stood_still) {
+  const run_end outcome{to_seconds(end - run_.start), wall_s, interrupted,
+                        stood_still};
   metrics_.finish(end);
   if (files_)
     files_->finish(metrics_, run_, outcome, of_clock_);

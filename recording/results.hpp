@@ -51,7 +51,8 @@ public:
   /// Closes all files and writes the summary, once. A folder without one is
   /// of a run that was killed.
   /// @returns what has become of the run, for the final table.
-  run_end finish(time_point end, double wall_s, bool interrupted);
+  run_end finish(time_point end, double wall_s, bool interrupted,
+                 standstill stood_still = {});
 
 private:
   void keep(const messages::record& x);

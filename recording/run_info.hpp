@@ -62,11 +62,18 @@ struct run_info {
   time_point start; ///< Second 0 of all files.
 };
 
+/// How long a run on the wall clock did not get a core though it wanted one.
+struct standstill {
+  duration together{}; ///< Of times of more than 20 ms each.
+  duration longest{};
+};
+
 /// Known once the run has ended.
 struct run_end {
   double virtual_s = 0; ///< From the start on, on the run's clock.
   double wall_s = 0;    ///< The same on the wall's.
   bool interrupted = false;
+  standstill stood_still{};
 
   /// @returns how much faster than real time it was; nullopt for no time.
   std::optional<double> x_real_time() const {

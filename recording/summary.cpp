@@ -4,6 +4,7 @@
 #include "base/text/csv.hpp"
 #include "base/text/json.hpp"
 #include "recording/figures.hpp"
+#include "recording/headline.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int places_of_margin = 4;
 constexpr int places_of_load = 6;
+constexpr int places_of_full = 1;
 
 /// Writes a figure as what it is.
 class member_writer {
@@ -110,7 +112,7 @@ void loads(json_object& to, const load_table& table, duration length) {
       what.member("busy_share", rounded(sum.busy_share, places_of_load));
       what.member("asked_share", rounded(sum.asked_share, places_of_load));
       what.member("peak_share", rounded(sum.peak_share, places_of_load));
-      what.member("full_s", sum.full_s);
+      what.member("full_s", rounded(sum.full_s, places_of_full));
       auto wait = what.object("wait_ms");
       wait.member("mean", rounded(sum.mean_wait_ms, places_of_load));
       wait.member("p99", rounded(sum.p99_wait_ms, places_of_load));
@@ -141,6 +143,13 @@ std::string summary_json(const metrics& m, const run_info& run,
     top.member("lodm", run.lodm);
     top.member("codm", run.codm);
     top.member("seed", decimal{run.seed});
+    if (run.provider.empty()) {
+      const auto said = headline_of(m, run, end);
+      auto object = top.object("headline");
+      object.member("offloading", said.offloading);
+      object.member("safety", said.safety);
+      object.member("load", said.load);
+    }
     const whole_run whole{m, run, end};
     write(top, run_figures(), whole);
     write(top, service_figures(), {m.headline(), run, end});

@@ -14,6 +14,7 @@
 #include "scenario/decision_timer.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/runtime.hpp"
+#include "scenario/stall_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -124,6 +125,7 @@ struct stage {
   loss_teller losses{};
   recording::progress shown{console, options.show};
   stopwatch watch{};
+  std::optional<stall_watch> stalls{}; ///< On the wall clock.
 };
 
 /// Moves the run to its end, or to where it was interrupted.
@@ -306,7 +308,8 @@ run_outcome finish(const played& run, const recording::run_info& info,
     r.add_load(run.load);
     for (const auto& [name, value] : run.decisions)
       r.add_timing(name, value);
-    return r.finish(run.ended, on.watch.elapsed_s(), is_cut);
+    return r.finish(run.ended, on.watch.elapsed_s(), is_cut,
+                    on.stalls ? on.stalls->so_far() : recording::standstill{});
   });
   on.losses.look_at(on.keeper, on.shown, on.console);
   const auto is_lost = on.keeper.loss().has_value();
@@ -365,6 +368,8 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
   const auto kept = make_keeper(name, s.seed, info, options);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   stage on{options, interrupted, console, *kept.keeper};
+  if (options.realtime)
+    on.stalls.emplace();
   played run;
   auto has_begun = false;
   try {

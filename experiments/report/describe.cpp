@@ -4,6 +4,7 @@
 #include "experiments/report/comparison.hpp"
 #include "experiments/report/episode_table.hpp"
 #include "experiments/report/key_figures.hpp"
+#include "experiments/report/load_section.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/remote_results.hpp"
 #include "experiments/report/vehicle_table.hpp"
@@ -35,6 +36,21 @@ void add_remarks(section& to, const recorded_run& run, bool several) {
   if (run.interrupted)
     say("This run was interrupted before its planned length; all figures count "
         "up to there.");
+}
+
+/// The runs in sentences.
+section headline_of(runs_view runs) {
+  section all{.title = "In short", .blocks = {}};
+  for (const auto& run : runs) {
+    std::string text;
+    for (const auto& sentence : run.headline)
+      text += (text.empty() ? "" : " ") + sentence;
+    if (!text.empty())
+      all.blocks.emplace_back(
+          paragraph{runs.size() > 1 ? fmt::format("`{}`: {}", run.label, text)
+                                    : std::move(text)});
+  }
+  return all;
 }
 
 section drives(runs_view runs) {
@@ -102,10 +118,16 @@ section configuration(runs_view runs) {
 /// One run, or two side by side.
 std::vector<section> sections_of(runs_view runs) {
   std::vector<section> all;
+  const auto add = [&all](section one) {
+    if (!one.blocks.empty())
+      all.push_back(std::move(one));
+  };
   if (runs.size() > 1)
     all.push_back(what_differs(runs));
+  add(headline_of(runs));
   all.push_back(drives(runs));
   all.push_back(figures(runs));
+  add(load_section(runs));
   add_results(all, runs);
   add_episodes(all, runs);
   add_vehicles(all, runs);

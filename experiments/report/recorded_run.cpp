@@ -53,6 +53,7 @@ recorded_run open_run(const fs::path& folder) {
     run.version = std::move(summary->version);
     run.clock = std::move(summary->clock);
     run.interrupted = summary->interrupted;
+    run.headline = std::move(summary->headline);
   }
   return run;
 }

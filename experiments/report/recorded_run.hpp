@@ -24,6 +24,7 @@ struct recorded_run {
   std::string version; ///< Of the program that ran it; empty if killed.
   std::string clock;   ///< "virtual" or "wall"; empty if killed.
   bool interrupted = false;
+  std::vector<std::string> headline; ///< The run in sentences, if it has any.
   std::vector<episode_line> episodes;
   /// Nothing when the run was told not to write them.
   std::optional<std::vector<cycle_line>> cycles;

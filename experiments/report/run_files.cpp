@@ -58,6 +58,8 @@ void collect(const json& from, const std::string& prefix, int levels,
 }
 
 std::string text_of(const json& summary, const char* name) {
+  if (!summary.is_object())
+    return {};
   const auto found = summary.find(name);
   return found != summary.end() && found->is_string()
              ? found->get<std::string>()
@@ -194,6 +196,10 @@ std::optional<run_summary> read_summary(const fs::path& folder) {
   summary.version = text_of(all, "version");
   summary.clock = text_of(all, "clock");
   summary.interrupted = all.value("interrupted", json{}) == true;
+  if (const auto said = all.find("headline"); said != all.end())
+    for (const auto* name : {"offloading", "safety", "load"})
+      if (auto text = text_of(*said, name); !text.empty())
+        summary.headline.push_back(std::move(text));
   return summary;
 }
 

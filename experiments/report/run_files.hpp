@@ -70,6 +70,8 @@ struct run_summary {
   std::string version; ///< Of the program that ran it.
   std::string clock;   ///< "virtual" or "wall".
   bool interrupted = false;
+  /// The run in sentences; none of older versions.
+  std::vector<std::string> headline;
 };
 
 /// @returns nothing when the run was killed before it wrote any.

@@ -257,6 +257,13 @@ inline constexpr std::string_view name_of(end_reason reason) {
   return names[static_cast<std::size_t>(reason)];
 }
 
+/// @returns whether an offloading that ends for it has ended as it should; else
+/// early, as somebody or something failed it or took its room.
+constexpr bool is_planned(end_reason reason) {
+  return reason == end_reason::left_area || reason == end_reason::handed_over
+         || reason == end_reason::released || reason == end_reason::shutdown;
+}
+
 enum class side : std::uint8_t { requester, provider };
 
 constexpr side last_of(side) {

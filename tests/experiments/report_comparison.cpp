@@ -60,7 +60,8 @@ TEST_CASE("two runs are compared side by side, first what differs") {
   other.spoil("summary.json", "\"offers\": ", "\"offers\": 1");
   const auto sections = compare_runs(one.path(), other.path());
   CHECK(sections[0].title == "What differs");
-  CHECK(sections[1].title == "Drives");
+  CHECK(sections[1].title == "In short");
+  CHECK(sections[2].title == "Drives");
   const auto& options = first_of<table>(sections, "What differs");
   REQUIRE(options.rows.size() == 1);
   CHECK(options.rows[0] == std::vector<std::string>{"seed", "7", "8"});
@@ -73,7 +74,7 @@ TEST_CASE("two runs are compared side by side, first what differs") {
   CHECK(cell(key, "offers", 3).starts_with("+1"));
   CHECK(std::ranges::count(key.verdicts, table::verdict::same)
         == std::ssize(key.rows) - 1);
-  CHECK(std::ranges::count_if(sections[1].blocks,
+  CHECK(std::ranges::count_if(sections[2].blocks,
                               [](const auto& block) {
                                 return std::holds_alternative<drive>(block);
                               })

@@ -98,7 +98,7 @@ TEST_CASE("one sentence tells what is wrong with a results folder, and where") {
              "left_area,0,\n",
              "left_area,0,",
              "episodes.csv:2: ",
-             {"23 fields", "12 columns"}},
+             {"25 fields", "13 columns"}},
       spoilt{"episodes.csv",
              "fallback",
              "fall",
@@ -242,8 +242,8 @@ TEST_CASE("a run without cycles and tracks is shown without them") {
   std::filesystem::remove(folder.path() / "tracks.csv");
   const auto sections = describe_run(folder.path());
   CHECK(titles_of(sections)
-        == std::vector<std::string>{"Drive", "Key figures", "Episodes",
-                                    "Vehicles", "Configuration"});
+        == std::vector<std::string>{"In short", "Drive", "Key figures",
+                                    "Episodes", "Vehicles", "Configuration"});
   const auto page = html({"", "", sections});
   const auto text = document_in(page).dump();
   CHECK(text.find("\"has_tracks\":false") != text.npos);
@@ -296,7 +296,7 @@ TEST_CASE("a tail begins at one and ends with the largest value's share") {
   const played_folder folder;
   const auto sections = describe_run(folder.path());
   auto tails = 0;
-  for (const auto& block : sections[2].blocks) {
+  for (const auto& block : sections[3].blocks) {
     const auto& shown = std::get<figure>(block);
     if (shown.by_clock)
       continue;
@@ -364,7 +364,7 @@ TEST_CASE("near misses are counted apart from QoS events") {
                      "\n");
   const auto got = document_in(html({"", "", describe_run(folder.path())}));
   std::map<std::string, int> groups;
-  for (const auto& event : got["sections"][0]["blocks"][0]["events"])
+  for (const auto& event : got["sections"][1]["blocks"][0]["events"])
     ++groups[event[6]];
   CHECK(groups["qos"] == 1);
   CHECK(groups["near_miss"] == 1);

@@ -39,16 +39,19 @@ TEST_CASE(
   CHECK(sum.mean_wait_ms == doctest::Approx(99 * 150.0));
 }
 
-TEST_CASE("below nine tenths nobody is warned, above all are") {
+TEST_CASE("at nine tenths nobody is full, above all are, the fullest first") {
   const load_table calm{{{"mec", "uplink", asked_for(90ms)}}, {}};
-  CHECK(warnings_of(calm, 10s).empty());
+  CHECK(full_ones(calm, 10s).empty());
   const load_table full{{{"mec", "uplink", asked_for(90ms)},
-                         {"east", "workers", asked_for(91ms)}},
+                         {"east", "workers", asked_for(91ms)},
+                         {"west", "downlink", asked_for(200ms)}},
                         {}};
-  const auto warnings = warnings_of(full, 10s);
-  REQUIRE(warnings.size() == 1);
-  CHECK(warnings.front()
-        == "east workers: asked for over 90 % in 10 of 10 s, for 91 % at most");
+  const auto found = full_ones(full, 10s);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].of->provider == "west");
+  CHECK(found[0].sum.peak_share == doctest::Approx(2));
+  CHECK(found[1].of->provider == "east");
+  CHECK(found[1].sum.full_s == 10);
 }
 
 TEST_CASE("a run that is over before a second is counts its shares") {

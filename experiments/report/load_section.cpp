@@ -1,0 +1,185 @@
+// From load.csv and octets.csv.
+#include "experiments/report/load_section.hpp"
+
+#include "base/text/csv_reader.hpp"
+#include "experiments/report/documented.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof::experiments::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using columns = std::string_view[];
+using runs_view = std::span<const recorded_run>;
+
+constexpr std::array<std::string_view, 3> servers{"workers", "uplink",
+                                                  "downlink"};
+
+csv_reader::ending ending_of(const recorded_run& run) {
+  return run.figures ? csv_reader::ending::whole : csv_reader::ending::killed;
+}
+
+/// Shares that were asked for, by the second.
+struct load_curve {
+  std::vector<double> t_s;
+  std::vector<double> asked_percent;
+};
+
+/// By provider and what of it.
+using load_curves = std::map<std::pair<std::string, std::string>, load_curve>;
+
+load_curves read_load(const recorded_run& run) {
+  static constexpr columns names{"t_s", "provider", "what", "asked_share"};
+  enum { t, provider, what, asked };
+  load_curves all;
+  const auto file = run.folder / "load.csv";
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(run)};
+  while (row.next()) {
+    auto& to = all[{row.text(provider), row.text(what)}];
+    to.t_s.push_back(row.number(t));
+    to.asked_percent.push_back(100 * row.number(asked));
+  }
+  return all;
+}
+
+std::string label(const recorded_run& run, const std::string& provider,
+                  runs_view runs) {
+  return runs.size() == 1 ? provider
+                          : fmt::format("{}: {}", run.label, provider);
+}
+
+/// @returns the place of a provider in the configuration, if only it counts.
+std::optional<std::size_t>
+place_of(const recorded_run& run, const std::string& provider, runs_view runs) {
+  if (runs.size() > 1)
+    return std::nullopt;
+  const auto& all = run.what.providers;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].name == provider)
+      return i;
+  return std::nullopt;
+}
+
+/// One figure for workers, uplinks and downlinks each, as far as any had work.
+void add_curves(section& to, runs_view runs,
+                const std::vector<load_curves>& loads) {
+  for (const auto what : servers) {
+    figure shown;
+    shown.title = fmt::format("Asked of {} by time",
+                              what == "workers" ? std::string{what}
+                                                : fmt::format("the {}", what));
+    shown.x_label = "time, s";
+    shown.y_label = "asked for, %";
+    shown.levels = {{100, "all that they can do"}};
+    shown.by_clock = true;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      for (const auto& [of, load] : loads[i])
+        if (of.second == what)
+          shown.curves.push_back(
+              {.name = label(runs[i], of.first, runs),
+               .x = load.t_s,
+               .y = load.asked_percent,
+               .low = {},
+               .high = {},
+               .provider = place_of(runs[i], of.first, runs)});
+    if (!shown.curves.empty())
+      to.blocks.emplace_back(std::move(shown));
+  }
+}
+
+/// A column of the table, and the figure of the summary that it shows.
+struct load_column {
+  std::string_view title;
+  std::string_view name;
+  int decimals;
+  double scale;
+};
+
+constexpr load_column load_columns[]{
+    {"busy, %", "busy_share", 1, 100},
+    {"asked for, %", "asked_share", 1, 100},
+    {"at most, in half a second, %", "peak_share", 1, 100},
+    {"full for, s", "full_s", 1, 1},
+    {"wait, mean, ms", "wait_ms.mean", 2, 1},
+    {"wait, 99 %, ms", "wait_ms.p99", 2, 1},
+    {"wait, longest, ms", "wait_ms.max", 2, 1},
+};
+
+table servers_of(runs_view runs, const std::vector<load_curves>& loads) {
+  table all;
+  all.columns = {"provider", "what"};
+  all.column_meanings = {documented("load.csv", "provider"),
+                         documented("load.csv", "what")};
+  for (const auto& column : load_columns) {
+    all.columns.emplace_back(column.title);
+    all.column_meanings.push_back(
+        documented("summary.json", "load.<provider>"));
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const auto& [of, load] : loads[i]) {
+      auto& row = all.rows.emplace_back();
+      row = {label(runs[i], of.first, runs), of.second};
+      for (const auto& column : load_columns) {
+        const auto value = runs[i].figure(
+            fmt::format("load.{}.{}.{}", of.first, of.second, column.name));
+        row.push_back(value ? fmt::format("{:.{}f}", column.scale * *value,
+                                          column.decimals)
+                            : "");
+      }
+    }
+  return all;
+}
+
+table octets_of(runs_view runs) {
+  static constexpr columns names{"provider", "direction", "what", "messages",
+                                 "sent",     "delivered", "lost", "under_way"};
+  table all;
+  all.title = "Octets on the air";
+  for (const auto name : names) {
+    all.columns.emplace_back(name == "under_way" ? "under way" : name);
+    all.column_meanings.push_back(documented("octets.csv", name));
+  }
+  for (const auto& run : runs) {
+    const auto file = run.folder / "octets.csv";
+    if (!fs::exists(file))
+      continue;
+    csv_reader in{file, names, ending_of(run)};
+    while (in.next()) {
+      auto& row = all.rows.emplace_back();
+      for (std::size_t k = 0; k < std::size(names); ++k)
+        row.push_back(k == 0 ? label(run, in.text(0), runs) : in.text(k));
+    }
+  }
+  return all;
+}
+
+} // namespace
+
+section load_section(runs_view runs) {
+  section all{.title = "Load", .blocks = {}};
+  std::vector<load_curves> loads;
+  for (const auto& run : runs)
+    loads.push_back(read_load(run));
+  if (auto one = servers_of(runs, loads); !one.rows.empty())
+    all.blocks.emplace_back(std::move(one));
+  add_curves(all, runs, loads);
+  if (auto one = octets_of(runs); !one.rows.empty())
+    all.blocks.emplace_back(std::move(one));
+  return all;
+}
+
+} // namespace sofof::experiments::report

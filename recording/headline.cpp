@@ -1,0 +1,193 @@
+// From counts to sentences.
+#include "recording/headline.hpp"
+
+#include "recording/safety_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <ranges>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sofof::recording {
+
+namespace {
+
+using messages::end_reason;
+
+/// What ended early, in a word or two.
+std::string_view in_words(end_reason reason) {
+  switch (reason) {
+    case end_reason::qos_latency:
+      return "latency";
+    case end_reason::qos_input_age:
+      return "the age of inputs";
+    case end_reason::qos_gap:
+      return "gaps between results";
+    case end_reason::cam_timeout:
+      return "CAMs that did not come";
+    case end_reason::no_data:
+      return "results that did not come";
+    case end_reason::refused:
+      return "refusal";
+    case end_reason::peer_lost:
+      return "loss of the provider";
+    case end_reason::revoked:
+      return "revocation";
+    case end_reason::implausible:
+      return "implausible results";
+    default:
+      return messages::name_of(reason);
+  }
+}
+
+using provider_counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// Most often first, those that are as frequent by name.
+void sort(provider_counts& counts) {
+  std::ranges::stable_sort(counts, std::ranges::greater{},
+                           &provider_counts::value_type::second);
+}
+
+/// @returns "junction 16, east 4".
+std::string listed(const provider_counts& counts) {
+  std::string all;
+  for (const auto& [provider, count] : counts)
+    all += fmt::format("{}{} {}", all.empty() ? "" : ", ", provider, count);
+  return all;
+}
+
+/// @returns ": 18 by latency (junction 16, east 2), 3 by revocation (west 3)";
+/// of one reason alone ", all by latency (junction 16, east 4)".
+std::string early_ends(const service_metrics& x) {
+  std::map<end_reason, provider_counts> by_reason;
+  for (const auto& [what, count] : x.early)
+    by_reason[what.first].emplace_back(what.second, count);
+  struct group {
+    end_reason reason;
+    std::uint64_t count;
+    provider_counts at;
+  };
+  std::vector<group> groups;
+  for (auto& [reason, at] : by_reason) {
+    sort(at);
+    std::uint64_t sum = 0;
+    for (const auto& [provider, count] : at)
+      sum += count;
+    groups.push_back({reason, sum, std::move(at)});
+  }
+  std::ranges::stable_sort(groups, std::ranges::greater{}, &group::count);
+  if (groups.size() == 1)
+    return fmt::format(
+        ", {} by {} ({})", groups.front().count > 1 ? "all" : "that",
+        in_words(groups.front().reason), listed(groups.front().at));
+  std::string all;
+  for (const auto& g : groups)
+    all += fmt::format("{} {} by {} ({})", all.empty() ? ":" : ",", g.count,
+                       in_words(g.reason), listed(g.at));
+  return all;
+}
+
+/// @returns "; most often (12 times): no room", if anything is known.
+std::string most_frequent(const std::map<std::string, std::uint64_t>& counts) {
+  const auto most = std::ranges::max_element(
+      counts, {}, &std::map<std::string, std::uint64_t>::value_type::second);
+  return most == counts.end() ? std::string{}
+                              : fmt::format("; most often ({} times): {}",
+                                            most->second, most->first);
+}
+
+/// Why there was no episode.
+std::string never(const service_metrics& x, std::uint64_t offers) {
+  if (offers == 0)
+    return "Never offloaded: no offer came.";
+  if (x.requests() == 0)
+    return fmt::format("Never offloaded: the LODM asked for nothing{}.",
+                       most_frequent(x.stayed));
+  if (x.accepted == 0)
+    return fmt::format("Never offloaded: {} request{}, none accepted{}.",
+                       x.requests(), x.requests() == 1 ? "" : "s",
+                       most_frequent(x.refused));
+  return fmt::format("Never offloaded: accepted {} time{}, but no result came "
+                     "in time.",
+                     x.accepted, x.accepted == 1 ? "" : "s");
+}
+
+std::string offloading_of(const metrics& m, const run_info& run,
+                          const run_end& end) {
+  const auto& x = m.headline();
+  if (x.episodes == 0)
+    return never(x, m.offers());
+  std::uint64_t early = 0;
+  for (const auto& [what, count] : x.early)
+    early += count;
+  const auto share = x.offloaded_share(run.vehicles, end.virtual_s);
+  auto text =
+      fmt::format("Offloaded {:.1f} % of the time; ", 100 * share.value_or(0));
+  if (early == 0)
+    return text
+           + (x.episodes == 1
+                  ? std::string{"the one episode did not end early."}
+                  : fmt::format("none of {} episodes ended early.",
+                                x.episodes));
+  return text
+         + fmt::format("{} of {} episode{} ended early{}.", early, x.episodes,
+                       x.episodes == 1 ? "" : "s", early_ends(x));
+}
+
+std::string safety_of(const safety_metrics& x) {
+  if (x.driven == duration::zero())
+    return "Safety was not recorded.";
+  const auto near = fmt::format("{} near miss{}", x.near_misses,
+                                x.near_misses == 1 ? "" : "es");
+  if (x.ok())
+    return fmt::format("Safe: always a fresh plan, never off the road, no "
+                       "collision; {}.",
+                       near);
+  return fmt::format("NOT SAFE: {:.3f} s without a fresh plan, {:.3f} s off "
+                     "the road, {} collision{}; {}.",
+                     to_seconds(x.without_fresh_plan), to_seconds(x.off_road),
+                     x.collisions, x.collisions == 1 ? "" : "s", near);
+}
+
+/// @returns what the machine itself has to do with it.
+std::string of_the_machine(const standstill& x) {
+  if (x.together == duration{})
+    return "";
+  return fmt::format(
+      " The machine itself stood still for {:.3f} s, {:.3f} s at "
+      "once: what was late then is not SOFOF's doing.",
+      to_seconds(x.together), to_seconds(x.longest));
+}
+
+std::string load_of(const load_table& table, duration length) {
+  if (table.servers.empty())
+    return "What was full is not known: nothing was modelled here.";
+  const auto full = full_ones(table, length);
+  if (full.empty())
+    return "No worker and no cell was full.";
+  constexpr std::size_t most = 3;
+  std::string all;
+  for (const auto& [of, sum] : full | std::views::take(most))
+    all += fmt::format("{}{} {} ({:.0f} %)", all.empty() ? "" : ", ",
+                       of->provider, of->what, 100 * sum.peak_share);
+  if (full.size() > most)
+    all += fmt::format(" and {} more", full.size() - most);
+  return "Full at times: " + all + '.';
+}
+
+} // namespace
+
+headline headline_of(const metrics& m, const run_info& run,
+                     const run_end& end) {
+  return {offloading_of(m, run, end),
+          safety_of(m.safety()) + of_the_machine(end.stood_still),
+          load_of(m.load(), from_seconds(end.virtual_s))};
+}
+
+} // namespace sofof::recording

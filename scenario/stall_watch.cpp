@@ -1,0 +1,40 @@
+// Sleeping, and being woken late.
+#include "scenario/stall_watch.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sofof::scenario {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto nap = 10ms;
+constexpr duration longest_lateness = 20ms;
+
+} // namespace
+
+stall_watch::stall_watch()
+    : thread_{[this](const std::stop_token& end) { look(end); }} {}
+
+recording::standstill stall_watch::so_far() const {
+  const std::lock_guard lock{mutex_};
+  return seen_;
+}
+
+void stall_watch::look(const std::stop_token& end) {
+  using clock = std::chrono::steady_clock;
+  while (!end.stop_requested()) {
+    const auto due = clock::now() + nap;
+    std::this_thread::sleep_until(due);
+    const auto late = std::chrono::duration_cast<duration>(clock::now() - due);
+    if (late <= longest_lateness)
+      continue;
+    const std::lock_guard lock{mutex_};
+    seen_.together += late;
+    seen_.longest = std::max(seen_.longest, late);
+  }
+}
+
+} // namespace sofof::scenario

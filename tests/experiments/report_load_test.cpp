@@ -1,0 +1,84 @@
+// What a report says first, and what it says of load.
+#include "experiments/report/describe.hpp"
+#include "tests/experiments/report_folder.hpp"
+#include "tests/support/contains.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace sofof::experiments::report {
+
+using namespace made_up;
+using test::contains;
+
+namespace {
+
+const section* find(const std::vector<section>& all, std::string_view title) {
+  const auto found = std::ranges::find(all, title, &section::title);
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// The played run with the load of a provider with workers and an uplink.
+struct loaded_folder : played_folder {
+  loaded_folder() {
+    write("load.csv",
+          "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
+          "0,mec,workers,20,0.25,0.25,1.0\n"
+          "1,mec,workers,20,0.50,0.50,2.0\n"
+          "0,mec,uplink,20,4.06,1.00,400.0\n"
+          "1,mec,uplink,0,0.00,1.00,\n");
+    write("octets.csv",
+          "provider,direction,what,messages,sent,delivered,lost,under_way\n"
+          "mec,up,CAM,10,1360,1360,0,0\n");
+    spoil("summary.json", "\"load\": {}",
+          "\"load\": {\"mec\": {\"uplink\": {\"busy_share\": 0.997, "
+          "\"peak_share\": 4.057, \"wait_ms\": {\"mean\": 5420.2}}}}");
+  }
+};
+
+} // namespace
+
+TEST_CASE("a report of one run begins with the run in sentences") {
+  const played_folder folder;
+  const auto all = describe_run(folder.path());
+  REQUIRE_FALSE(all.empty());
+  CHECK(all.front().title == "In short");
+  REQUIRE(all.front().blocks.size() == 1);
+  const auto& said = std::get<paragraph>(all.front().blocks.front()).text;
+  CHECK(said.starts_with("Offloaded 17.5 % of the time; 1 of 3 episodes"));
+  CHECK(contains(said, " Safe: "));
+}
+
+TEST_CASE("load has a table, a figure for each kind of server, and octets") {
+  const loaded_folder folder;
+  const auto all = describe_run(folder.path());
+  const auto* load = find(all, "Load");
+  REQUIRE(load);
+  REQUIRE(load->blocks.size() == 4);
+  const auto& servers = std::get<table>(load->blocks[0]);
+  REQUIRE(servers.rows.size() == 2);
+  CHECK(servers.rows[0]
+        == std::vector<std::string>{"mec", "uplink", "99.7", "", "405.7", "",
+                                    "5420.20", "", ""});
+  const auto& workers = std::get<figure>(load->blocks[1]);
+  CHECK(workers.title == "Asked of workers by time");
+  REQUIRE(workers.curves.size() == 1);
+  CHECK(workers.curves[0].y == std::vector<double>{25, 50});
+  CHECK(workers.curves[0].provider == 0);
+  const auto& uplink = std::get<figure>(load->blocks[2]);
+  CHECK(uplink.title == "Asked of the uplink by time");
+  CHECK(uplink.curves.at(0).y.at(0) == doctest::Approx(406));
+  const auto& octets = std::get<table>(load->blocks[3]);
+  CHECK(octets.rows.at(0).at(4) == "1360");
+}
+
+TEST_CASE("a run that has measured no load has no section about it") {
+  const played_folder folder;
+  CHECK_FALSE(find(describe_run(folder.path()), "Load"));
+}
+
+} // namespace sofof::experiments::report

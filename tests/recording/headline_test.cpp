@@ -1,0 +1,174 @@
+// A run in three sentences.
+#include "recording/headline.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::recording;
+using namespace std::chrono_literals;
+
+namespace {
+
+const provider_id junction = 1, east = 2;
+
+/// A run of 100 s with one vehicle and two providers.
+struct told_run {
+  run_info info;
+  run_end end{100, 1, false};
+  metrics figures{described()};
+
+  run_info described() {
+    info.vehicles = 1;
+    info.provider_names = {{junction, "junction"}, {east, "east"}};
+    info.services = {"trajectory_planning"};
+    return info;
+  }
+  void offer() { figures.on_record(event_record{.what = event_type::offer}); }
+  void decide(bool accepted, const std::string& why = {}) {
+    figures.on_record(
+        decision_record{{}, 101, "trajectory_planning", accepted});
+    if (!accepted)
+      figures.on_record(event_record{.what = event_type::refused,
+                                     .service = "trajectory_planning",
+                                     .detail = why});
+  }
+  void episode(provider_id at, end_reason reason, bool got_data = true) {
+    figures.on_record(
+        episode_record{.session = {at, 101, "trajectory_planning", 1},
+                       .first_data = time_point{10s},
+                       .got_data = got_data,
+                       .ended = time_point{20s},
+                       .reason = reason});
+  }
+  void drive() {
+    figures.on_record(safety_record{.station = 101, .driven = 100s});
+  }
+  headline said() { return headline_of(figures, info, end); }
+};
+
+} // namespace
+
+TEST_CASE("a headline says how much was offloaded, and that nothing ended "
+          "early") {
+  told_run run;
+  run.offer();
+  run.decide(true);
+  run.decide(true);
+  run.episode(junction, end_reason::left_area);
+  CHECK(run.said().offloading
+        == "Offloaded 10.0 % of the time; the one episode did not end early.");
+  run.episode(junction, end_reason::handed_over);
+  CHECK(run.said().offloading
+        == "Offloaded 20.0 % of the time; none of 2 episodes ended early.");
+}
+
+TEST_CASE("of early ends of one reason the headline names the providers, most "
+          "often first") {
+  told_run run;
+  run.offer();
+  run.episode(east, end_reason::qos_latency);
+  run.episode(junction, end_reason::qos_latency);
+  run.episode(junction, end_reason::qos_latency);
+  run.episode(junction, end_reason::left_area);
+  CHECK(run.said().offloading
+        == "Offloaded 40.0 % of the time; 3 of 4 episodes ended early, all by "
+           "latency (junction 2, east 1).");
+}
+
+TEST_CASE("of early ends of several reasons the headline counts each") {
+  told_run run;
+  run.offer();
+  run.episode(east, end_reason::revoked);
+  run.episode(junction, end_reason::qos_gap);
+  run.episode(junction, end_reason::qos_gap);
+  CHECK(run.said().offloading
+        == "Offloaded 30.0 % of the time; 3 of 3 episodes ended early: 2 by "
+           "gaps between results (junction 2), 1 by revocation (east 1).");
+}
+
+TEST_CASE("every early end has words of its own") {
+  std::vector<std::string> all;
+  for (int k = 0; k <= static_cast<int>(end_reason::shutdown); ++k) {
+    const auto reason = static_cast<end_reason>(k);
+    if (is_planned(reason))
+      continue;
+    told_run run;
+    run.offer();
+    run.episode(junction, reason);
+    all.push_back(run.said().offloading);
+    CHECK_MESSAGE(all.back().find('_') == std::string::npos, all.back());
+  }
+  CHECK(all.size() == 9);
+  std::ranges::sort(all);
+  CHECK(std::ranges::unique(all).empty());
+}
+
+TEST_CASE("where nothing was offloaded the headline says why") {
+  told_run none;
+  CHECK(none.said().offloading == "Never offloaded: no offer came.");
+  told_run unwanted;
+  unwanted.offer();
+  unwanted.figures.on_record(event_record{.what = event_type::stay_local,
+                                          .service = "trajectory_planning",
+                                          .detail = "never"});
+  CHECK(unwanted.said().offloading
+        == "Never offloaded: the LODM asked for nothing; most often (1 times): "
+           "never.");
+  told_run refused;
+  refused.offer();
+  refused.decide(false, "no room");
+  refused.decide(false, "no room");
+  refused.decide(false, "not in the area");
+  CHECK(refused.said().offloading
+        == "Never offloaded: 3 requests, none accepted; most often (2 times): "
+           "no room.");
+  told_run silent;
+  silent.offer();
+  silent.decide(true);
+  silent.episode(junction, end_reason::no_data, false);
+  CHECK(silent.said().offloading
+        == "Never offloaded: accepted 1 time, but no result came in time.");
+}
+
+TEST_CASE("a headline says what was not safe, and near misses apart") {
+  told_run run;
+  run.drive();
+  run.figures.on_record(event_record{.what = event_type::near_miss});
+  CHECK(run.said().safety
+        == "Safe: always a fresh plan, never off the road, no collision; 1 "
+           "near miss.");
+  run.figures.on_record(
+      safety_record{.station = 101, .driven = 1s, .without_fresh_plan = 400ms});
+  run.figures.on_record(collision_record{{}, 101, 102});
+  CHECK(run.said().safety
+        == "NOT SAFE: 0.400 s without a fresh plan, 0.000 s off the road, 1 "
+           "collision; 1 near miss.");
+}
+
+TEST_CASE("a headline says when the machine itself stood still") {
+  told_run run;
+  run.drive();
+  CHECK_FALSE(run.said().safety.ends_with("SOFOF's doing."));
+  run.end.stood_still = {.together = 600ms, .longest = 400ms};
+  CHECK(run.said().safety.ends_with(
+      "The machine itself stood still for 0.600 s, 0.400 s at once: what was "
+      "late then is not SOFOF's doing."));
+}
+
+TEST_CASE("a headline names what was full") {
+  told_run run;
+  channel::load_meter meter{1, {}};
+  for (int k = 0; k < 100; ++k)
+    meter.add(time_point{k * 1s}, 0ms, 10ms);
+  run.figures.add(load_table{{{"junction", "uplink", meter.read()}}, {}});
+  CHECK(run.said().load == "No worker and no cell was full.");
+  for (int k = 0; k < 10; ++k)
+    meter.add(time_point{50s}, 0ms, 100ms);
+  run.figures.add(load_table{{{"junction", "uplink", meter.read()}}, {}});
+  CHECK(run.said().load == "Full at times: junction uplink (202 %).");
+}
