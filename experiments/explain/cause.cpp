@@ -1,0 +1,78 @@
+// Comparing a result's parts with those of the results before it.
+#include "experiments/explain/cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <vector>
+
+namespace sofof::experiments::explain {
+
+namespace {
+
+struct named_part {
+  std::string_view what;
+  double time_parts::*of;
+  bool since_cycle; ///< It counts in the latency too.
+};
+
+constexpr std::array all_parts{
+    named_part{"wait for the uplink", &time_parts::uplink_wait, false},
+    named_part{"way up", &time_parts::uplink, false},
+    named_part{"wait for the cycle", &time_parts::rest, false},
+    named_part{"wait for a worker", &time_parts::queue, true},
+    named_part{"computing", &time_parts::computing, true},
+    named_part{"wait for the downlink", &time_parts::downlink_wait, true},
+    named_part{"way down", &time_parts::downlink, true},
+};
+
+double median(std::vector<double> values) {
+  if (values.empty())
+    return 0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+} // namespace
+
+part longest_part(std::span<const received_result> results, bool since_input) {
+  assert(!results.empty());
+  const auto before = results.first(results.size() - 1);
+  std::vector<part> parts;
+  double all_ms = 0;
+  for (const auto& x : all_parts) {
+    if (!since_input && !x.since_cycle)
+      continue;
+    std::vector<double> usual;
+    for (const auto& result : before)
+      usual.push_back(result.ms.*x.of);
+    parts.push_back(
+        {x.what, results.back().ms.*x.of, median(std::move(usual))});
+    all_ms += parts.back().ms;
+  }
+  const auto largest = *std::ranges::max_element(parts, {}, &part::ms);
+  return largest.ms >= all_ms / 2
+             ? largest
+             : *std::ranges::max_element(parts, {}, &part::more_ms);
+}
+
+std::string in_parts(const time_parts& ms) {
+  constexpr double least_ms = 0.05;
+  constexpr std::size_t most = 3;
+  std::vector<part> parts;
+  for (const auto& x : all_parts)
+    if (ms.*x.of >= least_ms)
+      parts.push_back({x.what, ms.*x.of, 0});
+  std::ranges::stable_sort(parts, std::ranges::greater{}, &part::ms);
+  parts.resize(std::min(parts.size(), most));
+  std::string all;
+  for (const auto& x : parts)
+    all += fmt::format("{}{} {:.1f}", all.empty() ? "" : ", ", x.what, x.ms);
+  return all;
+}
+
+} // namespace sofof::experiments::explain

@@ -1,0 +1,31 @@
+// What made a result late, or its input old.
+#pragma once
+
+#include "experiments/explain/episode_files.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sofof::experiments::explain {
+
+/// A part of the time from an input to its result.
+struct part {
+  std::string_view what; ///< In words.
+  double ms = 0;
+  double usual_ms = 0; ///< Its median in the results before.
+
+  double more_ms() const { return ms - usual_ms; }
+};
+
+/// @param results      Of the session, not empty; the last one is explained.
+/// @param since_input  All parts; else those since the cycle began.
+/// @returns the part that took at least half of the time, else the one that
+/// took most more than usual.
+part longest_part(std::span<const received_result> results, bool since_input);
+
+/// @returns "wait for a worker 18.1, way down 10.1, computing 3.0": the three
+/// longest parts of at least 0.05 ms.
+std::string in_parts(const time_parts& ms);
+
+} // namespace sofof::experiments::explain

@@ -1,0 +1,157 @@
+// The story of an episode, from the files of a made-up run.
+#include "base/input_error.hpp"
+#include "experiments/explain/cause.hpp"
+#include "experiments/explain/story.hpp"
+#include "tests/support/contains.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::experiments::explain;
+using test::contains;
+using test::scratch;
+using test::write_text;
+
+namespace {
+
+/// Two episodes of 101 at mec: one is planned, one ends early.
+struct told_run {
+  scratch folder;
+  std::string reason = "qos_latency";
+  std::string because = "qos_latency value_ms=61.200000 limit_ms=50.000000";
+  std::string provider_closed = "30.010000000";
+  std::string last = "61.2,130.0,1,0.0,5.0,63.8,40.0,3.2,0.0,18.0";
+
+  std::string told(const question& q = {}) const {
+    write_text(folder / "summary.json", "{}\n");
+    write_text(
+        folder / "episodes.csv",
+        "side,station,provider,provider_id,service,counter,accepted_s,"
+        "first_data_s,ended_s,t_off_s,reason,fallback,because\n"
+        "requester,101,mec,1,planning,1,1.0,1.1,11.0,9.9,left_area,0,told\n"
+        "requester,101,mec,1,planning,2,20.0,20.1,30.0,9.9,"
+            + reason + ",1," + because
+            + "\nprovider,101,mec,1,planning,2,20.0,," + provider_closed + ",,"
+            + reason + ",0,told by the vehicle\n");
+    write_text(
+        folder / "events.jsonl",
+        R"({"t_s":19.9,"what":"offer","station":101,"provider":"mec",)"
+        R"("provider_id":1,"service":"","counter":0,"detail":""})"
+        "\n"
+        R"({"t_s":20.0,"what":"accepted","station":101,"provider":"mec",)"
+        R"("provider_id":1,"service":"planning","counter":2,"detail":"room"})"
+        "\n");
+    std::string rows =
+        "station,provider,provider_id,service,counter,cycle,received_s,"
+        "latency_ms,input_age_ms,used,uplink_wait_ms,uplink_ms,rest_ms,"
+        "queue_ms,computing_ms,downlink_wait_ms,downlink_ms\n";
+    for (int k = 0; k < 20; ++k)
+      rows += "101,mec,1,planning,2," + std::to_string(400 + k)
+              + ",21.0,12.0,70.0,1,0.0,5.0,53.0,0.5,3.0,0.0,8.5\n";
+    rows += "101,mec,1,planning,2,420,30.0," + last + '\n';
+    write_text(folder / "cycles.csv", rows);
+    write_text(folder / "load.csv",
+               "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
+               "29,mec,workers,200,1.12,1.0,30.0\n"
+               "30,mec,workers,100,0.40,0.4,10.0\n"
+               "30,mec,uplink,100,0.02,0.02,0.0\n");
+    return tell(folder.path(), q);
+  }
+};
+
+} // namespace
+
+TEST_CASE("a story goes from the offer to why it ended, in the order of time") {
+  const told_run run;
+  CHECK(run.told()
+        == "Station 101, planning at mec: 20.000 to 30.000 s, ended early\n"
+           "    19.900 s  offer of mec\n"
+           "    20.000 s  accepted: room\n"
+           "    20.100 s  the first result in time: it is used from now on\n"
+           "              21 results came, 21 used\n"
+           "              latency mean 14.3, at most 61.2 ms\n"
+           "              age of the input mean 72.9, at most 130.0 ms\n"
+           "    30.000 s  the last result: latency 61.2 ms, input 130.0 ms "
+           "old\n"
+           "              most of it: wait for the cycle 63.8, wait for a "
+           "worker 40.0, way down 18.0 ms\n"
+           "    30.000 s  ended: qos_latency (61.2 ms, limit 50.0 ms)\n"
+           "              asked of mec just then: uplink 2 %, workers 112 %\n"
+           "              the vehicle's own function took over (a fallback)\n"
+           "    30.010 s  mec closed it: qos_latency (told by the vehicle)\n"
+           "Why: it was too late: the wait for a worker took 40.0 ms, 0.5 as a "
+           "rule; the\nworkers were asked for 112 % just then.\n");
+}
+
+TEST_CASE("the episode that is told of is the one at a time, or the first that "
+          "ended early") {
+  const told_run run;
+  CHECK(contains(run.told({101, 5.0, ""}), "1.000 to 11.000 s"));
+  CHECK(contains(run.told({101, 14.0, ""}), "1.000 to 11.000 s"));
+  CHECK(contains(run.told({101, 19.0, ""}), "20.000 to 30.000 s"));
+  CHECK(contains(run.told({{}, {}, "planning"}), "20.000 to 30.000 s"));
+}
+
+TEST_CASE("one sentence says that there is no such episode") {
+  const told_run run;
+  CHECK_THROWS_WITH_AS(
+      run.told({102, {}, ""}),
+      doctest::Contains("no vehicle has closed an episode as station 102"),
+      input_error);
+  CHECK_THROWS_WITH_AS(run.told({{}, {}, "climate"}),
+                       doctest::Contains("of climate"), input_error);
+  const scratch empty;
+  CHECK_THROWS_WITH_AS(tell(empty.path(), {}),
+                       doctest::Contains("is no results folder"), input_error);
+}
+
+TEST_CASE("each reason has a why of its own") {
+  struct told {
+    std::string reason, because, why;
+  };
+  const std::vector<told> all{
+      {"qos_gap", "qos_gap value_ms=100.000001 limit_ms=100.000000",
+       "nothing came, though the provider went on"},
+      {"cam_timeout", "told by the provider", "heard nothing of the vehicle"},
+      {"peer_lost", "", "mec is gone"},
+      {"implausible", "road value=0.312 limit=0.250",
+       "failed the vehicle's check: road value=0.312"},
+      {"revoked", "told by the provider", "took its room back"},
+      {"no_data", "no_data value_ms=1000.0 limit_ms=1000.0", "none in time"},
+  };
+  for (const auto& x : all) {
+    CAPTURE(x.reason);
+    told_run run;
+    run.reason = x.reason;
+    run.because = x.because;
+    CHECK(contains(run.told(), "Why: "));
+    CHECK(contains(run.told(), x.why));
+  }
+}
+
+TEST_CASE(
+    "a provider that had closed a session before is why results stopped") {
+  told_run run;
+  run.reason = "qos_gap";
+  run.provider_closed = "29.900000000";
+  CHECK(contains(run.told(), "mec had closed it 0.100 s before"));
+}
+
+TEST_CASE("the part that took half of the time is the cause, else the one that "
+          "took most more than usual") {
+  std::vector<received_result> results(5);
+  for (auto& x : results)
+    x.ms = {.queue = 1, .computing = 10, .downlink = 12};
+  results.back().ms = {.queue = 20, .computing = 12, .downlink = 25};
+  CHECK(longest_part(results, false).what == "wait for a worker");
+  results.back().ms = {.queue = 20, .computing = 12, .downlink = 45};
+  CHECK(longest_part(results, false).what == "way down");
+  results.back().ms.uplink_wait = 500;
+  CHECK(longest_part(results, false).what == "way down");
+  CHECK(longest_part(results, true).what == "wait for the uplink");
+}
