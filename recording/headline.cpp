@@ -166,8 +166,8 @@ std::string of_the_machine(const standstill& x) {
 }
 
 std::string load_of(const load_table& table, duration length) {
-  if (table.servers.empty())
-    return "What was full is not known: nothing was modelled here.";
+  if (table.servers.empty() && table.cells.empty())
+    return "What was full is not known: no cell was modelled here.";
   const auto full = full_ones(table, length);
   if (full.empty())
     return "No worker and no cell was full.";
