@@ -6,11 +6,13 @@
 #include "base/options/toml_nodes.hpp"
 #include "base/options/toml_options.hpp"
 #include "base/options/toml_text.hpp"
+#include "base/random.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <initializer_list>
 #include <iterator>
 #include <numeric>
@@ -26,7 +28,8 @@ public:
       : file_{file.string()}, root_{parse_toml(text, file_)} {}
 
   sweep_plan read(std::span<const std::string> overrides) {
-    known(root_, {"name", "scenario", "seeds", "set", "axis"});
+    known(root_,
+          {"name", "scenario", "seeds", "most_seeds", "set", "axis", "draw"});
     sweep_plan plan;
     plan.name = text_of(root_, "name");
     if (plan.name.find_first_of("/\\") != plan.name.npos)
@@ -34,12 +37,16 @@ public:
     plan.scenario =
         std::filesystem::path{file_}.parent_path() / text_of(root_, "scenario");
     read_seeds(plan.seeds);
+    plan.most_seeds = most_seeds(plan.seeds.size());
     if (const auto* set = root_.get("set"))
       plan.given = assignments(*set);
     plan.given.insert(plan.given.end(), overrides.begin(), overrides.end());
     if (const auto* axes = root_.get("axis"))
       for (const auto* axis : tables_of(*axes, "axis"))
         plan.axes.push_back(axis_of(*axis));
+    if (const auto* draws = root_.get("draw"))
+      for (const auto* draw : tables_of(*draws, "draw"))
+        plan.draws.push_back(draw_of(*draw));
     check_axes(plan);
     if (plan.size() > most_sweep_points)
       fail(root_, fmt::format("these are {} runs; {} are the most.",
@@ -108,6 +115,19 @@ private:
       fail(*node, "seeds must be how many, or a list of integers.");
   }
 
+  std::size_t most_seeds(std::size_t at_least) const {
+    const auto* node = root_.get("most_seeds");
+    if (!node)
+      return at_least;
+    const auto count = node->value_exact<std::int64_t>();
+    if (!count || *count < static_cast<std::int64_t>(at_least)
+        || *count > std::int64_t{most_sweep_points})
+      fail(*node, fmt::format("most_seeds must be from {}, as many as seeds, "
+                              "to {}.",
+                              at_least, most_sweep_points));
+    return static_cast<std::size_t>(*count);
+  }
+
   /// @returns "KEY=VALUE" with the value as TOML.
   static std::string assignment(std::string_view key, const toml::node& value) {
     return fmt::format("{}={}", key, value_text(value));
@@ -169,6 +189,36 @@ private:
     return axis;
   }
 
+  double number_of(const toml::table& table, std::string_view key) const {
+    const auto* node = table.get(key);
+    if (!node)
+      fail(table, fmt::format("{} is missing.", key));
+    const auto number = node->value<double>();
+    if (!number)
+      fail(*node, fmt::format("{} must be a number.", key));
+    return *number;
+  }
+
+  drawn_option draw_of(const toml::table& table) const {
+    drawn_option draw;
+    draw.key = text_of(table, "key");
+    if (const auto* values = table.get("values")) {
+      known(table, {"key", "values"});
+      const auto* list = values->as_array();
+      if (!list || list->empty())
+        fail(*values, "values must be a list of at least one value, [1, 2].");
+      for (const auto& value : *list)
+        draw.choices.push_back(assignment(draw.key, value));
+      return draw;
+    }
+    known(table, {"key", "from", "to"});
+    draw.from = number_of(table, "from");
+    draw.to = number_of(table, "to");
+    if (!(draw.from < draw.to))
+      fail(*table.get("to"), "to must be more than from.");
+    return draw;
+  }
+
   void check_labels(const sweep_axis& axis, const toml::table& at) const {
     std::vector<std::string_view> labels;
     for (const auto& value : axis.values)
@@ -202,11 +252,27 @@ private:
 
 } // namespace
 
-std::size_t sweep_plan::size() const {
-  auto all = seeds.size();
+std::string drawn_option::given(std::int64_t seed) const {
+  const auto noise =
+      random_stream{static_cast<std::uint64_t>(seed), "sweep"}.part(key);
+  if (choices.empty())
+    return fmt::format("{}={:.3f}", key, noise.uniform(from, to, 0));
+  const auto count = static_cast<double>(choices.size());
+  return choices[static_cast<std::size_t>(noise.uniform(0) * count)];
+}
+
+std::size_t sweep_plan::combinations() const {
+  std::size_t all = 1;
   for (const auto& axis : axes)
     all = std::min(all * axis.values.size(), most_sweep_points + 1);
   return all;
+}
+
+std::size_t sweep_plan::size() const {
+  const auto all = seeds_of.empty()
+                       ? combinations() * seeds.size()
+                       : std::reduce(seeds_of.begin(), seeds_of.end());
+  return std::min(all, most_sweep_points + 1);
 }
 
 sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
@@ -231,13 +297,23 @@ std::vector<sweep_point> points_of(const sweep_plan& plan) {
       }
     points = std::move(more);
   }
+  assert(plan.seeds_of.empty() || plan.seeds_of.size() == points.size());
+  const auto last = *std::ranges::max_element(plan.seeds);
   std::vector<sweep_point> seeded;
-  for (const auto& point : points)
-    for (const auto seed : plan.seeds) {
-      auto& next = seeded.emplace_back(point);
-      next.seed = seed;
-      next.given.push_back(fmt::format("seed={}", seed));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto count =
+        plan.seeds_of.empty() ? plan.seeds.size() : plan.seeds_of[i];
+    for (std::size_t k = 0; k < count; ++k) {
+      auto& next = seeded.emplace_back(points[i]);
+      next.seed =
+          k < plan.seeds.size()
+              ? plan.seeds[k]
+              : last + static_cast<std::int64_t>(k + 1 - plan.seeds.size());
+      for (const auto& draw : plan.draws)
+        next.given.push_back(draw.given(next.seed));
+      next.given.push_back(fmt::format("seed={}", next.seed));
     }
+  }
   return seeded;
 }
 

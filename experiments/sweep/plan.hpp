@@ -22,18 +22,42 @@ struct sweep_axis {
   std::vector<value> values; ///< At least one.
 };
 
+/// An option that each seed draws for itself: it varies over the seeds, and is
+/// the same in all points of one seed.
+struct drawn_option {
+  std::string key;
+  /// "KEY=VALUE", of which one is drawn; empty: a number is.
+  std::vector<std::string> choices;
+  double from = 0; ///< The number is uniform from here
+  double to = 0;   ///< up to here.
+
+  /// @returns "KEY=VALUE".
+  std::string given(std::int64_t seed) const;
+};
+
 /// What a sweep file says.
 struct sweep_plan {
   std::string name;               ///< What results are called.
   std::filesystem::path scenario; ///< The base.
   std::vector<std::string> given; ///< In all runs, "KEY=VALUE".
   std::vector<sweep_axis> axes;
+  std::vector<drawn_option> draws;
   std::vector<std::int64_t> seeds{1};
+  /// How many seeds one who needs more may use for a point, >= seeds.size().
+  std::size_t most_seeds = 1;
+  /// How many seeds each combination of values has, in the order of the points;
+  /// empty: `seeds`. Those beyond `seeds` count on from the
+  /// largest of them.
+  std::vector<std::size_t> seeds_of;
   /// The runs of its first seed are measured by the wall's clock too, all of
   /// them on one machine.
   bool measures = false;
 
-  /// The product of all sizes.
+  /// How many combinations of values there are, at most one more than
+  /// `most_sweep_points`.
+  std::size_t combinations() const;
+
+  /// How many points there are, likewise.
   std::size_t size() const;
 };
 
@@ -62,6 +86,7 @@ sweep_plan parse_sweep(std::string_view text, const std::filesystem::path& file,
                        std::span<const std::string> overrides = {});
 
 /// @returns all points: the first axis changes slowest, seeds fastest.
+/// @param plan  Its `seeds_of` is empty or has a number for each combination.
 std::vector<sweep_point> points_of(const sweep_plan& plan);
 
 /// Refuses a point of which one option is given twice: by two axes, by an axis

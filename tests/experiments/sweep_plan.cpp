@@ -5,6 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <string>
+
 using namespace sofof;
 using namespace sofof::experiments;
 using namespace sofof::test;
@@ -94,8 +97,62 @@ TEST_CASE("without axes a sweep is its seeds") {
   CHECK(points_of(plan)[2].given == std::vector<std::string>{"seed=3"});
 }
 
+TEST_CASE("each combination of values may have seeds of its own") {
+  auto plan = parsed(changed("[3, 5]", "[3, 5]\nmost_seeds = 4"));
+  CHECK(plan.most_seeds == 4);
+  const auto combinations = plan.combinations();
+  CHECK(plan.size() == 2 * combinations);
+  plan.seeds_of.assign(combinations, 1);
+  plan.seeds_of.front() = 4;
+  CHECK(plan.size() == combinations + 3);
+  const auto points = points_of(plan);
+  REQUIRE(points.size() == plan.size());
+  CHECK(points[0].seed == 3);
+  CHECK(points[1].seed == 5);
+  CHECK(points[2].seed == 6);
+  CHECK(points[3].seed == 7);
+  CHECK(points[3].labels == points[0].labels);
+  CHECK(points[4].labels != points[0].labels);
+  CHECK(parsed(changed("[3, 5]", "[3, 5]")).most_seeds == 2);
+}
+
+TEST_CASE("what seeds draw varies over them, and over nothing else") {
+  const auto plan = parsed("name = 'a'\nscenario = 'b.toml'\nseeds = 200\n"
+                           "[[draw]]\nkey = 'x'\nfrom = 2\nto = 3.5\n"
+                           "[[draw]]\nkey = 'y'\nvalues = [['a'], ['b', 'c']]\n"
+                           "[[axis]]\nkey = 'z'\nvalues = [1, 2]\n");
+  const auto points = points_of(plan);
+  REQUIRE(points.size() == 400);
+  double least = 10, most = 0;
+  int first = 0;
+  for (std::size_t i = 0; i < 200; ++i) {
+    const auto& given = points[i].given;
+    REQUIRE(given.size() == 4);
+    CHECK(given[1] == points[i + 200].given[1]);
+    CHECK(given[2] == points[i + 200].given[2]);
+    const auto x = std::stod(given[1].substr(2));
+    least = std::min(least, x);
+    most = std::max(most, x);
+    first += given[2] == "y=[ \"a\" ]" || given[2] == "y=[ 'a' ]" ? 1 : 0;
+  }
+  CHECK(least >= 2);
+  CHECK(least < 2.1);
+  CHECK(most <= 3.5);
+  CHECK(most > 3.4);
+  CHECK(first > 70);
+  CHECK(first < 130);
+}
+
 TEST_CASE("a mistake in a sweep file is named with its place") {
   const mistake mistakes[] = {
+      {"seeds = [3, 5]", "seeds = [3, 5]\nmost_seeds = @1", {"from 2"}},
+      {"seeds = [3, 5]", "seeds = [3, 5]\ndraw = @1", {"draw", "tables"}},
+      {"seeds = [3, 5]",
+       "seeds = [3, 5]\ndraw = [{key='a', from=1, to=@1}]",
+       {"more than from"}},
+      {"seeds = [3, 5]",
+       "seeds = [3, 5]\ndraw = [{key='a', values=@[]}]",
+       {"values", "list"}},
       {"seeds = [3, 5]", "seeds = @[]", {"seeds", "list"}},
       {"seeds = [3, 5]", "seeds = @0", {"from 1 to"}},
       {"seeds = [3, 5]", "seeds = [3, @3]", {"seed 3", "twice"}},
