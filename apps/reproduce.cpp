@@ -15,16 +15,19 @@ namespace {
 
 struct reproduce_arguments {
   std::string folder = "config/paper";
+  bool full = false;
+  std::string trace;
   sweep_arguments runs;
 
   int obey() const {
-    const experiments::study::reproduction_options all{folder, SOFOF_VERSION,
-                                                       runs.given("paper")};
+    const experiments::study::reproduction_options all{
+        folder, SOFOF_VERSION, runs.given("paper"), full, trace};
     const auto page = (all.runs.out / "report.html").string();
     const auto part = runs.part();
     if (runs.count) {
-      std::cout << experiments::count_runs(plans_of(all), all.runs.program,
-                                           interrupted)
+      std::cout << experiments::count_runs(
+          experiments::study::next_plans(all, interrupted), all.runs.program,
+          interrupted)
                 << '\n';
       return static_cast<int>(scenario::run_outcome::good);
     }
@@ -51,8 +54,17 @@ void add_reproduce(CLI::App& app, int& exit_code) {
       ->add_option("FOLDER", args->folder,
                    "Of the sweep files (default config/paper)")
       ->type_name(" ");
+  command->add_flag("--full", args->full,
+                    "Narrow intervals: up to ten times as many runs; says "
+                    "first how many hours that are");
+  command
+      ->add_option("--trace", args->trace,
+                   "Your own latencies in place of the channel models "
+                   "(docs/channels.md#trace)")
+      ->type_name("FILE");
   args->runs.add_to(*command);
-  command->footer("Takes some minutes; what is finished is kept.\n"
+  command->footer("Takes up to 20 minutes on two cores; what is finished is "
+                  "kept.\n"
                   "Example:\n  sofof reproduce --out results/paper");
   command->callback([args, &exit_code] {
     catch_signals();

@@ -3,6 +3,7 @@
 
 #include "base/geometry.hpp"
 #include "base/options/toml_file.hpp"
+#include "experiments/dehler2025/interval.hpp"
 #include "experiments/report/run_files.hpp"
 #include "scenario/load.hpp"
 

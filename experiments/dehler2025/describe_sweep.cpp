@@ -3,6 +3,8 @@
 
 #include "base/input_error.hpp"
 #include "base/options/units.hpp"
+#include "experiments/dehler2025/mean_interval.hpp"
+#include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/sweep_results.hpp"
 
 #include <fmt/format.h>
@@ -35,8 +37,7 @@ ratio(runs_view runs, const std::function<group(const measured_run&)>& part) {
   std::vector<group> groups;
   for (const auto* run : runs)
     groups.push_back(part(*run));
-  constexpr std::uint64_t seed = 1;
-  return bootstrap(groups, random_stream{seed, "describe_sweep"});
+  return mean_interval(groups);
 }
 
 double vehicle_seconds(const measured_run& run) {
@@ -71,7 +72,8 @@ std::optional<interval> fallbacks_per_hour(runs_view runs) {
 
 const std::vector<measure>& measures() {
   static const std::vector<measure> all{
-      {"Offloading time", "t_off per episode, s", mean_t_off},
+      {"Offloading time", "t_off per episode, s",
+       [](runs_view runs) { return mean_t_off(runs); }},
       {"Offloaded share", "share of driving time", offloaded_share},
       {"Latency", "mean, ms", mean_latency},
       {"Fallbacks", "per vehicle and hour", fallbacks_per_hour},
@@ -134,8 +136,8 @@ report::figure figure_of(const sweep_results& s, const measure& what,
       parse_duration(s.runs.front().point.labels[axis]).has_value();
   f.x_label = s.axes[axis] + (durations ? ", ms" : "");
   f.y_label = what.unit;
-  f.caption = "Means over all seeds together, with 95 % bootstrap intervals "
-              "over runs.";
+  f.caption = "Means over all seeds together, with 95 % intervals over "
+              "runs.";
   std::map<std::string, std::map<double, interval>> curves;
   for (const auto& [labels, runs] : points_in(s)) {
     std::string name;

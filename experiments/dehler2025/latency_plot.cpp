@@ -1,16 +1,20 @@
 // The paper's latency plot: offloading time against the longest gap.
 #include "experiments/dehler2025/area_time.hpp"
-#include "experiments/dehler2025/curve_claims.hpp"
+#include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/paper_figures.hpp"
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
+#include "experiments/dehler2025/share_interval.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace sofof::experiments::study {
 
@@ -38,23 +42,37 @@ std::string name_of(const std::string& vehicles) {
   return vehicles == "1" ? "1 vehicle" : vehicles + " vehicles";
 }
 
-/// How many runs a point has, and how long they are.
-struct effort {
-  std::uint64_t runs = 0;
+/// How many runs points have, and how long they are.
+struct run_counts_of_points {
+  std::uint64_t fewest = 0;
+  std::uint64_t most = 0;
   std::uint64_t minutes = 0;
 };
 
-effort effort_of(const paper_runs& e) {
-  const auto point = those(e.latency_plot, "1", longest_limit);
-  if (point.empty())
-    return {};
+run_counts_of_points counts_of(const paper_runs& e) {
+  run_counts_of_points all;
+  if (e.latency_plot.empty())
+    return all;
+  for (const auto& n : labels_of(e.latency_plot, 0))
+    for (const auto& gap : labels_of(e.latency_plot, 1)) {
+      const std::uint64_t runs = those(e.latency_plot, n, gap).size();
+      all.fewest = all.most == 0 ? runs : std::min(all.fewest, runs);
+      all.most = std::max(all.most, runs);
+    }
   constexpr double minute_s = 60;
-  return {point.size(), static_cast<std::uint64_t>(std::lround(
-                            point.front()->figure("virtual_s") / minute_s))};
+  all.minutes = static_cast<std::uint64_t>(
+      std::lround(e.latency_plot.front().figure("virtual_s") / minute_s));
+  return all;
 }
 
-std::string length_of(const effort& x) {
+std::string length_of(const run_counts_of_points& x) {
   return fmt::format("{} minute{}", x.minutes, x.minutes == 1 ? "" : "s");
+}
+
+std::string text_of(const run_counts_of_points& x) {
+  return x.fewest == x.most
+             ? counted(x.most, "run")
+             : fmt::format("{} to {}", x.fewest, counted(x.most, "run"));
 }
 
 report::figure offloading_times(const paper_runs& e, const report_text& text) {
@@ -69,9 +87,9 @@ report::figure offloading_times(const paper_runs& e, const report_text& text) {
   saturation.dashed = true;
   f.curves.push_back(std::move(saturation));
   f.marks.emplace_back(paper::max_interarrival_ms, "the paper's choice");
-  const auto effort = effort_of(e);
-  f.caption = text.fill("curves", {{"runs", counted(effort.runs, "run")},
-                                   {"length", length_of(effort)}});
+  const auto counts = counts_of(e);
+  f.caption = text.fill(
+      "curves", {{"runs", text_of(counts)}, {"length", length_of(counts)}});
   return f;
 }
 
@@ -94,27 +112,53 @@ report::table all_means(const paper_runs& e) {
   return t;
 }
 
+std::string with_interval(const std::optional<interval>& x) {
+  return x ? fmt::format("{:.1f} ({:.1f}–{:.1f})", x->mean, x->low, x->high)
+           : "–";
+}
+
+/// @returns "3, 17", or "none"; of many the first ones.
+std::string text_of(const std::vector<std::int64_t>& seeds) {
+  constexpr std::size_t shown = 12;
+  if (seeds.empty())
+    return "none";
+  const auto first = std::span{seeds}.first(std::min(shown, seeds.size()));
+  return fmt::format(
+      "{}{}", fmt::join(first, ", "),
+      seeds.size() > shown ? fmt::format(", … ({} in all)", seeds.size()) : "");
+}
+
 report::table saturation(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "Where the curves saturate";
-  t.columns = {"vehicles", "time in the area, s", "t_off at 150 ms, s",
-               "share of that time", "early ends per pass"};
+  t.columns = {"vehicles",
+               "runs",
+               "time in the area, s",
+               "t_off at 150 ms, s",
+               "share of that time",
+               "early ends per pass",
+               "seeds with an early end",
+               "runs with one, 95 % interval"};
   for (const auto& n : labels_of(e.latency_plot, 0)) {
     const auto runs = those(e.latency_plot, n, longest_limit);
     const auto t_off = mean_t_off(runs);
     const auto stay = mean_time_in_area_s(those(e.in_area, 0, n));
-    double early = 0, episodes = 0;
-    for (const auto* run : runs) {
-      early += static_cast<double>(run->ended_early);
-      episodes += static_cast<double>(run->t_off_s.size());
+    double early = 0, passes = 0;
+    for (const auto& run : episodes_of(runs)) {
+      early += run.early;
+      passes += run.passes();
     }
     if (!t_off || !stay)
       continue;
-    t.rows.push_back(
-        {n, fmt::format("{:.1f}", *stay), fmt::format("{:.1f}", t_off->mean),
-         fmt::format("{:.1f} %", 100 * t_off->mean / *stay),
-         episodes > early ? fmt::format("{:.2f}", early / (episodes - early))
-                          : "–"});
+    const auto seeds = seeds_with_early_ends(runs);
+    const auto share = share_interval(seeds.size(), runs.size());
+    t.rows.push_back({n, std::to_string(runs.size()),
+                      fmt::format("{:.1f}", *stay), with_interval(t_off),
+                      fmt::format("{:.1f} %", 100 * t_off->mean / *stay),
+                      passes > 0 ? fmt::format("{:.2f}", early / passes) : "–",
+                      text_of(seeds),
+                      fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * share.mean,
+                                  100 * share.low, 100 * share.high)});
   }
   t.note = text.fill("stays");
   return t;
@@ -132,25 +176,6 @@ report::figure other_reading(const paper_runs& e, const report_text& text) {
   }
   f.caption = text.fill("stalls_curves");
   return f;
-}
-
-std::string with_interval(const std::optional<interval>& x) {
-  return x ? fmt::format("{:.1f} ({:.1f}–{:.1f})", x->mean, x->low, x->high)
-           : "–";
-}
-
-/// @returns violations per hour of offloading, which the end of a run does not
-/// bias, whatever it cuts off.
-std::optional<interval>
-early_ends_per_hour(std::span<const measured_run* const> runs) {
-  constexpr double hour_s = 3600;
-  std::vector<group> groups;
-  for (const auto* run : runs)
-    groups.push_back({static_cast<double>(run->ended_early),
-                      run->figure("offloaded_share") * run->figure("vehicles")
-                          * run->figure("virtual_s") / hour_s});
-  constexpr std::uint64_t seed = 1;
-  return bootstrap(groups, random_stream{seed, "early_ends_per_hour"});
 }
 
 std::string plus_minus(double mean, double deviation, int digits) {
@@ -178,60 +203,41 @@ paragraph about_the_ends(const paper_runs& e, const report_text& text,
         text.fill(pass_longer(e) ? "longer_passes" : "no_longer_passes")}})};
 }
 
-std::string rises(const report_text& text, const curve_claims& claims) {
-  if (claims.rises_ms.empty())
-    return text.fill("no_heights");
-  return text.fill(
-      "rises",
-      {{"rises_ms", fmt::format("{}", fmt::join(claims.rises_ms, ", "))}});
+/// @returns how many early ends of six vehicles at the longest limit are for
+/// a latency.
+std::string causes_of(const paper_runs& e, const report_text& text) {
+  std::uint64_t early = 0, late = 0;
+  for (const auto* run : those(e.latency_plot, "6", longest_limit)) {
+    early += run->ended_early;
+    late += run->ended_late;
+  }
+  return text.fill("causes",
+                   {{"early", std::to_string(early)},
+                    {"late", std::to_string(late)},
+                    {"l_max_ms", fmt::format("{}", paper::max_latency_ms)}});
 }
 
-paragraph about_more_vehicles(const paper_runs& e, const report_text& text,
-                              const curve_claims& claims) {
-  const auto l_max = fmt::format("{}", paper::max_latency_ms);
-  auto all = text.fill("one_worker") + ' ';
-  if (claims.late_results_only())
-    all += text.fill("late_results", {{"l_max_ms", l_max}});
-  else
-    all += text.fill("other_causes", {{"l_max_ms", l_max},
-                                      {"late", std::to_string(claims.late)},
-                                      {"early", std::to_string(claims.early)},
-                                      {"rises", rises(text, claims)}});
-  const auto effort = effort_of(e);
-  if (effort.runs > 1)
-    all +=
-        ' '
-        + text.fill("phases",
-                    {{"runs", counted(effort.runs, "run")},
-                     {"length", length_of(effort)},
-                     {"total", std::to_string(effort.runs * effort.minutes)}});
-  return {all + ' '
-          + text.fill("apart", {{"convoy", with_interval(early_ends_per_hour(
-                                               those(e.apart, 0, "convoy")))},
-                                {"equal", with_interval(early_ends_per_hour(
-                                              those(e.apart, 0, "equal")))}})};
+paragraph about_more_vehicles(const paper_runs& e, const report_text& text) {
+  auto all = text.fill("one_worker") + ' ' + causes_of(e, text);
+  const auto counts = counts_of(e);
+  if (counts.most > 1)
+    all += ' '
+           + text.fill("phases", {{"runs", text_of(counts)},
+                                  {"length", length_of(counts)}});
+  const auto convoy = early_ends_per_hour(those(e.apart, 0, "convoy"));
+  const auto equal = early_ends_per_hour(those(e.apart, 0, "equal"));
+  all += ' '
+         + text.fill("apart", {{"convoy", with_interval(convoy)},
+                               {"equal", with_interval(equal)}});
+  if (convoy && equal)
+    all += ' '
+           + text.fill(convoy->low > equal->high || equal->low > convoy->high
+                           ? "apart_differ"
+                           : "apart_open");
+  return {all};
 }
 
-/// @returns what the sentence about the paper's description ends with.
-std::string agreement(const report_text& text, const curve_claims& claims) {
-  if (claims.rises_ms.empty())
-    return text.fill("unknown");
-  std::vector<std::string> missing;
-  if (!claims.rise_late)
-    missing.push_back(text.fill("late_rise"));
-  if (!claims.saturates)
-    missing.push_back(text.fill("saturation"));
-  if (!claims.six_lowest)
-    missing.push_back(text.fill("six_lowest"));
-  return missing.empty()
-             ? text.fill("agrees")
-             : text.fill(
-                 "differs",
-                 {{"missing", fmt::format("{}", fmt::join(missing, ", no "))}});
-}
-
-paragraph about_stalls(const paper_runs& e, const report_text& text,
-                       const curve_claims& claims) {
+paragraph about_stalls(const paper_runs& e, const report_text& text) {
   const auto latency =
       pooled(those(e.stalls, "1", longest_limit), "latency_ms");
   const auto early = [](std::span<const measured_run> runs, const char* n) {
@@ -244,15 +250,13 @@ paragraph about_stalls(const paper_runs& e, const report_text& text,
                  {"one_stalls", early(e.stalls, "1")},
                  {"six_stalls", early(e.stalls, "6")},
                  {"one", early(e.latency_plot, "1")},
-                 {"six", early(e.latency_plot, "6")},
-                 {"agreement", agreement(text, claims)}})};
+                 {"six", early(e.latency_plot, "6")}})};
 }
 
 } // namespace
 
 report::section latency_plot(const paper_runs& e) {
   const auto text = report_text::of("latency_plot");
-  const auto claims = claims_of(e);
   report::section s{"Offloading time", {}};
   s.blocks.emplace_back(paragraph{
       text.fill("the_paper",
@@ -264,9 +268,9 @@ report::section latency_plot(const paper_runs& e) {
   const auto six = mean_t_off(those(e.latency_plot, "6", longest_limit));
   if (one && six)
     s.blocks.emplace_back(about_the_ends(e, text, *one, *six));
-  s.blocks.emplace_back(about_more_vehicles(e, text, claims));
+  s.blocks.emplace_back(about_more_vehicles(e, text));
   s.blocks.emplace_back(other_reading(e, text));
-  s.blocks.emplace_back(about_stalls(e, text, claims));
+  s.blocks.emplace_back(about_stalls(e, text));
   return s;
 }
 

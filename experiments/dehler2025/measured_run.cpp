@@ -69,19 +69,6 @@ std::vector<const measured_run*> those(std::span<const measured_run> runs,
   return found;
 }
 
-std::optional<interval> mean_t_off(std::span<const measured_run* const> runs) {
-  std::vector<group> groups;
-  for (const auto* run : runs) {
-    auto& g = groups.emplace_back();
-    for (const auto t : run->t_off_s) {
-      g.sum += t;
-      ++g.count;
-    }
-  }
-  constexpr std::uint64_t seed = 1;
-  return bootstrap(groups, random_stream{seed, "mean_t_off"});
-}
-
 spread pooled(std::span<const measured_run* const> runs,
               const std::string& name) {
   double count = 0, sum = 0, squares = 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/ids.hpp"
-#include "experiments/dehler2025/bootstrap.hpp"
 #include "experiments/sweep/plan.hpp"
 
 #include <cstdint>
@@ -25,7 +24,9 @@ struct measured_run {
   /// is null.
   std::map<std::string, double> figures;
   /// Of each episode of trajectory planning that did not just run when the run
-  /// ended.
+  /// ended: from the first result in time to the end of the offloading. This is
+  /// what t_off means wherever the study says it; a request that was accepted
+  /// and never got a result is not among them.
   std::vector<double> t_off_s;
   std::uint64_t ended_early = 0; ///< Episodes that ended by a violation.
   /// How long providers, by their places, have run each service for vehicles.
@@ -54,10 +55,6 @@ std::vector<const measured_run*> those(std::span<const measured_run> runs,
 std::vector<const measured_run*> those(std::span<const measured_run> runs,
                                        const std::string& first,
                                        const std::string& second);
-
-/// @returns the mean of all offloading times of these runs; nullopt without
-/// any.
-std::optional<interval> mean_t_off(std::span<const measured_run* const> runs);
 
 /// Mean and standard deviation of all values together.
 struct spread {

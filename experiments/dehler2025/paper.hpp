@@ -17,7 +17,8 @@ inline constexpr double saturation_s = 70;
 /// The real drives.
 inline constexpr double real_latency_mean_ms = 11.94;
 inline constexpr double real_latency_deviation_ms = 2.98;
-inline constexpr int real_early_ends = 2;
+inline constexpr int real_drives = 15;
+inline constexpr int real_early_ends = 2; ///< Of them.
 
 /// Table of CPU time, percent of one core: simulation at 20 Hz, real at 100 Hz.
 inline constexpr recording::cpu_shares cpu_20_hz{19.5, 8.5, 0.96, 0.96};

@@ -1,8 +1,10 @@
 // The paper's real drives, emulated.
 #include "experiments/dehler2025/histogram.hpp"
+#include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/paper.hpp"
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
+#include "experiments/dehler2025/share_interval.hpp"
 #include "experiments/report/run_files.hpp"
 
 #include <fmt/format.h>
@@ -38,16 +40,16 @@ report::table comparison(const paper_runs& e) {
   const auto all = all_of(e.real_world);
   const auto latency = pooled(all, "latency_ms");
   const auto early = early_ends(e);
-  std::vector<group> seeds;
   int least = std::numeric_limits<int>::max(), most = 0;
+  std::uint64_t ended_early = 0;
   for (const auto& [seed, count] : early) {
-    seeds.push_back({static_cast<double>(count), 1});
+    ended_early += static_cast<std::uint64_t>(count);
     least = std::min(least, count);
     most = std::max(most, count);
   }
-  constexpr std::uint64_t stream_seed = 1;
-  const auto mean =
-      bootstrap(seeds, random_stream{stream_seed, "early_ends"}).value();
+  const auto drives = static_cast<double>(e.real_world.size())
+                      / static_cast<double>(early.size()); // of a seed
+  const auto share = share_interval(ended_early, e.real_world.size());
   const auto t_off = mean_t_off(all);
   const auto as_many = std::ranges::count_if(
       early, [](const auto& x) { return x.second >= paper::real_early_ends; });
@@ -59,11 +61,11 @@ report::table comparison(const paper_runs& e) {
        fmt::format("{:.2f} ± {:.2f}", latency.mean, latency.deviation),
        fmt::format("{:.2f} ± {:.2f}", paper::real_latency_mean_ms,
                    paper::real_latency_deviation_ms)},
-      {fmt::format("drives of {:.0f} that ended offloading early, mean (95 % "
-                   "interval)",
-                   static_cast<double>(e.real_world.size())
-                       / static_cast<double>(early.size())),
-       fmt::format("{:.2f} ({:.2f}–{:.2f})", mean.mean, mean.low, mean.high),
+      {fmt::format("drives of {:.0f} that ended offloading early, mean (exact "
+                   "95 % interval)",
+                   drives),
+       fmt::format("{:.2f} ({:.2f}–{:.2f})", drives * share.mean,
+                   drives * share.low, drives * share.high),
        std::to_string(paper::real_early_ends)},
       {"the same, least and most of all seeds",
        fmt::format("{} and {}", least, most), "–"},

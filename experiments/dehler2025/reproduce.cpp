@@ -2,10 +2,13 @@
 #include "experiments/dehler2025/reproduce.hpp"
 
 #include "base/files/output_file.hpp"
+#include "base/options/toml_text.hpp"
 #include "base/stopwatch.hpp"
 #include "experiments/dehler2025/cpu_run.hpp"
+#include "experiments/dehler2025/effort.hpp"
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
+#include "experiments/dehler2025/seed_rounds.hpp"
 #include "experiments/dehler2025/sweep_results.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/markdown.hpp"
@@ -15,14 +18,35 @@
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace sofof::experiments::study {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::string_view sweeps[] = {
     "latency_plot", "delay_plot", "in_area", "apart",
     "stalls",       "real_world", "quality"};
+
+seed_rule rule_of(const reproduction_options& options) {
+  return options.full ? full_rule : seed_rule{};
+}
+
+/// Each sweep as its file has it.
+std::vector<sweep_plan> first_plans(const reproduction_options& options) {
+  std::vector<std::string> given;
+  if (!options.trace.empty())
+    given = {"network.profile=\"trace\"",
+             fmt::format("network.trace={}",
+                         quoted_toml(fs::absolute(options.trace).string()))};
+  std::vector<sweep_plan> plans;
+  for (const auto name : sweeps)
+    plans.push_back(
+        load_sweep(options.sweeps / fmt::format("{}.toml", name), given));
+  return plans;
+}
 
 /// Thrown to get out of the middle of a reproduction.
 struct interruption {};
@@ -68,7 +92,7 @@ public:
   reproduction(const reproduction_options& options,
                const std::atomic<bool>& interrupted, std::ostream& console)
       : options_{options}, interrupted_{interrupted}, console_{console},
-        plans_{plans_of(options)} {}
+        plans_{first_plans(options)} {}
 
   paper_runs gather() {
     paper_runs e;
@@ -87,10 +111,20 @@ public:
   }
 
 private:
-  /// The runs of the next plan.
+  /// The runs of the next plan, in as many rounds as it needs.
   std::vector<measured_run> next_runs() {
     const stopwatch watch;
-    const auto& plan = plans_.at(begun_++);
+    auto plan = plans_.at(begun_++);
+    auto runs = one_round(plan);
+    while (add_seeds(plan, runs, rule_of(options_)))
+      runs = one_round(plan);
+    say(options_, console_,
+        fmt::format("{}: {} runs, {}", plan.name, runs.size(),
+                    recording::for_people(watch.elapsed_s())));
+    return runs;
+  }
+
+  std::vector<measured_run> one_round(const sweep_plan& plan) {
     auto how = options_.runs;
     how.title =
         fmt::format("{} ({} of {})  ", plan.name, begun_, plans_.size());
@@ -101,11 +135,7 @@ private:
       throw std::runtime_error{fmt::format(
           "{} runs of {} failed and {} were unsafe: {} says which.",
           outcome.failed, plan.name, outcome.unsafe, outcome.table.string())};
-    auto runs = study::runs_of(plan, outcome);
-    say(options_, console_,
-        fmt::format("{}: {} runs, {}", plan.name, runs.size(),
-                    recording::for_people(watch.elapsed_s())));
-    return runs;
+    return study::runs_of(plan, outcome);
   }
 
   const reproduction_options& options_;
@@ -117,10 +147,12 @@ private:
 
 } // namespace
 
-std::vector<sweep_plan> plans_of(const reproduction_options& options) {
+std::vector<sweep_plan> next_plans(const reproduction_options& options,
+                                   const std::atomic<bool>& interrupted) {
   std::vector<sweep_plan> plans;
-  for (const auto name : sweeps)
-    plans.push_back(load_sweep(options.sweeps / fmt::format("{}.toml", name)));
+  for (auto& plan : first_plans(options))
+    plans.push_back(next_round(std::move(plan), options.runs, rule_of(options),
+                               interrupted));
   return plans;
 }
 
@@ -128,8 +160,8 @@ shard_outcome reproduce_shard(const reproduction_options& options,
                               const shard& which,
                               const std::atomic<bool>& interrupted,
                               std::ostream& console) {
-  auto outcome =
-      make_shard(plans_of(options), options.runs, which, interrupted, console);
+  auto outcome = make_shard(next_plans(options, interrupted), options.runs,
+                            which, interrupted, console);
   if (which.number == measuring_shard && !outcome.interrupted)
     try {
       make_cpu_runs(options, interrupted, console);
@@ -142,6 +174,10 @@ shard_outcome reproduce_shard(const reproduction_options& options,
 bool reproduce(const reproduction_options& options,
                const std::atomic<bool>& interrupted, std::ostream& console) {
   try {
+    if (options.full)
+      say(options, console,
+          text_of(longest_effort(first_plans(options), options.runs,
+                                 rule_of(options), interrupted, console)));
     const auto e = reproduction{options, interrupted, console}.gather();
     report::document all;
     all.title = "The paper's evaluation, reproduced";

@@ -39,7 +39,7 @@ TEST_CASE("the paper's evaluation becomes one page and one text") {
        {"# The paper's evaluation, reproduced", "## Offloading time",
         "## Latency", "## Real drives", "## Computing time",
         "## Quality of the offloaded result", "10.54 ± 9.83", "8.73 %",
-        "Means over all episodes of one run of 1 minute each",
+        "Means over all episodes of one run of 1 minute for each point",
         "Wall-clock runs of 14 s"})
     CHECK(text.find(part) != text.npos);
   CHECK(text.find('{') == text.npos);

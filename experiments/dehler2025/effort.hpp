@@ -1,0 +1,35 @@
+// How long a reproduction takes at most, before it begins.
+#pragma once
+
+#include "experiments/dehler2025/offloading_time.hpp"
+#include "experiments/sweep/plan.hpp"
+#include "experiments/sweep/sweep.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <iosfwd>
+#include <span>
+#include <string>
+
+namespace sofof::experiments::study {
+
+struct effort {
+  std::size_t runs = 0; ///< At most, in virtual time.
+  double hours = 0;     ///< That they take at most, by `probe_s`.
+  unsigned jobs = 1;    ///< So many at the same time.
+  double probe_s = 0;   ///< What the run took that it was judged by.
+};
+
+/// Makes one run, if it is not there yet, and judges all others by what it took
+/// and by how many planning cycles they have.
+/// @param plans  At least one.
+/// @throws input_error when no point can be loaded, or the run is broken.
+effort longest_effort(std::span<const sweep_plan> plans,
+                      const sweep_options& options, const seed_rule& rule,
+                      const std::atomic<bool>& interrupted,
+                      std::ostream& console);
+
+/// @returns a sentence for people.
+std::string text_of(const effort& e);
+
+} // namespace sofof::experiments::study

@@ -1,0 +1,21 @@
+// A mean and how sure it is.
+#pragma once
+
+namespace sofof::experiments::study {
+
+/// A mean of all values together, and where it lies with 95 % confidence.
+struct interval {
+  double mean = 0;
+  double low = 0;
+  double high = 0;
+
+  double half_width() const { return (high - low) / 2; }
+};
+
+/// Values that belong together, those of one run, say.
+struct group {
+  double sum = 0;
+  double count = 0;
+};
+
+} // namespace sofof::experiments::study

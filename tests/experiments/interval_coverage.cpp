@@ -1,0 +1,147 @@
+// How often intervals hold the truth, in studies that are made up and stop as
+// the real one does.
+#include "base/random.hpp"
+#include "experiments/dehler2025/offloading_time.hpp"
+#include "experiments/dehler2025/share_interval.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+namespace sofof::experiments::study {
+
+namespace {
+
+constexpr int data_sets = 1000;
+constexpr double pass_s = 72.9;
+
+/// A point of the latency plot as it could be.
+struct made_up_point {
+  std::uint64_t vehicles;
+  double share;      ///< Of runs, that have an early end.
+  double more;       ///< Early ends in such a run, beyond the first, mean.
+  double spread = 0; ///< Of the logarithm of a run's t_off: short episodes.
+
+  double early_ends() const { return share * (1 + more); }
+  double truth_s() const {
+    const auto n = static_cast<double>(vehicles);
+    return spread > 0 ? 1 : (n * pass_s - early_ends()) / (n + early_ends());
+  }
+};
+
+/// @returns a number with this mean, Poisson's. Source: Knuth, The Art of
+/// Computer Programming 2, 3.4.1.
+double poisson(double mean, const random_stream& noise, std::uint64_t number) {
+  double product = 1;
+  std::uint32_t k = 0;
+  do
+    product *= noise.uniform(number, 10 + k++);
+  while (product > std::exp(-mean));
+  return k - 1;
+}
+
+run_episodes drawn(const made_up_point& p, const random_stream& noise,
+                   std::uint64_t number) {
+  if (p.spread > 0) { // many short episodes, all of which end early
+    constexpr double episodes = 30;
+    const auto mean =
+        std::exp(noise.normal(-p.spread * p.spread / 2, p.spread, number, 1));
+    return {episodes * mean, episodes, episodes, 0.1};
+  }
+  const auto n = static_cast<double>(p.vehicles);
+  const auto early = noise.uniform(number, 1) < p.share
+                         ? 1 + (p.more > 0 ? poisson(p.more, noise, number) : 0)
+                         : 0;
+  constexpr double deviation_s = 0.3;
+  const auto t_off_s =
+      noise.normal(n * pass_s, deviation_s * std::sqrt(n), number, 2) - early;
+  return {t_off_s, n + early, early, t_off_s / 3600};
+}
+
+/// What many studies of one point came to.
+struct coverage {
+  double held = 0; ///< Share of intervals that hold the truth.
+  double width_s = 0;
+  double runs = 0; ///< Mean.
+};
+
+coverage coverage_of(const made_up_point& p, std::size_t from,
+                     std::size_t most) {
+  coverage all;
+  const random_stream noise{17, "coverage"};
+  for (int k = 0; k < data_sets; ++k) {
+    const auto draws = noise.part(static_cast<std::uint64_t>(k));
+    std::vector<run_episodes> runs;
+    for (auto wanted = from;; wanted = std::min(2 * wanted, most)) {
+      while (runs.size() < wanted)
+        runs.push_back(drawn(p, draws, runs.size()));
+      if (wanted == most || !needs_more_runs(runs, {}))
+        break;
+    }
+    const auto x = mean_t_off(runs).value();
+    all.held += x.low <= p.truth_s() && p.truth_s() <= x.high ? 1 : 0;
+    all.width_s += x.high - x.low;
+    all.runs += static_cast<double>(runs.size());
+  }
+  return {all.held / data_sets, all.width_s / data_sets, all.runs / data_sets};
+}
+
+} // namespace
+
+TEST_CASE(
+    "of a thousand intervals of t_off at least 93 of 100 hold the truth") {
+  for (const auto& p : std::initializer_list<made_up_point>{{1, 0.01, 0},
+                                                            {1, 0.15, 0},
+                                                            {1, 0.64, 0},
+                                                            {3, 0.08, 0.4},
+                                                            {3, 0.3, 0.5},
+                                                            {6, 0.05, 0.5},
+                                                            {6, 0.46, 0.5},
+                                                            {6, 0.64, 1.3},
+                                                            {1, 0, 0, 0.05},
+                                                            {1, 0, 0, 0.25}}) {
+    const auto c = coverage_of(p, 10, 40);
+    const auto line = fmt::format(
+        "{} vehicles, {:.0f} % of runs with early ends, spread {}: {:.1f} % "
+        "hold {:.2f} s, mean width {:.2f} s, {:.1f} runs",
+        p.vehicles, 100 * p.share, p.spread, 100 * c.held, p.truth_s(),
+        c.width_s, c.runs);
+    MESSAGE(line);
+    CAPTURE(line);
+    CHECK(c.held >= 0.93);
+    if (p.share * c.runs >= 5 || p.spread > 0)
+      CHECK(c.held <= 0.98);
+  }
+}
+
+TEST_CASE("of a thousand exact intervals at least 93 of 100 hold the share") {
+  const random_stream noise{18, "shares"};
+  constexpr std::uint64_t drives = 300;
+  for (const auto share : {0.001, 0.005, 0.02, 0.11, 0.5}) {
+    double held = 0, width = 0;
+    for (std::uint64_t k = 0; k < data_sets; ++k) {
+      std::uint64_t early = 0;
+      for (std::uint64_t i = 0; i < drives; ++i)
+        early += noise.part(k).uniform(i) < share ? 1U : 0U;
+      const auto x = share_interval(early, drives);
+      held += x.low <= share && share <= x.high ? 1 : 0;
+      width += x.high - x.low;
+    }
+    const auto line =
+        fmt::format("{} of {} drives: {:.1f} % hold it, mean "
+                    "width {:.4f}",
+                    share, drives, held / data_sets * 100, width / data_sets);
+    MESSAGE(line);
+    CAPTURE(line);
+    CHECK(held / data_sets >= 0.93);
+    if (share * drives >= 5)
+      CHECK(held / data_sets <= 0.98);
+  }
+}
+
+} // namespace sofof::experiments::study
