@@ -105,8 +105,8 @@ report::table energy(const paper_runs& e, const report_text& text) {
   return t;
 }
 
-std::string verdict(const recording::cpu_figures& c, const char* rate,
-                    const report_text& text) {
+std::string whether_it_pays(const recording::cpu_figures& c, const char* rate,
+                            const report_text& text) {
   const auto share = recording::break_even_share(c.shares);
   if (share && *share < 1)
     return text.fill("pays", {{"rate", rate}, {"share", percent(share)}});
@@ -129,8 +129,8 @@ report::section cpu_cost(const paper_runs& e) {
   s.blocks.emplace_back(balance(e, text));
   s.blocks.emplace_back(energy(e, text));
   s.blocks.emplace_back(
-      paragraph{verdict(e.cpu_20_hz.figures, "20 Hz", text) + ' '
-                + verdict(e.cpu_100_hz.figures, "100 Hz", text) + ' '
+      paragraph{whether_it_pays(e.cpu_20_hz.figures, "20 Hz", text) + ' '
+                + whether_it_pays(e.cpu_100_hz.figures, "100 Hz", text) + ' '
                 + text.fill("planners")});
   return s;
 }

@@ -10,6 +10,7 @@
 #include "experiments/dehler2025/sections.hpp"
 #include "experiments/dehler2025/seed_rounds.hpp"
 #include "experiments/dehler2025/sweep_results.hpp"
+#include "experiments/dehler2025/verdicts.hpp"
 #include "experiments/report/html.hpp"
 #include "experiments/report/markdown.hpp"
 
@@ -183,7 +184,11 @@ bool reproduce(const reproduction_options& options,
     all.title = "The paper's evaluation, reproduced";
     all.subtitle = report_text::of("report").fill(
         "subtitle", {{"version", options.version}});
-    all.sections = {latency_plot(e), delay_plot(e), real_world(e), cpu_cost(e),
+    all.sections = {verdicts(judge(figures_of(e))),
+                    latency_plot(e),
+                    delay_plot(e),
+                    real_world(e),
+                    cpu_cost(e),
                     quality(e)};
     write_file(options.runs.out / "reproduction.md", report::markdown(all));
     report::write_html(all, options.runs.out / "report.html");

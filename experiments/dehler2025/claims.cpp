@@ -1,0 +1,359 @@
+// Each claim: its parts, each held against the figures.
+#include "experiments/dehler2025/claims.hpp"
+
+#include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/share_interval.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sofof::experiments::study {
+
+namespace {
+
+using findings = std::vector<finding>;
+
+/// @returns the point with the longest limit, if it has a value.
+const interval* height_of(const vehicle_figures& f) {
+  return !f.curve.empty() && f.curve.back().t_off_s ? &*f.curve.back().t_off_s
+                                                    : nullptr;
+}
+
+const vehicle_figures* with(const paper_figures& f, int vehicles) {
+  const auto found =
+      std::ranges::find(f.by_vehicles, vehicles, &vehicle_figures::vehicles);
+  return found == f.by_vehicles.end() ? nullptr : &*found;
+}
+
+/// @returns whether a is below b: shown, not shown, or shown to be above.
+finding below(const interval& a, const interval& b) {
+  if (a.high < b.low)
+    return finding::holds;
+  return a.low > b.high ? finding::opposite : finding::open;
+}
+
+/// @returns whether x is within a share of what it should be.
+finding near(const interval& x, double should, double share) {
+  if (std::abs(x.mean - should) <= share * should)
+    return finding::holds;
+  const auto apart =
+      x.low > should * (1 + share) || x.high < should * (1 - share);
+  return apart ? finding::opposite : finding::open;
+}
+
+finding near(double x, double should, double share) {
+  return near(interval{x, x, x}, should, share);
+}
+
+/// @returns whether x is at most `times` as much as what it should be, or as
+/// little; opposite beyond `other_times`.
+finding within_factor(double x, double should, double times,
+                      double other_times) {
+  if (!(x > 0))
+    return finding::opposite;
+  const auto factor = std::max(x / should, should / x);
+  if (factor <= times)
+    return finding::holds;
+  return factor > other_times ? finding::opposite : finding::open;
+}
+
+/// @returns whether a figure is small: holds up to `few`, opposite from `many`.
+finding at_most(double x, double few, double many) {
+  if (x <= few)
+    return finding::holds;
+  return x >= many ? finding::opposite : finding::open;
+}
+
+std::string text_of(const interval& x) {
+  return fmt::format("{:.1f} ({:.1f}–{:.1f})", x.mean, x.low, x.high);
+}
+
+judged_claim claim(const char* name, const findings& parts, std::string ours) {
+  return {name, std::move(ours), verdict_of(parts)};
+}
+
+/// @returns whether no point of a curve is below the one before.
+finding never_falls(const vehicle_figures& f) {
+  const interval* before = nullptr;
+  for (const auto& point : f.curve) {
+    if (!point.t_off_s)
+      continue;
+    if (before && below(*point.t_off_s, *before) == finding::holds)
+      return finding::opposite;
+    before = &*point.t_off_s;
+  }
+  return finding::holds;
+}
+
+judged_claim rises(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  for (const auto& n : f.by_vehicles) {
+    const auto* top = height_of(n);
+    if (!top || !n.curve.front().t_off_s)
+      continue;
+    const auto& first = *n.curve.front().t_off_s;
+    auto ends_higher = finding::open;
+    if (top->low >= tolerance::rise_times * first.high)
+      ends_higher = finding::holds;
+    else if (top->high <= first.low)
+      ends_higher = finding::opposite;
+    parts.push_back(ends_higher);
+    parts.push_back(never_falls(n));
+    ours += fmt::format("{}{}: {:.2f} to {:.1f} s", ours.empty() ? "" : "; ",
+                        n.vehicles, first.mean, top->mean);
+  }
+  return claim("rises", parts, ours);
+}
+
+judged_claim saturates(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const auto* one = with(f, 1);
+  if (const auto* top = one ? height_of(*one) : nullptr) {
+    parts.push_back(near(*top, paper::saturation_s, tolerance::height));
+    ours = text_of(*top) + " s";
+    const auto last = one->curve.size() - 1;
+    if (last > 0 && one->curve[last - 1].t_off_s) {
+      const auto& before = *one->curve[last - 1].t_off_s;
+      parts.push_back(near(before, top->mean, tolerance::plateau));
+      ours += fmt::format(", {} at {} ms", text_of(before),
+                          one->curve[last - 1].limit_ms);
+    }
+  }
+  return claim("saturates", parts, ours);
+}
+
+judged_claim time_in_area(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const auto* one = with(f, 1);
+  const auto* top = one ? height_of(*one) : nullptr;
+  if (top && one->time_in_area_s) {
+    parts.push_back(near(*top, *one->time_in_area_s, tolerance::height));
+    ours = fmt::format("{} s of {:.1f} s", text_of(*top), *one->time_in_area_s);
+  }
+  return claim("time_in_area", parts, ours);
+}
+
+judged_claim rises_slower(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const auto* one = with(f, 1);
+  const auto* six = with(f, 6);
+  const auto* top = one ? height_of(*one) : nullptr;
+  for (std::size_t i = 0; top && six && i < one->curve.size(); ++i) {
+    const auto& alone = one->curve[i].t_off_s;
+    const auto& together = six->curve[i].t_off_s;
+    if (!alone || !together || alone->mean < tolerance::rising_from * top->mean
+        || alone->mean > tolerance::rising_to * top->mean)
+      continue;
+    parts.push_back(below(*together, *alone));
+    ours += fmt::format("{}at {} ms {} and {} s", ours.empty() ? "" : "; ",
+                        one->curve[i].limit_ms, text_of(*alone),
+                        text_of(*together));
+  }
+  return claim("rises_slower", parts, ours);
+}
+
+judged_claim six_lowest(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const auto* six = with(f, 6);
+  const auto* top = six ? height_of(*six) : nullptr;
+  for (const auto& n : f.by_vehicles)
+    if (const auto* other = height_of(n); top && other && n.vehicles != 6) {
+      parts.push_back(below(*top, *other));
+      ours += fmt::format("{}: {}; ", n.vehicles, text_of(*other));
+    }
+  if (top)
+    ours += "6: " + text_of(*top) + " s";
+  return claim("six_lowest", parts, ours);
+}
+
+judged_claim latency_grows(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const vehicle_figures* before = nullptr;
+  const vehicle_figures* first = nullptr;
+  auto steps = finding::holds;
+  for (const auto& n : f.by_vehicles) {
+    if (!n.latency_ms)
+      continue;
+    if (before
+        && (n.latency_ms->mean < before->latency_ms->mean
+            || n.latency_deviation_ms < before->latency_deviation_ms))
+      steps = finding::open;
+    ours += fmt::format("{}{}: {:.2f} ± {:.2f}", ours.empty() ? "" : "; ",
+                        n.vehicles, n.latency_ms->mean, n.latency_deviation_ms);
+    first = first ? first : &n;
+    before = &n;
+  }
+  if (before && before != first) {
+    parts.push_back(below(*first->latency_ms, *before->latency_ms));
+    const auto grown =
+        before->latency_deviation_ms / first->latency_deviation_ms - 1;
+    parts.push_back(grown > tolerance::grown    ? finding::holds
+                    : grown < -tolerance::grown ? finding::opposite
+                                                : finding::open);
+    parts.push_back(steps);
+    ours += " ms";
+  }
+  return claim("latency_grows", parts, ours);
+}
+
+judged_claim latency_of_one(const paper_figures& f) {
+  findings parts;
+  std::string ours;
+  const auto* one = with(f, 1);
+  if (one && one->latency_ms) {
+    parts = {near(*one->latency_ms, paper::latency_mean_ms, tolerance::fitted),
+             near(one->latency_deviation_ms, paper::latency_deviation_ms,
+                  tolerance::fitted)};
+    ours = fmt::format("{:.2f} ± {:.2f} ms", one->latency_ms->mean,
+                       one->latency_deviation_ms);
+  }
+  return claim("latency_of_one", parts, ours);
+}
+
+judged_claim nearly_all_in_time(const paper_figures& f) {
+  findings parts;
+  double most = 0;
+  for (const auto& n : f.by_vehicles)
+    if (n.latency_ms) {
+      parts.push_back(
+          at_most(n.late_share, tolerance::few_late, tolerance::many_late));
+      most = std::max(most, n.late_share);
+    }
+  return claim("nearly_all_in_time", parts,
+               fmt::format("at most {:.4f} % later", 100 * most));
+}
+
+judged_claim real_latency(const paper_figures& f) {
+  const auto& x = f.real_latency_ms;
+  findings parts;
+  if (x.count > 0)
+    parts = {
+        near(x.mean, paper::real_latency_mean_ms, tolerance::fitted),
+        near(x.deviation, paper::real_latency_deviation_ms, tolerance::fitted)};
+  return claim("real_latency", parts,
+               fmt::format("{:.2f} ± {:.2f} ms", x.mean, x.deviation));
+}
+
+judged_claim real_early_ends(const paper_figures& f) {
+  if (f.drives == 0)
+    return claim("real_early_ends", {}, "");
+  const auto ours = share_interval(f.drives_ended_early, f.drives);
+  constexpr double theirs =
+      static_cast<double>(paper::real_early_ends) / paper::real_drives;
+  auto part = finding::open;
+  if (ours.low <= theirs && theirs <= ours.high)
+    part = finding::holds;
+  else if (ours.low > tolerance::rate_times * theirs
+           || ours.high < theirs / tolerance::rate_times)
+    part = finding::opposite;
+  return claim("real_early_ends", {part},
+               fmt::format("{} of {} drives, so {:.2f} ({:.2f}–{:.2f}) of {}",
+                           f.drives_ended_early, f.drives,
+                           ours.mean * paper::real_drives,
+                           ours.low * paper::real_drives,
+                           ours.high * paper::real_drives, paper::real_drives));
+}
+
+judged_claim switch_unnoticed(const paper_figures& f) {
+  findings parts;
+  if (f.switches > 0)
+    parts = {at_most(f.largest_speed_jump_mps, tolerance::quiet_jump_mps,
+                     tolerance::loud_jump_mps),
+             at_most(f.largest_acceleration_jump_mps2,
+                     tolerance::quiet_jump_mps2, tolerance::loud_jump_mps2)};
+  return claim("switch_unnoticed", parts,
+               fmt::format("{:.4f} m/s, {:.4f} m/s²", f.largest_speed_jump_mps,
+                           f.largest_acceleration_jump_mps2));
+}
+
+judged_claim costs(const char* name, const recording::cpu_shares& ours,
+                   const recording::cpu_shares& theirs) {
+  findings parts;
+  if (ours.active > 0)
+    for (const auto& [x, should] : {std::pair{ours.active, theirs.active},
+                                    {ours.inactive, theirs.inactive},
+                                    {ours.requester_remote, theirs.requester}})
+      parts.push_back(within_factor(x, should, tolerance::cost_times,
+                                    tolerance::other_cost_times));
+  return claim(name, parts,
+               fmt::format("{:.3f}, {:.3f}, {:.3f} %", ours.active,
+                           ours.inactive, ours.requester_remote));
+}
+
+judged_claim pays(const char* name, const recording::cpu_shares& ours,
+                  double printed_percent) {
+  findings parts;
+  std::string text = "never";
+  if (ours.active > 0) {
+    const auto share = recording::break_even_share(ours);
+    if (share && *share < 1) {
+      const auto percent = 100 * *share;
+      text = fmt::format("{:.2f} %", percent);
+      parts = {finding::holds,
+               within_factor(percent, printed_percent, tolerance::pays_times,
+                             tolerance::other_pays_times)};
+    } else {
+      parts = {finding::opposite};
+    }
+  }
+  return claim(name, parts, text);
+}
+
+} // namespace
+
+verdict verdict_of(std::span<const finding> parts) {
+  if (parts.empty())
+    return verdict::not_measured;
+  const auto holds = std::ranges::count(parts, finding::holds);
+  if (holds == std::ssize(parts))
+    return verdict::reproduced;
+  if (holds > 0)
+    return verdict::in_part;
+  return std::ranges::count(parts, finding::opposite) > 0
+             ? verdict::contradicts
+             : verdict::not_reproduced;
+}
+
+std::string_view word_of(verdict v) {
+  switch (v) {
+    case verdict::reproduced:
+      return "reproduced";
+    case verdict::in_part:
+      return "in part";
+    case verdict::not_reproduced:
+      return "not reproduced";
+    case verdict::contradicts:
+      return "contradicts";
+    case verdict::not_measured:
+      break;
+  }
+  return "not measured";
+}
+
+std::vector<judged_claim> judge(const paper_figures& f) {
+  return {rises(f),
+          saturates(f),
+          time_in_area(f),
+          rises_slower(f),
+          six_lowest(f),
+          latency_grows(f),
+          latency_of_one(f),
+          nearly_all_in_time(f),
+          costs("cost_20_hz", f.cpu_20_hz, paper::cpu_20_hz),
+          pays("pays_20_hz", f.cpu_20_hz, paper::printed_share_20_hz),
+          real_latency(f),
+          real_early_ends(f),
+          switch_unnoticed(f),
+          costs("cost_100_hz", f.cpu_100_hz, paper::cpu_100_hz),
+          pays("pays_100_hz", f.cpu_100_hz, paper::printed_share_100_hz)};
+}
+
+} // namespace sofof::experiments::study
