@@ -307,6 +307,15 @@ judged_claim pays(const char* name, const recording::cpu_shares& ours,
   return claim(name, parts, text);
 }
 
+judged_claim v2x_negligible(const paper_figures& f) {
+  if (!f.v2x_at_most)
+    return claim("v2x_negligible", {}, "");
+  return claim(
+      "v2x_negligible",
+      {at_most(*f.v2x_at_most, tolerance::little_v2x, tolerance::much_v2x)},
+      fmt::format("at most {:.3f} %", *f.v2x_at_most));
+}
+
 } // namespace
 
 verdict verdict_of(std::span<const finding> parts) {
@@ -349,6 +358,7 @@ std::vector<judged_claim> judge(const paper_figures& f) {
           nearly_all_in_time(f),
           costs("cost_20_hz", f.cpu_20_hz, paper::cpu_20_hz),
           pays("pays_20_hz", f.cpu_20_hz, paper::printed_share_20_hz),
+          v2x_negligible(f),
           real_latency(f),
           real_early_ends(f),
           switch_unnoticed(f),

@@ -67,6 +67,8 @@ inline constexpr double quiet_jump_mps = 0.1, loud_jump_mps = 0.5;
 inline constexpr double quiet_jump_mps2 = 0.3, loud_jump_mps2 = 1.5;
 /// A share of a core within this factor holds, beyond the other it is another.
 inline constexpr double cost_times = 2, other_cost_times = 5;
+/// "Negligible", percent of a core; from `much_v2x` on it is not.
+inline constexpr double little_v2x = 1, much_v2x = 5;
 /// The share of the time from which on offloading pays, the same.
 inline constexpr double pays_times = 1.5, other_pays_times = 2;
 

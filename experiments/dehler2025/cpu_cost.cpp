@@ -12,7 +12,7 @@ namespace {
 using report::paragraph;
 
 std::string percent(std::optional<double> share) {
-  return share ? fmt::format("{:.2f} %", 100 * *share) : "never";
+  return share && *share < 1 ? fmt::format("{:.2f} %", 100 * *share) : "never";
 }
 
 std::vector<std::string> row(const std::string& whose,
@@ -61,19 +61,28 @@ report::table shares(const paper_runs& e, const report_text& text) {
 report::table balance(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "With and without offloading, for the share of time of these runs";
-  t.columns = {"at what rate", "vehicles",  "t_d / t_total",
-               "c_without, %", "c_with, %", "measuring itself, %"};
-  const auto add = [&t](const char* rate, const recording::cpu_figures& c) {
+  t.columns = {
+      "at what rate",    "vehicles",
+      "t_d / t_total",   "c_without, %",
+      "c_with, %",       "measuring itself, %",
+      "V2X, at most, %", "offloading pays above, with all V2X as its cost"};
+  const auto add = [&t](const char* rate, const measured_cpu& measured) {
+    const auto& c = measured.figures;
+    auto with_v2x = c.shares;
+    with_v2x.requester += measured.v2x_at_most;
+    with_v2x.requester_remote += measured.v2x_at_most;
     const auto offloaded = c.inactive_s / (c.active_s + c.inactive_s);
     t.rows.push_back(
         {rate, std::to_string(c.vehicles), percent(offloaded),
          fmt::format("{:.3f}", recording::share_without_offloading(c.shares)),
          fmt::format("{:.3f}",
                      recording::share_with_offloading(c.shares, offloaded)),
-         fmt::format("{:.3f}", c.overhead)});
+         fmt::format("{:.3f}", c.overhead),
+         fmt::format("{:.3f}", measured.v2x_at_most),
+         percent(recording::break_even_share(with_v2x))});
   };
-  add("20 Hz", e.cpu_20_hz.figures);
-  add("100 Hz", e.cpu_100_hz.figures);
+  add("20 Hz", e.cpu_20_hz);
+  add("100 Hz", e.cpu_100_hz);
   t.note = text.fill("balance");
   return t;
 }

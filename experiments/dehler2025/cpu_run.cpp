@@ -19,19 +19,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// @returns the figures of trajectory planning.
-std::optional<recording::cpu_figures> figures_in(const fs::path& file) {
+/// What a run's cpu.csv says.
+struct cpu_file {
+  std::optional<recording::cpu_figures> planning;
+  double v2x_at_most = 0; ///< See `measured_cpu`.
+};
+
+cpu_file read_cpu(const fs::path& file) {
   enum { station, actor, service, source, cpu_s, time_s, wakes };
   constexpr std::string_view columns[] = {
       "station", "actor", "service", "source", "cpu_s", "time_s", "wakes"};
   csv_reader rows{file, columns};
   std::deque<std::string> names; // which the table's lines refer to
   recording::cpu_table table;
+  cpu_file all;
   while (rows.next()) {
     const auto turns = rows.whole(wakes);
     const auto cpu = from_seconds(rows.number(cpu_s));
     if (rows.text(actor) == "(measuring)" && turns > 0)
       table.look = cpu / (2 * static_cast<std::int64_t>(turns));
+    const auto is_v2x =
+        rows.text(actor) == "vehicle" || rows.text(actor) == "network_link";
+    if (is_v2x && rows.number(time_s) > 0)
+      all.v2x_at_most += 100 * rows.number(cpu_s) / rows.number(time_s);
     if (rows.text(station).empty())
       continue;
     table.lines.push_back({{static_cast<station_id>(rows.whole(station)),
@@ -42,7 +52,8 @@ std::optional<recording::cpu_figures> figures_in(const fs::path& file) {
                            from_seconds(rows.number(time_s)),
                            turns});
   }
-  return recording::figures_of(table, planning);
+  all.planning = recording::figures_of(table, planning);
+  return all;
 }
 
 } // namespace
@@ -72,14 +83,14 @@ fs::path make_cpu_run(const cpu_run& which, const run_store& store,
 }
 
 measured_cpu read_cpu_run(const fs::path& folder) {
-  const auto figures = figures_in(folder / "cpu.csv");
-  if (!figures)
+  const auto cpu = read_cpu(folder / "cpu.csv");
+  if (!cpu.planning)
     throw std::runtime_error{fmt::format(
         "no vehicle in {} was both local and offloaded.", folder.string())};
   const auto drove = read_run({}, folder);
-  return {*figures,
+  return {*cpu.planning,
           drove.figure("driving.distance_m") / drove.figure("safety.driven_s"),
-          drove.figure("virtual_s")};
+          drove.figure("virtual_s"), cpu.v2x_at_most};
 }
 
 } // namespace sofof::experiments::study

@@ -65,6 +65,8 @@ paper_figures figures_of(const paper_runs& e) {
   all.real_latency_ms = pooled(drives, "latency_ms");
   all.cpu_20_hz = e.cpu_20_hz.figures.shares;
   all.cpu_100_hz = e.cpu_100_hz.figures.shares;
+  if (e.cpu_20_hz.length_s > 0)
+    all.v2x_at_most = e.cpu_20_hz.v2x_at_most;
   for (const auto* run : those(e.quality, 0, "location")) {
     const auto count = run->figure("switch.count");
     if (!(count > 0))

@@ -35,6 +35,7 @@ struct paper_figures {
   std::uint64_t drives_ended_early = 0;
   recording::cpu_shares cpu_20_hz;
   recording::cpu_shares cpu_100_hz;
+  std::optional<double> v2x_at_most; ///< Percent of a core, at 20 Hz.
   double switches = 0;
   double largest_speed_jump_mps = 0; ///< Where the source of the plan changes.
   double largest_acceleration_jump_mps2 = 0;

@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view sweeps[] = {
-    "latency_plot", "delay_plot", "in_area", "apart",
-    "stalls",       "real_world", "quality"};
+    "latency_plot", "delay_plot", "in_area",  "apart", "stalls",
+    "real_world",   "quality",    "refusals", "host"};
 
 seed_rule rule_of(const reproduction_options& options) {
   return options.full ? full_rule : seed_rule{};
@@ -104,6 +104,8 @@ public:
     e.stalls = next_runs();
     e.real_world = next_runs();
     e.quality = next_runs();
+    e.refusals = next_runs();
+    e.host = next_runs();
     // Nothing else computes meanwhile.
     const auto folders = make_cpu_runs(options_, interrupted_, console_);
     e.cpu_20_hz = read_cpu_run(folders[0]);
@@ -187,6 +189,8 @@ bool reproduce(const reproduction_options& options,
     all.sections = {verdicts(judge(figures_of(e))),
                     latency_plot(e),
                     delay_plot(e),
+                    sensitivity(e),
+                    refusals(e),
                     real_world(e),
                     cpu_cost(e),
                     quality(e)};

@@ -16,6 +16,10 @@ struct measured_cpu {
   recording::cpu_figures figures;
   double speed_mps = 0; ///< Mean of its vehicles.
   double length_s = 0;
+  /// Percent of a core, of one vehicle: its V2X messages and, since an actor
+  /// has one account, what moves the simulated car and the links. So V2X takes
+  /// less.
+  double v2x_at_most = 0;
 };
 
 /// The runs of all sweeps in config/paper.
@@ -27,6 +31,8 @@ struct paper_runs {
   std::vector<measured_run> stalls;       ///< Axes as of latency_plot.
   std::vector<measured_run> real_world;   ///< Axis: drive.
   std::vector<measured_run> quality;      ///< Axis: codm; with tracks.
+  std::vector<measured_run> refusals;     ///< Axis: requirements.
+  std::vector<measured_run> host;         ///< Axes: vehicles, host.
   measured_cpu cpu_20_hz;
   measured_cpu cpu_100_hz;
 };
@@ -43,6 +49,12 @@ report::section real_world(const paper_runs& e);
 
 /// Computing time in the vehicle, and whether offloading pays.
 report::section cpu_cost(const paper_runs& e);
+
+/// How often LODM and CODM refuse, and what that changes.
+report::section refusals(const paper_runs& e);
+
+/// What the headlines hang on: choices of ours, and what the model lacks.
+report::section sensitivity(const paper_runs& e);
 
 /// What offloading does to the driving.
 report::section quality(const paper_runs& e);

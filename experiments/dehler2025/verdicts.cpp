@@ -59,6 +59,8 @@ std::map<std::string, named_figures> figures_in_words() {
         {"percent", percent(tolerance::few_late)}}},
       {"cost_20_hz", costs(paper::cpu_20_hz)},
       {"pays_20_hz", pays(paper::cpu_20_hz, paper::printed_share_20_hz)},
+      {"v2x_negligible",
+       {{"percent", fmt::format("{}", tolerance::little_v2x)}}},
       {"real_latency",
        {{"theirs", plus_minus(paper::real_latency_mean_ms,
                               paper::real_latency_deviation_ms)},

@@ -39,6 +39,7 @@ paper_figures like_the_paper() {
   f.drives_ended_early = 40;
   f.cpu_20_hz = {19.5, 8.5, 0.96, 0.96};
   f.cpu_100_hz = {116.1, 28.3, 4, 4};
+  f.v2x_at_most = 0.2;
   f.switches = 30;
   f.largest_speed_jump_mps = 0.01;
   f.largest_acceleration_jump_mps2 = 0.05;
@@ -300,6 +301,16 @@ TEST_CASE("computing costs as much as in the paper, in part, or not") {
     CHECK(shares(times(3, 3)) == not_reproduced);
     CHECK(shares(times(0.01, 0.1)) == contradicts);
   }
+}
+
+TEST_CASE("computing for V2X is negligible, is not, or may be") {
+  const auto v2x = [](double percent) {
+    return after("v2x_negligible",
+                 [=](figures& f) { f.v2x_at_most = percent; });
+  };
+  CHECK(v2x(0.5) == reproduced);
+  CHECK(v2x(3) == not_reproduced);
+  CHECK(v2x(6) == contradicts);
 }
 
 TEST_CASE("offloading pays from about the same share on, from another, never") {

@@ -73,6 +73,7 @@ TEST_CASE("computing time is shown beside the paper's, which does not add up") {
   e.cpu_100_hz.figures = {{0.2, 0, 0.02, 0.3}, 0.07, 6, 60, 40, 0.001};
   e.cpu_100_hz.speed_mps = 10;
   e.cpu_20_hz.length_s = 20;
+  e.cpu_20_hz.v2x_at_most = 0.05;
   const auto s = cpu_cost(e);
   CHECK(contains(words_of(s), "Wall-clock runs of 20 s"));
   CHECK(contains(words_of(s), "At 20 Hz offloading pays from 20.00 %"));
@@ -87,7 +88,7 @@ TEST_CASE("computing time is shown beside the paper's, which does not add up") {
   const auto& balance = the<report::table>(s, "With and without");
   CHECK(balance.rows[0]
         == std::vector<std::string>{"20 Hz", "6", "40.00 %", "0.200", "0.180",
-                                    "0.001"});
+                                    "0.001", "0.050", "70.00 %"});
   const auto& energy = the<report::table>(s, "What that is in energy");
   CHECK(energy.rows[0][1] == "0.552"); // 0.2 % of 2.76 W for 100 s
 }
