@@ -8,7 +8,6 @@
 #include "experiments/dehler2025/share_interval.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,17 +116,6 @@ std::string with_interval(const std::optional<interval>& x) {
            : "–";
 }
 
-/// @returns "3, 17", or "none"; of many the first ones.
-std::string text_of(const std::vector<std::int64_t>& seeds) {
-  constexpr std::size_t shown = 12;
-  if (seeds.empty())
-    return "none";
-  const auto first = std::span{seeds}.first(std::min(shown, seeds.size()));
-  return fmt::format(
-      "{}{}", fmt::join(first, ", "),
-      seeds.size() > shown ? fmt::format(", … ({} in all)", seeds.size()) : "");
-}
-
 report::table saturation(const paper_runs& e, const report_text& text) {
   report::table t;
   t.title = "Where the curves saturate";
@@ -156,7 +144,7 @@ report::table saturation(const paper_runs& e, const report_text& text) {
                       fmt::format("{:.1f}", *stay), with_interval(t_off),
                       fmt::format("{:.1f} %", 100 * t_off->mean / *stay),
                       passes > 0 ? fmt::format("{:.2f}", early / passes) : "–",
-                      text_of(seeds),
+                      in_a_list(seeds),
                       fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * share.mean,
                                   100 * share.low, 100 * share.high)});
   }

@@ -71,6 +71,7 @@ report::table comparison(const paper_runs& e) {
        fmt::format("{} and {}", least, most), "–"},
       {"seeds with at least two such drives",
        fmt::format("{} of {}", as_many, early.size()), "–"},
+      {"seeds with such a drive", in_a_list(seeds_with_early_ends(all)), "–"},
       {"t_off per episode, s",
        t_off ? fmt::format("{:.1f} ({:.1f}–{:.1f})", t_off->mean, t_off->low,
                            t_off->high)

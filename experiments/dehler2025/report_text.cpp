@@ -2,6 +2,7 @@
 #include "experiments/dehler2025/report_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -98,6 +99,17 @@ std::string in_words(std::uint64_t count) {
 
 std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", in_words(count), noun, count == 1 ? "" : "s");
+}
+
+std::string in_a_list(std::span<const std::int64_t> numbers) {
+  constexpr std::size_t shown = 20;
+  if (numbers.empty())
+    return "none";
+  auto list = fmt::format(
+      "{}", fmt::join(numbers.first(std::min(shown, numbers.size())), ", "));
+  if (numbers.size() > shown)
+    list += fmt::format(", … ({} in all)", numbers.size());
+  return list;
 }
 
 } // namespace sofof::experiments::study

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,10 @@ std::string in_words(std::uint64_t count);
 /// @returns how many there are of something: "one run", "ten runs", "20 seeds".
 /// @param noun  In the singular; the plural has an s.
 std::string counted(std::uint64_t count, std::string_view noun);
+
+/// @returns "3, 17", or "none"; of more than 20 numbers the first ones, and how
+/// many there are.
+std::string in_a_list(std::span<const std::int64_t> numbers);
 
 /// @returns the text of config/paper/text/NAME.md; an empty one if there is no
 /// such file.

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 namespace sofof::experiments::study {
 
@@ -85,6 +86,13 @@ TEST_CASE("small numbers are words") {
   CHECK(counted(10, "run") == "ten runs");
   CHECK(in_words(12) == "twelve");
   CHECK(counted(13, "seed") == "13 seeds");
+}
+
+TEST_CASE("numbers are listed, of many the first") {
+  CHECK(in_a_list({}) == "none");
+  CHECK(in_a_list(std::vector<std::int64_t>{3, 17}) == "3, 17");
+  CHECK(in_a_list(std::vector<std::int64_t>(21, 7))
+            .ends_with("7, … (21 in all)"));
 }
 
 } // namespace sofof::experiments::study
