@@ -82,11 +82,11 @@ report::section verdicts(std::span<const judged_claim> claims) {
   const auto figures = figures_in_words();
   report::table t;
   t.title = "Claims that these runs measure";
-  t.columns = {"claim", "the paper, and when that counts as reproduced", "ours",
-               "verdict"};
+  t.columns = {"claim", "verdict", "ours",
+               "the paper, and when that counts as reproduced"};
   for (const auto& claim : claims)
-    t.rows.push_back({claim.name, text.fill(claim.name, figures.at(claim.name)),
-                      claim.ours, std::string{word_of(claim.word)}});
+    t.rows.push_back({claim.name, std::string{word_of(claim.word)}, claim.ours,
+                      text.fill(claim.name, figures.at(claim.name))});
   t.note = text.fill("fitted");
   return {"Verdicts", {report::paragraph{text.fill("how")}, std::move(t)}};
 }

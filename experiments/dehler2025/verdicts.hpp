@@ -8,8 +8,8 @@
 
 namespace sofof::experiments::study {
 
-/// A table with a line for each claim: what the paper says, when that counts as
-/// reproduced, our figures, and the verdict.
+/// A table with a line for each claim: the verdict, our figures, what the paper
+/// says, and when that counts as reproduced.
 report::section verdicts(std::span<const judged_claim> claims);
 
 } // namespace sofof::experiments::study
