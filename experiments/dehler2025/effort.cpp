@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <vector>
 
 namespace sofof::experiments::study {
 
@@ -35,19 +37,24 @@ effort longest_effort(std::span<const sweep_plan> plans,
   effort all;
   all.jobs = options.jobs;
   double cost = 0;
-  wanted_run probe;
+  std::vector<wanted_run> probes; // as many as there will be at a time
   for (const auto& plan : plans) {
-    auto one_each = plan;
-    one_each.seeds = {plan.seeds.front()};
-    one_each.most_seeds = 1;
+    auto some = plan;
+    some.seeds.resize(std::min<std::size_t>(options.jobs, plan.seeds.size()));
+    some.most_seeds = some.seeds.size();
     const auto grows = plan.most_seeds > plan.seeds.size();
     const auto seeds = grows ? plan.most_seeds * rule.times : plan.seeds.size();
+    all.runs += plan.combinations() * seeds;
+    const auto times =
+        static_cast<double>(seeds) / static_cast<double>(some.seeds.size());
     for (const auto& run :
-         runs_wanted_by(one_each, options.program, interrupted).runs) {
-      cost += run.cost * static_cast<double>(seeds);
-      all.runs += seeds;
-      if (probe.name.empty())
-        probe = run;
+         runs_wanted_by(some, options.program, interrupted).runs) {
+      cost += run.cost * times;
+      if (!probes.empty() && run.cost > probes.front().cost)
+        probes.clear();
+      if (probes.empty()
+          || (run.cost == probes.front().cost && probes.size() < options.jobs))
+        probes.push_back(run);
     }
   }
   if (interrupted)
@@ -55,12 +62,13 @@ effort longest_effort(std::span<const sweep_plan> plans,
   const run_store store{options.out};
   making how = options;
   how.show = recording::progress::output::quiet;
-  make_runs({probe}, store, how, interrupted, console);
+  make_runs(probes, store, how, interrupted, console);
   if (interrupted)
     return all;
+  for (const auto& probe : probes)
+    all.probe_s = std::max(all.probe_s, wall_s_of(store.folder_of(probe.name)));
   constexpr double hour_s = 3600;
-  all.probe_s = wall_s_of(store.folder_of(probe.name));
-  all.hours = all.probe_s * cost / probe.cost / all.jobs / hour_s;
+  all.hours = all.probe_s * cost / probes.front().cost / all.jobs / hour_s;
   return all;
 }
 

@@ -20,8 +20,10 @@ struct effort {
   double probe_s = 0;   ///< What the run took that it was judged by.
 };
 
-/// Makes one run, if it is not there yet, and judges all others by what it took
-/// and by how many planning cycles they have.
+/// Makes a run with most planning cycles, several of them at a time as all will
+/// be, unless they are there, and judges all others by what they took and by
+/// their cycles. Shorter ones take less for a cycle, so this is rather too
+/// long.
 /// @param plans  At least one.
 /// @throws input_error when no point can be loaded, or the run is broken.
 effort longest_effort(std::span<const sweep_plan> plans,
