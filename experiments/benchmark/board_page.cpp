@@ -61,7 +61,7 @@ std::vector<criterion> shown_of(const leaderboard& board, bool beside) {
 
 std::string interval_of(const standing& one, std::string_view name) {
   const auto found = one.values.find(name);
-  if (found == one.values.end())
+  if (found == one.values.end() || one.seeds < 2)
     return absent;
   const auto places = criterion_of(name).decimals;
   return fmt::format("{:.{}f} … {:.{}f}", found->second.low, places,
@@ -83,7 +83,8 @@ report::table ranking(const leaderboard& board) {
     t.columns.emplace_back(by.brief);
   std::size_t place = 0;
   for (const auto& one : board.above()) {
-    std::vector<std::string> row{std::to_string(++place), one.entrant};
+    std::vector<std::string> row{
+        fmt::format("{}{}", ++place, one.tied ? " =" : ""), one.entrant};
     for (const auto name : compared) {
       row.push_back(text_of(one, criterion_of(name)));
       row.push_back(interval_of(one, name));
@@ -92,7 +93,9 @@ report::table ranking(const leaderboard& board) {
       row.push_back(text_of(one, by));
     t.rows.push_back(std::move(row));
   }
-  t.note = "Means over all runs: the score; how much it is above that of the "
+  t.note = "=: tied with the one above, as the 95 % interval of the difference "
+           "of their scores, run by run, holds 0. Means over all runs: the "
+           "score; how much it is above that of the "
            "entrant location, run by run; the offloaded share; QoS violations "
            "per vehicle and hour; the 99 % quantile of latency; energy saved; "
            "and how much the score is above the oracle's.";

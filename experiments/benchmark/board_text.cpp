@@ -64,7 +64,7 @@ column times_in(const leaderboard& board,
                 std::span<const decision_cost> costs) {
   column all{"decide us", {}};
   for (const auto& one : board.standings) {
-    const auto us = slowest_p99_us(costs, one.entrant, board.scenario);
+    const auto us = slowest_p50_us(costs, one.entrant, board.scenario);
     all.cells.push_back({us ? fmt::format("{:.1f}", *us) : unknown, false});
   }
   return all;
@@ -81,6 +81,23 @@ std::vector<column> columns_of(const leaderboard& board,
         all.push_back(*std::move(figures));
   }
   return all;
+}
+
+/// @returns a line for each of those ranked whom almost everything is refused:
+/// other columns say nothing of such a policy.
+std::string idle_in(const leaderboard& board) {
+  constexpr std::string_view refused = "rejected_percent";
+  constexpr double most = 50; // of the requests
+  std::string text;
+  for (const auto& one : board.above()) {
+    const auto found = one.values.find(refused);
+    if (!offloads(one) && found != one.values.end()
+        && found->second.mean >= most)
+      text += fmt::format("{} offloads nothing: {:.0f} % of its requests are "
+                          "refused.\n",
+                          one.entrant, found->second.mean);
+  }
+  return text;
 }
 
 /// Names to the left, figures to the right.
@@ -110,7 +127,7 @@ std::string board_text(const leaderboard& board,
     }
     text += '\n';
   }
-  return text;
+  return text + idle_in(board);
 }
 
 } // namespace sofof::experiments::bench

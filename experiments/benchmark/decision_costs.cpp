@@ -41,10 +41,26 @@ figures read_timing(const std::filesystem::path& folder) {
   return all;
 }
 
+/// @param all  At least one.
 double median(std::vector<double> all) {
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::ranges::nth_element(all, middle);
-  return *middle;
+  std::ranges::sort(all);
+  const auto middle = all.size() / 2;
+  return all.size() % 2 == 1 ? all[middle]
+                             : (all[middle - 1] + all[middle]) / 2;
+}
+
+using cost_figure = std::optional<double> (*)(const decision_cost&);
+
+std::optional<double> slowest(std::span<const decision_cost> costs,
+                              const std::string& entrant,
+                              const std::string& scenario, cost_figure of) {
+  std::optional<double> most;
+  for (const auto& cost : costs)
+    if (cost.entrant == entrant
+        && (scenario.empty() || cost.scenario == scenario))
+      if (const auto us = of(cost))
+        most = std::max(most.value_or(0), *us);
+  return most;
 }
 
 std::optional<decision_cost> cost_of(const timed_runs& runs,
@@ -52,7 +68,7 @@ std::optional<decision_cost> cost_of(const timed_runs& runs,
                                      const std::string& side) {
   decision_cost cost{runs.entrant, runs.scenario, side};
   double sum_us = 0;
-  std::vector<double> p50, p99;
+  std::vector<double> p50;
   for (const auto& timing : timings) {
     const auto count = timing.find(side + "_decisions");
     if (count == timing.end())
@@ -65,14 +81,15 @@ std::optional<decision_cost> cost_of(const timed_runs& runs,
     cost.decisions += count->second;
     sum_us += count->second * figure("mean");
     p50.push_back(figure("p50"));
-    p99.push_back(figure("p99"));
+    if (count->second >= fewest_for_p99)
+      cost.p99_us =
+          std::min(cost.p99_us.value_or(figure("p99")), figure("p99"));
     cost.max_us = std::max(cost.max_us, figure("max"));
   }
   if (cost.decisions <= 0)
     return std::nullopt;
   cost.mean_us = sum_us / cost.decisions;
   cost.p50_us = median(std::move(p50));
-  cost.p99_us = median(std::move(p99));
   return cost;
 }
 
@@ -92,15 +109,19 @@ read_decision_costs(std::span<const timed_runs> all) {
   return costs;
 }
 
+std::optional<double> slowest_p50_us(std::span<const decision_cost> costs,
+                                     const std::string& entrant,
+                                     const std::string& scenario) {
+  return slowest(costs, entrant, scenario, [](const decision_cost& x) {
+    return std::optional{x.p50_us};
+  });
+}
+
 std::optional<double> slowest_p99_us(std::span<const decision_cost> costs,
                                      const std::string& entrant,
                                      const std::string& scenario) {
-  std::optional<double> slowest;
-  for (const auto& cost : costs)
-    if (cost.entrant == entrant
-        && (scenario.empty() || cost.scenario == scenario))
-      slowest = std::max(slowest.value_or(0), cost.p99_us);
-  return slowest;
+  return slowest(costs, entrant, scenario,
+                 [](const decision_cost& x) { return x.p99_us; });
 }
 
 std::string to_csv(std::span<const decision_cost> costs) {

@@ -24,8 +24,10 @@ struct decision_cost {
   std::string side; ///< "lodm" or "codm".
   double decisions = 0;
   double mean_us = 0;
-  double p50_us = 0; ///< The median of its runs' quantiles, and so is p99.
-  double p99_us = 0;
+  double p50_us = 0; ///< The median of its runs' medians.
+  /// The least of its runs' quantiles: others on the machine add to a time and
+  /// take nothing away. Nothing if no run has decisions enough for one.
+  std::optional<double> p99_us;
   double max_us = 0;
 };
 
@@ -33,8 +35,16 @@ struct decision_cost {
 /// @throws input_error when a file is missing or broken.
 std::vector<decision_cost> read_decision_costs(std::span<const timed_runs> all);
 
+/// A run's 99 % quantile of fewer decisions says nothing of the other 1 %.
+inline constexpr double fewest_for_p99 = 1000;
+
 /// @param scenario  Empty: the slowest of all.
-/// @returns the p99 of the slower side, us; nullopt if neither has decided.
+/// @returns the median of the slower side, us; nullopt if neither has decided.
+std::optional<double> slowest_p50_us(std::span<const decision_cost> costs,
+                                     const std::string& entrant,
+                                     const std::string& scenario);
+
+/// The same of the 99 % quantile; nullopt also if neither has one.
 std::optional<double> slowest_p99_us(std::span<const decision_cost> costs,
                                      const std::string& entrant,
                                      const std::string& scenario);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace sofof::experiments::bench {
@@ -15,9 +16,19 @@ namespace {
 
 constexpr int csv_places = 6;
 
+using groups_by_seed = std::map<std::int64_t, study::group>;
+
+std::optional<study::interval> interval_of(const groups_by_seed& by_seed) {
+  std::vector<study::group> groups;
+  for (const auto& [seed, group] : by_seed)
+    groups.push_back(group);
+  constexpr std::uint64_t stream_seed = 1;
+  return study::bootstrap(groups, random_stream{stream_seed, "bench"});
+}
+
 std::optional<study::interval>
 pooled(const std::vector<const judged_run*>& runs, std::string_view name) {
-  std::map<std::int64_t, study::group> by_seed;
+  groups_by_seed by_seed;
   for (const auto* run : runs) {
     auto& group = by_seed[run->seed];
     const auto found = run->values.find(name);
@@ -26,19 +37,34 @@ pooled(const std::vector<const judged_run*>& runs, std::string_view name) {
     group.sum += found->second;
     ++group.count;
   }
-  std::vector<study::group> groups;
-  for (const auto& [seed, group] : by_seed)
-    groups.push_back(group);
-  constexpr std::uint64_t stream_seed = 1;
-  return study::bootstrap(groups, random_stream{stream_seed, "bench"});
+  return interval_of(by_seed);
+}
+
+/// @returns whether nobody can tell by these runs which of two scores is less.
+bool are_tied(const std::vector<const judged_run*>& one,
+              const std::vector<const judged_run*>& other) {
+  groups_by_seed by_seed;
+  for (const auto* a : one)
+    for (const auto* b : other)
+      if (a->scenario == b->scenario && a->seed == b->seed) {
+        auto& group = by_seed[a->seed];
+        group.sum += b->values.at(score_name) - a->values.at(score_name);
+        ++group.count;
+      }
+  const auto difference = interval_of(by_seed);
+  return difference && difference->low <= 0 && difference->high >= 0;
 }
 
 standing standing_of(const std::string& entrant,
                      const std::vector<const judged_run*>& runs,
                      std::size_t expected) {
   standing one{entrant, runs.size(), 0, expected - runs.size(), {}};
-  for (const auto* run : runs)
+  std::set<std::int64_t> seeds;
+  for (const auto* run : runs) {
     one.unsafe += run->safe ? 0U : 1U;
+    seeds.insert(run->seed);
+  }
+  one.seeds = seeds.size();
   for (const auto& by : criteria())
     if (const auto value = pooled(runs, by.name))
       one.values.emplace(by.name, *value);
@@ -83,6 +109,7 @@ constexpr csv_column<standing_row> columns_of_standings[]{
     {"runs", [](const auto& x) { return x.one.runs; }},
     {"unsafe", [](const auto& x) { return x.one.unsafe; }},
     {"failed", [](const auto& x) { return x.one.failed; }},
+    {"tied", [](const auto& x) { return x.one.tied; }},
 };
 
 /// Three columns for each criterion.
@@ -112,8 +139,9 @@ leaderboard rank(std::span<const judged_run> runs,
   const auto each =
       expected.seeds * (scenario.empty() ? expected.scenarios.size() : 1);
   leaderboard all{scenario, {}};
+  std::map<std::string, std::vector<const judged_run*>> runs_of;
   for (const auto& entrant : expected.entrants) {
-    std::vector<const judged_run*> own;
+    auto& own = runs_of[entrant];
     for (const auto& run : runs)
       if (run.entrant == entrant
           && (scenario.empty() || run.scenario == scenario))
@@ -121,7 +149,16 @@ leaderboard rank(std::span<const judged_run> runs,
     all.standings.push_back(standing_of(entrant, own, each));
   }
   std::ranges::stable_sort(all.standings, {}, place_of);
+  for (std::size_t i = 1; i < all.above().size(); ++i)
+    all.standings[i].tied = are_tied(runs_of[all.standings[i - 1].entrant],
+                                     runs_of[all.standings[i].entrant]);
   return all;
+}
+
+bool offloads(const standing& one) {
+  constexpr double next_to_nothing = 1; // percent
+  const auto share = one.values.find("offloaded_percent");
+  return share == one.values.end() || share->second.mean >= next_to_nothing;
 }
 
 const study::interval* best_of(const leaderboard& all, const criterion& by) {
@@ -130,7 +167,8 @@ const study::interval* best_of(const leaderboard& all, const criterion& by) {
   const auto sign = by.wanted == better::less ? 1 : -1;
   std::vector<const study::interval*> values;
   for (const auto& one : all.above())
-    if (const auto found = one.values.find(by.name); found != one.values.end())
+    if (const auto found = one.values.find(by.name);
+        found != one.values.end() && (by.name == score_name || offloads(one)))
       values.push_back(&found->second);
   const auto [best, worst] = std::ranges::minmax_element(
       values, {}, [sign](const auto* x) { return sign * x->mean; });
@@ -160,7 +198,8 @@ std::string to_csv(std::span<const leaderboard> boards,
         const auto known = found != one.values.end();
         for (const auto& [end, of] : parts_of_interval) {
           text += ',';
-          append(text, rounded(known ? std::optional{found->second.*of}
+          const auto tells = known && (end.empty() || one.seeds > 1);
+          append(text, rounded(tells ? std::optional{found->second.*of}
                                      : std::nullopt,
                                csv_places));
         }

@@ -22,6 +22,10 @@ struct standing {
   std::size_t failed = 0; ///< Runs without a result.
   /// Means over all runs; by names of criteria.
   std::map<std::string_view, study::interval> values;
+  std::size_t seeds = 0; ///< Of one there is no interval.
+  /// With the one above it: the interval of the difference of their scores, run
+  /// by run, holds 0.
+  bool tied = false;
 
   /// @returns whether it is ranked: it has done everything, and safely.
   bool above_line() const { return runs > 0 && unsafe + failed == 0; }
@@ -53,8 +57,14 @@ struct expected_runs {
 leaderboard rank(std::span<const judged_run> runs,
                  const expected_runs& expected, const std::string& scenario);
 
-/// @returns the best mean above the line; nullptr if there is none, or if none
-/// is better than another by this criterion.
+/// @returns whether an entrant offloads more than next to nothing, as far as it
+/// is known. Who does not has no violations and no latencies, whatever it is
+/// worth.
+bool offloads(const standing& one);
+
+/// @returns the best mean above the line, of those that offload unless it is
+/// the score; nullptr if there is none, or if none is better than another by
+/// this criterion.
 const study::interval* best_of(const leaderboard& all, const criterion& by);
 
 /// @param boards  One for each scenario, and one for all.
