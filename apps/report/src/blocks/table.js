@@ -4,10 +4,11 @@ import { downloads } from "../pictures/download.js";
 import { on_print } from "../print.js";
 
 const rows_at_first = 200;
+const rows_in_sight = 60; // of a longer table a part scrolls
 
 /// @returns the number that a cell shows; null for none.
 function number_in(cell) {
-  const text = cell.replace("−", "-").replace(/ \/min$/, "");
+  const text = cell.replace("−", "-").replace(/ (\/min|=)$/, "");
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : null;
 }
 
@@ -158,7 +159,7 @@ export function table_block(block) {
       downloads(block.title, { rows: () => [block.columns, ...block.rows] }),
     ),
     element(
-      "div.scroller",
+      block.rows.length > rows_in_sight ? "div.scroller.long" : "div.scroller",
       { tabindex: "0", role: "region", "aria-label": block.title || "Table" },
       element(
         "table",
