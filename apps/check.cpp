@@ -1,11 +1,40 @@
 // sofof check: reads a scenario and prints what it really says.
 #include "apps/command.hpp"
 #include "apps/scenario_arguments.hpp"
+#include "world/roads/sharp_bends.hpp"
+#include "world/vehicle/vehicle.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 namespace sofof::apps {
+
+namespace {
+
+/// A car that leaves its lane in a corner brakes hard and nobody sees why.
+void warn_of_sharp_bends(const scenario::scenario_definition& s) {
+  const world::vehicle_params car;
+  const auto least_radius_m = car.wheelbase_m / std::tan(car.max_steer_rad);
+  for (const auto& bend :
+       world::sharp_bends(s.world->map, s.world->routes, least_radius_m)) {
+    constexpr auto degrees = 180 / std::numbers::pi;
+    std::fputs(
+        fmt::format("sofof: lane \"{}\" turns by {:.0f}° at ({:.2f}, {:.2f}), "
+                    "with a radius of {:.1f} m; a car needs {:.1f} m, so none "
+                    "can follow it.\n",
+                    bend.lane, bend.turn_rad * degrees, bend.at.x_m,
+                    bend.at.y_m, bend.radius_m, least_radius_m)
+            .c_str(),
+        stderr);
+  }
+}
+
+} // namespace
 
 void add_check(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
@@ -14,7 +43,11 @@ void add_check(CLI::App& app, int&) {
   args->add_to(*command);
   command->footer("Example:\n  sofof check config/ulm_lehr.toml "
                   "--set network.profile=paper_5g");
-  command->callback([args] { std::cout << scenario::to_toml(args->load()); });
+  command->callback([args] {
+    const auto s = args->load();
+    warn_of_sharp_bends(s);
+    std::cout << scenario::to_toml(s);
+  });
 }
 
 } // namespace sofof::apps
