@@ -102,6 +102,7 @@ export async function render_page(into, report) {
     narrow,
     wide,
     element("div.sections", {}, ...sections),
+    element("a.top", { href: "#report", "aria-label": "To the top", title: "To the top" }, "↑"),
   );
   follow_reader(wide, sections);
   const rest = [...report.sections.entries()];
