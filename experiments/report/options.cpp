@@ -33,6 +33,10 @@ void collect(const toml::node& from, const std::string& name, leaves& to) {
   } else if (const auto* quoted = from.as_string()) {
     to[name] = quoted->get();
   } else {
+    if (const auto* number = from.as_floating_point()) {
+      to[name] = fmt::format("{}", number->get());
+      return;
+    }
     std::ostringstream text;
     from.visit([&text](const auto& value) { text << value; });
     to[name] = text.str();

@@ -2,6 +2,7 @@
 #include "experiments/report/comparison.hpp"
 #include "experiments/report/describe.hpp"
 #include "experiments/report/documented.hpp"
+#include "experiments/report/options.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "tests/experiments/report_folder.hpp"
 #include "tests/experiments/report_sections.hpp"
@@ -124,6 +125,15 @@ TEST_CASE("a comparison tells better from worse where that is clear") {
   CHECK(both.verdict("driving.min_accel_mps2", -3, -2) == better);
   CHECK(both.verdict("latency_ms.count", 10, 20) == different);
   CHECK(both.difference("driving.max_jerk_mps3", 1, 3, 1) == "+2.0");
+}
+
+TEST_CASE("options that differ are written as people write them") {
+  const std::array<std::string_view, 3> texts{"a = 0.2\nb = 13.89\nc = 1",
+                                              "a = 0.2\nb = 1e-28\nc = 1",
+                                              "b = 13.89\nc = 1"};
+  CHECK(differing_options(texts).rows
+        == std::vector<std::vector<std::string>>{
+            {"a", "0.2", "0.2", "–"}, {"b", "13.89", "1e-28", "13.89"}});
 }
 
 TEST_CASE("a run is not compared with itself") {
