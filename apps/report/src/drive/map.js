@@ -128,9 +128,13 @@ export class DriveMap {
     draw_rings(context, view, this.drive, vehicles, this.clock);
   }
 
-  /// Beside each vehicle, where no other label stands.
+  /// Beside each vehicle, where no other label stands, nor a provider's.
   draw_labels(context, view, vehicles) {
-    const taken = [];
+    const taken = this.drive.providers.map(({ name, at: [x, y] }) => [
+      view.left(x) - 6,
+      view.top(y),
+      17 + name.length * letter_width * 1.2,
+    ]);
     for (const { station, x, y } of vehicles) {
       const text = `${station}`;
       const wide = text.length * letter_width;
