@@ -34,8 +34,9 @@ struct octet_line {
   octet_count under_way;
 };
 
-/// Counts messages when they are sent, and again when they arrive or are lost.
-/// Safe to share between threads.
+/// Counts messages when they are sent, and again when they are lost or their
+/// time to arrive has come, whoever may be there to take them. Safe to share
+/// between threads.
 class octet_ledger {
 public:
   /// A message leaves that will arrive.

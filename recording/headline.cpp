@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -155,39 +156,46 @@ std::string safety_of(const safety_metrics& x) {
                      x.collisions, x.collisions == 1 ? "" : "s", near);
 }
 
-/// @returns what the machine itself has to do with it.
-std::string of_the_machine(const standstill& x) {
-  if (x.together == duration{})
+/// @returns how late a thread was that had hardly anything to do.
+std::string lateness_of(const standstill& x) {
+  constexpr duration worth_a_word = std::chrono::milliseconds{100};
+  if (x.together < worth_a_word)
     return "";
-  return fmt::format(
-      " The machine itself stood still for {:.3f} s, {:.3f} s at "
-      "once: what was late then is not SOFOF's doing.",
-      to_seconds(x.together), to_seconds(x.longest));
+  return fmt::format(" A thread that only looks at the clock was woken late by "
+                     "{:.3f} s, {:.3f} s at once: plans may have been, too.",
+                     to_seconds(x.together), to_seconds(x.longest));
 }
 
-std::string load_of(const load_table& table, duration length) {
-  if (table.servers.empty() && table.cells.empty())
-    return "What was full is not known: no cell was modelled here.";
+std::string load_of(const load_table& table, bool is_modelled,
+                    duration length) {
+  if (table.servers.empty())
+    return is_modelled
+               ? "Nothing could be full: no computing and no airtime took time."
+               : "What was full is not known in this process.";
   const auto full = full_ones(table, length);
   if (full.empty())
-    return "No worker and no cell was full.";
+    return fmt::format(
+        "No worker and no cell was asked for more than {:.0f} %.",
+        100 * full_share);
   constexpr std::size_t most = 3;
   std::string all;
   for (const auto& [of, sum] : full | std::views::take(most))
-    all += fmt::format("{}{} {} ({:.0f} %)", all.empty() ? "" : ", ",
-                       of->provider, of->what, 100 * sum.peak_share);
+    all += fmt::format("{}{} {} ({:.0f} % at most, for {:g} s)",
+                       all.empty() ? "" : ", ", of->provider, of->what,
+                       100 * sum.peak_share, sum.full_s);
   if (full.size() > most)
     all += fmt::format(" and {} more", full.size() - most);
-  return "Full at times: " + all + '.';
+  return fmt::format("Over {:.0f} % asked of {}", 100 * full_share, all) + '.';
 }
 
 } // namespace
 
 headline headline_of(const metrics& m, const run_info& run,
                      const run_end& end) {
-  return {offloading_of(m, run, end),
-          safety_of(m.safety()) + of_the_machine(end.stood_still),
-          load_of(m.load(), from_seconds(end.virtual_s))};
+  return {
+      offloading_of(m, run, end),
+      safety_of(m.safety()) + lateness_of(end.stood_still),
+      load_of(m.load(), run.clock == "virtual", from_seconds(end.virtual_s))};
 }
 
 } // namespace sofof::recording

@@ -16,6 +16,12 @@ constexpr duration one_second = std::chrono::seconds{1};
 constexpr duration peak_length = std::chrono::milliseconds{500};
 constexpr int places_of_share = 6;
 
+/// @returns a length as far as bins fill it, so that none counts that the end
+/// of the run cuts.
+duration whole_bins(duration length) {
+  return length - length % channel::load_figures::width;
+}
+
 double share(duration used, unsigned servers, duration of) {
   const auto all_s = to_seconds(of) * servers;
   return all_s > 0 ? to_seconds(used) / all_s : 0;
@@ -78,6 +84,7 @@ void append_line(std::string& out, csv_columns<Row> columns, const Row& row) {
 } // namespace
 
 load_summary summary_of(const channel::load_figures& x, duration length) {
+  length = whole_bins(length);
   const auto all = x.between(duration{0}, length);
   load_summary sum{.jobs = all.jobs,
                    .busy_share = share(all.busy, x.servers, length),
@@ -110,6 +117,7 @@ std::string load_csv(const load_table& table, duration length) {
   std::string text;
   append_names<load_row>(text, of_load);
   text += '\n';
+  length = whole_bins(length);
   for (const auto& x : table.servers)
     for (duration t{}; t < length; t += one_second)
       append_line<load_row>(text, of_load,

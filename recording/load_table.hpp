@@ -50,8 +50,8 @@ struct load_summary {
   std::optional<double> max_wait_ms;
 };
 
-/// @param length  Of the run. A half second that it cuts short counts for the
-///                mean shares alone.
+/// @param length  Of the run, of which whole tenths of a second count; for the
+///                peak, and for `full_s`, whole half seconds.
 load_summary summary_of(const channel::load_figures& x, duration length);
 
 /// Servers that were full for half a second or more.

@@ -121,11 +121,9 @@ void result_files::finish(const metrics& all, const run_info& run,
     pcap_->close();
   write_vehicles(all);
   write_distributions(all);
-  if (const auto& load = all.load(); !load.servers.empty()) {
-    const auto length = from_seconds(end.virtual_s);
-    write_file(folder_ / "load.csv", load_csv(load, length));
-    write_file(folder_ / "octets.csv", octets_csv(load));
-  }
+  const auto& load = all.load();
+  write_file(folder_ / "load.csv", load_csv(load, from_seconds(end.virtual_s)));
+  write_file(folder_ / "octets.csv", octets_csv(load));
   write_timing(end, clock.timings);
   if (!clock.cpu_csv.empty())
     write_file(folder_ / "cpu.csv", clock.cpu_csv);

@@ -5,6 +5,8 @@
 #include "base/time.hpp"
 #include "messages/etsi/its_time.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -64,8 +66,18 @@ struct run_info {
 
 /// How long a run on the wall clock did not get a core though it wanted one.
 struct standstill {
-  duration together{}; ///< Of times of more than 20 ms each.
+  static constexpr duration least = std::chrono::milliseconds{20};
+
+  duration together{}; ///< Of times of more than `least` each.
   duration longest{};
+
+  /// Who was to be woken was woken so much later.
+  void woken_late(duration by) {
+    if (by <= least)
+      return;
+    together += by;
+    longest = std::max(longest, by);
+  }
 };
 
 /// Known once the run has ended.

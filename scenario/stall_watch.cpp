@@ -1,7 +1,6 @@
 // Sleeping, and being woken late.
 #include "scenario/stall_watch.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 namespace sofof::scenario {
@@ -11,7 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto nap = 10ms;
-constexpr duration longest_lateness = 20ms;
 
 } // namespace
 
@@ -29,11 +27,8 @@ void stall_watch::look(const std::stop_token& end) {
     const auto due = clock::now() + nap;
     std::this_thread::sleep_until(due);
     const auto late = std::chrono::duration_cast<duration>(clock::now() - due);
-    if (late <= longest_lateness)
-      continue;
     const std::lock_guard lock{mutex_};
-    seen_.together += late;
-    seen_.longest = std::max(seen_.longest, late);
+    seen_.woken_late(late);
   }
 }
 

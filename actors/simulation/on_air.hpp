@@ -2,6 +2,7 @@
 #pragma once
 
 #include "messages/etsi/cam.hpp"
+#include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/octets.hpp"
@@ -39,8 +40,10 @@ inline std::string_view purpose_of(const messages::its_pdu& message) {
       return "CAM";
     case messages::etsi::mcm::message_id:
       return "MCM";
+    case messages::etsi::tr103562::cpm::message_id:
+      return "CPM"; // of both releases
     default:
-      return "CPM";
+      return "other";
   }
 }
 

@@ -12,7 +12,6 @@ namespace sofof::experiments::study {
 namespace {
 
 constexpr std::size_t resamples = 2000;
-constexpr double outside_each_side = 0.025;
 
 std::optional<double> mean_of(group all) {
   return all.count > 0 ? std::optional{all.sum / all.count} : std::nullopt;

@@ -101,7 +101,10 @@ judged_claim rises(const paper_figures& f) {
     else if (top->high <= first.low)
       ends_higher = finding::opposite;
     parts.push_back(ends_higher);
-    parts.push_back(never_falls(n));
+    // Of a curve that does not rise it says nothing that it never falls.
+    if (const auto steady = never_falls(n);
+        steady != finding::holds || ends_higher == finding::holds)
+      parts.push_back(steady);
     ours += fmt::format("{}{}: {:.2f} to {:.1f} s", ours.empty() ? "" : "; ",
                         n.vehicles, first.mean, top->mean);
   }
@@ -249,7 +252,9 @@ judged_claim real_early_ends(const paper_figures& f) {
   constexpr double theirs =
       static_cast<double>(paper::real_early_ends) / paper::real_drives;
   auto part = finding::open;
-  if (ours.low <= theirs && theirs <= ours.high)
+  const auto is_narrow = ours.low >= theirs / tolerance::rate_times
+                         && ours.high <= tolerance::rate_times * theirs;
+  if (ours.low <= theirs && theirs <= ours.high && is_narrow)
     part = finding::holds;
   else if (ours.low > tolerance::rate_times * theirs
            || ours.high < theirs / tolerance::rate_times)

@@ -3,6 +3,9 @@
 
 namespace sofof::experiments::study {
 
+/// Of an interval of 95 %.
+inline constexpr double outside_each_side = 0.025;
+
 /// A mean of all values together, and where it lies with 95 % confidence.
 struct interval {
   double mean = 0;

@@ -12,9 +12,7 @@ namespace sofof::experiments::study {
 
 namespace {
 
-constexpr double outside_each_side = 0.025;
-
-double mean_of(const group& g) {
+double mean_value(const group& g) {
   return g.sum / g.count;
 }
 
@@ -25,8 +23,8 @@ group extreme(std::span<const group> groups, const std::optional<group>& unseen,
   for (const auto& g : groups)
     if (g.count > 0
         && (!found
-            || (lowest ? mean_of(g) < mean_of(*found)
-                       : mean_of(g) > mean_of(*found))))
+            || (lowest ? mean_value(g) < mean_value(*found)
+                       : mean_value(g) > mean_value(*found))))
       found = g;
   return found.value();
 }
@@ -84,7 +82,7 @@ std::optional<interval> mean_interval(std::span<const group> groups,
     lows.push_back(with(lowest));
     highs.push_back(with(highest));
   }
-  return interval{mean_of(all), percentile(lows, outside_each_side),
+  return interval{mean_value(all), percentile(lows, outside_each_side),
                   percentile(highs, 1 - outside_each_side)};
 }
 

@@ -8,8 +8,6 @@ namespace sofof::experiments::study {
 
 namespace {
 
-constexpr double outside_each_side = 0.025;
-
 /// @param share  In (0, 1).
 /// @returns the probability of at most `events` of `of`.
 double probability_of_at_most(std::uint64_t events, std::uint64_t of,

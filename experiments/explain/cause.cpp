@@ -60,12 +60,12 @@ part longest_part(std::span<const received_result> results, bool since_input) {
              : *std::ranges::max_element(parts, {}, &part::more_ms);
 }
 
-std::string in_parts(const time_parts& ms) {
+std::string in_parts(const time_parts& ms, bool since_input) {
   constexpr double least_ms = 0.05;
   constexpr std::size_t most = 3;
   std::vector<part> parts;
   for (const auto& x : all_parts)
-    if (ms.*x.of >= least_ms)
+    if ((since_input || x.since_cycle) && ms.*x.of >= least_ms)
       parts.push_back({x.what, ms.*x.of, 0});
   std::ranges::stable_sort(parts, std::ranges::greater{}, &part::ms);
   parts.resize(std::min(parts.size(), most));

@@ -24,8 +24,9 @@ struct part {
 /// took most more than usual.
 part longest_part(std::span<const received_result> results, bool since_input);
 
+/// @param since_input  As above.
 /// @returns "wait for a worker 18.1, way down 10.1, computing 3.0": the three
 /// longest parts of at least 0.05 ms.
-std::string in_parts(const time_parts& ms);
+std::string in_parts(const time_parts& ms, bool since_input);
 
 } // namespace sofof::experiments::explain

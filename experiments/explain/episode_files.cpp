@@ -80,34 +80,42 @@ read_results(const fs::path& folder, const report::session_key& session) {
   return all;
 }
 
-double missing_share(const fs::path& folder,
-                     const report::session_key& session) {
+bool has_gaps(const fs::path& folder, const report::session_key& session) {
   static constexpr columns names{"provider", "service", "provider_id",
                                  "station",  "counter", "cycle"};
   const auto file = folder / "cycles.csv";
   if (!fs::exists(file))
-    return 0;
-  struct span {
-    std::uint64_t first = 0, last = 0, count = 0;
-  };
-  std::map<std::uint64_t, span> sessions; // by counter
+    return false;
+  std::map<std::uint64_t, std::uint64_t> last; // cycle by counter
   csv_reader row{file, names, ending_of(folder)};
   while (row.next()) {
     auto of = name_of(row);
     const auto counter = std::exchange(of.counter, session.counter);
     if (of != session)
       continue;
-    auto& x = sessions[counter];
-    x.last = row.whole(5);
-    if (x.count++ == 0)
-      x.first = x.last;
+    const auto cycle = row.whole(5);
+    const auto [before, is_first] = last.try_emplace(counter, cycle);
+    if (!is_first && cycle > before->second + 1)
+      return true;
+    before->second = cycle;
   }
-  double due = 0, came = 0;
-  for (const auto& [counter, x] : sessions) {
-    due += static_cast<double>(x.last - x.first + 1);
-    came += static_cast<double>(x.count);
-  }
-  return due > 0 ? 1 - came / due : 0;
+  return false;
+}
+
+std::optional<double> lost_share(const fs::path& folder,
+                                 const std::string& provider,
+                                 const std::string& service) {
+  static constexpr columns names{"provider", "direction", "what", "sent",
+                                 "lost"};
+  const auto file = folder / "octets.csv";
+  if (!fs::exists(file))
+    return std::nullopt;
+  csv_reader row{file, names, ending_of(folder)};
+  while (row.next())
+    if (row.text(0) == provider && row.text(1) == "down"
+        && row.text(2) == service && row.number(3) > 0)
+      return row.number(4) / row.number(3);
+  return std::nullopt;
 }
 
 asked_shares read_load(const fs::path& folder, const std::string& provider,

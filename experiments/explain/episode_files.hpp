@@ -55,11 +55,16 @@ std::optional<std::vector<received_result>>
 read_results(const std::filesystem::path& folder,
              const report::session_key& session);
 
-/// @returns of the results that a provider should have sent this vehicle for
-/// this service, in all sessions, the share that did not come: cycles between
-/// the first and the last result of each that no result tells of.
-double missing_share(const std::filesystem::path& folder,
-                     const report::session_key& session);
+/// @returns whether results between others of this vehicle, provider and
+/// service did not come: no result tells of their cycles.
+bool has_gaps(const std::filesystem::path& folder,
+              const report::session_key& session);
+
+/// @returns the share of the octets that a provider sent for a service that was
+/// lost; nothing when no modelled cell counted it.
+std::optional<double> lost_share(const std::filesystem::path& folder,
+                                 const std::string& provider,
+                                 const std::string& service);
 
 /// @returns those of a provider in a second or in the one before, whichever is
 /// larger; empty when the run wrote none.

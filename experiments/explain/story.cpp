@@ -5,6 +5,8 @@
 #include "base/text/wrapped.hpp"
 #include "experiments/explain/cause.hpp"
 #include "experiments/explain/episode_files.hpp"
+#include "messages/protocol/service.hpp"
+#include "recording/load_table.hpp"
 
 #include <fmt/format.h>
 
@@ -22,11 +24,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t line_width = 80;
+constexpr std::size_t enough_for_a_rule = 20; // results
 
 bool ended_early(const closed_episode& x) {
-  constexpr std::string_view planned[]{"left_area", "handed_over", "released",
-                                       "shutdown"};
-  return std::ranges::find(planned, x.reason) == std::end(planned);
+  using messages::end_reason;
+  for (int k = 0; k <= static_cast<int>(last_of(end_reason{})); ++k)
+    if (const auto reason = static_cast<end_reason>(k);
+        messages::name_of(reason) == x.reason)
+      return !messages::is_planned(reason);
+  return true;
 }
 
 /// @returns how far an episode is from a moment, s; 0 when it runs then.
@@ -66,8 +72,10 @@ struct episode {
   std::optional<closed_episode> next;     ///< Of this service and vehicle.
   std::vector<report::event_line> events; ///< Of this vehicle and provider.
   std::optional<std::vector<received_result>> results;
-  double missing = 0; ///< Share of the results that did not come, in all.
-  asked_shares load;  ///< Of the provider, about the end.
+  /// Share of the octets that the provider sent for the service, to whom ever.
+  std::optional<double> lost;
+  bool has_gaps = false; ///< Some results between others did not come.
+  asked_shares load;     ///< Of the provider, about the end.
 };
 
 episode open(const fs::path& folder, const question& q) {
@@ -89,7 +97,8 @@ episode open(const fs::path& folder, const question& q) {
         && event.of.provider_id == of.provider_id)
       found.events.push_back(std::move(event));
   found.results = read_results(folder, of);
-  found.missing = missing_share(folder, of);
+  found.lost = lost_share(folder, of.provider, of.service);
+  found.has_gaps = has_gaps(folder, of);
   if (!of.provider.empty())
     found.load = read_load(folder, of.provider, found.closed.ended_s);
   return found;
@@ -192,7 +201,9 @@ void course(lines& to, const episode& x) {
   to.at(last.received_s,
         fmt::format("the last result: latency {:.1f} ms, input {:.1f} ms old",
                     last.latency_ms, last.input_age_ms));
-  to.more("most of it: " + in_parts(last.ms) + " ms");
+  const auto of_age = x.closed.reason != "qos_latency";
+  to.more(fmt::format("of the {}: {} ms", of_age ? "age" : "latency",
+                      in_parts(last.ms, of_age)));
 }
 
 void load(lines& to, const episode& x) {
@@ -231,7 +242,7 @@ std::string full(const episode& x, std::string_view part) {
            || part == (what == "uplink" ? "way up" : "way down");
   };
   for (const auto& [what, share] : x.load)
-    if (is_for(what) && share > 0.9)
+    if (is_for(what) && share > recording::full_share)
       return fmt::format("; the {} {} asked for {:.0f} % just then", what,
                          what == "workers" ? "were" : "was", 100 * share);
   return "";
@@ -243,26 +254,36 @@ std::string why_slow(const episode& x, bool since_input) {
   if (!x.results || x.results->empty())
     return fmt::format("{}; results were not recorded.", subject);
   const auto part = longest_part(*x.results, since_input);
-  return fmt::format("{}: the {} took {:.1f} ms, {:.1f} as a rule{}.", subject,
-                     part.what, part.ms, part.usual_ms, full(x, part.what));
+  const auto usual = x.results->size() > 1
+                         ? fmt::format(", {:.1f} as a rule", part.usual_ms)
+                         : std::string{};
+  return fmt::format("{}: the {} took {:.1f} ms{}{}.", subject, part.what,
+                     part.ms, usual, full(x, part.what));
 }
 
+// What was held back comes later; an outage loses what is sent meanwhile, and
+// ends a session before there are gaps in it.
 std::string why_silent(const episode& x) {
-  constexpr double frequent = 0.02;
   const auto& e = x.closed;
   if (x.at_provider && x.at_provider->ended_s < e.ended_s)
     return fmt::format("{} had closed it {:.3f} s before ({}).", e.of.provider,
                        e.ended_s - x.at_provider->ended_s,
                        x.at_provider->reason);
-  const auto is_lost = std::ranges::any_of(x.events, [&e](const auto& event) {
-    return event.what == "peer_lost" && event.t_s >= e.ended_s;
-  });
-  if (is_lost)
-    return fmt::format("{} died.", e.of.provider);
-  if (x.missing > frequent)
-    return fmt::format("results get lost: in this run {:.1f} % did not come.",
-                       100 * x.missing);
-  return "nothing came, though the provider went on: the way down stood still.";
+  if (!x.lost)
+    return "nothing came: results were lost, or held back.";
+  if (*x.lost == 0)
+    return fmt::format(
+        "nothing came, and nothing was lost in this run: the connection held "
+        "results back{}.",
+        x.at_provider ? fmt::format("; {} heard of the end {:.0f} ms later",
+                                    e.of.provider,
+                                    1e3 * (x.at_provider->ended_s - e.ended_s))
+                      : std::string{});
+  if (x.has_gaps)
+    return fmt::format("results get lost: {:.1f} % of what {} sent for this "
+                       "service in this run.",
+                       100 * *x.lost, e.of.provider);
+  return "nothing came: what was sent meanwhile was lost, as in an outage.";
 }
 
 std::string why_no_data(const episode& x) {
@@ -292,11 +313,16 @@ std::string why(const episode& x) {
     return fmt::format("{} is gone, or the connection to it.", e.of.provider);
   if (e.reason == "implausible")
     return fmt::format("a result failed the vehicle's check: {}.", e.because);
+  const auto after_colon = [](const std::string& text) {
+    return text.empty() ? std::string{} : ": " + text;
+  };
   if (e.reason == "revoked")
-    return fmt::format("the CODM of {} took its room back: {}.", e.of.provider,
-                       provider_says);
+    return fmt::format("the CODM of {} took its room back{}.", e.of.provider,
+                       after_colon(provider_says));
+  if (e.reason == "refused")
+    return "the other side refused to go on.";
   if (e.reason == "released")
-    return fmt::format("the vehicle gave it back: {}.", e.because);
+    return fmt::format("the vehicle gave it back{}.", after_colon(e.because));
   if (e.reason == "left_area")
     return fmt::format("the vehicle left the area of {}.", e.of.provider);
   if (e.reason == "handed_over")

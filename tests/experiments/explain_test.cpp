@@ -25,6 +25,7 @@ struct told_run {
   std::string reason = "qos_latency";
   std::string because = "qos_latency value_ms=61.200000 limit_ms=50.000000";
   std::string provider_closed = "30.010000000";
+  int gap = 0; ///< Cycles before the last one that no result tells of.
   std::string last = "61.2,130.0,1,0.0,5.0,63.8,40.0,3.2,0.0,18.0";
 
   std::string told(const question& q = {}) const {
@@ -53,7 +54,8 @@ struct told_run {
     for (int k = 0; k < 20; ++k)
       rows += "101,mec,1,planning,2," + std::to_string(400 + k)
               + ",21.0,12.0,70.0,1,0.0,5.0,53.0,0.5,3.0,0.0,8.5\n";
-    rows += "101,mec,1,planning,2,420,30.0," + last + '\n';
+    rows += "101,mec,1,planning,2," + std::to_string(420 + gap) + ",30.0,"
+            + last + '\n';
     write_text(folder / "cycles.csv", rows);
     write_text(folder / "load.csv",
                "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
@@ -78,8 +80,8 @@ TEST_CASE("a story goes from the offer to why it ended, in the order of time") {
            "              age of the input mean 72.9, at most 130.0 ms\n"
            "    30.000 s  the last result: latency 61.2 ms, input 130.0 ms "
            "old\n"
-           "              most of it: wait for the cycle 63.8, wait for a "
-           "worker 40.0, way down 18.0 ms\n"
+           "              of the latency: wait for a worker 40.0, way down "
+           "18.0, computing 3.2 ms\n"
            "    30.000 s  ended: qos_latency (61.2 ms, limit 50.0 ms)\n"
            "              asked of mec just then: uplink 2 %, workers 112 %\n"
            "              the vehicle's own function took over (a fallback)\n"
@@ -116,7 +118,12 @@ TEST_CASE("each reason has a why of its own") {
   };
   const std::vector<told> all{
       {"qos_gap", "qos_gap value_ms=100.000001 limit_ms=100.000000",
-       "nothing came, though the provider went on"},
+       "nothing came: results were lost, or held back"},
+      {"qos_input_age", "qos_input_age value_ms=130.0 limit_ms=100.0",
+       "the input was too old: the wait for a worker took 40.0 ms"},
+      {"released", "", "the vehicle gave it back."},
+      {"refused", "", "refused to go on"},
+      {"handed_over", "to provider_id 2", "another provider had taken over"},
       {"cam_timeout", "told by the provider", "heard nothing of the vehicle"},
       {"peer_lost", "", "mec is gone"},
       {"implausible", "road value=0.312 limit=0.250",
@@ -129,9 +136,26 @@ TEST_CASE("each reason has a why of its own") {
     told_run run;
     run.reason = x.reason;
     run.because = x.because;
-    CHECK(contains(run.told(), "Why: "));
-    CHECK(contains(run.told(), x.why));
+    const auto told = run.told({101, 25.0, ""});
+    CHECK(contains(told, "Why: "));
+    CHECK(contains(told, x.why));
   }
+}
+
+TEST_CASE("silence is told apart by what was lost") {
+  told_run run;
+  run.reason = "qos_gap";
+  const auto told_with = [&run](const std::string& lost) {
+    write_text(run.folder / "octets.csv",
+               "provider,direction,what,messages,sent,delivered,lost,"
+               "under_way\nmec,down,planning,100,1000,900,"
+                   + lost + ",0\n");
+    return run.told({101, 25.0, ""});
+  };
+  CHECK(contains(told_with("0"), "nothing was lost in this run"));
+  CHECK(contains(told_with("50"), "as in an"));
+  run.gap = 1;
+  CHECK(contains(told_with("50"), "results get lost: 5.0 % of what mec sent"));
 }
 
 TEST_CASE(

@@ -150,14 +150,24 @@ TEST_CASE("a headline says what was not safe, and near misses apart") {
            "collision; 1 near miss.");
 }
 
-TEST_CASE("a headline says when the machine itself stood still") {
+TEST_CASE("a headline says when a thread with nothing to do was late") {
   told_run run;
   run.drive();
-  CHECK_FALSE(run.said().safety.ends_with("SOFOF's doing."));
+  run.end.stood_still = {.together = 99ms, .longest = 50ms};
+  CHECK(run.said().safety.ends_with("0 near misses."));
   run.end.stood_still = {.together = 600ms, .longest = 400ms};
-  CHECK(run.said().safety.ends_with(
-      "The machine itself stood still for 0.600 s, 0.400 s at once: what was "
-      "late then is not SOFOF's doing."));
+  CHECK(run.said().safety.ends_with("A thread that only looks at the clock was "
+                                    "woken late by 0.600 s, 0.400 s "
+                                    "at once: plans may have been, too."));
+}
+
+TEST_CASE("what nobody measured is not said to be empty") {
+  told_run run;
+  run.info.clock = "virtual";
+  CHECK(run.said().load
+        == "Nothing could be full: no computing and no airtime took time.");
+  run.info.clock = "wall";
+  CHECK(run.said().load == "What was full is not known in this process.");
 }
 
 TEST_CASE("a headline names what was full") {
@@ -166,9 +176,11 @@ TEST_CASE("a headline names what was full") {
   for (int k = 0; k < 100; ++k)
     meter.add(time_point{k * 1s}, 0ms, 10ms);
   run.figures.add(load_table{{{"junction", "uplink", meter.read()}}, {}});
-  CHECK(run.said().load == "No worker and no cell was full.");
+  CHECK(run.said().load
+        == "No worker and no cell was asked for more than 90 %.");
   for (int k = 0; k < 10; ++k)
     meter.add(time_point{50s}, 0ms, 100ms);
   run.figures.add(load_table{{{"junction", "uplink", meter.read()}}, {}});
-  CHECK(run.said().load == "Full at times: junction uplink (202 %).");
+  CHECK(run.said().load
+        == "Over 90 % asked of junction uplink (202 % at most, for 0.5 s).");
 }

@@ -72,6 +72,15 @@ TEST_CASE("load.csv has a line for each second of the run") {
   CHECK(after.ends_with("10,mec,uplink,0,0.000000,0.000000,\n"));
 }
 
+TEST_CASE("a run that ends within a tenth of a second leaves it out") {
+  const load_table table{{{"mec", "uplink", asked_for(400ms)}}, {}};
+  const auto text = load_csv(table, 1010ms);
+  CHECK(text.ends_with("0,mec,uplink,10,4.000000,1.000000,1350.000000\n"));
+  const auto sum = summary_of(asked_for(400ms), 1010ms);
+  CHECK(sum.busy_share == doctest::Approx(1));
+  CHECK(sum.asked_share == doctest::Approx(4));
+}
+
 TEST_CASE("octets.csv has a line for each cell, direction and purpose") {
   channel::octet_ledger ledger;
   ledger.send("CAM", 100, time_point{}, time_point{20ms});
