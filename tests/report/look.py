@@ -75,8 +75,9 @@ def look(report, folder):
         ages = [one for one in cycles if one["input_age_ms"]]
         seen |= {
             "points": points,
-            # Each quantity by time and as a distribution.
-            "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages)),
+            # Each quantity by time and as a distribution; load by time.
+            "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages))
+            + len(rows_of(folder, "load.csv")),
             "track_points":
                 page.run("sofof.players[0].track_rows[0]"),
             "track_rows": len(rows_of(folder, "tracks.csv")),
