@@ -5,8 +5,13 @@
 #include "base/time.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <mutex>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace sofof::channel {
@@ -26,10 +31,16 @@ struct load_figures {
 
   unsigned servers = 1;
   std::vector<bin> bins; ///< From the start, as far as there was work.
-  distribution waits;    ///< Of all jobs.
+  /// Servers' time that was used, by what for, bin by bin.
+  std::map<std::string, std::vector<duration>, std::less<>> busy_by;
+  distribution waits; ///< Of all jobs.
 
   /// @returns the sum of the bins that begin in [from, to), since the start.
   bin between(duration from, duration to) const;
+
+  /// @returns servers' time that was used for that, in the bins that begin
+  /// before `to`, since the start.
+  duration busy_for(std::string_view what, duration to) const;
 };
 
 /// Adds up the jobs of some equal servers: workers, or the airtime of a radio
@@ -43,12 +54,16 @@ public:
   /// A job arrives; one from before the start counts from there.
   /// @param wait  Until a server takes it, >= 0.
   /// @param work  What it takes there, >= 0.
-  void add(time_point arrives, duration wait, duration work);
+  /// @param what  What it is for: a service; empty if nobody asks.
+  void add(time_point arrives, duration wait, duration work,
+           std::string_view what = {});
 
   load_figures read() const;
 
 private:
+  std::size_t number_of(time_point t) const;
   load_figures::bin& at(time_point t);
+  void use(time_point from, time_point until, std::string_view what);
 
   time_point start_;
   mutable std::mutex mutex_;

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 namespace sofof::channel {
@@ -22,11 +23,12 @@ public:
       : queue_{workers}, meter_{std::move(meter)} {}
 
   /// As `server_queue::finish`.
-  time_point finish(time_point now, duration work) {
+  /// @param what  What the work is for, as the meter is told.
+  time_point finish(time_point now, duration work, std::string_view what = {}) {
     const std::lock_guard lock{mutex_};
     const auto done = queue_.finish(now, work);
     if (meter_)
-      meter_->add(now, done - work - now, work);
+      meter_->add(now, done - work - now, work, what);
     return done;
   }
 

@@ -299,11 +299,12 @@ policies::periodic_task
 provider::task_of(const offered_service& service) const {
   const auto& options = service.options;
   assert(options.period > duration{0});
-  assert(options.compute.demand >= 0);
+  const auto demand = world::demand_of(options.compute);
+  assert(demand >= 0);
   constexpr double deviations = 3;
   const auto& computer = setup_.computer;
   const auto longest_s = computer.mean_s + deviations * computer.deviation_s;
-  return {.wcet = from_seconds(longest_s * options.compute.demand),
+  return {.wcet = from_seconds(longest_s * demand),
           .period = options.period,
           .deadline = options.limits.max_latency};
 }
@@ -314,7 +315,7 @@ double provider::utilisation_by(const messages::service_name& service) const {
   if (!found)
     return 0;
   return policies::worker_share(setup_.computer.mean_s
-                                    * found->options.compute.demand,
+                                    * world::demand_of(found->options.compute),
                                 found->options.period, setup_.computer.workers);
 }
 

@@ -19,11 +19,25 @@ service_options on(const world::computer_options& computer,
     return from_seconds(slower * to_seconds(d));
   };
   auto& cycle = options.compute;
+  cycle.demand = world::demand_of(cycle); // a provider's clock is another
   cycle.run_time_mean = scaled(cycle.run_time_mean);
   cycle.run_time_sd = scaled(cycle.run_time_sd);
   const auto longest = std::max(cycle.run_time_max, options.period);
   cycle.run_time_max = std::min(scaled(cycle.run_time_max), longest);
   return options;
+}
+
+world::cycle_cost offloaded_cost(const world::computer_options& computer,
+                                 const service_options& options) {
+  assert(options.period > duration{0});
+  const auto input = world::sending_cost(computer, options.compute);
+  const auto inputs_per_cycle =
+      options.per_input
+          ? 1
+          : to_seconds(options.period)
+                / to_seconds(std::max(options.period, options.input_period));
+  return {input.time_s,
+          inputs_per_cycle * input.energy_j + options.compute.overhead_j};
 }
 
 messages::service_input

@@ -48,6 +48,12 @@ struct service_options {
 service_options on(const world::computer_options& computer,
                    service_options options);
 
+/// @returns what a vehicle has of a cycle that a provider computes, on average:
+/// time, of an input's way there alone; energy, of the inputs that it sends for
+/// it and of the framework.
+world::cycle_cost offloaded_cost(const world::computer_options& computer,
+                                 const service_options& options);
+
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
   station_id station = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 namespace sofof::offloading {
@@ -14,13 +13,6 @@ bool known_provider::offers(const messages::service_name& service) const {
   return std::ranges::find(offer.services, service) != offer.services.end();
 }
 
-namespace {
-
-/// A provider tells itself how long it computes.
-constexpr auto in_no_time = std::numeric_limits<double>::infinity();
-
-} // namespace
-
 service_state::service_state(onboard_service what,
                              const world::computer_options& computer,
                              time_point now)
@@ -28,9 +20,7 @@ service_state::service_state(onboard_service what,
                                       service.options.limits.max_latency,
                                       service.options.limits.max_interarrival},
       on_board{world::on_board_cost(computer, service.options.compute)},
-      offloaded{
-          world::offloaded_cost(computer, service.options.compute, in_no_time)},
-      since{now} {
+      offloaded{offloaded_cost(computer, service.options)}, since{now} {
   assert(service.own);
   assert(needs.period > duration{0});
   assert(needs.max_latency > duration{0}
@@ -105,7 +95,7 @@ std::optional<provider_id> service_state::current() const {
 
 duration service_state::computing(const messages::service_offer& offer) const {
   return from_seconds(to_seconds(offer.computing)
-                      * service.options.compute.demand);
+                      * world::demand_of(service.options.compute));
 }
 
 policies::link_estimator& service_state::link_of(provider_id provider) {

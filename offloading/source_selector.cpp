@@ -8,11 +8,15 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 namespace sofof::offloading {
 
 namespace {
+
+/// What has been done is recorded so often.
+constexpr duration work_period = std::chrono::seconds{1};
 
 /// A result of another provider need not follow the one in use when that one is
 /// older than so many periods.
@@ -34,7 +38,8 @@ messages::implausibility told(const objection& why) {
 } // namespace
 
 source_selector::source_selector(selector_setup setup, selector_port& port)
-    : setup_{std::move(setup)}, port_{port}, answers_{options().period} {
+    : setup_{std::move(setup)}, port_{port}, answers_{options().period},
+      work_{setup_.station, setup_.service.name} {
   assert(setup_.service.own);
   assert(options().period > duration{0});
   assert(options().limits.max_latency > duration{0});
@@ -83,6 +88,10 @@ bool source_selector::is_standby(const source& x) const {
 void source_selector::on_input(const messages::service_input& input,
                                time_point now) {
   pass(now);
+  if (now - work_since_ >= work_period) {
+    work_since_ = now;
+    record_work();
+  }
   newest_.at = input.at;
   newest_.what = input.what;
   port_.feed_local(input);
@@ -113,6 +122,7 @@ bool source_selector::feed(source& x, time_point now) {
   if (x.knows_it_stands_by && !stands)
     x.last_in_time = now; // patience begins
   input.standby = x.knows_it_stands_by = stands;
+  ++work_.inputs;
   port_.feed_remote(std::move(input));
   return true;
 }
@@ -327,10 +337,22 @@ void source_selector::use(const messages::service_result& result,
   assert(result.session.is_remote() == is_remote());
   assert(!is_remote() || find(result.session)->in_use);
   assert(!is_remote() || keeps_limits(result, now));
+  work_.on_board += !result.session.is_remote();
   newest_.in_use = result.what;
   used_from_ = result.session;
   used_at_ = now;
   port_.use(result);
+}
+
+void source_selector::record_work() {
+  if (work_.on_board == 0 && work_.inputs == 0)
+    return;
+  port_.record(messages::work_record{work_});
+  work_.on_board = work_.inputs = 0;
+}
+
+void source_selector::finish() {
+  record_work();
 }
 
 // -- the standby --------------------------------------------------------------

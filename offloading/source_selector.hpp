@@ -95,6 +95,9 @@ public:
   /// A session has ended; one that is not known is ignored.
   void on_end(const messages::service_end& end, time_point now);
 
+  /// The vehicle has no more use for the service: what is not recorded yet is.
+  void finish();
+
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);
 
@@ -150,6 +153,7 @@ private:
   void give_up_silent(time_point now);
 
   void use(const messages::service_result& result, time_point now);
+  void record_work();
   void begin(source& x, time_point now);
   void watch(const messages::session_id& session, time_point last);
 
@@ -164,6 +168,8 @@ private:
   messages::service_input newest_;     // of no session; with the result in use,
   messages::session_id used_from_;     // the session that it is of,
   time_point used_at_;                 // and when it came
+  messages::work_record work_;         // since the last such record,
+  time_point work_since_;              // which was then
   time_point now_ = time_point::min(); // of the latest call
 };
 

@@ -52,7 +52,8 @@ struct track_row {
 struct vehicle_row {
   station_id station = 0;
   const drive_metrics& x;
-  cycle_figures cycles;
+  cycle_figures cycles;  ///< Of the headline service.
+  energy_figures energy; ///< Of all.
 };
 
 struct distribution_row {
@@ -221,10 +222,10 @@ inline constexpr csv_column<vehicle_row> of_vehicles[]{
     {"on_board_cycles", [](const auto& r) { return r.cycles.on_board; }},
     {"offloaded_cycles", [](const auto& r) { return r.cycles.offloaded; }},
     {"energy_j",
-     [](const auto& r) { return rounded(r.cycles.energy_j(), energy_places); }},
+     [](const auto& r) { return rounded(r.energy.j(), energy_places); }},
     {"all_on_board_j",
      [](const auto& r) {
-       return rounded(r.cycles.all_on_board_j, energy_places);
+       return rounded(r.energy.all_on_board_j, energy_places);
      }},
 };
 

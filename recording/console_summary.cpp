@@ -75,9 +75,8 @@ std::vector<const figure<Of>*> in_block(std::span<const figure<Of>> all,
 /// Figures in lines, a column for each kind of service.
 class block {
 public:
-  block(std::span<const service_metrics> services, const run_info& run,
-        const run_end& end)
-      : services_{services}, run_{run}, end_{end} {}
+  block(const metrics& all, const run_info& run, const run_end& end)
+      : all_{all}, services_{all.services()}, run_{run}, end_{end} {}
 
   /// A heading, and the names of the services.
   void names(std::string_view heading) {
@@ -95,7 +94,7 @@ public:
   void rows(std::span<const service_figure> all, console_block which) {
     for (const auto* x : in_block(all, which))
       row(x->console.label, [this, x](const service_metrics& service) {
-        return shown(*x, {service, run_, end_}).value_or(absent);
+        return shown(*x, {service, all_, run_, end_}).value_or(absent);
       });
   }
 
@@ -181,6 +180,7 @@ private:
     }
   }
 
+  const metrics& all_;
   std::span<const service_metrics> services_;
   const run_info& run_;
   const run_end& end_;
@@ -220,9 +220,10 @@ void drive_line(std::string& out, std::string_view label,
 template <class Verdict>
 void drive_lines(std::string& out, const whole_run& x, console_block which,
                  Verdict verdict) {
-  for (const auto* figure : in_block(vehicle_figures(), which))
-    if (const auto text = shown(*figure, x))
-      drive_line(out, figure->console.label, *text, verdict(*figure));
+  for (const auto all : {vehicle_figures(), run_cost_figures()})
+    for (const auto* figure : in_block(all, which))
+      if (const auto text = shown(*figure, x))
+        drive_line(out, figure->console.label, *text, verdict(*figure));
 }
 
 void safety_lines(std::string& out, const terminal_style& paint,
@@ -365,7 +366,7 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
   out += fmt::format("  {} clock, channel {}, LODM {}, CODM {}\n", run.clock,
                      run.profile, run.lodm, run.codm);
 
-  block services{m.services(), run, end};
+  block services{m, run, end};
   if (run.provider.empty()) {
     offloading(services);
     remote_results(services);
@@ -378,8 +379,8 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
     safety_lines(out, paint, whole);
     if (m.safety().driven > duration::zero())
       lines_of(out, paint, whole, "comfort", console_block::comfort);
-    if (m.cycles().all_on_board_j > 0)
-      lines_of(out, paint, whole, "energy of planning in the vehicles",
+    if (m.work().energy().all_on_board_j > 0)
+      lines_of(out, paint, whole, "energy of all services",
                console_block::energy);
   }
   load_lines(out, paint, m.load(), from_seconds(end.virtual_s));

@@ -15,7 +15,6 @@ constexpr int ms_places = 6;
 constexpr int share_places = 6;
 constexpr int motion_places = 6;
 constexpr int octet_places = 3;
-constexpr int energy_places = 6;
 constexpr int wall_places = 3;
 
 constexpr double as_percent = 100;
@@ -38,22 +37,10 @@ std::optional<double> if_planned(const whole_run& x, double value) {
   return only_if(plans.count > plans.emergency, value);
 }
 
-std::optional<double> if_costed(const whole_run& x, double value) {
-  return only_if(x.of.cycles().all_on_board_j > 0, value);
-}
-
 // Only modelled cells count what they carry.
 std::optional<double> if_sent(const service_in_run& x, std::uint64_t octets) {
   return only_if(x.of.octets_up + x.of.octets_down > 0,
                  static_cast<double>(octets));
-}
-
-std::optional<double> energy_per_km(const whole_run& x) {
-  constexpr auto m_per_km = 1e3;
-  const auto distance_m = x.of.together().ride.distance_m;
-  if (distance_m <= 0)
-    return std::nullopt;
-  return if_costed(x, x.of.cycles().energy_j() * m_per_km / distance_m);
 }
 
 std::string latency_and_deviation(const service_in_run& x) {
@@ -341,28 +328,6 @@ constexpr run_figure of_vehicles[]{
      [](const auto& x) { return x.of.cycles().offloaded; }},
     {"cycles.offloaded_share", share_places,
      [](const auto& x) { return x.of.cycles().offloaded_share(); }},
-    {"energy.j",
-     energy_places,
-     [](const auto& x) { return if_costed(x, x.of.cycles().energy_j()); },
-     {},
-     {console_block::energy, 10, "all together", 1, "J"}},
-    {"energy.local_j", energy_places,
-     [](const auto& x) { return if_costed(x, x.of.cycles().on_board_j); }},
-    {"energy.offloading_j", energy_places,
-     [](const auto& x) { return if_costed(x, x.of.cycles().offloaded_j); }},
-    {"energy.all_on_board_j", energy_places,
-     [](const auto& x) { return if_costed(x, x.of.cycles().all_on_board_j); }},
-    {"energy.per_km_j",
-     energy_places,
-     [](const auto& x) { return energy_per_km(x); },
-     {report_table::safety, 140, "energy of planning in the vehicles, J/km", 1},
-     {console_block::energy, 20, "per km", 1, "J"}},
-    {"energy.saved_share",
-     share_places,
-     [](const auto& x) { return x.of.cycles().saved_share(); },
-     {report_table::safety, 150, "energy saved by offloading, %", 1,
-      as_percent},
-     {console_block::energy, 30, "saved by offloading", 1, "%", as_percent}},
     {"switch.count",
      0,
      [](const auto& x) { return x.of.switches().count(); },
@@ -476,7 +441,9 @@ std::vector<reported_figure> reported_in(report_table table) {
   report(all, table, run_figures());
   report(all, table, service_figures());
   report(all, table, served_figures());
+  report(all, table, service_cost_figures());
   report(all, table, vehicle_figures());
+  report(all, table, run_cost_figures());
   report(all, table, clock_figures());
   std::ranges::sort(all, {}, [](const auto& x) { return x.how.place; });
   return all;

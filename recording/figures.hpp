@@ -32,6 +32,7 @@ struct whole_run {
 /// What figures of one service are reckoned from.
 struct service_in_run {
   const service_metrics& of;
+  const metrics& all;
   const run_info& run;
   const run_end& end;
 };
@@ -104,8 +105,12 @@ std::span<const run_figure> run_figures();
 std::span<const service_figure> service_figures();
 /// Each service, as the providers see it.
 std::span<const service_figure> served_figures();
+/// What each service took.
+std::span<const service_figure> service_cost_figures();
 /// All vehicles together.
 std::span<const run_figure> vehicle_figures();
+/// What all services took.
+std::span<const run_figure> run_cost_figures();
 /// The wall's clock.
 std::span<const run_figure> clock_figures();
 

@@ -103,6 +103,17 @@ load_summary summary_of(const channel::load_figures& x, duration length) {
   return sum;
 }
 
+std::optional<double> server_energy_j(const load_table& table, duration length,
+                                      std::string_view service) {
+  std::optional<double> sum_j;
+  for (const auto& x : table.servers)
+    if (!x.of.busy_by.empty()) {
+      const auto busy_s = to_seconds(x.of.busy_for(service, length));
+      sum_j = sum_j.value_or(0) + x.busy_w * busy_s;
+    }
+  return sum_j;
+}
+
 std::vector<full_servers> full_ones(const load_table& table, duration length) {
   std::vector<full_servers> all;
   for (const auto& x : table.servers)

@@ -23,6 +23,7 @@ struct server_load {
   std::string provider;  ///< Its name.
   std::string_view what; ///< "workers", "uplink" or "downlink".
   channel::load_figures of;
+  double busy_w = 0; ///< What a busy one takes beyond an idle one, W.
 };
 
 /// What a provider's cell was given in one direction.
@@ -53,6 +54,13 @@ struct load_summary {
 /// @param length  Of the run, of which whole tenths of a second count; for the
 ///                peak, and for `full_s`, whole half seconds.
 load_summary summary_of(const channel::load_figures& x, duration length);
+
+/// @param length  Of the run.
+/// @returns what a service took at all providers, J: power by busy time. The
+/// linear model of Fan, Weber & Barroso, ISCA 2007, without what a server takes
+/// for being there. nullopt if no worker had anything to do.
+std::optional<double> server_energy_j(const load_table& table, duration length,
+                                      std::string_view service);
 
 /// Servers that were full for half a second or more.
 struct full_servers {

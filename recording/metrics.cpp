@@ -38,19 +38,6 @@ std::optional<double> service_metrics::fairness(std::size_t vehicles) const {
   return sum * sum / (static_cast<double>(vehicles) * squares);
 }
 
-std::optional<double> cycle_figures::saved_share() const {
-  if (all_on_board_j <= 0)
-    return std::nullopt;
-  return 1 - energy_j() / all_on_board_j;
-}
-
-std::optional<double> cycle_figures::offloaded_share() const {
-  const auto all = on_board + offloaded;
-  if (all == 0)
-    return std::nullopt;
-  return static_cast<double>(offloaded) / static_cast<double>(all);
-}
-
 void safety_metrics::add(const messages::safety_record& x) {
   driven += x.driven;
   without_fresh_plan += x.without_fresh_plan;
@@ -65,7 +52,7 @@ bool safety_metrics::ok() const {
 
 metrics::metrics(const run_info& run)
     : headline_{run.headline_kind}, names_{run.provider_names},
-      costs_{run.energy}, obstacles_{run.obstacles} {
+      work_{run.costs}, obstacles_{run.obstacles} {
   for (const auto& name : run.services)
     of(messages::service_name{name});
 }
@@ -141,14 +128,7 @@ void metrics::add(const messages::cycle_record& x) {
   }
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
-  if (x.session.service != headline_)
-    return;
-  auto& counts = cycles_[x.session.station];
-  ++counts.sent;
-  if (counts.sent > 1 && x.cycle <= counts.newest)
-    return; // another provider has computed it too
-  ++counts.offloaded;
-  counts.newest = x.cycle;
+  work_.add(x);
 }
 
 void metrics::add(const messages::episode_record& x) {
@@ -197,7 +177,6 @@ void metrics::add(const messages::drive_record& x) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
   }
-  cycles_[x.station].on_board += x.plans.on_board;
 }
 
 void metrics::add(const messages::air_record& x) {
@@ -247,35 +226,6 @@ const service_metrics& metrics::headline() const {
   const auto found =
       std::ranges::find(services_, headline_, &service_metrics::service);
   return found != services_.end() ? *found : nothing_happened;
-}
-
-cycle_figures metrics::cycles() const {
-  cycle_figures all;
-  for (const auto& [station, counts] : cycles_) {
-    const auto x = cycles(station);
-    all.on_board += x.on_board;
-    all.offloaded += x.offloaded;
-    all.on_board_j += x.on_board_j;
-    all.offloaded_j += x.offloaded_j;
-    all.all_on_board_j += x.all_on_board_j;
-  }
-  return all;
-}
-
-cycle_figures metrics::cycles(station_id station) const {
-  const auto found = cycles_.find(station);
-  if (found == cycles_.end())
-    return {};
-  const auto& counts = found->second;
-  const auto known = costs_.find(station);
-  const auto cost = known != costs_.end() ? known->second : cycle_energy{};
-  const auto times = [](std::uint64_t count, double energy_j) {
-    return static_cast<double>(count) * energy_j;
-  };
-  return {counts.on_board, counts.offloaded,
-          times(counts.on_board, cost.on_board_j),
-          times(counts.sent, cost.offloaded_j),
-          times(counts.on_board + counts.offloaded, cost.on_board_j)};
 }
 
 std::size_t metrics::offloaded_now() const {

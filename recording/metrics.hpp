@@ -3,6 +3,7 @@
 
 #include "base/statistics.hpp"
 #include "messages/protocol/record.hpp"
+#include "recording/cycle_ledger.hpp"
 #include "recording/load_table.hpp"
 #include "recording/run_info.hpp"
 
@@ -101,22 +102,6 @@ struct safety_metrics {
   bool ok() const;
 };
 
-/// Cycles of the headline service, and what they took out of the batteries of
-/// one vehicle, or of all together.
-struct cycle_figures {
-  std::uint64_t on_board = 0;  ///< Computed in the vehicle, and used.
-  std::uint64_t offloaded = 0; ///< Whose result a provider has sent.
-  double on_board_j = 0;
-  double offloaded_j = 0;    ///< Each provider costs that was asked.
-  double all_on_board_j = 0; ///< If nothing had been offloaded.
-
-  double energy_j() const { return on_board_j + offloaded_j; }
-  /// @returns the share of energy that offloading saves; nullopt for none.
-  std::optional<double> saved_share() const;
-  /// @returns the share of cycles that were offloaded; nullopt for none.
-  std::optional<double> offloaded_share() const;
-};
-
 /// How one vehicle drove, or all together.
 struct drive_metrics {
   safety_metrics safety;
@@ -182,10 +167,13 @@ public:
   const std::map<station_id, drive_metrics>& vehicles() const {
     return vehicles_;
   }
-  /// @returns the sums of all vehicles.
-  cycle_figures cycles() const;
-  /// @returns the same of one vehicle.
-  cycle_figures cycles(station_id station) const;
+  /// @returns how often services were computed, and what that took.
+  const cycle_ledger& work() const { return work_; }
+  /// @returns the same of the service whose figures stand at the top level.
+  cycle_figures cycles() const { return work_.cycles(headline_); }
+  cycle_figures cycles(station_id station) const {
+    return work_.cycles(headline_, station);
+  }
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
   const load_table& load() const { return load_; }
@@ -205,16 +193,11 @@ private:
     time_point at;
   };
   using user = std::pair<messages::service_name, station_id>;
-  struct cycle_counts {
-    std::uint64_t on_board = 0;
-    std::uint64_t offloaded = 0;
-    std::uint64_t sent = 0; // to all providers
-    std::uint64_t newest = 0;
-  };
 
   void add(const messages::event_record& x);
   void add(const messages::decision_record& x);
   void add(const messages::cycle_record& x);
+  void add(const messages::work_record& x) { work_.add(x); }
   void add(const messages::episode_record& x);
   void add(const messages::safety_record& x);
   void add(const messages::collision_record& x);
@@ -229,8 +212,7 @@ private:
 
   messages::service_name headline_;
   provider_names names_;
-  std::map<station_id, cycle_energy> costs_;
-  std::map<station_id, cycle_counts> cycles_;
+  cycle_ledger work_;
   std::uint32_t obstacles_;
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;

@@ -142,7 +142,7 @@ result_files::context_of(const messages::session_id& session) const {
 void result_files::write_vehicles(const metrics& all) const {
   csv_file<vehicle_row> file{folder_ / "vehicles.csv", columns::of_vehicles};
   for (const auto& [station, x] : all.vehicles())
-    file.write({station, x, all.cycles(station)});
+    file.write({station, x, all.cycles(station), all.work().energy(station)});
   file.close();
 }
 

@@ -13,15 +13,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sofof::recording {
 
-/// What a cycle of the headline service costs one vehicle.
-struct cycle_energy {
-  double on_board_j = 0;
-  double offloaded_j = 0;
+/// What a service takes out of one vehicle's battery, J.
+struct service_cost {
+  double on_board_j = 0; ///< For each cycle on board,
+  double input_j = 0;    ///< for each input that it sends,
+  double result_j = 0;   ///< and for each result of a provider.
 };
+
+/// By vehicle and service.
+using service_costs =
+    std::map<std::pair<station_id, std::string>, service_cost>;
 
 /// Providers by id; one that has started again has the name of its place.
 using provider_names = std::map<provider_id, std::string>;
@@ -54,8 +60,7 @@ struct run_info {
   std::vector<std::string> services; ///< Names, in the order of reports.
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
-  /// Of each vehicle that is driven here.
-  std::map<station_id, cycle_energy> energy;
+  service_costs costs;  ///< Of the vehicles that are driven here.
   bool cycles = true;   ///< Write cycles.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.

@@ -152,19 +152,21 @@ std::string summary_json(const metrics& m, const run_info& run,
     }
     const whole_run whole{m, run, end};
     write(top, run_figures(), whole);
-    write(top, service_figures(), {m.headline(), run, end});
+    write(top, service_figures(), {m.headline(), m, run, end});
     write(top, vehicle_figures(), whole);
+    write(top, run_cost_figures(), whole);
     endings(top, m.headline().ended_by);
     {
       auto services = top.object("services");
       for (const auto& service : m.services()) {
         auto object = services.object(service.service.view());
-        const service_in_run x{service, run, end};
+        const service_in_run x{service, m, run, end};
         write(object, service_figures(), x);
         endings(object, service.ended_by);
         refusals(object, service.implausible);
         margins_of(object, service.margins);
         served(object, x);
+        write(object, service_cost_figures(), x);
       }
     }
     loads(top, m.load(), from_seconds(end.virtual_s));

@@ -113,14 +113,16 @@ actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
   return {std::move(far), at.position_m, at.range_m};
 }
 
-provider_load measured(const provider_options& provider, std::int64_t workers,
+provider_load measured(const provider_options& provider,
+                       const channel::provider_compute& compute,
                        time_point start) {
   const auto meter = [start](std::int64_t servers) {
     return std::make_shared<channel::load_meter>(static_cast<unsigned>(servers),
                                                  start);
   };
   return {provider.name,
-          meter(workers),
+          compute.worker_w,
+          meter(compute.workers),
           meter(1),
           meter(1),
           std::make_shared<channel::octet_ledger>(),
@@ -196,7 +198,7 @@ private:
   void add_provider(std::uint32_t number) {
     const auto& options = s_.providers[number];
     world_.loads.push_back(
-        measured(options, s_.compute_of(number).workers, actors::now(sys_)));
+        measured(options, s_.compute_of(number), actors::now(sys_)));
     start(number, here_.start, s_.channel_to(number));
     if (options.fails_at)
       world_.crash_injectors.push_back(actors::spawn_crash_injector(

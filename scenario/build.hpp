@@ -42,6 +42,7 @@ struct process_share {
 /// started again goes on with the same.
 struct provider_load {
   std::string name;
+  double worker_w = 0; ///< What a busy worker takes beyond an idle one, W.
   std::shared_ptr<channel::load_meter> workers, cell_up, cell_down;
   std::shared_ptr<channel::octet_ledger> octets_up, octets_down;
 };

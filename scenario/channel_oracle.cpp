@@ -57,8 +57,8 @@ private:
     for (auto cycle = latencies_s_.size(); created(cycle) < until; ++cycle) {
       const auto number = cycle + 1; // as services count
       const auto begun = created(cycle);
-      const auto takes =
-          compute_->computing_time(draws_, number, options_->compute.demand);
+      const auto takes = compute_->computing_time(
+          draws_, number, world::demand_of(options_->compute));
       sent_ = std::max(sent_, begun + takes);
       const auto comes =
           way_.arrival(sent_, channel::message_class::result, number);

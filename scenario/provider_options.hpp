@@ -53,6 +53,7 @@ struct compute_options {
   std::optional<std::string> model; ///< Its channel profile: computing times.
   std::optional<std::int64_t> workers;
   std::optional<duration> more_computing;
+  std::optional<double> worker_w; ///< Of a busy one beyond an idle one, W.
   /// Which of these the file says in [network], their former place: those are
   /// not for providers that have a network of their own.
   struct {

@@ -40,15 +40,11 @@ constexpr double flush_every_real_s = 0.5;
 /// filled once, at the start.
 constexpr duration settling = 1s;
 
-/// What a cycle of a service costs with this computer.
-recording::cycle_energy energy_of(const scenario_definition& s,
-                                  std::string_view service,
-                                  const world::computer_options& computer) {
-  for (const auto& k : s.services)
-    if (k->name() == service)
-      return {world::on_board_cost(computer, k->options.compute).energy_j,
-              world::offloaded_cost(computer, k->options.compute).energy_j};
-  return {};
+/// What a service costs a vehicle with this computer.
+recording::service_cost cost_of(const world::cycle_options& cycle,
+                                const world::computer_options& computer) {
+  return {world::on_board_cost(computer, cycle).energy_j,
+          world::sending_cost(computer, cycle).energy_j, cycle.overhead_j};
 }
 
 recording::run_info describe(const scenario_definition& s,
@@ -70,8 +66,9 @@ recording::run_info describe(const scenario_definition& s,
   for (const auto& v : place_vehicles(s))
     if (here.drives(v.station)) {
       ++info.vehicles;
-      info.energy[v.station] =
-          energy_of(s, info.headline_kind, s.fleets[v.fleet].compute);
+      for (const auto& type : s.services)
+        info.costs[{v.station, std::string{type->name()}}] =
+            cost_of(type->options.compute, s.fleets[v.fleet].compute);
     }
   if (info.vehicles == 0)
     for (std::size_t k = 0; k < s.providers.size(); ++k)
@@ -234,12 +231,13 @@ recording::load_table table_of(const std::vector<provider_load>& loads,
                                time_point end) {
   recording::load_table all;
   for (const auto& x : loads) {
-    const auto add = [&](std::string_view what, const auto& meter) {
+    const auto add = [&](std::string_view what, const auto& meter,
+                         double busy_w = 0) {
       if (auto read = meter->read();
           read.between(duration{0}, duration::max()).asked > duration{0})
-        all.servers.push_back({x.name, what, std::move(read)});
+        all.servers.push_back({x.name, what, std::move(read), busy_w});
     };
-    add("workers", x.workers);
+    add("workers", x.workers, x.worker_w);
     add("uplink", x.cell_up);
     add("downlink", x.cell_down);
     const auto count = [&](std::string_view direction, const auto& octets) {

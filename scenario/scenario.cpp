@@ -5,6 +5,7 @@
 #include "base/options/option_printer.hpp"
 #include "base/protocol.hpp"
 #include "policies/registry.hpp"
+#include "recording/cpu_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -101,6 +102,8 @@ void compute_options::visit_options(option_visitor& s) {
   if (s.has("more_computing", more_computing.has_value()))
     s.field("more_computing",
             more_computing ? *more_computing : more_computing.emplace(), 0ns);
+  if (s.has("worker_w", worker_w.has_value()))
+    s.field("worker_w", worker_w ? *worker_w : worker_w.emplace(), {0, 1e4});
 }
 
 compute_options compute_options::for_own_network() const {
@@ -117,12 +120,14 @@ void compute_options::complete(const std::string& profile) {
   model = measured.model;
   workers = workers.value_or(measured.workers);
   more_computing = more_computing.value_or(measured.more_computing);
+  worker_w = worker_w.value_or(recording::core_power{}.more_when_busy_w());
 }
 
 channel::provider_compute compute_options::computers() const {
   auto all = channel::compute_measured_with(model.value());
   all.workers = workers.value();
   all.more_computing = more_computing.value();
+  all.worker_w = worker_w.value();
   return all;
 }
 

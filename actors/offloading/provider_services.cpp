@@ -37,25 +37,28 @@ provider_services::make(const offloading::session_start& start) const {
   const auto& service = *std::ranges::find(services_, start.session.service,
                                            &offloading::offered_service::name);
   auto made = cycle_of(service, start);
-  made.finish = computing_time(service.options, start.session.station);
+  made.finish = computing_time(service, start.session.station);
   return made;
 }
 
 std::function<offloading::cycle_work(time_point, std::uint64_t)>
-provider_services::computing_time(const offloading::service_options& options,
+provider_services::computing_time(const offloading::offered_service& service,
                                   station_id station) const {
   if (!virtual_time_)
-    return [clock = clock_, load = load_](time_point start, std::uint64_t) {
+    return [clock = clock_, load = load_, name = service.name](time_point start,
+                                                               std::uint64_t) {
       const auto done = std::max(clock(), start);
       if (load)
-        load->add(start, duration{0}, done - start);
+        load->add(start, duration{0}, done - start, name.view());
       return offloading::cycle_work{done, done - start};
     };
   return [draws = channel::result_draws(seed_, station, number_),
-          compute = compute_, demand = options.compute.demand,
-          queue = workers_](time_point start, std::uint64_t cycle) {
+          compute = compute_,
+          demand = world::demand_of(service.options.compute), queue = workers_,
+          name = service.name](time_point start, std::uint64_t cycle) {
     const auto work = compute.computing_time(draws, cycle, demand);
-    return offloading::cycle_work{queue->finish(start, work), work};
+    return offloading::cycle_work{queue->finish(start, work, name.view()),
+                                  work};
   };
 }
 

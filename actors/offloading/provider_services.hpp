@@ -47,7 +47,7 @@ public:
 
 private:
   std::function<offloading::cycle_work(time_point, std::uint64_t)>
-  computing_time(const offloading::service_options& options,
+  computing_time(const offloading::offered_service& service,
                  station_id station) const;
   messages::event_record record_of(const planners::station_doubt& doubt) const;
 

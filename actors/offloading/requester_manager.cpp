@@ -46,6 +46,10 @@ requester_manager_impl::behavior_type requester_manager(
     requester_manager_setup setup) {
   self->state.self = self;
   self->state.start(std::move(setup));
+  self->set_exit_handler([self](const caf::exit_msg& exit) {
+    self->state.selector->finish();
+    self->quit(exit.reason);
+  });
   return {
       [self](const messages::service_result& result) {
         self->state.selector->on_result(result, now(self));

@@ -103,9 +103,8 @@ public:
     options.compute = {.run_time_mean = 200us,
                        .run_time_sd = 50us,
                        .run_time_max = 1ms,
-                       .demand = 0.02,
-                       .gigacycles = 6e-4, // 200 us at 3 GHz
-                       .input_kbit = 1};
+                       .demand = {},
+                       .input_octets = 86}; // on the air, measured
   }
 
   std::string_view name() const override { return "cabin_climate"; }

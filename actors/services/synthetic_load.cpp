@@ -121,16 +121,15 @@ public:
     options.compute = {.run_time_mean = 60ms,
                        .run_time_sd = 5ms,
                        .run_time_max = 90ms,
-                       .demand = 1,
-                       .gigacycles = 0.18, // 60 ms at 3 GHz
-                       .input_kbit = 400};
+                       .demand = {},
+                       .input_octets = 50'000};
   }
 
   std::string_view name() const override { return "synthetic_load"; }
 
   void visit_options(option_visitor& s) override {
+    s.moved("input_octets", "compute.input_octets");
     service_type::visit_options(s);
-    s.field("input_octets", input_octets_, {0, most_octets});
     s.field("result_octets", result_octets_, {0, most_octets});
   }
 
@@ -149,14 +148,14 @@ public:
   }
 
   service_client spawn_client(const client_place& where) const override {
-    return {where.system.spawn(load_source, octets(input_octets_),
+    return {where.system.spawn(load_source,
+                               octets(options.compute.input_octets),
                                options.input_period)};
   }
 
 private:
   static constexpr double most_octets = 1e7;
 
-  std::int64_t input_octets_ = 50'000;
   std::int64_t result_octets_ = 1'000;
 };
 

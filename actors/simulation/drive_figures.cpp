@@ -21,7 +21,6 @@ drive_figures::on_plan(const world::trajectory& in_use,
   stops_ = false;
   emergency_ = report.emergency;
   ++plans_.count;
-  plans_.on_board += !is_remote(running);
   plans_.kept += report.origin == planners::plan_origin::kept;
   plans_.stops += report.origin == planners::plan_origin::stop;
   plans_.imperfect += !planners::ocp::publishable(report.path)

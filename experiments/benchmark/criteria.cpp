@@ -39,7 +39,21 @@ public:
     return must("ended_by.qos_latency") + must("ended_by.qos_input_age")
            + must("ended_by.qos_gap") + may("ended_by.implausible").value_or(0);
   }
-  double offloaded_share() const { return may("offloaded_share").value_or(0); }
+  /// @returns the same over all services.
+  double all_violations() const {
+    return over_services("ended_by.qos_latency")
+           + over_services("ended_by.qos_input_age")
+           + over_services("ended_by.qos_gap")
+           + over_services("ended_by.implausible");
+  }
+  /// @returns the share of its time that a service was offloaded.
+  double offloaded_share(const std::string& service) const {
+    return may("services." + service + ".offloaded_share").value_or(0);
+  }
+  /// @returns the mean latency of its results.
+  double latency_s(const std::string& service) const {
+    return 1e-3 * may("services." + service + ".latency_ms.mean").value_or(0);
+  }
   double energy_saved() const { return may("energy.saved_share").value_or(0); }
 
   /// @returns the sum of all that stand under services.KIND.NAME….
@@ -63,7 +77,7 @@ namespace {
 
 constexpr double percent = 100;
 
-// What a planning cycle costs: λ of time, of energy and of violations.
+// What a cycle costs: λ of time, of energy and of violations.
 // Source: as for Chen et al., ToN 24(5) 2016, eqs. (4), (8), with the weights
 // of docs/bench.md.
 constexpr double of_time = 0.3;
@@ -91,15 +105,29 @@ double signalling(const summary_figures& run) {
          + run.over_services("ended_by.");
 }
 
-/// @returns the mean cost of a planning cycle.
+/// @returns the mean cost of a cycle, of all services.
 double score(const summary_figures& run, const baseline& by) {
-  const auto share = run.offloaded_share();
-  const auto latency_s = run.may("latency_ms.mean").value_or(0) * 1e-3;
-  const auto time = share * latency_s + (1 - share) * by.local_s;
-  const auto cycles = run.vehicle_hours() * hour_s / by.period_s;
-  const auto violated = cycles > 0 ? run.violations() / cycles : 0;
-  return of_time * time / by.limit_s + of_energy * (1 - run.energy_saved())
+  double cycles_per_s = 0, time = 0; // of one vehicle; in parts of the limits
+  for (const auto& service : by.services) {
+    const auto share = run.offloaded_share(service.name);
+    const auto until_there_s =
+        share * run.latency_s(service.name) + (1 - share) * service.local_s;
+    cycles_per_s += 1 / service.period_s;
+    time += until_there_s / service.limit_s / service.period_s;
+  }
+  const auto cycles = run.vehicle_hours() * hour_s * cycles_per_s;
+  const auto violated = cycles > 0 ? run.all_violations() / cycles : 0;
+  return of_time * time / cycles_per_s + of_energy * (1 - run.energy_saved())
          + of_violations * violated;
+}
+
+/// @returns the share of a core that services take on board, %.
+double on_board_percent(const summary_figures& run, const baseline& by) {
+  double share = 0;
+  for (const auto& service : by.services)
+    share += (1 - run.offloaded_share(service.name)) * service.local_s
+             / service.period_s;
+  return percent * share;
 }
 
 /// Adds how much the score of each run is above that of an entrant in the same
@@ -188,19 +216,16 @@ constexpr criterion all_criteria[]{
      [](const summary_figures& run, const baseline&) {
        return run.may("latency_ms.p99");
      }},
-    {"vehicle_cpu_percent", "planning on board, % of a core", "", 2,
+    {"vehicle_cpu_percent", "computing on board, % of a core", "", 2,
      better::less,
      [](const summary_figures& run, const baseline& by) {
-       if (by.period_s <= 0)
-         return value_of{};
-       return in_percent((1 - run.offloaded_share()) * by.local_s
-                         / by.period_s);
+       return value_of{on_board_percent(run, by)};
      }},
-    {"energy_j_per_km", "energy, J/km", "", 1, better::less,
+    {"energy_j_per_km", "energy in vehicles, J/km", "", 1, better::less,
      [](const summary_figures& run, const baseline&) {
        return run.may("energy.per_km_j");
      }},
-    {"energy_on_board_j_per_km", "energy of planning on board, J/km", "", 1,
+    {"energy_on_board_j_per_km", "energy of computing on board, J/km", "", 1,
      better::less,
      [](const summary_figures& run, const baseline&) {
        return part_per_km(run, "energy.local_j");
@@ -209,6 +234,10 @@ constexpr criterion all_criteria[]{
      better::less,
      [](const summary_figures& run, const baseline&) {
        return part_per_km(run, "energy.offloading_j");
+     }},
+    {"energy_server_j_per_km", "energy at providers, J/km", "", 1, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return part_per_km(run, "energy.server_j");
      }},
     {"energy_saved_percent", "energy saved, %", "saved %", 1, better::more,
      [](const summary_figures& run, const baseline&) {
@@ -252,7 +281,8 @@ provider_capacity capacity_of(const scenario::scenario_definition& s,
   for (const auto& type : s.services)
     capacity.utilisation_by.emplace(
         type->name(),
-        policies::worker_share(compute.mean_s() * type->options.compute.demand,
+        policies::worker_share(compute.mean_s()
+                                   * world::demand_of(type->options.compute),
                                type->options.period, workers));
   return capacity;
 }
@@ -269,11 +299,10 @@ baseline baseline_of(const scenario::scenario_definition& s) {
     by.providers.push_back(capacity_of(s, s.compute_of(k)));
   for (const auto& type : s.services) {
     const auto& options = type->options;
-    if (type->name() != study::planning)
-      continue;
-    by.limit_s = to_seconds(options.limits.max_latency);
-    by.period_s = to_seconds(options.period);
-    by.local_s = to_seconds(options.compute.run_time_mean);
+    by.services.push_back({std::string{type->name()},
+                           to_seconds(options.limits.max_latency),
+                           to_seconds(options.period),
+                           to_seconds(options.compute.run_time_mean)});
   }
   return by;
 }

@@ -48,15 +48,21 @@ struct provider_capacity {
   std::map<std::string, double, std::less<>> utilisation_by;
 };
 
-/// What a scenario says about its runs, whoever decides.
-struct baseline {
-  double limit_s = 0;  ///< τ: longest latency of trajectory planning.
+/// What a scenario asks of a service.
+struct service_baseline {
+  std::string name;
+  double limit_s = 0;  ///< τ: longest latency.
   double period_s = 0; ///< T_p: of its cycles.
   double local_s = 0;  ///< T_loc: of a cycle on board, mean.
+};
+
+/// What a scenario says about its runs, whoever decides.
+struct baseline {
+  std::vector<service_baseline> services;
   std::vector<provider_capacity> providers; ///< By their places.
 };
 
-/// @param s  Loaded, so that it has trajectory planning.
+/// @param s  Loaded.
 baseline baseline_of(const scenario::scenario_definition& s);
 
 /// A run of an entrant, judged.

@@ -63,6 +63,14 @@ struct cycle_record {
   }
 };
 
+/// What a service of one vehicle has done since its last such record.
+struct work_record {
+  station_id station = 0;
+  service_name service;
+  std::uint64_t on_board = 0; ///< Results of its own function that it used.
+  std::uint64_t inputs = 0;   ///< That it sent to providers.
+};
+
 /// One side has closed a session.
 struct episode_record {
   session_id session;
@@ -124,9 +132,9 @@ struct collision_record {
 /// All that can happen, the only list of it. Records stay in their process: a
 /// new one is added here, made where it happens, and used by whom it concerns.
 using record =
-    std::variant<event_record, decision_record, cycle_record, episode_record,
-                 track_record, safety_record, collision_record, drive_record,
-                 plan_switch_record, air_record>;
+    std::variant<event_record, decision_record, cycle_record, work_record,
+                 episode_record, track_record, safety_record, collision_record,
+                 drive_record, plan_switch_record, air_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.
 class record_sink {

@@ -19,7 +19,7 @@ struct letters final : record_sink {
   std::vector<station_id> tracks;
 
   void on_record(const record& x) override {
-    all += "edyptscrwa"[x.index()];
+    all += "edyoptscrwa"[x.index()];
     if (const auto* track = std::get_if<track_record>(&x))
       tracks.push_back(track->ego.own.station);
   }
@@ -33,6 +33,7 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, record{event_record{}});
   tell(recorder, record{decision_record{}});
   tell(recorder, record{cycle_record{}});
+  tell(recorder, record{work_record{}});
   tell(recorder, record{episode_record{}});
   tell(recorder, record{track_record{}});
   tell(recorder, record{safety_record{}});
@@ -40,7 +41,7 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, record{drive_record{}});
   tell(recorder, record{plan_switch_record{}});
   tell(recorder, record{air_record{}});
-  CHECK(sink->all == "edyptscrwa");
+  CHECK(sink->all == "edyoptscrwa");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

@@ -91,8 +91,8 @@ TEST_CASE("every kind lists its options once, defaults within their ranges, "
     CHECK(options.refused.empty());
     for (const auto key :
          {"max_latency", "max_interarrival", "period", "input_period",
-          "compute.demand", "compute.run_time_mean", "compute.run_time_sd",
-          "compute.run_time_max", "compute.gigacycles"})
+          "compute.run_time_mean", "compute.run_time_sd",
+          "compute.run_time_max", "compute.input_octets"})
       CHECK(options.names.contains(key));
   }
 }
@@ -118,6 +118,20 @@ TEST_CASE("a slow computer takes longer, and never longer than a period") {
   const auto fast = on(computer_options{.clock_ghz = 6}, usual);
   CHECK(fast.compute.run_time_mean == 2750us);
   CHECK(fast.compute.run_time_max == 22500us);
+  CHECK(demand_of(slow.compute) == demand_of(usual.compute));
+}
+
+TEST_CASE("at a provider a service asks as much more than planning as on "
+          "board, unless it says what was measured") {
+  const auto asks = [](std::string_view name) {
+    return demand_of(make_service_type(name)->options.compute);
+  };
+  CHECK(asks("trajectory_planning") == 1);
+  CHECK(asks("cabin_climate") == doctest::Approx(0.2 / 5.5));
+  CHECK(asks("synthetic_load") == doctest::Approx(60 / 5.5));
+  auto measured = make_service_type("synthetic_load")->options.compute;
+  measured.demand = 2;
+  CHECK(demand_of(measured) == 2);
 }
 
 TEST_CASE("cabin climate is slow and patient") {

@@ -50,6 +50,20 @@ TEST_CASE("a job keeps servers busy when it is worked on, bin by bin") {
   CHECK(all.waits.ms().max() == 250);
 }
 
+TEST_CASE("servers' time is told by what it was used for") {
+  load_meter meter{2, start};
+  meter.add(start, 0ms, 250ms, "planning");
+  meter.add(start + 50ms, 50ms, 30ms, "cabin");
+  meter.add(start + 60ms, 0ms, 10ms);
+  const auto all = meter.read();
+  CHECK(all.busy_for("planning", 10s) == 250ms);
+  CHECK(all.busy_for("planning", 200ms) == 200ms);
+  CHECK(all.busy_for("cabin", 10s) == 30ms);
+  CHECK(all.busy_for("cabin", 100ms) == 0ms);
+  CHECK(all.busy_for("nothing", 10s) == 0ms);
+  CHECK(all.between(0s, 10s).busy == 290ms);
+}
+
 TEST_CASE("a job from before the start counts from there") {
   load_meter meter{1, start};
   meter.add(start - 5s, 0ms, 10ms);

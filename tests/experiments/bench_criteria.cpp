@@ -41,9 +41,12 @@ study::measured_run one_hour() {
                  {"safety.without_fresh_plan_s", 0},
                  {"safety.off_road_s", 0},
                  {"safety.collisions", 0},
+                 {"services.trajectory_planning.offloaded_share", 0.5},
+                 {"services.trajectory_planning.latency_ms.mean", 20},
+                 {"services.trajectory_planning.ended_by.qos_latency", 3},
                  {"services.trajectory_planning.requests", 40},
                  {"services.trajectory_planning.ended_by.qos_gap", 2},
-                 {"services.trajectory_planning.ended_by.left_area", 28},
+                 {"services.trajectory_planning.ended_by.left_area", 25},
                  {"services.trajectory_planning.served.ended_by.left_area", 28},
                  {"services.trajectory_planning.served.count", 30},
                  {"services.trajectory_planning.served.time_s.mean", 60}};
@@ -54,7 +57,7 @@ study::measured_run one_hour() {
 
 baseline usual() {
   const provider_capacity each{1, {{"trajectory_planning", 0.08}}};
-  return {0.05, 0.1, 0.01, {each, each}};
+  return {{{"trajectory_planning", 0.05, 0.1, 0.01}}, {each, each}};
 }
 
 double value(const judged_run& run, std::string_view name) {
@@ -120,6 +123,7 @@ TEST_CASE("the score is the mean cost of a cycle: time, energy, violations") {
   run.figures["energy.j"] = 60;
   run.figures["energy.local_j"] = 50;
   run.figures["energy.offloading_j"] = 10;
+  run.figures["energy.server_j"] = 30;
   const auto judged = judge(run, usual());
   CHECK(value(judged, score_name)
         == near(0.3 * time + 0.3 * 0.6 + violated, 1e-12));
@@ -127,6 +131,24 @@ TEST_CASE("the score is the mean cost of a cycle: time, energy, violations") {
   CHECK(value(judged, "energy_j_per_km") == 120);
   CHECK(value(judged, "energy_on_board_j_per_km") == near(100, 1e-9));
   CHECK(value(judged, "energy_offloading_j_per_km") == near(20, 1e-9));
+  CHECK(value(judged, "energy_server_j_per_km") == near(60, 1e-9));
+}
+
+TEST_CASE("a cycle of every service counts in the score, and on board") {
+  auto by = usual();
+  by.services.push_back({"cabin_climate", 2, 1, 0.04});
+  auto run = one_hour();
+  run.figures["services.cabin_climate.offloaded_share"] = 0.25;
+  run.figures["services.cabin_climate.latency_ms.mean"] = 100;
+  run.figures["services.cabin_climate.ended_by.qos_gap"] = 6;
+  // Ten cycles of planning for one of the cabin.
+  const auto planning = (0.5 * 0.020 + 0.5 * 0.010) / 0.05;
+  const auto cabin = (0.25 * 0.1 + 0.75 * 0.04) / 2;
+  const auto violated = (5 + 6) / (11 * 3600.);
+  CHECK(value(judge(run, by), score_name)
+        == near(0.3 * (10 * planning + cabin) / 11 + 0.3 + violated, 1e-12));
+  CHECK(value(judge(run, by), "vehicle_cpu_percent")
+        == near(100 * (0.5 * 0.01 / 0.1 + 0.75 * 0.04), 1e-9));
 }
 
 TEST_CASE("who never offloads has the cost of planning on board") {
@@ -139,7 +161,10 @@ TEST_CASE("who never offloads has the cost of planning on board") {
   run.served_s.clear();
   for (const auto* name :
        {"offloaded_share", "requests", "rejected", "ended_by.qos_latency",
-        "ended_by.qos_input_age", "ended_by.qos_gap"})
+        "ended_by.qos_input_age", "ended_by.qos_gap",
+        "services.trajectory_planning.offloaded_share",
+        "services.trajectory_planning.ended_by.qos_latency",
+        "services.trajectory_planning.ended_by.qos_gap"})
     run.figures[name] = 0;
   const auto judged = judge(run, usual());
   CHECK(value(judged, score_name) == near(0.3 * 0.01 / 0.05 + 0.3, 1e-12));
@@ -196,7 +221,7 @@ TEST_CASE("who is better than location is so on the same noise") {
 TEST_CASE("every figure of a run is of a criterion, and each has one name") {
   auto run = one_hour();
   for (const auto* name :
-       {"saved_share", "per_km_j", "j", "local_j", "offloading_j"})
+       {"saved_share", "per_km_j", "j", "local_j", "offloading_j", "server_j"})
     run.figures["energy."s + name] = 0.5;
   const auto all = criteria();
   for (const auto& [name, x] : judge(run, usual()).values) {
@@ -210,9 +235,12 @@ TEST_CASE("every figure of a run is of a criterion, and each has one name") {
 TEST_CASE("a scenario tells limits, periods and what a service takes") {
   const auto s = parse_scenario(test::bench_town, "town.toml");
   const auto by = baseline_of(s);
-  CHECK(by.limit_s == near(0.05, 1e-12));
-  CHECK(by.period_s == near(0.1, 1e-12));
-  CHECK(by.local_s > 0);
+  REQUIRE(!by.services.empty());
+  const auto& planning = by.services.front();
+  CHECK(planning.name == "trajectory_planning");
+  CHECK(planning.limit_s == near(0.05, 1e-12));
+  CHECK(planning.period_s == near(0.1, 1e-12));
+  CHECK(planning.local_s > 0);
   REQUIRE(by.providers.size() == 1);
   CHECK(by.providers[0].utilisation_by.at("trajectory_planning")
         == near(0.08, 1e-9));

@@ -77,7 +77,13 @@ TEST_CASE("a service keeps its name and options on both sides, and is made "
 TEST_CASE("what a requester needs of a service follows from its options and "
           "the computer") {
   auto own = in_vehicle(echo_service("one"), {});
-  own.options.compute = {.gigacycles = 0.06, .input_kbit = 200};
+  own.options.input_period = 100ms;             // two cycles of 50 ms
+  own.options.compute = {.run_time_mean = 20ms, // at 3 GHz
+                         .run_time_sd = {},
+                         .run_time_max = {},
+                         .demand = {},
+                         .input_octets = 25'000,
+                         .overhead_j = 0.5};
   const computer_options slow{.clock_ghz = 2, .uplink_mbps = 10};
   const offloading::service_state state{own, slow, at(1s)};
   CHECK(state.needs.period == 50ms);
@@ -85,6 +91,7 @@ TEST_CASE("what a requester needs of a service follows from its options and "
   CHECK(state.needs.max_interarrival == 100ms);
   CHECK(state.on_board.time_s == doctest::Approx{0.03});
   CHECK(state.offloaded.time_s == doctest::Approx{0.02}); // the way alone
+  CHECK(state.offloaded.energy_j == doctest::Approx{0.2 * 0.02 / 2 + 0.5});
   CHECK(state.since == at(1s));
 }
 

@@ -67,6 +67,7 @@ offloading::selector_setup numbers_setup() {
 struct diary final : offloading::selector_port {
   std::vector<std::string> lines;
   std::string detail; ///< Of the latest event.
+  std::vector<work_record> work;
 
   void write(std::string line) { lines.push_back(std::move(line)); }
   static std::string name(const session_id& x) {
@@ -109,6 +110,8 @@ struct diary final : offloading::selector_port {
       write(std::string{name_of(event->what)});
       detail = event->detail;
     }
+    if (const auto* done = std::get_if<work_record>(&x))
+      work.push_back(*done);
   }
   void wake_at(time_point t, std::uint64_t number) override {
     wakes.emplace_back(t, number);
@@ -311,4 +314,27 @@ TEST_CASE_FIXTURE(selecting, "a standby is fed only when a cycle is not "
     end(a, 210ms);
     CHECK(news() == lines{"feed B", "watch B"});
   }
+}
+
+TEST_CASE_FIXTURE(selecting, "own results that are used and inputs that are "
+                             "sent are recorded once a second, and at last") {
+  for (int k = 0; k < 5; ++k)
+    result(own, k * 50ms);
+  session(a, 300ms);
+  selector.on_input({own, at(400ms), of(2)}, at(400ms));
+  result(a, 450ms);
+  result(own, 460ms); // on its way when the source changed
+  CHECK(port.work.empty());
+  selector.on_input({own, at(1s), of(3)}, at(1s));
+  REQUIRE(port.work.size() == 1);
+  CHECK(port.work[0].station == 101);
+  CHECK(port.work[0].service == service_name{"numbers"});
+  CHECK(port.work[0].on_board == 5);
+  CHECK(port.work[0].inputs == 2);
+  selector.finish();
+  REQUIRE(port.work.size() == 2);
+  CHECK(port.work[1].on_board == 0);
+  CHECK(port.work[1].inputs == 1);
+  selector.finish();
+  CHECK(port.work.size() == 2);
 }

@@ -169,9 +169,9 @@ TEST_CASE("the table says how the ride felt") {
   CHECK_FALSE(contains(table_of(metrics{run()}), "comfort"));
 }
 
-TEST_CASE("the table says what planning took and what offloading saved") {
+TEST_CASE("the table says what services took and what offloading saved") {
   const auto text = table_of(played());
-  CHECK(contains(line_of(text, "all together"), " 1100.1 J"));
+  CHECK(contains(line_of(text, "in the vehicles"), " 1100.1 J"));
   CHECK(contains(line_of(text, "per km"), " 646.9 J"));
   CHECK(contains(line_of(text, "saved by offloading"), " 12.0 %"));
   CHECK_FALSE(contains(table_of(metrics{run()}), "energy"));

@@ -45,6 +45,7 @@ void each_figure(Visit visit) {
   each(service_figures(), visit);
   each(served_figures(), visit);
   each(vehicle_figures(), visit);
+  each(run_cost_figures(), visit);
   each(clock_figures(), visit);
 }
 
@@ -62,9 +63,11 @@ TEST_CASE("every figure stands in the summary under its name") {
   each(run_figures(), of(summary));
   each(service_figures(), of(summary));
   each(vehicle_figures(), of(summary));
+  each(run_cost_figures(), of(summary));
   each(clock_figures(), of(summary));
   each(service_figures(), of(service));
   each(served_figures(), of(service));
+  each(service_cost_figures(), of(service));
 }
 
 TEST_CASE("no figure has the name or the place of another one") {
@@ -79,6 +82,21 @@ TEST_CASE("no figure has the name or the place of another one") {
     if (x.console.in != console_block::none)
       CHECK(shown.emplace(x.console.in, x.console.place).second);
   });
+}
+
+TEST_CASE("what a service took has no name or place of another of its "
+          "figures") {
+  std::set<std::string_view> names;
+  std::set<int> reported;
+  const auto visit = [&](const auto& x) {
+    CAPTURE(x.name);
+    CHECK(names.insert(x.name).second);
+    if (x.report.in == report_table::service)
+      CHECK(reported.insert(x.report.place).second);
+  };
+  each(service_figures(), visit);
+  each(served_figures(), visit);
+  each(service_cost_figures(), visit);
 }
 
 TEST_CASE("what makes a run unsafe is told by the summary and the console") {

@@ -92,3 +92,22 @@ TEST_CASE("octets.csv has a line for each cell, direction and purpose") {
            "mec,up,CAM,2,190,100,90,0\n"
            "mec,up,one,1,400,0,0,400\n");
 }
+
+TEST_CASE("a service takes a worker's power for as long as it is busy with "
+          "it, at all providers") {
+  const auto busy = [](duration work) {
+    channel::load_meter meter{1, time_point{}};
+    meter.add(time_point{1s}, 0ms, work, "planning");
+    meter.add(time_point{4s}, 0ms, 500ms, "cabin");
+    return meter.read();
+  };
+  const load_table two{{{"mec", "workers", busy(1s), 2.5},
+                        {"mec", "uplink", asked_for(90ms)},
+                        {"far", "workers", busy(3s), 4}},
+                       {}};
+  CHECK(server_energy_j(two, 10s, "planning") == 1 * 2.5 + 3 * 4.0);
+  CHECK(server_energy_j(two, 10s, "cabin") == 0.5 * 2.5 + 0.5 * 4);
+  CHECK(server_energy_j(two, 2s, "planning") == 1 * 2.5 + 1 * 4.0);
+  CHECK(server_energy_j(two, 10s, "nothing") == 0.);
+  CHECK_FALSE(server_energy_j({}, 10s, "planning").has_value());
+}

@@ -256,43 +256,16 @@ TEST_CASE("a vehicle's figures are those of all its records") {
   CHECK(x.ride.hard_brakes == 3);
 }
 
-TEST_CASE("cycles are paid for where they were computed") {
-  metrics m{run()};
-  m.on_record(
-      drive_record{101, {.count = 3, .extremes = {}, .on_board = 3}, {}});
-  m.on_record(
-      drive_record{102, {.count = 8, .extremes = {}, .on_board = 4}, {}});
-  m.on_record(result(running(102), 100, 5s, 10ms, {}));
-  m.on_record(result(running(102), 101, 5s, 10ms, {}));
-  const auto x = m.cycles(102);
-  CHECK(x.on_board == 4);
-  CHECK(x.offloaded == 2);
-  CHECK(x.on_board_j == 4 * 0.25);
-  CHECK(x.offloaded_j == 2 * 0.125);
-  CHECK(x.all_on_board_j == 6 * 0.25);
-  CHECK(x.saved_share() == doctest::Approx(1 - 1.25 / 1.5));
-  CHECK(x.offloaded_share() == doctest::Approx(2. / 6));
-  CHECK(m.cycles().energy_j() == 3 * 0.5 + 1.25);
-  CHECK(m.cycles(101).saved_share() == 0.);
-}
-
-TEST_CASE("a cycle that two providers compute is sent twice, and is one") {
-  metrics m{run()};
-  auto other = running(101, 2);
-  other.provider = 7;
-  for (std::uint64_t cycle = 1; cycle <= 10; ++cycle) {
-    m.on_record(result(running(101, 1), cycle, 5s, 10ms, {}));
-    m.on_record(result(other, cycle, 5s, 12ms, {}));
-  }
-  CHECK(m.cycles(101).offloaded == 10);
-  CHECK(m.cycles(101).offloaded_j == 20 * 0.125);
-}
-
-TEST_CASE("only cycles of the headline service are counted") {
+TEST_CASE("cycles at the top are those of the headline service") {
   metrics m{run()};
   m.on_record(result(running(101, 1, "environment"), 1, 5s, 10ms, {}));
+  m.on_record(work_record{101, "environment", 7, 0});
   CHECK(m.cycles().offloaded == 0);
-  CHECK_FALSE(m.cycles().saved_share().has_value());
+  m.on_record(work_record{101, planning, 3, 0});
+  m.on_record(work_record{101, planning, 2, 0});
+  CHECK(m.cycles().on_board == 5);
+  CHECK(m.cycles(101).on_board == 5);
+  CHECK(m.work().energy().j() == 5 * 0.5);
 }
 
 TEST_CASE("a touch counts once for the run and once for either vehicle") {

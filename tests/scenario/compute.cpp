@@ -100,7 +100,7 @@ TEST_CASE("files of before say the same, with a note for each old place") {
        "provider.cloud.network={ profile = \"ideal\", workers = 5 }",
        "fleet.1.computer.clock_ghz=1.5", "service.0.demand=2.0",
        "service.0.run_time_mean=6ms", "service.0.run_time_sd=1ms",
-       "service.0.run_time_max=40ms", "service.1.task.input_kbit=40"});
+       "service.0.run_time_max=40ms", "service.1.task.input_octets=40"});
   const auto now = example::load(
       example::text,
       {"compute.workers=3", "compute.more_computing=2ms",
@@ -109,7 +109,7 @@ TEST_CASE("files of before say the same, with a note for each old place") {
        "service.0.compute.demand=2.0", "service.0.compute.run_time_mean=6ms",
        "service.0.compute.run_time_sd=1ms",
        "service.0.compute.run_time_max=40ms",
-       "service.1.compute.input_kbit=40"});
+       "service.1.compute.input_octets=40"});
   CHECK(to_toml(before) == to_toml(now));
   CHECK(now.notes.empty());
   CHECK(before.notes.size() == 9);
@@ -119,6 +119,22 @@ TEST_CASE("files of before say the same, with a note for each old place") {
                                     "run_time_max is compute.run_time_max now");
                               })
         == 1);
+}
+
+TEST_CASE("what two numbers said is refused, with what says it now") {
+  const auto cycles =
+      example::error_of(example::text, {"service.0.compute.gigacycles=0.03"});
+  CHECK(cycles.find("gigacycles: is no more; run_time_mean says it, at 3 GHz")
+        != cycles.npos);
+  const auto kbit =
+      example::error_of(example::text, {"service.0.compute.input_kbit=160"});
+  CHECK(kbit.find("say input_octets, 125 to the kbit") != kbit.npos);
+}
+
+TEST_CASE("a busy worker takes the power that its provider says") {
+  CHECK(computers(example::text, 0, {}).worker_w == doctest::Approx(2.76));
+  const std::vector<std::string> set{"compute.worker_w=12"};
+  CHECK(computers(example::text, 0, set).worker_w == 12);
 }
 
 TEST_CASE("what [network] said of workers was not for other networks") {

@@ -128,13 +128,12 @@ TEST_CASE("a provider may have a radio and a network of its own") {
 TEST_CASE("fleets have computers, services say what a cycle asks of them") {
   const auto s = example::load(
       example::text, {"fleet.1.compute.clock_ghz=1.5",
-                      "service.trajectory_planning.compute.input_kbit=40",
+                      "service.trajectory_planning.compute.input_octets=40",
                       "fleet.1.appear_every=10s", "provider.mec.fails_at=5min",
                       "provider.mec.returns_at=6min"});
   CHECK(s.fleets[0].compute.clock_ghz == 3);
   CHECK(s.fleets[1].compute.clock_ghz == 1.5);
-  CHECK(s.services[0]->options.compute.input_kbit == 40);
-  CHECK(s.services[0]->options.compute.gigacycles == 0.03);
+  CHECK(s.services[0]->options.compute.input_octets == 40);
   CHECK(s.fleets[1].appear_every == std::chrono::seconds{10});
   CHECK(s.providers[0].fails_at == std::chrono::minutes{5});
   CHECK(s.providers[0].returns_at == std::chrono::minutes{6});

@@ -59,6 +59,7 @@ inline offloading::service_options echo_options() {
   options.period = 50ms;
   options.input_period = 100ms;
   options.compute.run_time_mean = 5ms;
+  options.compute.demand = 1;
   options.compute.run_time_max = 10ms;
   return options;
 }

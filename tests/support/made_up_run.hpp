@@ -31,7 +31,8 @@ inline recording::run_info run() {
   info.provider_names = {{provider, "mec"}};
   info.services = {planning, "environment"};
   info.start = start;
-  info.energy = {{101, {0.5, 0.125}}, {102, {0.25, 0.125}}};
+  info.costs = {{{101, planning}, {0.5, 0.25, 0.125}},
+                {{102, planning}, {0.25, 0.25, 0.125}}};
   return info;
 }
 
@@ -128,13 +129,14 @@ void play(Sink& to) {
   to.on_record(switched(running(102, 4), true, 90s));
   to.on_record(messages::safety_record{101, 100s, 0s, 0s, 150ms});
   to.on_record(messages::safety_record{102, 100s, 0s, 0s, 180ms});
-  to.on_record(
-      messages::drive_record{101,
-                             {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}, 1600},
-                             {900, {1.75, 1.5, -4}, 2, 80}});
+  to.on_record(messages::drive_record{101,
+                                      {2000, 3, 4, 2, 6, 1, {1.5, 1.25, -2}},
+                                      {900, {1.75, 1.5, -4}, 2, 80}});
   to.on_record(messages::drive_record{102,
-                                      {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}, 1000},
+                                      {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}},
                                       {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.on_record(messages::work_record{101, planning, 1600, 0});
+  to.on_record(messages::work_record{102, planning, 1000, 0});
   to.on_record(messages::plan_switch_record{
       at(10s), running(101, 1), true, {0.25, 0.001, 0.5, 1}});
   to.on_record(messages::plan_switch_record{

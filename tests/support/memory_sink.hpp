@@ -12,6 +12,7 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::event_record> events;
   std::vector<messages::decision_record> decisions;
   std::vector<messages::cycle_record> cycles;
+  std::vector<messages::work_record> work;
   std::vector<messages::episode_record> episodes;
   std::vector<messages::track_record> tracks;
   std::vector<messages::safety_record> safety;
@@ -28,6 +29,7 @@ struct memory_sink final : messages::record_sink {
               decisions.push_back(r);
             },
             [this](const messages::cycle_record& r) { cycles.push_back(r); },
+            [this](const messages::work_record& r) { work.push_back(r); },
             [this](const messages::episode_record& r) {
               episodes.push_back(r);
             },

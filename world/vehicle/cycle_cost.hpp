@@ -4,6 +4,10 @@
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
 namespace sofof::world {
 
 /// A vehicle's computer and radio.
@@ -22,28 +26,33 @@ struct computer_options {
   }
 };
 
-/// What one cycle of a function asks of who computes it.
+/// What clocks are compared with: the run times of services are those at this
+/// one.
+inline constexpr double usual_clock_ghz = computer_options{}.clock_ghz;
+
+/// The cycle whose computing times a `provider_compute` draws takes so long on
+/// board, at `usual_clock_ghz`: that of trajectory planning.
+inline constexpr duration usual_run_time = std::chrono::microseconds{5500};
+
+/// What one cycle of a function asks of who computes it, and of the radio: the
+/// one source of its computing times here and there, and of its energy.
 struct cycle_options {
-  duration run_time_mean{}; ///< On board, in virtual time, at
-                            ///< `usual_clock_ghz`.
+  duration run_time_mean{}; ///< On board, at `usual_clock_ghz`: c / f.
   duration run_time_sd{};
   duration run_time_max{};
-  double demand = 1; ///< At a provider: computing time, as a multiple of what
-                     ///< its `provider_compute` draws.
-  double gigacycles = 0.03; ///< c: 10 ms at 3 GHz.
-  double input_kbit = 160;  ///< b, what a provider has to be told.
-  double overhead_j = 0;    ///< Of the framework itself, when offloaded.
+  /// At a provider: computing time as a multiple of what its
+  /// `provider_compute` draws, where that was measured; else it is in
+  /// proportion to the run time: `demand_of`.
+  std::optional<double> demand;
+  std::int64_t input_octets = 0; ///< On the air, of one input, b / 8.
+  double overhead_j = 0;         ///< Of the framework itself, for each result.
 
-  void visit_options(option_visitor& s) {
-    s.field("run_time_mean", run_time_mean, duration{0});
-    s.field("run_time_sd", run_time_sd, duration{0});
-    s.field("run_time_max", run_time_max, duration{0});
-    s.field("demand", demand, {0, 1e3});
-    s.field("gigacycles", gigacycles, {0, 1e3});
-    s.field("input_kbit", input_kbit, {0, 1e6});
-    s.field("overhead_j", overhead_j, {0, 1e3});
-  }
+  void visit_options(option_visitor& s);
 };
+
+/// @returns a provider's computing time of a cycle, in that of a cycle which
+/// takes `usual_run_time` on board.
+double demand_of(const cycle_options& cycle);
 
 /// Time from the begin of a cycle on, and energy out of the vehicle's battery.
 struct cycle_cost {
@@ -51,23 +60,15 @@ struct cycle_cost {
   double energy_j = 0;
 };
 
-/// What clocks are compared with: the run times of services are those at this
-/// one.
-inline constexpr double usual_clock_ghz = computer_options{}.clock_ghz;
-
-/// A provider's, of each worker.
-inline constexpr double usual_provider_ghz = 12;
-
-/// T = c / f and E = κ f² c.
+/// Of a cycle on board: T = c / f and E = κ f² c, of c cycles of the clock.
 /// Source: Mao, Zhang & Letaief, JSAC 34(12) 2016; κ is that of public code
 /// for it (LODCO.m in hliangzhao/Edge-Computing-Codes).
 cycle_cost on_board_cost(const computer_options& computer,
                          const cycle_options& cycle);
 
-/// T = b / r + c / f of the provider, and E = p b / r + overhead; without the
-/// network's delay and without waits. Source: as before.
-cycle_cost offloaded_cost(const computer_options& computer,
-                          const cycle_options& cycle,
-                          double provider_ghz = usual_provider_ghz);
+/// Of sending one input: T = b / r, and E = p b / r; without the network's
+/// delay and without waits. Source: as before.
+cycle_cost sending_cost(const computer_options& computer,
+                        const cycle_options& cycle);
 
 } // namespace sofof::world

@@ -21,7 +21,6 @@ void plan_figures::add(const plan_figures& x) {
   imperfect += x.imperfect;
   safe_stops += x.safe_stops;
   extremes.add(x.extremes);
-  on_board += x.on_board;
 }
 
 double felt_jerk(double before_mps, double after_mps, double change_mps2,

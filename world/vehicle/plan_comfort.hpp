@@ -48,7 +48,6 @@ struct plan_figures {
                                 ///< and stops may be among them.
   std::uint64_t safe_stops = 0; ///< Made by the vehicle itself.
   motion_extremes extremes;     ///< Of all but emergency plans.
-  std::uint64_t on_board = 0;   ///< Those that the vehicle's computer made.
 
   void add(const plan_figures& x);
 };
