@@ -201,8 +201,8 @@ report::section overall(const leaderboard& board, std::size_t scenarios,
   s.blocks.emplace_back(report::paragraph{fmt::format(
       "{} entrants in {} scenario{}, every one of them on the same noise. The "
       "score is the mean cost of a planning cycle, of time, energy and "
-      "violations; less is better. Intervals are of 95 %, a bootstrap over "
-      "seeds. docs/bench.md says what each figure is; `leaderboard.csv` has "
+      "violations; less is better. Intervals are of 95 %, over seeds. "
+      "docs/bench.md says what each figure is; `leaderboard.csv` has "
       "all of them with their intervals.",
       board.standings.size(), scenarios, scenarios == 1 ? "" : "s")});
   add_board(s, board, costs);

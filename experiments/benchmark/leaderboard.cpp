@@ -22,8 +22,7 @@ std::optional<study::interval> interval_of(const groups_by_seed& by_seed) {
   std::vector<study::group> groups;
   for (const auto& [seed, group] : by_seed)
     groups.push_back(group);
-  constexpr std::uint64_t stream_seed = 1;
-  return study::bootstrap(groups, random_stream{stream_seed, "bench"});
+  return study::mean_interval(groups);
 }
 
 std::optional<study::interval>

@@ -3,7 +3,7 @@
 
 #include "experiments/benchmark/criteria.hpp"
 #include "experiments/benchmark/entrants.hpp"
-#include "experiments/dehler2025/bootstrap.hpp"
+#include "experiments/dehler2025/mean_interval.hpp"
 
 #include <cstddef>
 #include <map>
@@ -51,8 +51,8 @@ struct expected_runs {
 
 /// @param runs      As far as they have a result.
 /// @param scenario  Of which; empty: of all.
-/// @returns figures of all runs of an entrant, with 95 % intervals of a
-/// bootstrap over seeds: what belongs to one seed, in whatever scenario, stays
+/// @returns figures of all runs of an entrant, with 95 % intervals over seeds
+/// (`mean_interval`): what belongs to one seed, in whatever scenario, stays
 /// together.
 leaderboard rank(std::span<const judged_run> runs,
                  const expected_runs& expected, const std::string& scenario);

@@ -65,6 +65,12 @@ TEST_CASE("a weighted mean is that of all values, not of the groups' means") {
   CHECK_FALSE(mean_interval(std::vector<group>{{0, 0}}));
 }
 
+TEST_CASE("the interval of one group is its mean, as nothing else is known") {
+  const group one[] = {{6, 3}};
+  CHECK(mean_interval(one)->low == 2);
+  CHECK(mean_interval(one)->high == 2);
+}
+
 TEST_CASE("of two values the interval of a mean is that of a share") {
   // So neither 92 % nor 98 % pass for 95 %: of 40 they end at 0.077 and 0.104.
   const group_weights weights{40, 20'000};

@@ -1,5 +1,4 @@
 // What a study reads from runs, and how it pools them.
-#include "experiments/dehler2025/bootstrap.hpp"
 #include "experiments/dehler2025/histogram.hpp"
 #include "experiments/dehler2025/measured_run.hpp"
 #include "experiments/report/markdown.hpp"
@@ -18,8 +17,6 @@ using test::write_text;
 
 namespace {
 
-const random_stream noise{7, "test"};
-
 constexpr std::string_view summary = R"({
   "interrupted": false, "seed": 3,
   "latency_ms": {"count": 3, "mean": 2.0, "std": 1.0, "p99": null}})";
@@ -35,44 +32,6 @@ constexpr std::string_view episodes =
     "provider,101,mec,1,trajectory_planning,1,1,,12,,left_area,0\n";
 
 } // namespace
-
-TEST_CASE("a mean is that of all values, not of the groups' means") {
-  const group groups[] = {{10, 1}, {0, 9}};
-  CHECK(bootstrap(groups, noise)->mean == doctest::Approx(1));
-  CHECK_FALSE(bootstrap({}, noise));
-}
-
-TEST_CASE("the interval of one group is its mean") {
-  const group one[] = {{6, 3}};
-  const auto x = bootstrap(one, noise).value();
-  CHECK(x.low == 2);
-  CHECK(x.high == 2);
-}
-
-TEST_CASE("of a hundred intervals some 95 hold the true mean") {
-  const random_stream draws{11, "draws"};
-  int held = 0;
-  constexpr int experiments = 100;
-  constexpr std::uint64_t values = 40;
-  for (std::uint64_t k = 0; k < experiments; ++k) {
-    std::vector<group> groups;
-    for (std::uint64_t i = 0; i < values; ++i)
-      groups.push_back({draws.normal(5, 2, k * values + i), 1});
-    const auto x = bootstrap(groups, noise.part(k)).value();
-    CHECK(x.low < x.mean);
-    CHECK(x.mean < x.high);
-    held += x.low <= 5 && 5 <= x.high ? 1 : 0;
-  }
-  CHECK(held >= 88);
-  CHECK(held <= 99);
-}
-
-TEST_CASE("the same stream gives the same interval") {
-  const group groups[] = {{1, 1}, {2, 1}, {5, 1}, {9, 1}};
-  const auto a = bootstrap(groups, noise), b = bootstrap(groups, noise);
-  CHECK(a->low == b->low);
-  CHECK(a->high == b->high);
-}
 
 TEST_CASE("episodes that the run's end cut off, or others', do not count") {
   const scratch dir;
