@@ -22,9 +22,12 @@ double share_with_offloading(const cpu_shares& c, double offloaded) {
          + offloaded * (c.inactive + c.requester_remote);
 }
 
+double saved_while_offloaded(const cpu_shares& c) {
+  return (c.active - c.inactive) - (c.requester_remote - c.requester);
+}
+
 std::optional<double> break_even_share(const cpu_shares& c) {
-  const auto saved =
-      (c.active - c.inactive) - (c.requester_remote - c.requester);
+  const auto saved = saved_while_offloaded(c);
   if (saved <= 0)
     return std::nullopt;
   return c.requester / saved;

@@ -28,6 +28,10 @@ double share_without_offloading(const cpu_shares& c);
 /// Source: Dehler & Buchholz 2025, c_with / t_total.
 double share_with_offloading(const cpu_shares& c, double offloaded);
 
+/// @returns what a vehicle computes less while a provider plans, percent of a
+/// core; negative where it computes more.
+double saved_while_offloaded(const cpu_shares& c);
+
 /// @returns the part of its time, t_d / t_total, that a vehicle must offload
 /// for more than, so that it computes less than without. With one c_SR that is
 /// c_SR / (c_TPLa − c_TPLd). Above 1 it never pays. nullopt when offloading

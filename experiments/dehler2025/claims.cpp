@@ -48,15 +48,14 @@ finding near(double x, double should, double share) {
 }
 
 /// @returns whether x is at most `times` as much as what it should be, or as
-/// little; opposite beyond `other_times`.
-finding within_factor(double x, double should, double times,
+/// little; opposite where all of its interval is beyond `other_times`.
+finding within_factor(const interval& x, double should, double times,
                       double other_times) {
-  if (!(x > 0))
-    return finding::opposite;
-  const auto factor = std::max(x / should, should / x);
-  if (factor <= times)
+  if (x.mean <= times * should && should <= times * x.mean)
     return finding::holds;
-  return factor > other_times ? finding::opposite : finding::open;
+  const auto beyond =
+      x.low > other_times * should || other_times * x.high < should;
+  return beyond ? finding::opposite : finding::open;
 }
 
 /// @returns whether a figure is small: holds up to `few`, opposite from `many`.
@@ -66,8 +65,9 @@ finding at_most(double x, double few, double many) {
   return x >= many ? finding::opposite : finding::open;
 }
 
-std::string text_of(const interval& x) {
-  return fmt::format("{:.1f} ({:.1f}–{:.1f})", x.mean, x.low, x.high);
+std::string text_of(const interval& x, int digits = 1) {
+  return fmt::format("{:.{}f} ({:.{}f}–{:.{}f})", x.mean, digits, x.low, digits,
+                     x.high, digits);
 }
 
 judged_claim claim(const char* name, const findings& parts, std::string ours) {
@@ -111,20 +111,29 @@ judged_claim rises(const paper_figures& f) {
   return claim("rises", parts, ours);
 }
 
+/// Adds whether one vehicle's curve ends at a height, if both are known.
+void add_height(const paper_figures& f, std::optional<double> height_s,
+                findings& parts, std::string& ours) {
+  const auto* one = with(f, 1);
+  const auto* top = one ? height_of(*one) : nullptr;
+  if (!top || !height_s)
+    return;
+  parts.push_back(near(*top, *height_s, tolerance::height));
+  ours += fmt::format("{} s of {:.1f} s", text_of(*top), *height_s);
+}
+
 judged_claim saturates(const paper_figures& f) {
   findings parts;
   std::string ours;
-  const auto* one = with(f, 1);
-  if (const auto* top = one ? height_of(*one) : nullptr) {
-    parts.push_back(near(*top, paper::saturation_s, tolerance::height));
-    ours = text_of(*top) + " s";
-    const auto last = one->curve.size() - 1;
-    if (last > 0 && one->curve[last - 1].t_off_s) {
-      const auto& before = *one->curve[last - 1].t_off_s;
-      parts.push_back(near(before, top->mean, tolerance::plateau));
-      ours += fmt::format(", {} at {} ms", text_of(before),
-                          one->curve[last - 1].limit_ms);
-    }
+  add_height(f, paper::saturation_s, parts, ours);
+  const auto* one = parts.empty() ? nullptr : with(f, 1);
+  const auto last = one ? one->curve.size() - 1 : 0;
+  if (last > 0 && one->curve[last - 1].t_off_s) {
+    const auto& before = *one->curve[last - 1].t_off_s;
+    parts.push_back(
+        near(before, one->curve[last].t_off_s->mean, tolerance::plateau));
+    ours += fmt::format("; {} s at {} ms", text_of(before),
+                        one->curve[last - 1].limit_ms);
   }
   return claim("saturates", parts, ours);
 }
@@ -132,12 +141,8 @@ judged_claim saturates(const paper_figures& f) {
 judged_claim time_in_area(const paper_figures& f) {
   findings parts;
   std::string ours;
-  const auto* one = with(f, 1);
-  const auto* top = one ? height_of(*one) : nullptr;
-  if (top && one->time_in_area_s) {
-    parts.push_back(near(*top, *one->time_in_area_s, tolerance::height));
-    ours = fmt::format("{} s of {:.1f} s", text_of(*top), *one->time_in_area_s);
-  }
+  if (const auto* one = with(f, 1))
+    add_height(f, one->time_in_area_s, parts, ours);
   return claim("time_in_area", parts, ours);
 }
 
@@ -279,37 +284,37 @@ judged_claim switch_unnoticed(const paper_figures& f) {
                            f.largest_acceleration_jump_mps2));
 }
 
-judged_claim costs(const char* name, const recording::cpu_shares& ours,
+judged_claim costs(const char* name, const std::optional<cost_figures>& ours,
                    const recording::cpu_shares& theirs) {
+  if (!ours)
+    return claim(name, {}, "");
   findings parts;
-  if (ours.active > 0)
-    for (const auto& [x, should] : {std::pair{ours.active, theirs.active},
-                                    {ours.inactive, theirs.inactive},
-                                    {ours.requester_remote, theirs.requester}})
-      parts.push_back(within_factor(x, should, tolerance::cost_times,
-                                    tolerance::other_cost_times));
-  return claim(name, parts,
-               fmt::format("{:.3f}, {:.3f}, {:.3f} %", ours.active,
-                           ours.inactive, ours.requester_remote));
+  std::string text;
+  for (const auto& [x, should] : {std::pair{ours->active, theirs.active},
+                                  {ours->inactive, theirs.inactive},
+                                  {ours->requester_remote, theirs.requester}}) {
+    parts.push_back(within_factor(x, should, tolerance::cost_times,
+                                  tolerance::other_cost_times));
+    text += (text.empty() ? "" : "; ") + text_of(x, 3);
+  }
+  return claim(name, parts, text + " %");
 }
 
-judged_claim pays(const char* name, const recording::cpu_shares& ours,
+judged_claim pays(const char* name, const std::optional<cost_figures>& ours,
                   double printed_percent) {
-  findings parts;
-  std::string text = "never";
-  if (ours.active > 0) {
-    const auto share = recording::break_even_share(ours);
-    if (share && *share < 1) {
-      const auto percent = 100 * *share;
-      text = fmt::format("{:.2f} %", percent);
-      parts = {finding::holds,
-               within_factor(percent, printed_percent, tolerance::pays_times,
-                             tolerance::other_pays_times)};
-    } else {
-      parts = {finding::opposite};
-    }
-  }
-  return claim(name, parts, text);
+  if (!ours)
+    return claim(name, {}, "");
+  constexpr double always = 100;
+  const auto& from = ours->break_even;
+  if (!from || from->low >= always)
+    return claim(name, {finding::opposite}, "never");
+  return claim(name,
+               {from->high < always ? finding::holds : finding::open,
+                within_factor(*from, printed_percent, tolerance::pays_times,
+                              tolerance::other_pays_times)},
+               std::isinf(from->high) ? fmt::format(
+                   "{:.2f} % ({:.2f} to never)", from->mean, from->low)
+                                      : text_of(*from, 2) + " %");
 }
 
 judged_claim v2x_negligible(const paper_figures& f) {

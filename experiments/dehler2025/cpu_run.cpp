@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace sofof::experiments::study {
 
@@ -22,8 +24,25 @@ namespace fs = std::filesystem;
 /// What a run's cpu.csv says.
 struct cpu_file {
   std::optional<recording::cpu_figures> planning;
-  double v2x_at_most = 0; ///< See `measured_cpu`.
+  std::vector<recording::cpu_figures> vehicles; ///< See `measured_cpu`.
+  double v2x_at_most = 0;                       ///< See `measured_cpu`.
 };
+
+/// @returns the figures of each vehicle that has some.
+std::vector<recording::cpu_figures>
+each_vehicle(const recording::cpu_table& all) {
+  std::map<station_id, recording::cpu_table> tables;
+  for (const auto& line : all.lines) {
+    auto& own = tables[line.account.station.value()];
+    own.look = all.look;
+    own.lines.push_back(line);
+  }
+  std::vector<recording::cpu_figures> vehicles;
+  for (const auto& [station, table] : tables)
+    if (const auto own = recording::figures_of(table, planning))
+      vehicles.push_back(*own);
+  return vehicles;
+}
 
 cpu_file read_cpu(const fs::path& file) {
   enum { station, actor, service, source, cpu_s, time_s, wakes };
@@ -53,6 +72,7 @@ cpu_file read_cpu(const fs::path& file) {
                            turns});
   }
   all.planning = recording::figures_of(table, planning);
+  all.vehicles = each_vehicle(table);
   return all;
 }
 
@@ -90,7 +110,7 @@ measured_cpu read_cpu_run(const fs::path& folder) {
   const auto drove = read_run({}, folder);
   return {*cpu.planning,
           drove.figure("driving.distance_m") / drove.figure("safety.driven_s"),
-          drove.figure("virtual_s"), cpu.v2x_at_most};
+          drove.figure("virtual_s"), cpu.v2x_at_most, cpu.vehicles};
 }
 
 } // namespace sofof::experiments::study

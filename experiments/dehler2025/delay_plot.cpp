@@ -1,6 +1,7 @@
 // The paper's delay plot: latency against the number of vehicles.
 #include "experiments/dehler2025/histogram.hpp"
 #include "experiments/dehler2025/paper.hpp"
+#include "experiments/dehler2025/paper_figures.hpp"
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 
@@ -19,10 +20,8 @@ using report::paragraph;
 
 constexpr int most_vehicles = 6;
 
-/// @returns the runs of so many vehicles with all limits, as the paper's plot
-/// has them.
 std::vector<const measured_run*> all_runs(const paper_runs& e, int vehicles) {
-  return those(e.latency_plot, 0, std::to_string(vehicles));
+  return latency_runs(e, std::to_string(vehicles));
 }
 
 spread latency_of(const paper_runs& e, int vehicles) {

@@ -10,23 +10,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
 
 namespace sofof::experiments::study {
 
 namespace {
 
-/// @returns the mean latency of these runs, each run a group.
+/// @returns the mean latency of these runs, the runs of each seed a group,
+/// since they have the same noise.
 std::optional<interval>
 mean_latency_ms(std::span<const measured_run* const> runs) {
-  std::vector<group> groups;
+  std::map<std::int64_t, group> by_seed;
   for (const auto* run : runs) {
     const auto mean = run->figures.find("latency_ms.mean");
     if (mean == run->figures.end())
       continue;
     const auto count = run->figure("latency_ms.count");
-    groups.push_back({mean->second * count, count});
+    auto& own = by_seed[run->point.seed];
+    own.sum += mean->second * count;
+    own.count += count;
   }
+  std::vector<group> groups;
+  for (const auto& [seed, own] : by_seed)
+    groups.push_back(own);
   return mean_interval(groups);
+}
+
+/// Each vehicle of a run on the wall's clock a group.
+std::optional<cost_figures> costs_of(const measured_cpu& run) {
+  std::vector<group> active, inactive, remote, balance;
+  bool all_save = true;
+  for (const auto& own : run.vehicles) {
+    const auto& c = own.shares;
+    active.push_back({c.active * own.active_s, own.active_s});
+    inactive.push_back({c.inactive * own.inactive_s, own.inactive_s});
+    remote.push_back({c.requester_remote * own.inactive_s, own.inactive_s});
+    const auto pays_from = recording::break_even_share(c);
+    all_save = all_save && pays_from;
+    // A ratio of sums, as that of all vehicles together is.
+    constexpr double percent = 100;
+    balance.push_back(
+        {percent * c.requester, recording::saved_while_offloaded(c)});
+  }
+  const auto a = mean_interval(active), d = mean_interval(inactive),
+             r = mean_interval(remote);
+  if (!a || !d || !r)
+    return std::nullopt;
+  cost_figures all{*a, *d, *r, mean_interval(balance)};
+  if (all.break_even && !all_save)
+    all.break_even->high = std::numeric_limits<double>::infinity();
+  return all;
 }
 
 vehicle_figures figures_of(const paper_runs& e, const std::string& vehicles) {
@@ -36,7 +72,7 @@ vehicle_figures figures_of(const paper_runs& e, const std::string& vehicles) {
     f.curve.push_back(
         {ms_of(gap), mean_t_off(those(e.latency_plot, vehicles, gap))});
   f.time_in_area_s = mean_time_in_area_s(those(e.in_area, 0, vehicles));
-  const auto runs = those(e.latency_plot, 0, vehicles);
+  const auto runs = latency_runs(e, vehicles);
   f.latency_ms = mean_latency_ms(runs);
   f.latency_deviation_ms = pooled(runs, "latency_ms").deviation;
   histogram latencies;
@@ -52,6 +88,21 @@ double ms_of(const std::string& duration_text) {
   return to_milliseconds(parse_duration(duration_text).value());
 }
 
+std::vector<const measured_run*> latency_runs(const paper_runs& e,
+                                              const std::string& vehicles) {
+  std::map<std::int64_t, std::size_t> points_of;
+  std::set<std::vector<std::string>> points;
+  for (const auto& run : e.latency_plot) {
+    ++points_of[run.point.seed];
+    points.insert(run.point.labels);
+  }
+  std::vector<const measured_run*> chosen;
+  for (const auto* run : those(e.latency_plot, 0, vehicles))
+    if (points_of[run->point.seed] == points.size())
+      chosen.push_back(run);
+  return chosen;
+}
+
 paper_figures figures_of(const paper_runs& e) {
   paper_figures all;
   for (const auto& n : labels_of(e.latency_plot, 0))
@@ -63,10 +114,11 @@ paper_figures figures_of(const paper_runs& e) {
   }
   all.drives = drives.size();
   all.real_latency_ms = pooled(drives, "latency_ms");
-  all.cpu_20_hz = e.cpu_20_hz.figures.shares;
-  all.cpu_100_hz = e.cpu_100_hz.figures.shares;
-  if (e.cpu_20_hz.length_s > 0)
-    all.v2x_at_most = e.cpu_20_hz.v2x_at_most;
+  all.cpu_20_hz = costs_of(e.cpu_20_hz);
+  all.cpu_100_hz = costs_of(e.cpu_100_hz);
+  for (const auto* run : {&e.cpu_20_hz, &e.cpu_100_hz})
+    if (run->length_s > 0)
+      all.v2x_at_most = std::max(all.v2x_at_most.value_or(0), run->v2x_at_most);
   for (const auto* run : those(e.quality, 0, "location")) {
     const auto count = run->figure("switch.count");
     if (!(count > 0))

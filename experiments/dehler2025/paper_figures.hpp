@@ -3,7 +3,6 @@
 
 #include "experiments/dehler2025/interval.hpp"
 #include "experiments/dehler2025/sections.hpp"
-#include "recording/cpu_balance.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -23,9 +22,21 @@ struct vehicle_figures {
   int vehicles = 1;
   std::vector<curve_point> curve; ///< Limits ascending.
   std::optional<double> time_in_area_s;
-  std::optional<interval> latency_ms; ///< Of the mean.
-  double latency_deviation_ms = 0;
-  double late_share = 0; ///< Of latencies, above l_max.
+  std::optional<interval> latency_ms; ///< Of the mean; as `latency_runs`.
+  double latency_deviation_ms = 0;    ///< Likewise.
+  double late_share = 0;              ///< Likewise; of those above l_max.
+};
+
+/// What one vehicle's computer does, percent of one core; the vehicles of a run
+/// are the groups of its intervals, which so tell nothing of another machine.
+struct cost_figures {
+  interval active;           ///< See `recording::cpu_shares`.
+  interval inactive;         ///< Likewise.
+  interval requester_remote; ///< Likewise.
+  /// Percent of the time from which on offloading pays, see
+  /// `recording::break_even_share`; infinite ends where a vehicle never would,
+  /// nothing where all together never would.
+  std::optional<interval> break_even{};
 };
 
 struct paper_figures {
@@ -33,13 +44,20 @@ struct paper_figures {
   spread real_latency_ms;
   std::uint64_t drives = 0;
   std::uint64_t drives_ended_early = 0;
-  recording::cpu_shares cpu_20_hz;
-  recording::cpu_shares cpu_100_hz;
-  std::optional<double> v2x_at_most; ///< Percent of a core, at 20 Hz.
+  std::optional<cost_figures> cpu_20_hz;
+  std::optional<cost_figures> cpu_100_hz;
+  std::optional<double> v2x_at_most; ///< Percent of a core, at any rate.
   double switches = 0;
   double largest_speed_jump_mps = 0; ///< Where the source of the plan changes.
   double largest_acceleration_jump_mps2 = 0;
 };
+
+/// The runs of so many vehicles that the paper's delay plot is held against: of
+/// all limits, and of the seeds that every point of the latency plot has.
+/// Points with more seeds than others would otherwise weigh more, and not alike
+/// for each number of vehicles.
+std::vector<const measured_run*> latency_runs(const paper_runs& e,
+                                              const std::string& vehicles);
 
 /// @throws input_error when a run's files are broken or lack a figure.
 paper_figures figures_of(const paper_runs& e);

@@ -13,13 +13,15 @@ namespace sofof::experiments::study {
 
 /// What a run on the wall's clock cost.
 struct measured_cpu {
-  recording::cpu_figures figures;
-  double speed_mps = 0; ///< Mean of its vehicles.
+  recording::cpu_figures figures; ///< Of all vehicles together.
+  double speed_mps = 0;           ///< Mean of its vehicles.
   double length_s = 0;
   /// Percent of a core, of one vehicle: its V2X messages and, since an actor
   /// has one account, what moves the simulated car and the links. So V2X takes
   /// less.
   double v2x_at_most = 0;
+  /// Each vehicle that was both local and offloaded, alone.
+  std::vector<recording::cpu_figures> vehicles{};
 };
 
 /// The runs of all sweeps in config/paper.

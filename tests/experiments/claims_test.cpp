@@ -3,6 +3,7 @@
 
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/verdicts.hpp"
+#include "recording/cpu_balance.hpp"
 #include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
@@ -16,6 +17,14 @@ namespace {
 
 interval about(double mean, double half_width) {
   return {mean, mean - half_width, mean + half_width};
+}
+
+/// Costs of vehicles that are all alike, but for a width of their intervals.
+cost_figures costs(const recording::cpu_shares& c, double half_width = 0) {
+  const auto pays = recording::break_even_share(c);
+  return {about(c.active, half_width), about(c.inactive, half_width),
+          about(c.requester_remote, half_width),
+          pays ? std::optional{about(100 * *pays, half_width)} : std::nullopt};
 }
 
 /// Figures that are all like the paper's.
@@ -37,8 +46,8 @@ paper_figures like_the_paper() {
   f.real_latency_ms = {11.94, 2.98, 1000};
   f.drives = 300;
   f.drives_ended_early = 40;
-  f.cpu_20_hz = {19.5, 8.5, 0.96, 0.96};
-  f.cpu_100_hz = {116.1, 28.3, 4, 4};
+  f.cpu_20_hz = costs({19.5, 8.5, 0.96, 0.96});
+  f.cpu_100_hz = costs({116.1, 28.3, 4, 4});
   f.v2x_at_most = 0.2;
   f.switches = 30;
   f.largest_speed_jump_mps = 0.01;
@@ -284,9 +293,10 @@ TEST_CASE("computing costs as much as in the paper, in part, or not") {
   using recording::cpu_shares;
   for (const auto* rate : {"20_hz", "100_hz"}) {
     CAPTURE(rate);
-    const auto shares = [rate](const cpu_shares& c) {
+    const auto shares = [rate](const cpu_shares& c, double half_width = 0) {
       return after((std::string{"cost_"} + rate).c_str(), [=](figures& f) {
-        (std::string_view{rate} == "20_hz" ? f.cpu_20_hz : f.cpu_100_hz) = c;
+        (std::string_view{rate} == "20_hz" ? f.cpu_20_hz : f.cpu_100_hz) =
+            costs(c, half_width);
       });
     };
     const auto theirs = std::string_view{rate} == "20_hz"
@@ -301,6 +311,7 @@ TEST_CASE("computing costs as much as in the paper, in part, or not") {
     CHECK(shares(times(0.01, 1)) == in_part);
     CHECK(shares(times(3, 3)) == not_reproduced);
     CHECK(shares(times(0.01, 0.1)) == contradicts);
+    CHECK(shares(times(0.01, 0.1), 100) == not_reproduced); // who knows
   }
 }
 
@@ -317,14 +328,15 @@ TEST_CASE("computing for V2X is negligible, is not, or may be") {
 TEST_CASE("offloading pays from about the same share on, from another, never") {
   for (const auto* rate : {"20_hz", "100_hz"}) {
     CAPTURE(rate);
-    const auto pays = [rate](double requester) {
+    const auto pays = [rate](double requester, double half_width = 0) {
       return after((std::string{"pays_"} + rate).c_str(), [=](figures& f) {
-        (std::string_view{rate} == "20_hz" ? f.cpu_20_hz : f.cpu_100_hz) = {
-            10, 0, requester, requester};
+        (std::string_view{rate} == "20_hz" ? f.cpu_20_hz : f.cpu_100_hz) =
+            costs({10, 0, requester, requester}, half_width);
       });
     };
     CHECK(pays(0.7) == reproduced);
     CHECK(pays(4) == in_part);
+    CHECK(pays(4, 70) == not_reproduced); // 40 %, or never
     CHECK(pays(20) == contradicts);
   }
 }

@@ -10,6 +10,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 namespace sofof::experiments::study {
 
 using namespace made_up;
@@ -132,6 +134,46 @@ TEST_CASE("the delay plot shows the latencies of its runs, of all limits") {
   CHECK(row_of(t, "1")[2].starts_with("13.00 ± "));
   CHECK(row_of(t, "1")[7].starts_with("12.50 ± "));
   CHECK(row_of(t, "6")[2].starts_with("14.00 ± "));
+}
+
+TEST_CASE("latencies are those of the seeds that each point has") {
+  const scratch dir;
+  auto e = two_latencies(dir, 12, 14);
+  for (const auto seed : {1, 2}) { // 10 ms has one seed more than 100 ms
+    e.latency_plot.push_back(e.latency_plot.front());
+    e.latency_plot.back().point = {{"1", "10ms"}, seed, {}};
+    e.latency_plot.back().figures["latency_ms.mean"] = seed == 1 ? 13 : 99;
+  }
+  for (auto& run : e.latency_plot)
+    if (run.point.labels[1] == "100ms")
+      run.point.seed = 1;
+  CHECK(latency_runs(e, "1").size() == 2);
+  CHECK(figures_of(e).by_vehicles[0].latency_ms->mean == near(12.5, 1e-9));
+  const auto s = delay_plot(e);
+  CHECK(the<report::figure>(s, "Latency of trajectories").curves[0].y.front()
+        == near(12.5, 1e-9));
+}
+
+TEST_CASE("computing costs are as sure as its vehicles are alike") {
+  paper_runs e;
+  const auto vehicle = [](double active, double remote) {
+    return recording::cpu_figures{{active, 0, 1, remote}, 1, 1, 10, 10, 0};
+  };
+  e.cpu_20_hz.length_s = e.cpu_100_hz.length_s = 20;
+  e.cpu_20_hz.v2x_at_most = 0.127;
+  e.cpu_100_hz.v2x_at_most = 0.213;
+  e.cpu_20_hz.vehicles = {vehicle(10, 1), vehicle(20, 1), vehicle(30, 1)};
+  const auto f = figures_of(e);
+  CHECK(f.v2x_at_most == 0.213); // of the worse rate
+  CHECK_FALSE(f.cpu_100_hz);
+  REQUIRE(f.cpu_20_hz);
+  CHECK(f.cpu_20_hz->active.mean == near(20, 1e-9));
+  CHECK(f.cpu_20_hz->active.half_width() > 5);
+  CHECK(f.cpu_20_hz->requester_remote.half_width() < 1e-9);
+  CHECK(f.cpu_20_hz->break_even->mean == near(5, 1e-9)); // 3 of 60
+  CHECK(f.cpu_20_hz->break_even->high < 10);
+  e.cpu_20_hz.vehicles.push_back(vehicle(10, 12)); // never pays there
+  CHECK(std::isinf(figures_of(e).cpu_20_hz->break_even->high));
 }
 
 TEST_CASE("results above 50 ms are those above 50 ms") {
