@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// @param levels  Of objects in objects; deeper ones are none of ours.
 std::string name_of(const fs::path& folder) {
   auto whole = fs::absolute(folder).lexically_normal();
   if (!whole.has_filename())

@@ -97,6 +97,19 @@ TEST_CASE("refusals are shares of the decisions of each side") {
   CHECK(contains(words_of(s), "200 offloadings become 120"));
 }
 
+TEST_CASE("the least delay's drives have as many results as the real ones") {
+  paper_runs e;
+  for (const auto results : {20'000, 30'000}) {
+    auto& run = e.real_world.emplace_back();
+    run.figures = {{"latency_ms.count", results}};
+  }
+  const auto s = sensitivity(e);
+  const auto& f = the<report::figure>(s, "The least delay");
+  CHECK(contains(f.caption, "25000"));
+  CHECK(f.curves[0].y[3]
+        == near(15 * share_of_drives_with_a_late_result(5, 50, 25'000), 1e-9));
+}
+
 TEST_CASE("hosts are shown with their runs") {
   paper_runs e;
   for (const auto* host : {"1 worker", "2 workers"}) {
