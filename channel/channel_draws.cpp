@@ -31,7 +31,7 @@ duration spike(const spike_options& p, const random_stream& draws,
 /// Whether all messages travel for the same time.
 bool draws_no_delay(const channel_profile& p) {
   return !p.replays && p.network.is_none() && p.joint.is_none()
-         && p.spikes.probability <= 0;
+         && p.spikes.probability <= 0 && p.vehicle_host.probability <= 0;
 }
 
 random_stream radio_of(const random_stream& seed, station_id station,
@@ -75,7 +75,8 @@ duration channel_draws::network_delay(const message_id& m,
 duration channel_draws::drawn_delay(const message_id& m,
                                     time_point sent) const {
   const auto& p = *profile_;
-  const auto extra = p.more_delay + spike(p.spikes, of(m), m.number);
+  const auto extra = p.more_delay + spike(p.spikes, of(m), m.number)
+                     + p.vehicle_host.draw(of(m), m.number);
   if (!p.replays)
     return extra
            + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));

@@ -4,6 +4,7 @@
 #include "base/options/option_helpers.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
+#include "channel/core_wait.hpp"
 #include "channel/delay_distribution.hpp"
 #include "channel/trace.hpp"
 
@@ -145,6 +146,7 @@ struct channel_profile {
 
   /// Of any message, one way, on top of the above and of a trace.
   duration more_delay{};
+  core_wait vehicle_host; ///< Likewise: in the vehicle, for a core.
 
   /// What a scenario may change about a named profile.
   void visit_options(option_visitor& s) {

@@ -1,6 +1,8 @@
 // Distributions of durations, drawn by number.
 #include "channel/delay_distribution.hpp"
 
+#include "channel/draw_lanes.hpp"
+
 #include <cassert>
 #include <cmath>
 
@@ -35,9 +37,19 @@ delay_distribution delay_distribution::beta(duration longest, double a,
   return {shape::beta, {}, to_seconds(longest), a, b};
 }
 
+delay_distribution delay_distribution::kept(double probability) const {
+  assert(probability >= 0 && probability < 1);
+  auto law = *this;
+  law.kept_ = probability;
+  return law;
+}
+
 double delay_distribution::draw_some_s(const random_stream& stream,
                                        std::uint64_t number,
                                        std::uint32_t lane) const {
+  while (kept_ > 0 && number > 0
+         && stream.uniform(number, renewal_lane) < kept_)
+    --number;
   switch (kind_) {
     case shape::none:
       return 0;

@@ -14,7 +14,10 @@ enum draw_lane : std::uint32_t {
   airtime_lane,
   loss_lane,
   spike_lane,
-  spike_length_lane
+  spike_length_lane,
+  renewal_lane, ///< Whether a draw is that of the number before.
+  host_lane,
+  host_wait_lane
 };
 
 } // namespace sofof::channel

@@ -35,9 +35,12 @@ double provider_compute::deviation_s() const {
 provider_compute compute_measured_with(std::string_view profile) {
   provider_compute c;
   c.model = profile;
-  if (profile == "paper_sim") { // a light tail: docs/channels.md
+  if (profile == "paper_sim" || profile == "paper_sim_correlated") {
+    // A light tail: docs/channels.md.
     c.joint = delay_distribution::beta(45ms, 0.646, 2.11);
     c.joint_share = 0.3;
+    if (profile == "paper_sim_correlated")
+      c.joint = c.joint.kept(0.9);
   } else if (profile == "paper_5g") {
     c.workers = 2;
     c.alone = delay_distribution::lognormal(0ms, 3ms, 1ms);

@@ -332,8 +332,9 @@ private:
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
-            future = std::move(future), margins = s_.record.margins](
-               const messages::vehicle_actor& vehicle) {
+            host = s_.network.channel->vehicle_host, future = std::move(future),
+            margins =
+                s_.record.margins](const messages::vehicle_actor& vehicle) {
       const auto path_ahead = [way](const messages::ego_state& ego) {
         return way->waypoints(ego.s_m, protocol::route_ahead_m,
                               protocol::route_spacing_m);
@@ -347,6 +348,7 @@ private:
                                                    .noise = noise,
                                                    .virtual_time = virtual_time,
                                                    .computer = computer,
+                                                   .host = host,
                                                    .future = future,
                                                    .record_margins = margins});
     };

@@ -61,6 +61,14 @@ void load_world(scenario_definition& all, const fs::path& folder,
   all.world = known_map(all.map_text, file);
 }
 
+/// @returns a profile as all use it, with what vehicles wait for on their host.
+std::shared_ptr<const channel::channel_profile>
+complete(const scenario_definition& all, channel::channel_profile profile) {
+  profile.vehicle_host =
+      channel::wait_for_core(all.vehicle_host, all.vehicles());
+  return std::make_shared<const channel::channel_profile>(std::move(profile));
+}
+
 void load_trace(scenario_definition& all, const fs::path& folder,
                 const toml_file& source) {
   constexpr std::string_view key = "network.trace";
@@ -73,15 +81,13 @@ void load_trace(scenario_definition& all, const fs::path& folder,
   } catch (const std::invalid_argument& problem) {
     source.refuse(key, fmt::format("{}, {}.", file.string(), problem.what()));
   }
-  all.network.channel =
-      std::make_shared<const channel::channel_profile>(std::move(filled));
+  all.network.channel = complete(all, std::move(filled));
 }
 
 /// Gives everybody a channel, and computers as they fit to it.
 void complete_networks(scenario_definition& all) {
-  const auto share = [](network_options& network) {
-    network.channel =
-        std::make_shared<const channel::channel_profile>(network.profile);
+  const auto share = [&all](network_options& network) {
+    network.channel = complete(all, network.profile);
   };
   share(all.network);
   for (auto& p : all.providers) {

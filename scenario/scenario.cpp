@@ -146,6 +146,13 @@ void policy_options::visit_options(option_visitor& s) {
   });
 }
 
+std::int64_t scenario_definition::vehicles() const {
+  std::int64_t all = 0;
+  for (const auto& fleet : fleets)
+    all += fleet.count;
+  return all;
+}
+
 const std::shared_ptr<const channel::channel_profile>&
 scenario_definition::channel_to(std::size_t place) const {
   assert(place < providers.size());
@@ -196,6 +203,14 @@ void scenario_definition::visit_options(option_visitor& s) {
     compute.of_network.more_computing = true;
   s.table("network", [this](option_visitor& t) { network.visit_options(t); });
   s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
+  if (s.has("vehicle_host", vehicle_host.cores > 0))
+    s.table("vehicle_host", [this](option_visitor& t) {
+      vehicle_host.visit_options(t);
+      if (!vehicle_host.carries(vehicles()))
+        t.refuse("busy_cores",
+                 fmt::format("asks for all {} cores or more, with {} vehicles.",
+                             vehicle_host.cores, vehicles()));
+    });
   s.table("v2x", [this](option_visitor& t) { v2x.visit_options(t); });
   s.tables("service", services.size(),
            [this](std::size_t i, option_visitor& t) {

@@ -5,6 +5,7 @@
 #include "base/options/option_note.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/protocol.hpp"
+#include "channel/core_wait.hpp"
 #include "messages/v2x/v2x_options.hpp"
 #include "policies/api/context.hpp"
 #include "scenario/fleet_options.hpp"
@@ -67,8 +68,9 @@ struct scenario_definition {
   world::sensor_params sensors;            ///< Of every vehicle.
   std::vector<provider_options> providers;
   network_options network;
-  compute_options compute;   ///< Of providers that have none of their own.
-  messages::v2x_options v2x; ///< What vehicles tell everybody.
+  compute_options compute; ///< Of providers that have none of their own.
+  channel::host_options vehicle_host; ///< Of all vehicles, if there is one.
+  messages::v2x_options v2x;          ///< What vehicles tell everybody.
   std::vector<actors::service_type_ptr> services;
   policy_options policies;
   record_options record;
@@ -84,6 +86,9 @@ struct scenario_definition {
   /// @returns the channel between vehicles and a provider, by its place.
   const std::shared_ptr<const channel::channel_profile>&
   channel_to(std::size_t place) const;
+
+  /// @returns how many vehicles all fleets have.
+  std::int64_t vehicles() const;
 
   /// @returns the computers of a provider, by its place. Precondition: the
   /// scenario was loaded.

@@ -16,13 +16,13 @@ own_function(const requester_actor_setup& vehicle,
   }
   const auto noise = vehicle.noise.part(service.name.view());
   own.finish = [compute = on(vehicle.computer, service.options).compute,
-                draws = noise.part("local run time")](time_point start,
-                                                      std::uint64_t cycle) {
+                host = vehicle.host, draws = noise.part("local run time")](
+                   time_point start, std::uint64_t cycle) {
     const auto drawn =
         from_seconds(draws.normal(to_seconds(compute.run_time_mean),
                                   to_seconds(compute.run_time_sd), cycle));
     const auto work = std::clamp(drawn, duration{0}, compute.run_time_max);
-    return offloading::cycle_work{start + work, work};
+    return offloading::cycle_work{start + host.draw(draws, cycle) + work, work};
   };
   return own;
 }

@@ -1,6 +1,7 @@
 // SR: the vehicle's side of offloading.
 #pragma once
 
+#include "channel/core_wait.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/service.hpp"
@@ -40,6 +41,7 @@ struct requester_actor_setup {
   random_stream noise{0, ""}; ///< Of this vehicle.
   bool virtual_time = true;   ///< Model run times instead of taking time.
   world::computer_options computer = {};
+  channel::core_wait host{}; ///< What its own functions wait for a core.
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const policies::channel_oracle> future{};
   bool record_margins = false; ///< Of results that are used.

@@ -6,13 +6,13 @@
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
 #include "experiments/dehler2025/share_interval.hpp"
+#include "experiments/dehler2025/t_off_curve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 namespace sofof::experiments::study {
@@ -21,25 +21,6 @@ namespace {
 
 using report::curve;
 using report::paragraph;
-
-curve curve_of(std::span<const measured_run> runs, const std::string& vehicles,
-               const std::string& name) {
-  curve c;
-  c.name = name;
-  for (const auto& gap : labels_of(runs, 1)) {
-    const auto t = mean_t_off(those(runs, vehicles, gap));
-    constexpr auto none = std::numeric_limits<double>::quiet_NaN();
-    c.x.push_back(ms_of(gap));
-    c.y.push_back(t ? t->mean : none);
-    c.low.push_back(t ? t->low : none);
-    c.high.push_back(t ? t->high : none);
-  }
-  return c;
-}
-
-std::string name_of(const std::string& vehicles) {
-  return vehicles == "1" ? "1 vehicle" : vehicles + " vehicles";
-}
 
 /// How many runs points have, and how long they are.
 struct run_counts_of_points {
@@ -75,13 +56,15 @@ std::string text_of(const run_counts_of_points& x) {
 }
 
 report::figure offloading_times(const paper_runs& e, const report_text& text) {
-  report::figure f;
-  f.title = "Offloading time against the longest allowed gap";
-  f.x_label = "Δt_max, ms";
-  f.y_label = "t_off per accepted request, s";
+  auto f = t_off_figure("Offloading time against the longest allowed gap");
   for (const auto& n : labels_of(e.latency_plot, 0))
-    f.curves.push_back(curve_of(e.latency_plot, n, name_of(n)));
-  curve saturation{"the paper: saturates at", {10, 150}, {}, {}, {}};
+    f.curves.push_back(t_off_curve(e.latency_plot, n, count_of_vehicles(n)));
+  curve saturation{
+      fmt::format("the paper's text: about {} s", paper::saturation_s),
+      {10, 150},
+      {},
+      {},
+      {}};
   saturation.y = {paper::saturation_s, paper::saturation_s};
   saturation.dashed = true;
   f.curves.push_back(std::move(saturation));
@@ -153,13 +136,12 @@ report::table saturation(const paper_runs& e, const report_text& text) {
 }
 
 report::figure other_reading(const paper_runs& e, const report_text& text) {
-  report::figure f;
-  f.title = "The other reading: a narrow latency with rare stalls";
-  f.x_label = "Δt_max, ms";
-  f.y_label = "t_off per accepted request, s";
+  auto f = t_off_figure("The other reading: a narrow latency with rare stalls");
   for (const auto& n : {"1", "6"}) {
-    f.curves.push_back(curve_of(e.stalls, n, name_of(n) + ", stalls"));
-    f.curves.push_back(curve_of(e.latency_plot, n, name_of(n) + ", paper_sim"));
+    f.curves.push_back(
+        t_off_curve(e.stalls, n, count_of_vehicles(n) + ", stalls"));
+    f.curves.push_back(
+        t_off_curve(e.latency_plot, n, count_of_vehicles(n) + ", paper_sim"));
     f.curves.back().dashed = true;
   }
   f.caption = text.fill("stalls_curves");

@@ -28,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view sweeps[] = {
-    "latency_plot", "delay_plot", "in_area",  "apart", "stalls",
-    "real_world",   "quality",    "refusals", "host"};
+    "latency_plot", "delay_plot", "in_area",    "apart",
+    "stalls",       "real_world", "quality",    "refusals",
+    "host",         "correlated", "loaded_host"};
 
 seed_rule rule_of(const reproduction_options& options) {
   return options.full ? full_rule : seed_rule{};
@@ -106,6 +107,8 @@ public:
     e.quality = next_runs();
     e.refusals = next_runs();
     e.host = next_runs();
+    e.correlated = next_runs();
+    e.loaded_host = next_runs();
     // Nothing else computes meanwhile.
     const auto folders = make_cpu_runs(options_, interrupted_, console_);
     e.cpu_20_hz = read_cpu_run(folders[0]);

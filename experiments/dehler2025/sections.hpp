@@ -35,6 +35,8 @@ struct paper_runs {
   std::vector<measured_run> quality;      ///< Axis: codm; with tracks.
   std::vector<measured_run> refusals;     ///< Axis: requirements.
   std::vector<measured_run> host;         ///< Axes: vehicles, host.
+  std::vector<measured_run> correlated;   ///< Axes as of latency_plot.
+  std::vector<measured_run> loaded_host;  ///< Likewise.
   measured_cpu cpu_20_hz;
   measured_cpu cpu_100_hz;
 };

@@ -5,11 +5,14 @@
 #include "experiments/dehler2025/paper.hpp"
 #include "experiments/dehler2025/report_text.hpp"
 #include "experiments/dehler2025/sections.hpp"
+#include "experiments/dehler2025/t_off_curve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 namespace sofof::experiments::study {
@@ -71,6 +74,41 @@ report::figure correlations(const report_text& text) {
   }
   f.caption = text.fill("correlation");
   return f;
+}
+
+/// Curves of other runs, those of the latency plot dashed beside them.
+report::figure curves_beside(const paper_runs& e,
+                             std::span<const measured_run> runs,
+                             const char* title, std::string caption) {
+  auto f = t_off_figure(title);
+  for (const auto& n : labels_of(runs, 0))
+    f.curves.push_back(t_off_curve(runs, n, count_of_vehicles(n)));
+  for (const auto* n : {"1", "6"}) {
+    f.curves.push_back(t_off_curve(e.latency_plot, n,
+                                   count_of_vehicles(n) + ", latency plot"));
+    f.curves.back().dashed = true;
+  }
+  f.caption = std::move(caption);
+  return f;
+}
+
+report::figure correlated(const paper_runs& e, const report_text& text) {
+  const auto latency = pooled(those(e.correlated, 0, "1"), "latency_ms");
+  return curves_beside(
+      e, e.correlated, "Latencies that depend on the one before, simulated",
+      text.fill("correlated",
+                {{"latency_ms", fmt::format("{:.2f} ± {:.2f}", latency.mean,
+                                            latency.deviation)}}));
+}
+
+report::figure loaded_host(const paper_runs& e, const report_text& text) {
+  const auto latency = [&e](const char* n) {
+    const auto x = pooled(those(e.loaded_host, 0, n), "latency_ms");
+    return fmt::format("{:.2f} ± {:.2f}", x.mean, x.deviation);
+  };
+  return curves_beside(e, e.loaded_host, "One host for all vehicles' software",
+                       text.fill("loaded_host", {{"one_ms", latency("1")},
+                                                 {"six_ms", latency("6")}}));
 }
 
 report::table hosts(const paper_runs& e, const report_text& text) {
@@ -144,7 +182,8 @@ report::section sensitivity(const paper_runs& e) {
   const auto text = report_text::of("sensitivity");
   return {"What the headlines hang on",
           {report::paragraph{text.fill("why")}, tails(text), correlations(text),
-           hosts(e, text), least_delays(e, text)}};
+           correlated(e, text), hosts(e, text), loaded_host(e, text),
+           least_delays(e, text)}};
 }
 
 } // namespace sofof::experiments::study

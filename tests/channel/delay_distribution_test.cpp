@@ -40,6 +40,28 @@ TEST_CASE("mean and deviation of a law are those of its draws") {
   }
 }
 
+TEST_CASE("draws that depend on each other keep their law") {
+  const auto law = delay_distribution::beta(45ms, 0.646, 2.11);
+  const auto kept = law.kept(0.9);
+  const random_stream noise{1, "kept"};
+  constexpr std::uint64_t draws = 400'000;
+  double sum = 0, squares = 0, products = 0, before = 0;
+  for (std::uint64_t k = 0; k < draws; ++k) {
+    const auto x = kept.draw_s(noise, k, 0);
+    sum += x;
+    squares += x * x;
+    products += x * before;
+    before = x;
+  }
+  const auto mean = sum / draws;
+  const auto variance = squares / draws - mean * mean;
+  CHECK(law.mean_s() == doctest::Approx(mean).epsilon(0.03));
+  CHECK(law.deviation_s()
+        == doctest::Approx(std::sqrt(variance)).epsilon(0.03));
+  CHECK((products / draws - mean * mean) / variance
+        == doctest::Approx(0.9).epsilon(0.02));
+}
+
 TEST_CASE("a profile's constant delay is on top of all draws, each way") {
   for (const auto name : channel_profile_names()) {
     CAPTURE(name);

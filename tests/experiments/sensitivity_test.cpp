@@ -110,6 +110,32 @@ TEST_CASE("the least delay's drives have as many results as the real ones") {
         == near(15 * share_of_drives_with_a_late_result(5, 50, 25'000), 1e-9));
 }
 
+TEST_CASE("a loaded host and correlated latencies are drawn beside the plot") {
+  const scratch dir;
+  auto e = two_curves(dir, 50, 40, 3);
+  for (const auto* n : {"1", "6"})
+    for (auto* runs : {&e.correlated, &e.loaded_host}) {
+      auto& run = runs->emplace_back();
+      run.point = {{n, "150ms"}, 1, {}};
+      run.figures = {{"latency_ms.count", 100},
+                     {"latency_ms.mean", n[0] == '1' ? 11 : 15},
+                     {"latency_ms.std", 9}};
+      run.t_off_s = {runs == &e.correlated ? 70.0 : n[0] == '1' ? 60.0 : 30.0};
+    }
+  const auto s = sensitivity(e);
+  const auto& host = the<report::figure>(s, "One host");
+  REQUIRE(host.curves.size() == 4);
+  CHECK(host.curves[0].y == std::vector<double>{60});
+  CHECK(host.curves[1].y == std::vector<double>{30});
+  CHECK(host.curves[2].dashed);
+  CHECK(host.curves[2].y.back() == 50);
+  CHECK(contains(host.caption, "15.00 ± 9.00 ms with six"));
+  const auto& level = the<report::figure>(s, "Latencies that depend on the one "
+                                             "before, simulated");
+  CHECK(level.curves[0].y == std::vector<double>{70});
+  CHECK(contains(level.caption, "11.00 ± 9.00 ms for one"));
+}
+
 TEST_CASE("hosts are shown with their runs") {
   paper_runs e;
   for (const auto* host : {"1 worker", "2 workers"}) {

@@ -2,6 +2,7 @@
 #include "scenario/load.hpp"
 
 #include "tests/scenario/example.hpp"
+#include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
 
@@ -139,6 +140,22 @@ TEST_CASE("fleets have computers, services say what a cycle asks of them") {
   CHECK(s.providers[0].returns_at == std::chrono::minutes{6});
   CHECK_FALSE(s.providers[1].fails_at.has_value());
   CHECK(to_toml(example::load(to_toml(s))) == to_toml(s));
+}
+
+TEST_CASE("vehicles may share a host, if it can carry the software of all") {
+  CHECK(example::load().network.channel->vehicle_host.probability == 0);
+  CHECK_FALSE(test::contains(to_toml(example::load()), "vehicle_host"));
+  const auto with = [](const char* busy) {
+    return example::load(example::text, {"vehicle_host.cores=4", busy});
+  };
+  const auto s = with("vehicle_host.busy_cores=0.4"); // 3.2 with 8 vehicles
+  CHECK(s.vehicles() == 8);
+  CHECK(s.network.channel->vehicle_host.probability > 0.5);
+  CHECK(to_toml(example::load(to_toml(s))) == to_toml(s));
+  CHECK_THROWS_WITH_AS(with("vehicle_host.busy_cores=0.5"),
+                       doctest::Contains("asks for all 4 cores or more, with 8 "
+                                         "vehicles"),
+                       input_error);
 }
 
 TEST_CASE("without a provider there is nothing to offload to, but a scenario") {
