@@ -44,7 +44,7 @@ report::figure means(const paper_runs& e, const report_text& text) {
   }
   f.curves.push_back(std::move(ours));
   curve theirs;
-  theirs.name = "the paper, one vehicle";
+  theirs.name = "the paper's text, one vehicle";
   theirs.x = {1};
   theirs.y = {paper::latency_mean_ms};
   theirs.low = {paper::latency_mean_ms - paper::latency_deviation_ms};
