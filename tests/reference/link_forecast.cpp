@@ -1,10 +1,10 @@
-// Golden numbers of forecasts and of the gate that acts on them, measured with
-// a prototype on a synthetic hour of 36 000 messages that was not kept. Ours
-// are of the same make and tail (99 % below 44 ms): ln latency is an AR(1)
-// process round 20 ms (σ = 0.28, 0.96 from message to message) plus white noise
-// (σ = 0.1), and 1 % of the messages, which nothing announces, take an
-// exponential time longer, 36 ms in the mean. So figures, means of eight hours,
-// are compared with some room, orders strictly.
+// Forecasts, and the gate that acts on them, on synthetic hours of 36 000
+// messages (99 % below 44 ms): ln latency is an AR(1) process round 20 ms
+// (σ = 0.28, 0.96 from message to message) plus white noise (σ = 0.1), and 1 %
+// of the messages, which nothing announces, take an exponential time longer,
+// 36 ms in the mean. Violations, means of eight hours, are compared with what
+// that law makes them; the bounds' figures with those of a prototype on an hour
+// of the same make that was not kept, so with some room; orders strictly.
 #include "base/random.hpp"
 #include "policies/algorithms/forecast/link_estimator.hpp"
 #include "policies/algorithms/forecast/predictive_gate.hpp"
@@ -140,10 +140,13 @@ TEST_CASE("the gate avoids the violations that can be foreseen, and two "
   for (const auto& hour : {always, one, two})
     MESSAGE(hour.violations << " violations, share " << hour.share << ", "
                             << hour.switches << " switches");
-  CHECK(std::abs(always.violations - 204) < 45);
-  CHECK(std::abs(one.violations - 150) < 40);
-  CHECK(std::abs(one.share - 0.91) < 0.03);
+  // By the law 200 an hour are late: 37 for the drift, which announces itself,
+  // and 163 that nothing announces, of which a gate meets those sent through
+  // it.
+  CHECK(always.violations == near(200, 0.08));
+  CHECK(one.violations == near(163 * one.share, 0.08));
   CHECK(one.violations < 0.8 * always.violations);
+  CHECK(one.share > 0.9);
   CHECK(std::abs(two.violations - one.violations) < 0.05 * one.violations);
   CHECK(two.switches < 0.6 * one.switches);
   CHECK(two.share > one.share - 0.02);
