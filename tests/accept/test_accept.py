@@ -228,8 +228,11 @@ class Accept(unittest.TestCase):
         self.accept("main_job")
         page = self.page()
         self.assertIn("| [planner](../tests/acceptance/planner) | "
-                      "not measured yet |", page)
+                      "never measured in full |", page)
         self.assertIn("| collisions | 0 | 0 | pass |", page)
+        self.assertIn("Measured in full: 1 of 2 scripts or parts.", page)
+        day = self.git("show", "-s", "--format=%cs", "HEAD").strip()
+        self.assertRegex(page, rf"\| passed \| 1 \| `\w{{8}}` \| {day} \|")
         self.accept("--check-page")
         self.write("docs/promises.md", page.replace("pass", "PASS"))
         self.assertIn("--page", self.accept("--check-page", code=1))
