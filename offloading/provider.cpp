@@ -214,12 +214,18 @@ void provider::forget(stations::iterator i, const ending& why, time_point now) {
   stations_.erase(i);
 }
 
-void provider::on_lost(peer_id peer, time_point now) {
+void provider::on_lost(peer_id peer, messages::end_reason why, time_point now) {
+  assert(why == messages::end_reason::peer_lost
+         || why == messages::end_reason::shutdown);
   pass(now);
   for (auto i = stations_.begin(); i != stations_.end();) {
     const auto next = std::next(i);
     if (i->second.requester == peer)
-      forget(i, messages::end_reason::peer_lost, now);
+      forget(i,
+             {why, why == messages::end_reason::shutdown
+                       ? "its requester has ended"
+                       : "its requester is gone"},
+             now);
     i = next;
   }
   assert(is_consistent());
@@ -248,7 +254,11 @@ void provider::on_function_lost(const messages::session_id& session,
   pass(now);
   const auto i = stations_.find(session.station);
   if (i != stations_.end())
-    end(i->second, session, {why, "its function was lost"}, true, now);
+    end(i->second, session,
+        {why, why == messages::end_reason::no_data
+                  ? "no input of the vehicle came"
+                  : "its function has died"},
+        true, now);
   assert(is_consistent());
 }
 

@@ -125,11 +125,13 @@ public:
 
   /// The function of a session runs no longer; one that is not known is
   /// ignored.
+  /// @param why  no_data if no input ever came, peer_lost if it has died.
   void on_function_lost(const messages::session_id& session,
                         messages::end_reason why, time_point now);
 
   /// A requester cannot be reached any more.
-  void on_lost(peer_id peer, time_point now);
+  /// @param why  shutdown if it has ended in good order, else peer_lost.
+  void on_lost(peer_id peer, messages::end_reason why, time_point now);
 
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);

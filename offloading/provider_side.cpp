@@ -31,7 +31,7 @@ public:
 
   void on_lost(peer_id requester, time_point now) {
     begin_call(now);
-    provider_->on_lost(requester, now);
+    provider_->on_lost(requester, messages::end_reason::peer_lost, now);
   }
 
   void on_timer(std::uint64_t number, time_point now) {

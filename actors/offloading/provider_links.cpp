@@ -15,15 +15,17 @@ namespace sofof::actors {
 
 void provider_links::on_down(const caf::down_msg& down,
                              offloading::provider& rules) {
-  if (const auto session = session_of(down.source)) {
-    // A manager that was never fed gives up; any other has died.
-    const auto why = down.reason == caf::exit_reason::user_shutdown
-                         ? messages::end_reason::no_data
-                         : messages::end_reason::peer_lost;
-    rules.on_function_lost(*session, why, now(self_));
-  } else if (const auto peer = requesters_.find(down.source)) {
-    rules.on_lost(*peer, now(self_));
-  }
+  using messages::end_reason;
+  const auto in_order = down.reason == caf::exit_reason::user_shutdown;
+  // A manager that was never fed gives up; any other has died.
+  if (const auto session = session_of(down.source))
+    rules.on_function_lost(
+        *session, in_order ? end_reason::no_data : end_reason::peer_lost,
+        now(self_));
+  else if (const auto peer = requesters_.find(down.source))
+    rules.on_lost(*peer,
+                  in_order ? end_reason::shutdown : end_reason::peer_lost,
+                  now(self_));
 }
 
 std::optional<messages::session_id>

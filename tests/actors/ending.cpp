@@ -192,6 +192,30 @@ TEST_CASE_FIXTURE(provider_world,
   CHECK(episodes().size() == 3); // the neighbour has fallen silent
 }
 
+TEST_CASE_FIXTURE(provider_world, "a requester that ends in good order was "
+                                  "not lost") {
+  hear(inside);
+  start({one});
+  caf::anon_send_exit(requester.handle, caf::exit_reason::user_shutdown);
+  settle();
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::shutdown);
+  CHECK(episodes().front().because == "its requester has ended");
+}
+
+TEST_CASE_FIXTURE(provider_world, "a service that no input ever reaches is "
+                                  "closed for want of it") {
+  hear(inside);
+  ask(make_request({one}));
+  for (int k = 0; k < 3; ++k) {
+    run_for(1s);
+    hear(inside);
+  }
+  REQUIRE(!episodes().empty());
+  CHECK(episodes().front().reason == end_reason::no_data);
+  CHECK(episodes().front().because == "no input of the vehicle came");
+}
+
 TEST_CASE_FIXTURE(provider_world, "when a manager is lost its service is "
                                   "closed, and the requester told") {
   hear(inside);
