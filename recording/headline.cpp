@@ -98,38 +98,30 @@ std::string early_ends(const service_metrics& x) {
 std::string most_frequent(const std::map<std::string, std::uint64_t>& counts) {
   const auto most = std::ranges::max_element(
       counts, {}, &std::map<std::string, std::uint64_t>::value_type::second);
-  return most == counts.end() ? std::string{}
-                              : fmt::format("; most often ({} times): {}",
-                                            most->second, most->first);
+  return most == counts.end()
+             ? std::string{}
+             : fmt::format("; most often ({} time{}): {}", most->second,
+                           most->second == 1 ? "" : "s", most->first);
 }
 
-/// Why there was no episode.
-std::string never(const service_metrics& x, std::uint64_t offers) {
-  if (offers == 0)
-    return "Never offloaded: no offer came.";
-  if (x.requests() == 0)
-    return fmt::format("Never offloaded: the LODM asked for nothing{}.",
-                       most_frequent(x.stayed));
-  if (x.accepted == 0)
-    return fmt::format("Never offloaded: {} request{}, none accepted{}.",
-                       x.requests(), x.requests() == 1 ? "" : "s",
-                       most_frequent(x.refused));
-  return fmt::format("Never offloaded: accepted {} time{}, but no result came "
-                     "in time.",
-                     x.accepted, x.accepted == 1 ? "" : "s");
+/// @returns " trajectory_planning" where there are others.
+std::string name_among(const service_metrics& x, const run_info& run) {
+  return run.services.size() > 1 ? fmt::format(" {}", x.service.view())
+                                 : std::string{};
 }
 
 std::string offloading_of(const metrics& m, const run_info& run,
                           const run_end& end) {
   const auto& x = m.headline();
+  const auto name = name_among(x, run);
   if (x.episodes == 0)
-    return never(x, m.offers());
+    return fmt::format("Never offloaded{}: {}", name, why_never(x, m.offers()));
   std::uint64_t early = 0;
   for (const auto& [what, count] : x.early)
     early += count;
   const auto share = x.offloaded_share(run.vehicles, end.virtual_s);
-  auto text =
-      fmt::format("Offloaded {:.1f} % of the time; ", 100 * share.value_or(0));
+  auto text = fmt::format("Offloaded{} {:.1f} % of the time; ", name,
+                          100 * share.value_or(0));
   if (early == 0)
     return text
            + (x.episodes == 1
@@ -189,6 +181,19 @@ std::string load_of(const load_table& table, bool is_modelled,
 }
 
 } // namespace
+
+std::string why_never(const service_metrics& x, std::uint64_t offers) {
+  if (offers == 0)
+    return "no offer came.";
+  if (x.requests() == 0)
+    return fmt::format("the LODM asked for nothing{}.",
+                       most_frequent(x.stayed));
+  if (x.accepted == 0)
+    return fmt::format("{} request{}, none accepted{}.", x.requests(),
+                       x.requests() == 1 ? "" : "s", most_frequent(x.refused));
+  return fmt::format("accepted {} time{}, but no result came in time.",
+                     x.accepted, x.accepted == 1 ? "" : "s");
+}
 
 headline headline_of(const metrics& m, const run_info& run,
                      const run_end& end) {

@@ -49,7 +49,8 @@ TEST_CASE("a report of one run begins with the run in sentences") {
   CHECK(all.front().title == "In short");
   REQUIRE(all.front().blocks.size() == 1);
   const auto& said = std::get<paragraph>(all.front().blocks.front()).text;
-  CHECK(said.starts_with("Offloaded 17.5 % of the time; 1 of 3 episodes"));
+  CHECK(said.starts_with(
+      "Offloaded trajectory_planning 17.5 % of the time; 1 of 3 episodes"));
   CHECK(contains(said, " Safe: "));
 }
 

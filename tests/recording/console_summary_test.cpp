@@ -76,7 +76,8 @@ TEST_CASE("the table shows every figure with its unit") {
 
 TEST_CASE("the table ends with the run in three sentences") {
   const auto text = table_of(played());
-  const auto end = text.find("\nOffloaded 17.5 % of the time; 1 of 3 ");
+  const auto end =
+      text.find("\nOffloaded trajectory_planning 17.5 % of the time; 1 of 3 ");
   REQUIRE(end != text.npos);
   CHECK(std::ranges::count(text.substr(end + 1), '\n') == 4);
   CHECK(contains(text.substr(end), "\nSafe: "));

@@ -91,6 +91,18 @@ TEST_CASE("of early ends of several reasons the headline counts each") {
            "gaps between results (junction 2), 1 by revocation (east 1).");
 }
 
+TEST_CASE("of several services the headline names the one that it is about") {
+  told_run run;
+  run.info.services.emplace_back("cabin_climate");
+  CHECK(run.said().offloading
+        == "Never offloaded trajectory_planning: no offer came.");
+  run.offer();
+  run.episode(junction, end_reason::left_area);
+  CHECK(run.said().offloading
+        == "Offloaded trajectory_planning 10.0 % of the time; the one episode "
+           "did not end early.");
+}
+
 TEST_CASE("every early end has words of its own") {
   std::vector<std::string> all;
   for (int k = 0; k <= static_cast<int>(end_reason::shutdown); ++k) {
@@ -117,7 +129,7 @@ TEST_CASE("where nothing was offloaded the headline says why") {
                                           .service = "trajectory_planning",
                                           .detail = "never"});
   CHECK(unwanted.said().offloading
-        == "Never offloaded: the LODM asked for nothing; most often (1 times): "
+        == "Never offloaded: the LODM asked for nothing; most often (1 time): "
            "never.");
   told_run refused;
   refused.offer();
