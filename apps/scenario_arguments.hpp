@@ -39,9 +39,9 @@ struct scenario_arguments {
   scenario::scenario_definition load() const {
     auto overrides = set;
     if (!seed.empty())
-      overrides.push_back("seed=" + seed);
+      overrides.push_back("--seed=" + seed);
     if (!length.empty())
-      overrides.push_back("duration=" + length);
+      overrides.push_back("--duration=" + length);
     const auto found = find_scenario(file);
     try {
       return scenario::load_scenario(found, overrides);

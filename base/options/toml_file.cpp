@@ -84,12 +84,18 @@ void put_child(toml::node& parent, std::string_view segment,
   });
 }
 
-/// One `--set`. The nodes that it makes know that they come from there.
+/// One `--set`, or an option of its own. The nodes that it makes know that they
+/// come from there.
 class assignment {
 public:
-  explicit assignment(std::string_view text)
-      : place_{fmt::format("{}{}", command_line_prefix, text)},
-        key_{text.substr(0, text.find('='))} {
+  explicit assignment(std::string_view text) {
+    const auto is_option = text.starts_with(command_line_prefix);
+    if (is_option)
+      text.remove_prefix(command_line_prefix.size());
+    key_ = text.substr(0, text.find('='));
+    place_ = fmt::format("{}{}", is_option ? "--" : "--set ", text);
+    if (is_option && key_.size() < text.size())
+      place_[command_line_prefix.size() + key_.size()] = ' ';
     if (key_.size() == text.size())
       refuse("there is no value, write KEY=VALUE.");
     if (std::ranges::count(key_, '.') >= most_dots)

@@ -44,7 +44,8 @@ public:
 
   /// Changes one option, as `--set` does. Tables that are missing on the way
   /// to it are made, list elements are not.
-  /// @param assignment  "KEY=VALUE": a TOML value, or else text.
+  /// @param assignment  "KEY=VALUE": a TOML value, or else text. "--KEY=VALUE"
+  ///                    is the same, called `--KEY VALUE` in errors.
   void set(std::string_view assignment);
 
   /// @returns a key with the elements of lists by number, however it names

@@ -12,10 +12,11 @@
 
 namespace sofof {
 
-/// What the "file" of a node is called that `--set` made.
-inline constexpr std::string_view command_line_prefix = "--set ";
+/// So begins what the "file" of a node is called that the command line made.
+inline constexpr std::string_view command_line_prefix = "--";
 
-/// @returns where something stands: `FILE:LINE:COLUMN` or `--set KEY=VALUE`.
+/// @returns where something stands: `FILE:LINE:COLUMN`, `--set KEY=VALUE` or
+/// `--duration 20s`.
 /// @param file  Stands in when the node does not know.
 std::string place_of(const toml::source_region& region, std::string_view file);
 

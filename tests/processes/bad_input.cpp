@@ -106,7 +106,7 @@ TEST_CASE("a wrong type is refused") {
 TEST_CASE("a negative duration is refused") {
   check_mistake({"\"600s\"", "@\"-600s\"", {"duration", "-600s"}});
   check_refused({}, {scenario_file, "--duration", "-5s"},
-                "duration=-5s: ", {"more than \"0s\""});
+                "--duration -5s: ", {"more than \"0s\""});
 }
 
 TEST_CASE("a polygon with two points is refused") {
