@@ -43,6 +43,7 @@ struct run_arguments {
       all.show = terminal ? recording::progress::output::terminal
                           : recording::progress::output::plain;
     all.colour = terminal;
+    all.changes = what.set;
     all.version = SOFOF_VERSION;
     return all;
   }

@@ -58,21 +58,37 @@ bool make_all(const fs::path& folder) {
   refused(folder, error.message(), error.value());
 }
 
-std::string safe_name(std::string_view scenario) {
+std::string safe_name(std::string_view scenario, std::string_view also = {}) {
   std::string name{scenario};
   for (auto& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.')
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.'
+        && also.find(c) == also.npos)
       c = '_';
   return name;
+}
+
+/// @returns ",lodm=never,duration=20s": of each change the last part of its
+/// key.
+std::string suffix_of(std::span<const std::string> changes) {
+  constexpr std::size_t longest = 80;
+  std::string all;
+  for (const std::string_view change : changes) {
+    const auto dot = change.substr(0, change.find('=')).rfind('.');
+    all += ',';
+    all += safe_name(change.substr(dot + 1), "="); // npos + 1 is 0
+  }
+  return all.substr(0, longest);
 }
 
 } // namespace
 
 fs::path make_results_folder(const std::optional<fs::path>& wanted,
                              std::string_view scenario, std::int64_t seed,
-                             bool force, const fs::path& parent) {
+                             bool force, std::span<const std::string> changes,
+                             const fs::path& parent) {
   if (!wanted) {
-    const auto name = fmt::format("{}-{}", safe_name(scenario), seed);
+    const auto name =
+        fmt::format("{}-{}{}", safe_name(scenario), seed, suffix_of(changes));
     auto folder = parent / name;
     for (int i = 2; !make_all(folder); ++i)
       folder = parent / fmt::format("{}-{}", name, i);

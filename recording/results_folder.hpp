@@ -4,21 +4,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace sofof::recording {
 
 /// Makes the folder of a run: the one asked for, or else the first free one
 /// of results/<scenario>-<seed>, -2, -3, …; two runs never get the same.
+/// Behind the seed stands what the run was told to change.
 /// @param wanted    Made with its parents where missing. One that holds
 ///                  anything is refused unless `force`.
 /// @param scenario  Name; what does not suit a path becomes '_'.
 /// @param force     Take `wanted` as it is.
+/// @param changes   "policies.lodm=never" gives ulm_lehr-1,lodm=never; long
+/// ones
+///                  are cut off.
 /// @param parent    Of the folders that are not asked for.
 /// @throws input_error when refused; nothing is left behind then.
 std::filesystem::path
 make_results_folder(const std::optional<std::filesystem::path>& wanted,
                     std::string_view scenario, std::int64_t seed, bool force,
+                    std::span<const std::string> changes = {},
                     const std::filesystem::path& parent = "results");
 
 /// @returns whether `file` is, or will be, one that a run writes into

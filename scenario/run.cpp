@@ -28,6 +28,7 @@ namespace sofof::scenario {
 
 namespace {
 
+namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 /// The run is looked at so often: progress, Ctrl-C, flushing.
@@ -207,8 +208,8 @@ kept_results make_keeper(const std::string& name, std::int64_t seed,
                          const recording::run_info& info,
                          const run_options& options) {
   try {
-    const auto folder =
-        recording::make_results_folder(options.out, name, seed, options.force);
+    const auto folder = recording::make_results_folder(
+        options.out, name, seed, options.force, options.changes);
     return {folder, std::make_shared<recording::locked_results>(
                         folder, info, options.when_unwritable)};
   } catch (const storage_error& full) {
@@ -314,7 +315,8 @@ run_outcome finish(const played& run, const recording::run_info& info,
   const auto is_safe = on.keeper.with([&](const recording::results& r) {
     if (on.options.show != recording::progress::output::quiet)
       on.console << recording::table(r.so_far(), info, last,
-                                     is_lost ? "" : folder, on.options.colour);
+                                     is_lost ? "" : fs::absolute(folder),
+                                     on.options.colour);
     return r.so_far().safety().ok();
   });
   if (is_lost)

@@ -25,6 +25,7 @@ struct run_options {
   /// Which of several processes writes it: part of the name if none is asked
   /// for.
   std::string whose;
+  std::vector<std::string> changes; ///< By `--set`: likewise.
   std::string pcap;   ///< Where to capture all ITS messages, if asked for.
   bool force = false; ///< Write into a folder that is not empty.
   recording::write_failure when_unwritable =

@@ -45,7 +45,7 @@ TEST_CASE("a run ends with a table and where its results are") {
   CHECK(end.code == 0);
   CHECK(end.err == "");
   for (const auto* words : {"trajectory_planning", "cabin_climate", "latency",
-                            "collisions", "results in out"}) {
+                            "collisions", "results in /", "/out\n"}) {
     CAPTURE(words);
     CHECK(end.out.find(words) != end.out.npos);
   }

@@ -1,21 +1,17 @@
-// The results folder: what is in it, and that nothing is lost or overwritten.
+// The files of a run: what is in them, and that nothing is lost.
 #include "recording/results.hpp"
 
-#include "base/input_error.hpp"
 #include "base/text/json.hpp"
-#include "recording/results_folder.hpp"
+#include "tests/recording/folder_checks.hpp"
 #include "tests/support/contains.hpp"
-#include "tests/support/files.hpp"
 #include "tests/support/made_up_run.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include <atomic>
 #include <fstream>
 #include <iterator>
-#include <unistd.h>
 
 namespace sofof::made_up {
 
@@ -25,7 +21,6 @@ using namespace recording;
 namespace fs = std::filesystem;
 using test::contains;
 using test::scratch;
-using test::write_text;
 
 namespace {
 
@@ -45,25 +40,6 @@ std::vector<std::string> lines(const fs::path& path) {
 
 nlohmann::ordered_json summary_in(const fs::path& folder) {
   return nlohmann::ordered_json::parse(content_of(folder / "summary.json"));
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator{folder})
-    names.push_back(entry.path().filename());
-  std::ranges::sort(names);
-  return names;
-}
-
-/// What an input_error says.
-template <class Action>
-std::string complaint(Action action) {
-  try {
-    action();
-  } catch (const input_error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 track_record track() {
@@ -495,70 +471,6 @@ TEST_CASE("a folder that cannot be written to is reported") {
   const auto said = complaint([&dir] { results{dir / "missing", run()}; });
   CHECK(contains(said, "missing"));
   CHECK(contains(said, "No such file"));
-}
-
-TEST_CASE("runs without a folder of their own never share one") {
-  const scratch dir;
-  const auto make = [&dir](std::string_view name) {
-    return make_results_folder({}, name, 7, false, dir / "results");
-  };
-  CHECK(make("ulm") == dir / "results/ulm-7");
-  CHECK(make("ulm") == dir / "results/ulm-7-2");
-  CHECK(make("ulm") == dir / "results/ulm-7-3");
-  CHECK(fs::is_directory(dir / "results/ulm-7-3"));
-  CHECK(make("../etc/x y") == dir / "results/.._etc_x_y-7");
-}
-
-TEST_CASE("a folder that is asked for is made with its parents") {
-  const scratch dir;
-  CHECK(make_results_folder(dir / "a/b", "ulm", 7, false) == dir / "a/b");
-  CHECK(fs::is_directory(dir / "a/b"));
-  // It is empty, so it may be used.
-  CHECK(make_results_folder(dir / "a/b/", "ulm", 7, false) == dir / "a/b");
-}
-
-TEST_CASE("a folder with something in it is refused, and left alone") {
-  const scratch dir;
-  write_text(dir / "thesis.tex", "mine");
-  const auto said =
-      complaint([&dir] { make_results_folder(dir.path(), "ulm", 7, false); });
-  CHECK(contains(said, "not empty"));
-  CHECK(contains(said, "--force"));
-  CHECK(names_in(dir.path()) == std::vector<std::string>{"thesis.tex"});
-}
-
-TEST_CASE("force replaces the files of a run and nothing else") {
-  const scratch dir;
-  write_text(dir / "thesis.tex", "mine");
-  write_text(dir / "summary.json", "old");
-  write_text(dir / "cycles.csv", "old");
-  auto info = run();
-  info.cycles = false;
-  results r{make_results_folder(dir.path(), "ulm", 7, true), info};
-  CHECK(content_of(dir / "thesis.tex") == "mine");
-  CHECK_FALSE(fs::exists(dir / "summary.json"));
-  CHECK_FALSE(fs::exists(dir / "cycles.csv"));
-}
-
-TEST_CASE("a file in the way of the folder is refused") {
-  const scratch dir;
-  write_text(dir / "out", "mine");
-  for (const bool force : {false, true}) {
-    const auto said =
-        complaint([&] { make_results_folder(dir / "out", "ulm", 7, force); });
-    CHECK(contains(said, "in the way"));
-  }
-  CHECK(content_of(dir / "out") == "mine");
-}
-
-TEST_CASE("a folder that cannot be made leaves no parents behind") {
-  const scratch dir;
-  const auto too_long = dir / "a" / std::string(300, 'x');
-  const auto said =
-      complaint([&] { make_results_folder(too_long, "ulm", 7, false); });
-  CHECK(contains(said, "cannot make"));
-  CHECK(contains(said, "--out"));
-  CHECK_FALSE(fs::exists(dir / "a"));
 }
 
 } // namespace sofof::made_up
