@@ -87,6 +87,35 @@ TEST_CASE("a single sample is replayed for ever") {
   CHECK(replayed_delay_s(samples, 1e6) == Approx(0.010));
 }
 
+TEST_CASE("a long replay has the mean and the deviation of its samples") {
+  // In the measured form: a message every 55 ms, 10 to 40 ms late.
+  std::string text = "pub_time(ms) sub_time(ms) delay(ms)\n";
+  double sum_ms = 0, squares_ms2 = 0;
+  constexpr auto count = 1000;
+  for (auto k = 0; k < count; ++k) {
+    const auto delay_ms = 10 + (k * k) % 31;
+    const auto sent_ms = 1721032372703 + 55LL * k;
+    text += std::to_string(sent_ms) + ' ' + std::to_string(sent_ms + delay_ms)
+            + ' ' + std::to_string(delay_ms) + '\n';
+    sum_ms += delay_ms;
+    squares_ms2 += delay_ms * delay_ms;
+  }
+  const auto samples = parse_trace(text);
+  REQUIRE(samples.size() == count);
+  double sum_s = 0, squares_s2 = 0;
+  constexpr auto results = 200'000;
+  for (auto i = 0; i < results; ++i) {
+    const auto d_s = replayed_delay_s(samples, i * 0.05);
+    sum_s += d_s;
+    squares_s2 += d_s * d_s;
+  }
+  const auto mean_s = sum_s / results, mean_ms = sum_ms / count;
+  CHECK(mean_s == near(1e-3 * mean_ms, 1e-3));
+  CHECK(
+      std::sqrt(squares_s2 / results - mean_s * mean_s)
+      == near(1e-3 * std::sqrt(squares_ms2 / count - mean_ms * mean_ms), 1e-2));
+}
+
 TEST_CASE("the measured 5G drives can be read and replayed") {
   const auto folder =
       std::filesystem::path{SOFOF_SOURCE_DIR} / "../shared/data/latency_5g";

@@ -198,7 +198,42 @@ TEST_CASE("practice of an unknown kind is refused") {
                   input_error);
 }
 
-// References from Ipopt, beside the checkout: not everybody has them.
+TEST_CASE("optima that are known without a solver are found") {
+  const scratch_file file{"straight.json"};
+  write_practice(file.path(), "path");
+  auto content = read_problems(file.path());
+  content["instances"].get_ref<json::array_t&>().resize(4);
+  // Straight on and far from all bounds; the last is the second, mirrored.
+  const double offsets_m[]{0, 0.01, 0.02, -0.01};
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& x = content["instances"][i];
+    x["x0"] = {offsets_m[i], 0, 0};
+    for (const auto* name : {"kappa_ref", "d_ref"})
+      for (auto& value : x[name])
+        value = 0;
+    for (const auto& [name, bound] : {std::pair{"lo", -9}, std::pair{"hi", 9}})
+      for (auto& row : x[name])
+        for (auto& value : row)
+          value = bound;
+  }
+  write_problems(file.path(), content);
+  for (const auto cold : {false, true}) {
+    CAPTURE(cold);
+    const auto all = solve(file.path(), cold);
+    CHECK(all.count("CONVERGED") == 4);
+    const auto cost = [&all](std::size_t i) {
+      return all.lines.at(i)["cost"].get<double>();
+    };
+    CHECK(cost(0) == doctest::Approx(0).epsilon(1e-9));
+    CHECK(cost(1) > 0);
+    CHECK(cost(3) == doctest::Approx(cost(1)).epsilon(5e-3));
+    // Small offsets are a linear problem of squared costs.
+    CHECK(cost(2) == doctest::Approx(4 * cost(1)).epsilon(5e-3));
+  }
+}
+
+// References from Ipopt, beside the checkout: not everybody has them. The test
+// before holds optima of our own.
 TEST_CASE("problems with known optima are solved, warm and cold") {
   for (const auto name : {"path80.json", "vel160.json"}) {
     const auto file =

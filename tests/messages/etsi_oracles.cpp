@@ -1,6 +1,7 @@
 // Messages that other codecs made, beside what those codecs read in them. They
-// lie outside of the repository; uper.cpp, cam.cpp, mcm.cpp and json.cpp test
-// the same with messages of our own.
+// lie outside of the repository. Of our own are the same: known octets in
+// cam_test and cpm_ts103324_test, round trips in json_test and mcm_test, the
+// first protocol version in cam_test.
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/json.hpp"
 
@@ -27,7 +28,7 @@ const std::filesystem::path folder{SOFOF_SOURCE_DIR "/../shared/data/v2x"};
 bool is_there(const std::string& file) {
   if (std::filesystem::exists(folder / file))
     return true;
-  MESSAGE("skipped, for there is no " << (folder / file).string());
+  MESSAGE("SKIPPED: no " << (folder / file).string());
   return false;
 }
 
