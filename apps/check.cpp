@@ -1,6 +1,7 @@
 // sofof check: reads a scenario and prints what it really says.
 #include "apps/command.hpp"
 #include "apps/scenario_arguments.hpp"
+#include "world/roads/lane_overlaps.hpp"
 #include "world/roads/sharp_bends.hpp"
 #include "world/vehicle/vehicle.hpp"
 
@@ -34,6 +35,21 @@ void warn_of_sharp_bends(const scenario::scenario_definition& s) {
   }
 }
 
+/// Cars on one of them do not expect those on the other.
+void warn_of_overlaps(const scenario::scenario_definition& s) {
+  const auto& map = s.world->map;
+  for (const auto& x : world::lane_overlaps(map))
+    std::fputs(
+        fmt::format("sofof: lanes \"{}\" and \"{}\" lie upon each other for "
+                    "{:.1f} m at ({:.2f}, {:.2f}){}, but neither follows the "
+                    "other; end one where the other begins, or move it.\n",
+                    map.lanes()[x.lane_a].name, map.lanes()[x.lane_b].name,
+                    x.length_m, x.at.x_m, x.at.y_m,
+                    x.oncoming ? ", in opposite directions" : "")
+            .c_str(),
+        stderr);
+}
+
 } // namespace
 
 void add_check(CLI::App& app, int&) {
@@ -46,6 +62,7 @@ void add_check(CLI::App& app, int&) {
   command->callback([args] {
     const auto s = args->load();
     warn_of_sharp_bends(s);
+    warn_of_overlaps(s);
     std::cout << scenario::to_toml(s);
   });
 }
