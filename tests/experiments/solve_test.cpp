@@ -239,7 +239,7 @@ TEST_CASE("problems with known optima are solved, warm and cold") {
     const auto file =
         fs::path{SOFOF_SOURCE_DIR "/../shared/data/planner"} / name;
     if (!fs::exists(file)) {
-      MESSAGE("SKIPPED: no " << name);
+      MESSAGE("SKIPPED: no " << file.string());
       continue;
     }
     for (const auto cold : {false, true}) {
