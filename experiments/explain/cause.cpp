@@ -14,18 +14,19 @@ namespace {
 
 struct named_part {
   std::string_view what;
-  double time_parts::*of;
+  double report::time_parts::*of;
   bool since_cycle; ///< It counts in the latency too.
 };
 
 constexpr std::array all_parts{
-    named_part{"wait for the uplink", &time_parts::uplink_wait, false},
-    named_part{"way up", &time_parts::uplink, false},
-    named_part{"wait for the cycle", &time_parts::rest, false},
-    named_part{"wait for a worker", &time_parts::queue, true},
-    named_part{"computing", &time_parts::computing, true},
-    named_part{"wait for the downlink", &time_parts::downlink_wait, true},
-    named_part{"way down", &time_parts::downlink, true},
+    named_part{"wait for the uplink", &report::time_parts::uplink_wait, false},
+    named_part{"way up", &report::time_parts::uplink, false},
+    named_part{"wait for the cycle", &report::time_parts::rest, false},
+    named_part{"wait for a worker", &report::time_parts::queue, true},
+    named_part{"computing", &report::time_parts::computing, true},
+    named_part{"wait for the downlink", &report::time_parts::downlink_wait,
+               true},
+    named_part{"way down", &report::time_parts::downlink, true},
 };
 
 double median(std::vector<double> values) {
@@ -39,7 +40,8 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-part longest_part(std::span<const received_result> results, bool since_input) {
+part longest_part(std::span<const report::cycle_line> results,
+                  bool since_input) {
   assert(!results.empty());
   const auto before = results.first(results.size() - 1);
   std::vector<part> parts;
@@ -49,9 +51,9 @@ part longest_part(std::span<const received_result> results, bool since_input) {
       continue;
     std::vector<double> usual;
     for (const auto& result : before)
-      usual.push_back(result.ms.*x.of);
+      usual.push_back(result.parts.value().*x.of);
     parts.push_back(
-        {x.what, results.back().ms.*x.of, median(std::move(usual))});
+        {x.what, results.back().parts.value().*x.of, median(std::move(usual))});
     all_ms += parts.back().ms;
   }
   const auto largest = *std::ranges::max_element(parts, {}, &part::ms);
@@ -60,7 +62,7 @@ part longest_part(std::span<const received_result> results, bool since_input) {
              : *std::ranges::max_element(parts, {}, &part::more_ms);
 }
 
-std::string in_parts(const time_parts& ms, bool since_input) {
+std::string in_parts(const report::time_parts& ms, bool since_input) {
   constexpr double least_ms = 0.05;
   constexpr std::size_t most = 3;
   std::vector<part> parts;

@@ -1,7 +1,7 @@
 // What made a result late, or its input old.
 #pragma once
 
-#include "experiments/explain/episode_files.hpp"
+#include "experiments/report/run_files.hpp"
 
 #include <span>
 #include <string>
@@ -18,15 +18,17 @@ struct part {
   double more_ms() const { return ms - usual_ms; }
 };
 
-/// @param results      Of the session, not empty; the last one is explained.
+/// @param results      Of the session, not empty, with their parts; the last
+///                     one is explained.
 /// @param since_input  All parts; else those since the cycle began.
 /// @returns the part that took at least half of the time, else the one that
 /// took most more than usual.
-part longest_part(std::span<const received_result> results, bool since_input);
+part longest_part(std::span<const report::cycle_line> results,
+                  bool since_input);
 
 /// @param since_input  As above.
 /// @returns "wait for a worker 18.1, way down 10.1, computing 3.0": the three
 /// longest parts of at least 0.05 ms.
-std::string in_parts(const time_parts& ms, bool since_input);
+std::string in_parts(const report::time_parts& ms, bool since_input);
 
 } // namespace sofof::experiments::explain

@@ -1,12 +1,13 @@
-// Rows of one session out of those of all.
-#include "experiments/explain/episode_files.hpp"
+// Lines of one session out of those of all.
+#include "experiments/explain/episode.hpp"
 
-#include "base/text/csv_reader.hpp"
+#include "base/input_error.hpp"
+#include "messages/protocol/service.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <string_view>
 #include <utility>
 
 namespace sofof::experiments::explain {
@@ -14,124 +15,120 @@ namespace sofof::experiments::explain {
 namespace {
 
 namespace fs = std::filesystem;
-using columns = std::string_view[];
+using report::cycle_line;
+using report::episode_line;
+using report::session_key;
 
-csv_reader::ending ending_of(const fs::path& folder) {
-  return fs::exists(folder / "summary.json") ? csv_reader::ending::whole
-                                             : csv_reader::ending::killed;
+const episode_line* find(const std::vector<episode_line>& all,
+                         const question& q) {
+  std::vector<const episode_line*> possible;
+  for (const auto& x : all)
+    if (x.by_requester && q.is_about(x.of))
+      possible.push_back(&x);
+  if (possible.empty())
+    return nullptr;
+  if (q.at_s)
+    return *std::ranges::min_element(
+        possible, {}, [&q](const auto* x) { return distance_s(*x, *q.at_s); });
+  const auto early = std::ranges::find_if(
+      possible, [](const auto* x) { return ended_early(*x); });
+  if (early != possible.end())
+    return *early;
+  return *std::ranges::max_element(
+      possible, {}, [](const auto* x) { return x->ended_s - x->accepted_s; });
 }
 
-report::session_key name_of(const csv_reader& row) {
-  return {.provider = row.text(0),
-          .service = row.text(1),
-          .provider_id = row.whole(2),
-          .station = row.whole(3),
-          .counter = row.whole(4)};
-}
-
-} // namespace
-
-std::vector<closed_episode> read_episodes(const fs::path& folder) {
-  static constexpr columns names{"provider",   "service",      "provider_id",
-                                 "station",    "counter",      "side",
-                                 "accepted_s", "first_data_s", "ended_s",
-                                 "reason",     "fallback",     "because"};
-  enum { side = 5, accepted, first_data, ended, reason, fallback, because };
-  csv_reader row{folder / "episodes.csv", names, ending_of(folder)};
-  std::vector<closed_episode> all;
-  while (row.next())
-    all.push_back({.of = name_of(row),
-                   .by_requester = row.text(side) == "requester",
-                   .accepted_s = row.number(accepted),
-                   .first_data_s = row.number_if_any(first_data),
-                   .ended_s = row.number(ended),
-                   .reason = row.text(reason),
-                   .fallback = row.flag(fallback),
-                   .because = row.text(because)});
-  return all;
-}
-
-std::optional<std::vector<received_result>>
-read_results(const fs::path& folder, const report::session_key& session) {
-  static constexpr columns names{
-      "provider",     "service",  "provider_id",    "station",
-      "counter",      "cycle",    "received_s",     "latency_ms",
-      "input_age_ms", "used",     "uplink_wait_ms", "uplink_ms",
-      "rest_ms",      "queue_ms", "computing_ms",   "downlink_wait_ms",
-      "downlink_ms"};
-  enum { cycle = 5, received, latency, input_age, used, parts };
-  const auto file = folder / "cycles.csv";
-  if (!fs::exists(file))
-    return std::nullopt;
-  csv_reader row{file, names, ending_of(folder)};
-  std::vector<received_result> all;
-  const auto part = [&row](std::size_t k) { return row.number(parts + k); };
-  while (row.next()) {
-    if (row.whole(3) != session.station || name_of(row) != session)
-      continue;
-    all.push_back({.cycle = row.whole(cycle),
-                   .received_s = row.number(received),
-                   .latency_ms = row.number(latency),
-                   .input_age_ms = row.number(input_age),
-                   .used = row.flag(used),
-                   .ms = {part(0), part(1), part(2), part(3), part(4), part(5),
-                          part(6)}});
-  }
-  return all;
-}
-
-bool has_gaps(const fs::path& folder, const report::session_key& session) {
-  static constexpr columns names{"provider", "service", "provider_id",
-                                 "station",  "counter", "cycle"};
-  const auto file = folder / "cycles.csv";
-  if (!fs::exists(file))
-    return false;
+// Of all sessions of a vehicle with a provider, which cycle is missing in any.
+bool are_gaps_in(const std::vector<cycle_line>& all) {
   std::map<std::uint64_t, std::uint64_t> last; // cycle by counter
-  csv_reader row{file, names, ending_of(folder)};
-  while (row.next()) {
-    auto of = name_of(row);
-    const auto counter = std::exchange(of.counter, session.counter);
-    if (of != session)
-      continue;
-    const auto cycle = row.whole(5);
-    const auto [before, is_first] = last.try_emplace(counter, cycle);
-    if (!is_first && cycle > before->second + 1)
+  for (const auto& x : all) {
+    const auto [before, is_first] = last.try_emplace(x.of.counter, x.cycle);
+    if (!is_first && x.cycle > before->second + 1)
       return true;
-    before->second = cycle;
+    before->second = x.cycle;
   }
   return false;
 }
 
+void read_results(const fs::path& folder, episode& to) {
+  const auto& of = to.closed.of;
+  auto lines = report::read_cycles(folder, [&of](session_key x) {
+    x.counter = of.counter;
+    return x == of;
+  });
+  if (!lines)
+    return;
+  to.has_gaps = are_gaps_in(*lines);
+  std::erase_if(*lines, [&of](const cycle_line& x) { return x.of != of; });
+  for (const auto& x : *lines)
+    if (!x.parts || !x.input_age_ms)
+      throw input_error{fmt::format(
+          "{}: this run is of a version that did not record where the time to "
+          "a result went; run its config.toml again.",
+          (folder / "cycles.csv").string())};
+  to.results = std::move(*lines);
+}
+
 std::optional<double> lost_share(const fs::path& folder,
-                                 const std::string& provider,
-                                 const std::string& service) {
-  static constexpr columns names{"provider", "direction", "what", "sent",
-                                 "lost"};
-  const auto file = folder / "octets.csv";
-  if (!fs::exists(file))
-    return std::nullopt;
-  csv_reader row{file, names, ending_of(folder)};
-  while (row.next())
-    if (row.text(0) == provider && row.text(1) == "down"
-        && row.text(2) == service && row.number(3) > 0)
-      return row.number(4) / row.number(3);
+                                 const session_key& of) {
+  for (const auto& x : report::read_octets(folder))
+    if (x.provider == of.provider && x.direction == "down"
+        && x.what == of.service && x.sent > 0)
+      return static_cast<double>(x.lost) / static_cast<double>(x.sent);
   return std::nullopt;
 }
 
-asked_shares read_load(const fs::path& folder, const std::string& provider,
-                       double at_s) {
-  static constexpr columns names{"t_s", "provider", "what", "asked_share"};
+asked_shares load_at(const fs::path& folder, const std::string& provider,
+                     double at_s) {
   asked_shares all;
-  const auto file = folder / "load.csv";
-  if (!fs::exists(file))
-    return all;
-  csv_reader row{file, names, ending_of(folder)};
   const auto second = std::floor(at_s);
-  while (row.next())
-    if (row.number(0) >= second - 1 && row.number(0) <= second
-        && row.text(1) == provider)
-      all[row.text(2)] = std::max(all[row.text(2)], row.number(3));
+  for (const auto& x : report::read_load(folder))
+    if (x.t_s >= second - 1 && x.t_s <= second && x.provider == provider)
+      all[x.what] = std::max(all[x.what], x.asked_share);
   return all;
+}
+
+} // namespace
+
+bool ended_early(const episode_line& x) {
+  using messages::end_reason;
+  for (int k = 0; k <= static_cast<int>(last_of(end_reason{})); ++k)
+    if (const auto reason = static_cast<end_reason>(k);
+        messages::name_of(reason) == x.reason)
+      return !messages::is_planned(reason);
+  return true;
+}
+
+double distance_s(const episode_line& x, double at_s) {
+  return std::max({x.accepted_s - at_s, at_s - x.ended_s, 0.0});
+}
+
+std::optional<episode> find_episode(const fs::path& folder, const question& q) {
+  const auto all = report::read_episodes(folder);
+  const auto* closed = find(all, q);
+  if (!closed)
+    return std::nullopt;
+  episode found;
+  found.closed = *closed;
+  const auto& of = found.closed.of;
+  for (const auto& x : all) {
+    if (x.of == of && !x.by_requester)
+      found.at_provider = x;
+    const auto is_later = x.by_requester && x.of.station == of.station
+                          && x.of.service == of.service
+                          && x.accepted_s >= found.closed.ended_s;
+    if (is_later && (!found.next || x.accepted_s < found.next->accepted_s))
+      found.next = x;
+  }
+  for (auto& event : report::read_events(folder))
+    if (event.of.station == of.station
+        && event.of.provider_id == of.provider_id)
+      found.events.push_back(std::move(event));
+  read_results(folder, found);
+  found.lost = lost_share(folder, of);
+  if (!of.provider.empty())
+    found.load = load_at(folder, of.provider, found.closed.ended_s);
+  return found;
 }
 
 } // namespace sofof::experiments::explain

@@ -1,4 +1,4 @@
-// What a results folder holds of one episode.
+// All that a results folder holds of one episode.
 #pragma once
 
 #include "experiments/report/run_files.hpp"
@@ -12,63 +12,51 @@
 
 namespace sofof::experiments::explain {
 
-/// One side's line of episodes.csv.
-struct closed_episode {
-  report::session_key of;
-  bool by_requester = false;
-  double accepted_s = 0;
-  std::optional<double> first_data_s; ///< None: no data in time.
-  double ended_s = 0;
-  std::string reason;
-  bool fallback = false;
-  std::string because;
-};
+/// Which episode.
+struct question {
+  std::optional<std::uint64_t> station{}; ///< Any, if not said.
+  std::optional<double> at_s{}; ///< The one that runs then, or is nearest.
+  std::string service{};        ///< Any, if empty.
 
-/// Where the time from an input to its result went, ms.
-struct time_parts {
-  double uplink_wait = 0, uplink = 0;
-  double rest = 0; ///< The input waited for its cycle.
-  double queue = 0, computing = 0;
-  double downlink_wait = 0, downlink = 0;
-};
-
-/// A line of cycles.csv.
-struct received_result {
-  std::uint64_t cycle = 0;
-  double received_s = 0;
-  double latency_ms = 0;
-  double input_age_ms = 0;
-  bool used = false;
-  time_parts ms;
+  /// @returns whether a vehicle or a service is the one that is asked about.
+  bool is_about(const report::session_key& x) const {
+    return (!station || x.station == *station)
+           && (service.empty() || x.service == service);
+  }
 };
 
 /// The share of what servers can do that was asked for, by their name
 /// ("workers", "uplink", "downlink").
 using asked_shares = std::map<std::string, double>;
 
-/// @returns all lines, in their order.
-/// @throws input_error with file and line, as all below.
-std::vector<closed_episode> read_episodes(const std::filesystem::path& folder);
+/// All that is known of one episode.
+struct episode {
+  report::episode_line closed; ///< By the vehicle.
+  std::optional<report::episode_line> at_provider;
+  std::optional<report::episode_line> next; ///< Of this service and vehicle.
+  std::vector<report::event_line> events;   ///< Of this vehicle and provider.
+  /// With their parts; nothing when the run wrote none.
+  std::optional<std::vector<report::cycle_line>> results;
+  /// Share of the octets that the provider sent for the service, to whom ever;
+  /// nothing when no modelled cell counted them.
+  std::optional<double> lost;
+  /// Some results between others of this vehicle, provider and service did not
+  /// come: no line tells of their cycles.
+  bool has_gaps = false;
+  asked_shares load; ///< Of the provider, at most in the last second or two.
+};
 
-/// @returns the results of a session; nothing when the run wrote none.
-std::optional<std::vector<received_result>>
-read_results(const std::filesystem::path& folder,
-             const report::session_key& session);
+/// @returns whether an episode ended for other than a planned reason.
+bool ended_early(const report::episode_line& x);
 
-/// @returns whether results between others of this vehicle, provider and
-/// service did not come: no result tells of their cycles.
-bool has_gaps(const std::filesystem::path& folder,
-              const report::session_key& session);
+/// @returns how far an episode is from a moment, s; 0 when it runs then.
+double distance_s(const report::episode_line& x, double at_s);
 
-/// @returns the share of the octets that a provider sent for a service that was
-/// lost; nothing when no modelled cell counted it.
-std::optional<double> lost_share(const std::filesystem::path& folder,
-                                 const std::string& provider,
-                                 const std::string& service);
-
-/// @returns those of a provider in a second or in the one before, whichever is
-/// larger; empty when the run wrote none.
-asked_shares read_load(const std::filesystem::path& folder,
-                       const std::string& provider, double at_s);
+/// @returns the episode that is asked about: without a time the first that
+/// ended early, or else the longest; nothing where no vehicle closed any.
+/// @throws input_error with file and line when the folder is broken, or of a
+/// version that did not record where the time went.
+std::optional<episode> find_episode(const std::filesystem::path& folder,
+                                    const question& question);
 
 } // namespace sofof::experiments::explain

@@ -3,9 +3,8 @@
 
 #include "base/input_error.hpp"
 #include "base/text/wrapped.hpp"
+#include "experiments/explain/absence.hpp"
 #include "experiments/explain/cause.hpp"
-#include "experiments/explain/episode_files.hpp"
-#include "messages/protocol/service.hpp"
 #include "recording/load_table.hpp"
 
 #include <fmt/format.h>
@@ -24,85 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t line_width = 80;
-constexpr std::size_t enough_for_a_rule = 20; // results
-
-bool ended_early(const closed_episode& x) {
-  using messages::end_reason;
-  for (int k = 0; k <= static_cast<int>(last_of(end_reason{})); ++k)
-    if (const auto reason = static_cast<end_reason>(k);
-        messages::name_of(reason) == x.reason)
-      return !messages::is_planned(reason);
-  return true;
-}
-
-/// @returns how far an episode is from a moment, s; 0 when it runs then.
-double distance_s(const closed_episode& x, double at_s) {
-  return std::max({x.accepted_s - at_s, at_s - x.ended_s, 0.0});
-}
-
-/// @returns the episode that is asked about.
-const closed_episode& find(const std::vector<closed_episode>& all,
-                           const question& q, const fs::path& folder) {
-  std::vector<const closed_episode*> possible;
-  for (const auto& x : all)
-    if (x.by_requester && (!q.station || x.of.station == *q.station)
-        && (q.service.empty() || x.of.service == q.service))
-      possible.push_back(&x);
-  if (possible.empty())
-    throw input_error{fmt::format(
-        "{}: no vehicle has closed an episode{}{}; episodes.csv lists all.",
-        folder.string(),
-        q.station ? fmt::format(" as station {}", *q.station) : "",
-        q.service.empty() ? "" : fmt::format(" of {}", q.service))};
-  if (q.at_s)
-    return **std::ranges::min_element(
-        possible, {}, [&q](const auto* x) { return distance_s(*x, *q.at_s); });
-  const auto early = std::ranges::find_if(
-      possible, [](const auto* x) { return ended_early(*x); });
-  if (early != possible.end())
-    return **early;
-  return **std::ranges::max_element(
-      possible, {}, [](const auto* x) { return x->ended_s - x->accepted_s; });
-}
-
-/// All that is known of one episode.
-struct episode {
-  closed_episode closed;
-  std::optional<closed_episode> at_provider;
-  std::optional<closed_episode> next;     ///< Of this service and vehicle.
-  std::vector<report::event_line> events; ///< Of this vehicle and provider.
-  std::optional<std::vector<received_result>> results;
-  /// Share of the octets that the provider sent for the service, to whom ever.
-  std::optional<double> lost;
-  bool has_gaps = false; ///< Some results between others did not come.
-  asked_shares load;     ///< Of the provider, about the end.
-};
-
-episode open(const fs::path& folder, const question& q) {
-  const auto all = read_episodes(folder);
-  episode found;
-  found.closed = find(all, q, folder);
-  const auto& of = found.closed.of;
-  for (const auto& x : all) {
-    if (x.of == of && !x.by_requester)
-      found.at_provider = x;
-    const auto is_later = x.by_requester && x.of.station == of.station
-                          && x.of.service == of.service
-                          && x.accepted_s >= found.closed.ended_s;
-    if (is_later && (!found.next || x.accepted_s < found.next->accepted_s))
-      found.next = x;
-  }
-  for (auto& event : report::read_events(folder))
-    if (event.of.station == of.station
-        && event.of.provider_id == of.provider_id)
-      found.events.push_back(std::move(event));
-  found.results = read_results(folder, of);
-  found.lost = lost_share(folder, of.provider, of.service);
-  found.has_gaps = has_gaps(folder, of);
-  if (!of.provider.empty())
-    found.load = read_load(folder, of.provider, found.closed.ended_s);
-  return found;
-}
+constexpr std::string_view told_by_vehicle = "told by the vehicle";
 
 /// Lines with a time, in its order, and lines that belong to these.
 class lines {
@@ -170,7 +91,7 @@ void beginning(lines& to, const episode& x) {
 
 /// @returns "mean 12.0, at most 31.2 ms".
 template <class Of>
-std::string spread(std::span<const received_result> results, Of of) {
+std::string spread(std::span<const report::cycle_line> results, Of of) {
   double sum = 0, most = 0;
   for (const auto& x : results) {
     sum += of(x);
@@ -190,20 +111,21 @@ void course(lines& to, const episode& x) {
     to.more("no result came");
     return;
   }
-  const auto used = std::ranges::count(results, true, &received_result::used);
+  const auto used =
+      std::ranges::count(results, true, &report::cycle_line::used);
   to.more(fmt::format("{} result{} came, {} used", results.size(),
                       results.size() == 1 ? "" : "s", used));
   to.more("latency "
           + spread(results, [](const auto& r) { return r.latency_ms; }));
   to.more("age of the input "
-          + spread(results, [](const auto& r) { return r.input_age_ms; }));
+          + spread(results, [](const auto& r) { return *r.input_age_ms; }));
   const auto& last = results.back();
   to.at(last.received_s,
         fmt::format("the last result: latency {:.1f} ms, input {:.1f} ms old",
-                    last.latency_ms, last.input_age_ms));
+                    last.latency_ms, *last.input_age_ms));
   const auto of_age = x.closed.reason != "qos_latency";
   to.more(fmt::format("of the {}: {} ms", of_age ? "age" : "latency",
-                      in_parts(last.ms, of_age)));
+                      in_parts(*last.parts, of_age)));
 }
 
 void load(lines& to, const episode& x) {
@@ -287,8 +209,15 @@ std::string why_silent(const episode& x) {
 }
 
 std::string why_no_data(const episode& x) {
+  const auto provider_says =
+      x.at_provider && x.at_provider->reason == "no_data"
+              && x.at_provider->because != told_by_vehicle
+          ? fmt::format(" ({}: {})", x.closed.of.provider,
+                        x.at_provider->because)
+          : std::string{};
   if (!x.results || x.results->empty())
-    return "after it was accepted, no result came.";
+    return fmt::format("after it was accepted, no result came{}.",
+                       provider_says);
   return fmt::format(
       "results came, but none in time: latency {}.",
       spread(*x.results, [](const auto& r) { return r.latency_ms; }));
@@ -337,17 +266,23 @@ std::string tell(const fs::path& folder, const question& question) {
     throw input_error{fmt::format("{} is no results folder: it has no "
                                   "episodes.csv.",
                                   folder.string())};
-  const auto x = open(folder, question);
-  const auto& e = x.closed;
+  const auto x = find_episode(folder, question);
+  if (!x)
+    return tell_absence(folder, question);
+  const auto& e = x->closed;
   lines to;
-  beginning(to, x);
-  course(to, x);
-  ending(to, x);
-  return fmt::format("Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}\n",
-                     e.of.station, e.of.service, e.of.provider, e.accepted_s,
-                     e.ended_s,
+  beginning(to, *x);
+  course(to, *x);
+  ending(to, *x);
+  const auto nearest =
+      question.at_s && distance_s(e, *question.at_s) > 0 ? fmt::format(
+          "No episode ran at {:g} s; the nearest is:\n", *question.at_s)
+                                                         : std::string{};
+  return fmt::format("{}Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}\n",
+                     nearest, e.of.station, e.of.service, e.of.provider,
+                     e.accepted_s, e.ended_s,
                      ended_early(e) ? "ended early" : "ended as planned",
-                     to.take(), wrapped("Why: " + why(x), line_width));
+                     to.take(), wrapped("Why: " + why(*x), line_width));
 }
 
 } // namespace sofof::experiments::explain

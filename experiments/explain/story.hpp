@@ -2,25 +2,21 @@
 // why it ended.
 #pragma once
 
-#include <cstdint>
+#include "experiments/explain/episode.hpp"
+
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace sofof::experiments::explain {
 
-/// Which episode.
-struct question {
-  std::optional<std::uint64_t> station; ///< Any, if not said.
-  std::optional<double> at_s; ///< The one that runs then, or is nearest.
-  std::string service;        ///< Any, if empty.
-};
-
 /// @param folder    Of a run's results.
 /// @param question  Without a time: the first episode that ended early, or
 ///                  else the longest.
-/// @returns some ten lines of at most 80 columns, if names are short.
-/// @throws input_error when the folder holds no such episode, or is broken.
+/// @returns some ten lines of at most 80 columns, if names are short; a line
+/// before them where no episode ran at the time; where there is no episode, the
+/// run's headline and why.
+/// @throws input_error when the folder knows of no such vehicle or service, or
+/// is broken.
 std::string tell(const std::filesystem::path& folder, const question& question);
 
 } // namespace sofof::experiments::explain

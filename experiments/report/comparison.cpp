@@ -15,8 +15,9 @@ namespace sofof::experiments::report {
 
 namespace {
 
-constexpr double no_longer = 0.01;    // a share of the longer run
-constexpr double worth_a_word = 0.01; // a share of the larger figure
+constexpr double no_longer = 0.01;     // a share of the longer run
+constexpr double worth_a_word = 0.01;  // a share of the larger figure
+constexpr double no_difference = 1e-9; // no more than rounding
 
 std::string_view last_part(std::string_view member) {
   return member.substr(member.rfind('.') + 1); // npos + 1 is 0
@@ -53,10 +54,13 @@ double length_min(const recorded_run& run) {
   return run.figure("virtual_s").value_or(0) / s_per_min;
 }
 
+/// @returns a difference with its sign: what would round to 0 and is not, with
+/// its first digit.
 std::string signed_text(double x, int decimals) {
   const auto text = fmt::format("{:+.{}f}", x, decimals);
-  const auto nothing = text.find_first_of("123456789") == text.npos;
-  return nothing ? "0" : text;
+  if (text.find_first_of("123456789") != text.npos)
+    return text;
+  return std::abs(x) < no_difference ? "0" : fmt::format("{:+.1g}", x);
 }
 
 void warn_of_unlike_lengths(section& to, std::span<const recorded_run> runs) {

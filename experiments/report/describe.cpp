@@ -5,6 +5,7 @@
 #include "experiments/report/episode_table.hpp"
 #include "experiments/report/key_figures.hpp"
 #include "experiments/report/load_section.hpp"
+#include "experiments/report/over_time.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/remote_results.hpp"
 #include "experiments/report/vehicle_table.hpp"
@@ -129,6 +130,7 @@ std::vector<section> sections_of(runs_view runs) {
   all.push_back(figures(runs));
   add(load_section(runs));
   add_results(all, runs);
+  add(over_time(runs));
   add_episodes(all, runs);
   add_vehicles(all, runs);
   all.push_back(configuration(runs));

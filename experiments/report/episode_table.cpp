@@ -76,6 +76,7 @@ constexpr episode_column episode_columns[]{
     {"offloaded, s", "t_off_s",
      [](const episode_entry& e) { return seconds_text(e.x.t_off_s); }},
     {"ended by", "reason", [](const episode_entry& e) { return e.x.reason; }},
+    {"why", "because", [](const episode_entry& e) { return e.x.because; }},
     {"fallback", "fallback",
      [](const episode_entry& e) {
        return std::string{e.x.fallback ? "yes" : ""};

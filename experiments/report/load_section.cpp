@@ -1,7 +1,6 @@
 // From load.csv and octets.csv.
 #include "experiments/report/load_section.hpp"
 
-#include "base/text/csv_reader.hpp"
 #include "experiments/report/documented.hpp"
 
 #include <fmt/format.h>
@@ -9,8 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,16 +20,10 @@ namespace sofof::experiments::report {
 
 namespace {
 
-namespace fs = std::filesystem;
-using columns = std::string_view[];
 using runs_view = std::span<const recorded_run>;
 
 constexpr std::array<std::string_view, 3> servers{"workers", "uplink",
                                                   "downlink"};
-
-csv_reader::ending ending_of(const recorded_run& run) {
-  return run.figures ? csv_reader::ending::whole : csv_reader::ending::killed;
-}
 
 /// Shares that were asked for, by the second.
 struct load_curve {
@@ -40,18 +34,12 @@ struct load_curve {
 /// By provider and what of it.
 using load_curves = std::map<std::pair<std::string, std::string>, load_curve>;
 
-load_curves read_load(const recorded_run& run) {
-  static constexpr columns names{"t_s", "provider", "what", "asked_share"};
-  enum { t, provider, what, asked };
+load_curves curves_of(const recorded_run& run) {
   load_curves all;
-  const auto file = run.folder / "load.csv";
-  if (!fs::exists(file))
-    return all;
-  csv_reader row{file, names, ending_of(run)};
-  while (row.next()) {
-    auto& to = all[{row.text(provider), row.text(what)}];
-    to.t_s.push_back(row.number(t));
-    to.asked_percent.push_back(100 * row.number(asked));
+  for (const auto& line : read_load(run.folder)) {
+    auto& to = all[{line.provider, line.what}];
+    to.t_s.push_back(line.t_s);
+    to.asked_percent.push_back(100 * line.asked_share);
   }
   return all;
 }
@@ -60,18 +48,6 @@ std::string label(const recorded_run& run, const std::string& provider,
                   runs_view runs) {
   return runs.size() == 1 ? provider
                           : fmt::format("{}: {}", run.label, provider);
-}
-
-/// @returns the place of a provider in the configuration, if only it counts.
-std::optional<std::size_t>
-place_of(const recorded_run& run, const std::string& provider, runs_view runs) {
-  if (runs.size() > 1)
-    return std::nullopt;
-  const auto& all = run.what.providers;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].name == provider)
-      return i;
-  return std::nullopt;
 }
 
 /// One figure for workers, uplinks and downlinks each, as far as any had work.
@@ -89,13 +65,14 @@ void add_curves(section& to, runs_view runs,
     for (std::size_t i = 0; i < runs.size(); ++i)
       for (const auto& [of, load] : loads[i])
         if (of.second == what)
-          shown.curves.push_back(
-              {.name = label(runs[i], of.first, runs),
-               .x = load.t_s,
-               .y = load.asked_percent,
-               .low = {},
-               .high = {},
-               .provider = place_of(runs[i], of.first, runs)});
+          shown.curves.push_back({.name = label(runs[i], of.first, runs),
+                                  .x = load.t_s,
+                                  .y = load.asked_percent,
+                                  .low = {},
+                                  .high = {},
+                                  .provider = runs.size() == 1
+                                                  ? runs[i].place_of(of.first)
+                                                  : std::nullopt});
     if (!shown.curves.empty())
       to.blocks.emplace_back(std::move(shown));
   }
@@ -144,26 +121,37 @@ table servers_of(runs_view runs, const std::vector<load_curves>& loads) {
   return all;
 }
 
+/// A run that is missing in the table would look forgotten.
+void name_without_load(section& to, runs_view runs,
+                       const std::vector<load_curves>& loads) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (loads[i].empty())
+      to.blocks.emplace_back(paragraph{fmt::format(
+          "`{}`: {}", runs[i].label,
+          std::filesystem::exists(runs[i].folder / "load.csv")
+              ? "nothing could be full, as no computing and no airtime took "
+                "time."
+              : "load was not recorded.")});
+}
+
 table octets_of(runs_view runs) {
-  static constexpr columns names{"provider", "direction", "what", "messages",
-                                 "sent",     "delivered", "lost", "under_way"};
+  static constexpr std::string_view names[]{
+      "provider", "direction", "what", "messages",
+      "sent",     "delivered", "lost", "under_way"};
   table all;
   all.title = "Octets on the air";
   for (const auto name : names) {
     all.columns.emplace_back(name == "under_way" ? "under way" : name);
     all.column_meanings.push_back(documented("octets.csv", name));
   }
-  for (const auto& run : runs) {
-    const auto file = run.folder / "octets.csv";
-    if (!fs::exists(file))
-      continue;
-    csv_reader in{file, names, ending_of(run)};
-    while (in.next()) {
+  for (const auto& run : runs)
+    for (const auto& x : read_octets(run.folder)) {
       auto& row = all.rows.emplace_back();
-      for (std::size_t k = 0; k < std::size(names); ++k)
-        row.push_back(k == 0 ? label(run, in.text(0), runs) : in.text(k));
+      row = {label(run, x.provider, runs), x.direction, x.what};
+      for (const auto count :
+           {x.messages, x.sent, x.delivered, x.lost, x.under_way})
+        row.push_back(std::to_string(count));
     }
-  }
   return all;
 }
 
@@ -173,9 +161,11 @@ section load_section(runs_view runs) {
   section all{.title = "Load", .blocks = {}};
   std::vector<load_curves> loads;
   for (const auto& run : runs)
-    loads.push_back(read_load(run));
-  if (auto one = servers_of(runs, loads); !one.rows.empty())
+    loads.push_back(curves_of(run));
+  if (auto one = servers_of(runs, loads); !one.rows.empty()) {
     all.blocks.emplace_back(std::move(one));
+    name_without_load(all, runs, loads);
+  }
   add_curves(all, runs, loads);
   if (auto one = octets_of(runs); !one.rows.empty())
     all.blocks.emplace_back(std::move(one));

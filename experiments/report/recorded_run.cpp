@@ -33,6 +33,15 @@ std::optional<double> recorded_run::figure(const std::string& name) const {
   return found == figures->end() ? std::nullopt : std::optional{found->second};
 }
 
+std::optional<std::size_t>
+recorded_run::place_of(const std::string& provider) const {
+  const auto& all = what.providers;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].name == provider)
+      return i;
+  return std::nullopt;
+}
+
 recorded_run open_run(const fs::path& folder) {
   const auto config = folder / "config.toml";
   if (!fs::exists(config))

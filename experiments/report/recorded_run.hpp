@@ -4,6 +4,7 @@
 #include "experiments/report/run_files.hpp"
 #include "scenario/scenario.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -31,6 +32,9 @@ struct recorded_run {
 
   /// @returns a figure of the summary; nothing if it has none of that name.
   std::optional<double> figure(const std::string& name) const;
+
+  /// @returns the place of a provider in the configuration, if it is there.
+  std::optional<std::size_t> place_of(const std::string& provider) const;
 };
 
 /// @throws input_error when it is no results folder, or broken.

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace sofof::experiments::report {
 
@@ -119,8 +120,14 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
                                  "station",    "counter",      "side",
                                  "accepted_s", "first_data_s", "ended_s",
                                  "t_off_s",    "reason",       "fallback"};
+  static constexpr columns newer{"because"};
   enum { side = 5, accepted, first_data, ended, t_off, reason, fallback };
-  csv_reader row{folder / "episodes.csv", names, ending_of(folder)};
+  constexpr auto because = fallback + 1;
+  csv_reader row{folder / "episodes.csv", names, ending_of(folder), newer};
+  const auto is_read = [](const std::string& name) {
+    return std::ranges::find(names, name) != std::end(names)
+           || std::ranges::find(newer, name) != std::end(newer);
+  };
   std::vector<episode_line> all;
   while (row.next()) {
     all.push_back({.of = name_at(row, 0),
@@ -130,33 +137,77 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
                    .ended_s = row.number(ended),
                    .t_off_s = row.number_if_any(t_off),
                    .reason = row.text(reason),
-                   .fallback = row.flag(fallback)});
+                   .fallback = row.flag(fallback),
+                   .because = row.has(because) ? row.text(because) : ""});
     for (std::size_t i = 0; i < row.header().size(); ++i)
-      if (std::ranges::find(names, row.header()[i]) == std::end(names))
+      if (!is_read(row.header()[i]))
         all.back().others.emplace_back(row.header()[i], row.field(i));
   }
   return all;
 }
 
-std::optional<std::vector<cycle_line>> read_cycles(const fs::path& folder) {
-  static constexpr columns names{"provider",   "service",        "provider_id",
-                                 "station",    "counter",        "received_s",
-                                 "latency_ms", "interarrival_ms"};
-  static constexpr columns newer{"input_age_ms"};
-  enum { received = 5, latency, interarrival, input_age };
+std::optional<std::vector<cycle_line>>
+read_cycles(const fs::path& folder,
+            const std::function<bool(const session_key&)>& wanted) {
+  static constexpr columns names{
+      "provider", "service",    "provider_id", "station",         "counter",
+      "cycle",    "received_s", "latency_ms",  "interarrival_ms", "used"};
+  static constexpr columns newer{
+      "input_age_ms", "uplink_wait_ms", "uplink_ms",        "rest_ms",
+      "queue_ms",     "computing_ms",   "downlink_wait_ms", "downlink_ms"};
+  enum { cycle = 5, received, latency, interarrival, used, input_age, parts };
   const auto file = folder / "cycles.csv";
   if (!fs::exists(file))
     return std::nullopt;
   csv_reader row{file, names, ending_of(folder), newer};
+  const auto part = [&row](std::size_t k) { return row.number(parts + k); };
+  bool has_parts = true;
+  for (std::size_t k = 0; k < 7; ++k)
+    has_parts = has_parts && row.has(parts + k);
   std::vector<cycle_line> all;
+  while (row.next()) {
+    auto of = name_at(row, 0);
+    if (wanted && !wanted(of))
+      continue;
+    auto& line = all.emplace_back();
+    line.of = std::move(of);
+    line.cycle = row.whole(cycle);
+    line.received_s = row.number(received);
+    line.latency_ms = row.number(latency);
+    line.used = row.flag(used);
+    line.interarrival_ms = row.number_if_any(interarrival);
+    if (row.has(input_age))
+      line.input_age_ms = row.number_if_any(input_age);
+    if (has_parts)
+      line.parts = {part(0), part(1), part(2), part(3),
+                    part(4), part(5), part(6)};
+  }
+  return all;
+}
+
+std::vector<load_line> read_load(const fs::path& folder) {
+  static constexpr columns names{"t_s", "provider", "what", "asked_share"};
+  const auto file = folder / "load.csv";
+  std::vector<load_line> all;
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(folder)};
   while (row.next())
-    all.push_back({.of = name_at(row, 0),
-                   .received_s = row.number(received),
-                   .latency_ms = row.number(latency),
-                   .interarrival_ms = row.number_if_any(interarrival),
-                   .input_age_ms = row.has(input_age)
-                                       ? row.number_if_any(input_age)
-                                       : std::nullopt});
+    all.push_back({row.number(0), row.text(1), row.text(2), row.number(3)});
+  return all;
+}
+
+std::vector<octets_line> read_octets(const fs::path& folder) {
+  static constexpr columns names{"provider", "direction", "what", "messages",
+                                 "sent",     "delivered", "lost", "under_way"};
+  const auto file = folder / "octets.csv";
+  std::vector<octets_line> all;
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(folder)};
+  while (row.next())
+    all.push_back({row.text(0), row.text(1), row.text(2), row.whole(3),
+                   row.whole(4), row.whole(5), row.whole(6), row.whole(7)});
   return all;
 }
 

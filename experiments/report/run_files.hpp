@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,17 +33,46 @@ struct episode_line {
   std::optional<double> t_off_s;
   std::string reason;
   bool fallback = false;
+  std::string because; ///< Empty in folders of older versions, too.
   /// Columns that the report does not read itself, by their names.
   std::vector<std::pair<std::string, std::string>> others{};
+};
+
+/// Where the time from an input to its result went, ms.
+struct time_parts {
+  double uplink_wait = 0, uplink = 0;
+  double rest = 0; ///< The input waited for its cycle.
+  double queue = 0, computing = 0;
+  double downlink_wait = 0, downlink = 0;
 };
 
 /// Of cycles.csv.
 struct cycle_line {
   session_key of;
+  std::uint64_t cycle = 0;
   double received_s = 0;
   double latency_ms = 0;
+  bool used = false;
   std::optional<double> interarrival_ms;
   std::optional<double> input_age_ms; ///< Not in folders of older versions.
+  std::optional<time_parts> parts;    ///< Likewise.
+};
+
+/// Of load.csv.
+struct load_line {
+  double t_s = 0; ///< Its second begins.
+  std::string provider;
+  std::string what; ///< "workers", "uplink", "downlink".
+  double asked_share = 0;
+};
+
+/// Of octets.csv.
+struct octets_line {
+  std::string provider;
+  std::string direction; ///< "up" or "down".
+  std::string what;      ///< What they were for: a service, say.
+  std::uint64_t messages = 0;
+  std::uint64_t sent = 0, delivered = 0, lost = 0, under_way = 0;
 };
 
 /// Of tracks.csv.
@@ -85,9 +115,15 @@ std::vector<episode_line> read_episodes(const std::filesystem::path& folder);
 std::vector<event_line> read_events(const std::filesystem::path& folder);
 
 /// @returns nothing when the run was told not to write this file.
+/// @param wanted  Which offloadings' lines; all, if empty.
 std::optional<std::vector<cycle_line>>
-read_cycles(const std::filesystem::path& folder);
+read_cycles(const std::filesystem::path& folder,
+            const std::function<bool(const session_key&)>& wanted = {});
 std::optional<std::vector<track_line>>
 read_tracks(const std::filesystem::path& folder);
+
+/// @returns no lines when the run wrote no such file.
+std::vector<load_line> read_load(const std::filesystem::path& folder);
+std::vector<octets_line> read_octets(const std::filesystem::path& folder);
 
 } // namespace sofof::experiments::report

@@ -26,7 +26,7 @@ struct told_run {
   std::string because = "qos_latency value_ms=61.200000 limit_ms=50.000000";
   std::string provider_closed = "30.010000000";
   int gap = 0; ///< Cycles before the last one that no result tells of.
-  std::string last = "61.2,130.0,1,0.0,5.0,63.8,40.0,3.2,0.0,18.0";
+  std::string last = "61.2,130.0,1,,0.0,5.0,63.8,40.0,3.2,0.0,18.0";
 
   std::string told(const question& q = {}) const {
     write_text(folder / "summary.json", "{}\n");
@@ -49,11 +49,12 @@ struct told_run {
         "\n");
     std::string rows =
         "station,provider,provider_id,service,counter,cycle,received_s,"
-        "latency_ms,input_age_ms,used,uplink_wait_ms,uplink_ms,rest_ms,"
+        "latency_ms,input_age_ms,used,interarrival_ms,uplink_wait_ms,uplink_ms,"
+        "rest_ms,"
         "queue_ms,computing_ms,downlink_wait_ms,downlink_ms\n";
     for (int k = 0; k < 20; ++k)
       rows += "101,mec,1,planning,2," + std::to_string(400 + k)
-              + ",21.0,12.0,70.0,1,0.0,5.0,53.0,0.5,3.0,0.0,8.5\n";
+              + ",21.0,12.0,70.0,1,50.0,0.0,5.0,53.0,0.5,3.0,0.0,8.5\n";
     rows += "101,mec,1,planning,2," + std::to_string(420 + gap) + ",30.0,"
             + last + '\n';
     write_text(folder / "cycles.csv", rows);
@@ -99,17 +100,83 @@ TEST_CASE("the episode that is told of is the one at a time, or the first that "
   CHECK(contains(run.told({{}, {}, "planning"}), "20.000 to 30.000 s"));
 }
 
-TEST_CASE("one sentence says that there is no such episode") {
+TEST_CASE("where no episode ran at a time, the nearest is called so") {
   const told_run run;
-  CHECK_THROWS_WITH_AS(
-      run.told({102, {}, ""}),
-      doctest::Contains("no vehicle has closed an episode as station 102"),
-      input_error);
+  CHECK(run.told({101, 14.5, ""})
+            .starts_with("No episode ran at 14.5 s; the nearest is:\nStation "
+                         "101, planning at mec: 1.000 to 11.000 s"));
+  CHECK(run.told({101, 5.0, ""}).starts_with("Station 101"));
+}
+
+TEST_CASE("one sentence says that there is no such vehicle or service") {
+  const told_run run;
+  CHECK_THROWS_WITH_AS(run.told({102, {}, ""}),
+                       doctest::Contains("this run has no station 102"),
+                       input_error);
   CHECK_THROWS_WITH_AS(run.told({{}, {}, "climate"}),
-                       doctest::Contains("of climate"), input_error);
+                       doctest::Contains("no service climate"), input_error);
   const scratch empty;
   CHECK_THROWS_WITH_AS(tell(empty.path(), {}),
                        doctest::Contains("is no results folder"), input_error);
+}
+
+namespace {
+
+/// A run of 101 and 102 in which nothing was offloaded.
+struct idle_run {
+  scratch folder;
+
+  explicit idle_run(const std::string& events, const std::string& side = "") {
+    write_text(
+        folder / "summary.json",
+        R"({"headline":{"offloading":"Never offloaded: no offer came."},)"
+        R"("services":{"climate":{"requests":0}}})");
+    write_text(folder / "episodes.csv",
+               "side,station,provider,provider_id,service,counter,accepted_s,"
+               "first_data_s,ended_s,t_off_s,reason,fallback,because\n"
+                   + side);
+    write_text(folder / "vehicles.csv", "station\n101\n102\n");
+    write_text(folder / "events.jsonl", events);
+  }
+  static std::string event(const std::string& what, const std::string& detail) {
+    return R"({"t_s":1.0,"what":")" + what
+           + R"(","station":101,"provider":"mec","provider_id":1,"service":)"
+             R"("planning","counter":0,"detail":")"
+           + detail + "\"}\n";
+  }
+  std::string told(const question& q = {}) const {
+    return tell(folder.path(), q);
+  }
+};
+
+} // namespace
+
+TEST_CASE("a run without episodes is told by its headline") {
+  const idle_run run{""};
+  CHECK(run.told() == "Never offloaded: no offer came.\n");
+}
+
+TEST_CASE("a vehicle or a service without episodes is told why") {
+  const idle_run quiet{""};
+  CHECK(contains(quiet.told({102, {}, ""}),
+                 "Station 102: never offloaded: no offer came."));
+  CHECK(contains(quiet.told({{}, {}, "climate"}), "climate: never offloaded"));
+  CHECK_THROWS_AS(quiet.told({103, {}, ""}), input_error);
+  const idle_run refused{idle_run::event("offer", "")
+                         + idle_run::event("stay_local", "too short")
+                         + idle_run::event("refused", "no room")
+                         + idle_run::event("refused", "no room")};
+  CHECK(contains(refused.told({101, {}, "planning"}),
+                 "Station 101, planning: never offloaded: 2 requests, none "
+                 "accepted; most often (2\ntimes): no room."));
+  CHECK(contains(refused.told({102, {}, ""}), "no offer came"));
+}
+
+TEST_CASE("a folder of a provider is not one to explain") {
+  const idle_run run{"", "provider,101,mec,1,planning,1,1.0,,2.0,,left_area,0,"
+                         "\n"};
+  CHECK_THROWS_WITH_AS(run.told(), doctest::Contains("`sofof drive`"),
+                       input_error);
 }
 
 TEST_CASE("each reason has a why of its own") {
@@ -168,14 +235,17 @@ TEST_CASE(
 
 TEST_CASE("the part that took half of the time is the cause, else the one that "
           "took most more than usual") {
-  std::vector<received_result> results(5);
+  std::vector<experiments::report::cycle_line> results(5);
   for (auto& x : results)
-    x.ms = {.queue = 1, .computing = 10, .downlink = 12};
-  results.back().ms = {.queue = 20, .computing = 12, .downlink = 25};
+    x.parts = experiments::report::time_parts{
+        .queue = 1, .computing = 10, .downlink = 12};
+  results.back().parts = experiments::report::time_parts{
+      .queue = 20, .computing = 12, .downlink = 25};
   CHECK(longest_part(results, false).what == "wait for a worker");
-  results.back().ms = {.queue = 20, .computing = 12, .downlink = 45};
+  results.back().parts = experiments::report::time_parts{
+      .queue = 20, .computing = 12, .downlink = 45};
   CHECK(longest_part(results, false).what == "way down");
-  results.back().ms.uplink_wait = 500;
+  results.back().parts->uplink_wait = 500;
   CHECK(longest_part(results, false).what == "way down");
   CHECK(longest_part(results, true).what == "wait for the uplink");
 }

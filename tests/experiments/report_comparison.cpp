@@ -88,6 +88,17 @@ TEST_CASE("two runs are compared side by side, first what differs") {
   CHECK(whole.subtitle.starts_with("Differs in: seed 7 → 8. "));
 }
 
+TEST_CASE("a difference that would round to zero is shown by its first digit") {
+  const played_folder one{"one"};
+  const played_folder other{"other"};
+  const std::array folders{one.path(), other.path()};
+  const comparison both{open_runs(folders)};
+  CHECK(both.difference("latency_ms.mean", 1, 1.004, 2) == "+0.004");
+  CHECK(both.difference("latency_ms.mean", 1, 0.996, 2) == "-0.004");
+  CHECK(both.difference("latency_ms.mean", 1, 1.25, 2) == "+0.25");
+  CHECK(both.difference("latency_ms.mean", 0.1 + 0.2, 0.3, 2) == "0");
+}
+
 TEST_CASE(
     "what took unlike times is compared per minute, extremes not at all") {
   const played_folder one{"one"};

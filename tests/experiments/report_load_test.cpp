@@ -77,6 +77,15 @@ TEST_CASE("load has a table, a figure for each kind of server, and octets") {
   CHECK(octets.rows.at(0).at(4) == "1360");
 }
 
+TEST_CASE("beside a run with load one without any is named") {
+  const loaded_folder loaded;
+  const played_folder idle{"idle"};
+  const auto all = compare_runs(loaded.path(), idle.path());
+  const auto* load = find(all, "Load");
+  REQUIRE(load);
+  CHECK(std::get<paragraph>(load->blocks.at(1)).text.starts_with("`idle`: "));
+}
+
 TEST_CASE("a run that has measured no load has no section about it") {
   const played_folder folder;
   CHECK_FALSE(find(describe_run(folder.path()), "Load"));

@@ -213,7 +213,7 @@ TEST_CASE("a killed run is shown as far as it came, and called killed") {
   CHECK(titles_of(sections)
         == std::vector<std::string>{"Drive", "Key figures",
                                     "Remote results of trajectory_planning",
-                                    "Episodes", "Configuration"});
+                                    "Over time", "Episodes", "Configuration"});
   CHECK(first_of<paragraph>(sections, "Drive").text.find("killed")
         != std::string::npos);
   CHECK(first_of<table>(sections, "Episodes").rows.size() == 3);
@@ -243,7 +243,8 @@ TEST_CASE("a run without cycles and tracks is shown without them") {
   const auto sections = describe_run(folder.path());
   CHECK(titles_of(sections)
         == std::vector<std::string>{"In short", "Drive", "Key figures",
-                                    "Episodes", "Vehicles", "Configuration"});
+                                    "Over time", "Episodes", "Vehicles",
+                                    "Configuration"});
   const auto page = html({"", "", sections});
   const auto text = document_in(page).dump();
   CHECK(text.find("\"has_tracks\":false") != text.npos);
@@ -271,11 +272,11 @@ TEST_CASE("a run comes down to figures, a point for each result and a row for "
   const auto& episodes = first_of<table>(sections, "Episodes");
   REQUIRE(episodes.rows.size() == 3);
   CHECK(episodes.rows[0].at(0) == "101");
-  CHECK(episodes.rows[0].at(9) == "400");    // results
-  CHECK(episodes.rows[0].at(10) == "10.00"); // mean latency
-  CHECK(episodes.rows[0].at(12) == "50.00"); // longest gap
-  CHECK(episodes.rows[1].at(8) == "yes");    // a fallback
-  CHECK(episodes.rows[2].at(9) == "");       // no data
+  CHECK(episodes.rows[0].at(10) == "400");   // results
+  CHECK(episodes.rows[0].at(11) == "10.00"); // mean latency
+  CHECK(episodes.rows[0].at(13) == "50.00"); // longest gap
+  CHECK(episodes.rows[1].at(9) == "yes");    // a fallback
+  CHECK(episodes.rows[2].at(10) == "");      // no data
 }
 
 TEST_CASE("results that stand out of order are drawn in the order of time") {
@@ -342,16 +343,27 @@ TEST_CASE("a column of episodes.csv that the report does not know is shown") {
   const played_folder folder;
   auto text = folder.read("episodes.csv");
   const auto head = text.find('\n');
-  text.insert(head, ",because");
+  text.insert(head, ",another");
   for (auto at = text.find('\n', head + 9); at != text.npos;
        at = text.find('\n', at + 12))
     text.insert(at, ",31 ms > 30");
   folder.write("episodes.csv", text);
   const auto sections = describe_run(folder.path());
   const auto& episodes = first_of<table>(sections, "Episodes");
-  CHECK(episodes.columns.back() == "because");
+  CHECK(episodes.columns.back() == "another");
   for (const auto& row : episodes.rows)
     CHECK(row.back() == "31 ms > 30");
+}
+
+TEST_CASE("the table of episodes says why each ended") {
+  const played_folder folder;
+  folder.spoil("episodes.csv", "left_area,0,", "left_area,0,x_m=300.000");
+  const auto sections = describe_run(folder.path());
+  const auto& episodes = first_of<table>(sections, "Episodes");
+  const auto why = std::ranges::find(episodes.columns, "why");
+  REQUIRE(why != episodes.columns.end());
+  CHECK(*std::prev(why) == "ended by");
+  CHECK(episodes.rows[0][why - episodes.columns.begin()] == "x_m=300.000");
 }
 
 TEST_CASE("near misses are counted apart from QoS events") {

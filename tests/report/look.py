@@ -69,7 +69,8 @@ def look(report, folder):
         seen["arrow_steps_s"] = (
             page.run("sofof.players[0].clock.time") - paused_at)
         page.run("sofof.draw_all()")
-        points = page.run("""sofof.charts.flatMap(
+        points = page.run("""sofof.charts.filter(
+            chart => !/speed|vehicles|t_off/.test(chart.title)).flatMap(
             chart => Object.values(chart.points)).reduce((a, b) => a + b, 0)""")
         gaps = [one for one in cycles if one["interarrival_ms"]]
         ages = [one for one in cycles if one["input_age_ms"]]

@@ -1,0 +1,124 @@
+// From the events that were to lead to an episode.
+#include "experiments/explain/absence.hpp"
+
+#include "base/input_error.hpp"
+#include "base/text/csv_reader.hpp"
+#include "base/text/wrapped.hpp"
+#include "recording/headline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string_view>
+#include <vector>
+
+namespace sofof::experiments::explain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Vehicles that drove, as far as the folder tells.
+std::set<std::uint64_t>
+stations_in(const fs::path& folder,
+            const std::vector<report::event_line>& all) {
+  std::set<std::uint64_t> found;
+  for (const auto& x : all)
+    found.insert(x.of.station);
+  const auto file = folder / "vehicles.csv";
+  if (!fs::exists(file))
+    return found;
+  static constexpr std::string_view names[]{"station"};
+  csv_reader row{file, names};
+  while (row.next())
+    found.insert(row.whole(0));
+  return found;
+}
+
+void refuse_unknown(const fs::path& folder, const question& q,
+                    const std::vector<report::event_line>& events,
+                    const std::optional<report::run_summary>& summary) {
+  const auto refuse = [&folder](const std::string& what) {
+    throw input_error{fmt::format("{}: this run has no {}; episodes.csv and "
+                                  "summary.json name all.",
+                                  folder.string(), what)};
+  };
+  if (q.station && !stations_in(folder, events).contains(*q.station))
+    refuse(fmt::format("station {}", *q.station));
+  const auto is_known =
+      q.service.empty()
+      || std::ranges::any_of(
+          events, [&q](const auto& x) { return x.of.service == q.service; })
+      || (summary
+          && summary->figures.contains(
+              fmt::format("services.{}.requests", q.service)));
+  if (!is_known)
+    refuse(fmt::format("service {}", q.service));
+}
+
+/// What came before an episode could begin.
+struct attempts {
+  recording::service_metrics of;
+  std::uint64_t offers = 0;
+};
+
+attempts count_attempts(const std::vector<report::event_line>& events,
+                        const question& q) {
+  attempts all;
+  for (const auto& x : events) {
+    if (q.station && x.of.station != *q.station)
+      continue;
+    if (x.what == "offer")
+      ++all.offers;
+    if (!q.is_about(x.of))
+      continue;
+    if (x.what == "accepted")
+      ++all.of.accepted;
+    if (x.what == "refused") {
+      ++all.of.rejected;
+      ++all.of.refused[x.detail];
+    }
+    if (x.what == "stay_local")
+      ++all.of.stayed[x.detail];
+  }
+  return all;
+}
+
+} // namespace
+
+std::string tell_absence(const fs::path& folder, const question& q) {
+  constexpr std::size_t line_width = 80;
+  const auto summary = report::read_summary(folder);
+  const auto events = report::read_events(folder);
+  if (std::ranges::any_of(report::read_episodes(folder),
+                          [&q](const auto& x) { return q.is_about(x.of); }))
+    throw input_error{fmt::format("{}: only a provider has closed such "
+                                  "episodes; name the results of the vehicles "
+                                  "(`sofof drive`).",
+                                  folder.string())};
+  refuse_unknown(folder, q, events, summary);
+  std::string text;
+  if (summary)
+    for (const auto& sentence : summary->headline)
+      text += wrapped(sentence, line_width) + '\n';
+  if (!text.empty() && !q.station && q.service.empty())
+    return text;
+  const auto all = count_attempts(events, q);
+  std::string whose;
+  if (q.station)
+    whose += fmt::format("Station {}", *q.station);
+  if (!q.service.empty())
+    whose += fmt::format("{}{}", whose.empty() ? "" : ", ", q.service);
+  if (!whose.empty())
+    whose += ": ";
+  const auto why = all.of.accepted > 0
+                       ? "accepted, but no vehicle has closed an episode yet."
+                       : recording::why_never(all.of, all.offers);
+  return text
+         + wrapped(fmt::format("{}never offloaded: {}", whose, why), line_width)
+         + '\n';
+}
+
+} // namespace sofof::experiments::explain
