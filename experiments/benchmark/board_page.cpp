@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace sofof::experiments::bench {
@@ -159,6 +160,15 @@ report::table below_the_line(const leaderboard& board) {
   return t;
 }
 
+/// One seed alone has none.
+std::optional<std::pair<double, double>> ends_of(const standing& one,
+                                                 std::string_view name) {
+  if (one.seeds < 2)
+    return std::nullopt;
+  const auto& value = one.values.at(name);
+  return std::pair{value.low, value.high};
+}
+
 report::scatter trade_off(const leaderboard& board) {
   report::scatter s;
   s.title = "Energy saved against violations";
@@ -170,7 +180,8 @@ report::scatter trade_off(const leaderboard& board) {
     if (at_x == one.values.end() || at_y == one.values.end())
       continue;
     const auto& dot = s.dots.emplace_back(report::scatter::dot{
-        one.entrant, at_x->second.mean, at_y->second.mean, !one.above_line()});
+        one.entrant, at_x->second.mean, at_y->second.mean, !one.above_line(),
+        ends_of(one, across), ends_of(one, upwards)});
     if (dot.hollow)
       continue;
     x.push_back(dot.x);
@@ -178,7 +189,8 @@ report::scatter trade_off(const leaderboard& board) {
   }
   s.joined = pareto_front(x, y);
   s.caption = "Up and to the left is better. The line joins those that nobody "
-              "beats in both; a ring is below the line.";
+              "beats in both; a ring is below the line. Bars are intervals of "
+              "95 %.";
   return s;
 }
 

@@ -71,6 +71,8 @@ struct scatter {
     double x = 0;
     double y = 0;
     bool hollow = false; ///< Out of competition.
+    /// Low and high ends, where x and y are known with an interval.
+    std::optional<std::pair<double, double>> x_interval{}, y_interval{};
   };
 
   std::string title;

@@ -79,11 +79,18 @@ json to_json(const figure& x) {
 
 json to_json(const scatter& x) {
   auto dots = json::array();
-  for (const auto& one : x.dots)
+  const auto add = [](json& dot, const char* name, const auto& interval) {
+    if (interval)
+      dot[name] = {interval->first, interval->second};
+  };
+  for (const auto& one : x.dots) {
     dots.push_back({{"name", one.name},
                     {"x", one.x},
                     {"y", one.y},
                     {"hollow", one.hollow}});
+    add(dots.back(), "x_interval", one.x_interval);
+    add(dots.back(), "y_interval", one.y_interval);
+  }
   return {{"kind", "scatter"},    {"title", x.title}, {"x_label", x.x_label},
           {"y_label", x.y_label}, {"dots", dots},     {"joined", x.joined},
           {"caption", x.caption}};

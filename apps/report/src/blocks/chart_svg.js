@@ -154,10 +154,14 @@ function limit_elements(block, { x, y, left }, width, height) {
         name(place + (leftwards ? -6 : 6), room.top + 14 + 17 * i, leftwards ? "end" : "start", what),
       ];
     }),
-    ...block.levels.flatMap(([at, what]) => [
-      line(left, right, two(y.at(at)), two(y.at(at))),
-      name(right - 4, two(y.at(at)) - 5, "end", what),
-    ]),
+    ...block.levels.flatMap(([at, what]) => {
+      const place = two(y.at(at));
+      const below = place - room.top < line_height; // else it is cut off
+      return [
+        line(left, right, place, place),
+        name(right - 4, place + (below ? 14 : -5), "end", what),
+      ];
+    }),
   ];
 }
 

@@ -10,6 +10,7 @@ import { decade_text, decades_to_one } from "./axis_steps.js";
 import { chart_svg } from "./chart_svg.js";
 import { colours_of, drawn_columns, unpacked } from "./curves.js";
 import { draw_limits } from "./limits.js";
+import { unit_of } from "./unit.js";
 
 const height = 280;
 const saved_size = { width: 720, height: 400 };
@@ -310,12 +311,15 @@ export function figure_block(block) {
 
   function show_values() {
     const { idx, idxs } = plot.cursor;
-    at_x.textContent = idx == null ? "" : `${short(plot.data[0][idx])}`;
+    const { x_label, y_label } = shown.labels;
+    at_x.textContent = idx == null ? "" : `${short(plot.data[0][idx])}${unit_of(x_label)}`;
     layout.forEach(([i, role], k) => {
       if (role !== "y") return;
       const place = idxs?.[k + 1] ?? idx;
       legend.values[i].textContent =
-        idx == null || place == null ? "" : short(plot.data[k + 1][place]);
+        idx == null || place == null || plot.data[k + 1][place] == null
+          ? ""
+          : `${short(plot.data[k + 1][place])}${unit_of(y_label)}`;
     });
   }
 

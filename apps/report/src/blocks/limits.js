@@ -1,6 +1,8 @@
 // Limits on a chart: lines with their names.
 import { colour } from "../theme.js";
 
+const letter_height = 16; // CSS pixels
+
 /// Draws vertical lines, with their names below each other where they are
 /// close, and horizontal ones.
 export function draw_limits(plot, { marks, levels }) {
@@ -27,13 +29,14 @@ export function draw_limits(plot, { marks, levels }) {
     ctx.textAlign = left ? "right" : "left";
     ctx.fillText(name, x + (left ? -6 : 6) * pixel, bbox.top + (0.3 + i * 1.4) * 12 * pixel);
   });
-  ctx.textBaseline = "bottom";
   ctx.textAlign = "right";
   for (const [at, name] of levels) {
     const y = Math.round(plot.valToPos(at, "y", true));
     if (y < bbox.top || y > bbox.top + bbox.height) continue;
     line(bbox.left, y, right, y);
-    ctx.fillText(name, right - 4 * pixel, y - 2 * pixel);
+    const below = y - bbox.top < letter_height * pixel; // else it is cut off
+    ctx.textBaseline = below ? "top" : "bottom";
+    ctx.fillText(name, right - 4 * pixel, y + (below ? 4 : -2) * pixel);
   }
   ctx.restore();
 }

@@ -5,12 +5,23 @@ import { downloads } from "../pictures/download.js";
 import { picture, standalone, svg } from "../pictures/svg.js";
 import { on_print } from "../print.js";
 import { round_steps, short } from "./axis_steps.js";
+import { unit_of } from "./unit.js";
 
 const height = 420;
 const room = { left: 64, right: 20, top: 16, bottom: 48 };
 const radius = 5;
 const letter = { width: 6.6, height: 15 }; // at 12 px
 const most_names = 3; // of dots that lie upon each other
+
+/// @returns "1.5 (1.2 to 1.9) ms", the interval if there is one.
+function value_text(value, interval, label) {
+  const between = interval ? ` (${short(interval[0])} to ${short(interval[1])})` : "";
+  return `${short(value)}${between}${unit_of(label)}`;
+}
+
+/// All figures along an axis, ends of intervals too.
+const values_along = (dots, axis) =>
+  dots.flatMap((dot) => [dot[axis], ...(dot[`${axis}_interval`] ?? [])]);
 
 /// From figures to pixels; zero is in sight.
 function scale_of(values, from, to, count) {
@@ -151,8 +162,22 @@ const boxes_of = (corners) =>
     bottom: Math.max(corners[i].y, to.y) + 1,
   }));
 
-function dot_mark(dot) {
-  const says = svg("title", {}, `${dot.name}: ${short(dot.of.x)}; ${short(dot.of.y)}`);
+/// Bars as long as the intervals.
+function interval_bars({ of, x, y }, scale) {
+  const bar = (x1, x2, y1, y2) => svg("line", { class: "interval", x1, x2, y1, y2 });
+  return [
+    ...(of.x_interval ? [bar(...of.x_interval.map(scale.x.at), y, y)] : []),
+    ...(of.y_interval ? [bar(x, x, ...of.y_interval.map(scale.y.at))] : []),
+  ];
+}
+
+function dot_mark(dot, { x_label, y_label }) {
+  const { x, y, x_interval, y_interval } = dot.of;
+  const says = svg(
+    "title",
+    {},
+    `${dot.name}: ${value_text(x, x_interval, x_label)}; ${value_text(y, y_interval, y_label)}`,
+  );
   return svg(
     "circle",
     { class: dot.of.hollow ? "hollow" : dot.best ? "best" : "", cx: dot.x, cy: dot.y, r: radius },
@@ -161,8 +186,8 @@ function dot_mark(dot) {
 }
 
 function drawing(block, width) {
-  const x = scale_of(block.dots.map((dot) => dot.x), room.left, width - room.right, width / 110);
-  const y = scale_of(block.dots.map((dot) => dot.y), height - room.bottom, room.top, 6);
+  const x = scale_of(values_along(block.dots, "x"), room.left, width - room.right, width / 110);
+  const y = scale_of(values_along(block.dots, "y"), height - room.bottom, room.top, 6);
   const best = new Set(block.joined);
   const dots = block.dots.map((of, i) => ({
     of,
@@ -185,7 +210,8 @@ function drawing(block, width) {
     ...axes(block, x, y, width),
     ...line_through(line),
     ...names.flatMap(leader_of),
-    ...order.reverse().map((i) => dot_mark(dots[i])),
+    ...dots.flatMap((dot) => interval_bars(dot, { x, y })),
+    ...order.reverse().map((i) => dot_mark(dots[i], block)),
     ...names.map(({ text, x: at, y: height_of_middle }) =>
       svg("text", { class: "name", x: at, y: height_of_middle + 4, "text-anchor": "middle" }, text),
     ),
@@ -215,8 +241,10 @@ export function scatter_block(block) {
       downloads(block.title, {
         picture: () => standalone(space.firstChild),
         rows: () => [
-          ["name", block.x_label, block.y_label],
-          ...block.dots.map(({ name, x, y }) => [name, x, y]),
+          ["name", block.x_label, block.y_label, "x low", "x high", "y low", "y high"],
+          ...block.dots.map(({ name, x, y, x_interval: a, y_interval: b }) => [
+            name, x, y, a?.[0], a?.[1], b?.[0], b?.[1],
+          ]),
         ],
       }),
     ),
