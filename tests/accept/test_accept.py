@@ -176,6 +176,18 @@ class Accept(unittest.TestCase):
         self.assertIn("1 failed", self.accept(code=1))
         self.assertEqual(self.ran(), [])
 
+    def test_a_test_that_checks_nothing_has_not_passed(self):
+        for assertions, verdict in ((0, "FAIL"), (1, "pass")):
+            self.write("tests/binary", "#!/bin/sh\n"
+                       "echo 'test cases: 1 | 1 passed | 0 failed'\n"
+                       f"echo 'assertions: {assertions} | all passed'\n"
+                       ).chmod(0o755)
+            self.script("main_job",
+                        'tests=$root/tests/binary; tested "it" "it is" "so"')
+            self.commit()
+            self.assertIn(verdict, self.accept("main_job", "--again",
+                                               code=int(verdict == "FAIL")))
+
     def test_a_script_that_breaks_off_fails_and_is_not_kept(self):
         self.script("main_job", PASSES + "\nfalse")
         self.commit()
