@@ -212,9 +212,16 @@ TEST_CASE_FIXTURE(scheduled_world, "ready actors take turns") {
   CHECK(order == std::vector{0, 10, 1, 11, 2, 12});
 }
 
-TEST_CASE("a world with periodic actors can end") {
+TEST_CASE("a world with periodic actors can end, and they end with it") {
   auto w = std::make_unique<scheduled_world>();
-  w->metronome(1ms);
+  const auto alive = std::make_shared<int>();
+  w->own(
+      w->system().spawn([alive](caf::event_based_actor* self) -> caf::behavior {
+        send_after(self, self, 1ms, 1);
+        return {[self, alive](int n) { send_after(self, self, 1ms, n); }};
+      }));
   w->run_for(10ms);
+  CHECK(alive.use_count() > 1);
   w.reset();
+  CHECK(alive.use_count() == 1);
 }

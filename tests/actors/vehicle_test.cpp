@@ -76,6 +76,32 @@ TEST_CASE_FIXTURE(driving_world,
   CHECK(last_report().s_m == s_m);
 }
 
+TEST_CASE_FIXTURE(flying_start_world,
+                  "the time that a part of a vehicle is "
+                  "beyond the edge of its road is counted") {
+  drive(2s);
+  CHECK(total().off_road == 0ms);
+  auto away = plan();
+  for (auto& p : away.points)
+    p.at.y_m += 2;
+  give(away, now());
+  run_for(4s);
+  const vehicle_params size;
+  constexpr double edge_m = 1.75;
+  duration beyond{};
+  for (const auto& r : road->all<motion_report>()) {
+    const auto rear_m = r.state.at.y_m;
+    const auto front_m =
+        rear_m + size.wheelbase_m * std::sin(r.state.heading_rad);
+    if (std::max(rear_m, front_m) + size.width_m / 2 > edge_m)
+      beyond += 50ms;
+  }
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  CHECK(beyond > 1s);
+  CHECK(total().off_road == beyond);
+}
+
 TEST_CASE_FIXTURE(driving_world, "a vehicle that has stopped goes on when "
                                  "plans come again") {
   drive(5s);
