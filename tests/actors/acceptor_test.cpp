@@ -280,6 +280,26 @@ TEST_CASE_FIXTURE(acceptor_world, "a handshake is used once, whoever fails") {
 }
 
 TEST_CASE_FIXTURE(acceptor_world,
+                  "one nonce lets one in, of two that come at once") {
+  const auto at = knock();
+  int welcomes = 0;
+  std::string error;
+  system().spawn([&](caf::event_based_actor* self) {
+    for (int k = 0; k < 2; ++k)
+      self->request(caf::actor_cast<handshake_actor>(at.in), caf::infinite,
+                    hello, peer.handle)
+          .then([&](const peer_welcome&,
+                    const provider_endpoint_actor&) { ++welcomes; },
+                [&](const caf::error& x) {
+                  error = x.context().get_as<std::string>(0);
+                });
+  });
+  settle();
+  CHECK(welcomes == 1);
+  CHECK(error == "introduces itself twice");
+}
+
+TEST_CASE_FIXTURE(acceptor_world,
                   "who does not introduce himself in time finds "
                   "the handshake closed") {
   const auto at = knock();

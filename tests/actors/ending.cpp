@@ -131,6 +131,20 @@ TEST_CASE_FIXTURE(provider_world, "a CAM that was overtaken changes nothing") {
   CHECK(episodes().size() == 1);
 }
 
+TEST_CASE_FIXTURE(provider_world,
+                  "a CAM from farther in the future than clocks are apart is "
+                  "as if it had not come, and makes no true one too old") {
+  hear(inside);
+  start({one});
+  for (const auto where : {inside, outside})
+    hear(cam{station, now() + 10s, where, 0, 10, 0}, requester);
+  stay(3s);
+  CHECK(episodes().empty());
+  CHECK(still_sends());
+  hear(outside);
+  CHECK(episodes().size() == 1);
+}
+
 TEST_CASE_FIXTURE(provider_world, "the requester ends its service: it is "
                                   "closed with that reason, once") {
   hear(inside);

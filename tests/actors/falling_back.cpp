@@ -43,6 +43,7 @@ TEST_CASE_FIXTURE(requester_world, "a violation closes the episode, once") {
   CHECK(e.first_data == began);
   CHECK(e.ended == began + 100ms + 1ns);
   CHECK(e.reason == end_reason::qos_gap);
+  CHECK(e.because == "qos_gap value_ms=100.000001 limit_ms=100.000000");
   CHECK(e.fallback);
 }
 

@@ -86,6 +86,21 @@ TEST_CASE_FIXTURE(provider_world, "what has ended is offered again") {
   CHECK(offers().back().services == std::vector{one});
 }
 
+TEST_CASE_FIXTURE(provider_world,
+                  "what has ended is offered again after a second, exactly") {
+  hear(inside);
+  start({one, two});
+  stay(5s);
+  tell(provider, service_end{verdicts().front().session, end_reason::qos_gap,
+                             side::requester});
+  run_for(1s - 1ns);
+  hear(inside);
+  CHECK(offers().size() == 1);
+  run_for(1ns);
+  hear(inside);
+  CHECK(offers().size() == 2);
+}
+
 TEST_CASE_FIXTURE(provider_world, "a CPM of who has sent no CAM yet brings no "
                                   "offer") {
   see(station);

@@ -277,16 +277,31 @@ TEST_CASE("a suggestion may come before or after the times wrap around") {
   }
 }
 
-TEST_CASE("a suggestion without speeds is no plan") {
+TEST_CASE("a suggestion that says more or less than when to be where is no "
+          "plan") {
   std::vector<maneuver_waypoint> room;
   etsi::mcm message;
   REQUIRE(make_suggestion(to_101, plan_from(10, 5), *in_ulm(), room, message));
-  std::get<etsi::maneuver_constraints>(
+  auto& plan = std::get<etsi::maneuver_constraints>(
       std::get<etsi::suggested_maneuver_container>(
           message.body.parameters.maneuver.value)
-          .maneuver->parameters.value)
-      .waypoints[1]
-      .min_velocity.reset();
+          .maneuver->parameters.value);
+  auto& x = plan.waypoints[1];
+  SUBCASE("without a speed") {
+    x.min_velocity.reset();
+  }
+  SUBCASE("with a range of speeds") {
+    x.max_velocity->value = x.min_velocity->value + 1;
+  }
+  SUBCASE("with a range of times") {
+    x.max_arrival_time.value = x.min_arrival_time.value + 1;
+  }
+  SUBCASE("with a stop") {
+    x.min_duration_of_stop.emplace();
+  }
+  SUBCASE("with a corridor") {
+    plan.corridor.emplace().push_back({});
+  }
   trajectory out;
   const auto fault = read_suggestion(sent(message), 101, *round(), 10,
                                      *in_ulm(), start, nullptr, out);

@@ -1,10 +1,14 @@
 // Who proves to be whom with a certificate and a signature.
+#include "network/keys/nonce.hpp"
 #include "network/network_error.hpp"
 #include "tests/network/key_folder.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
+
+#include <set>
+#include <string>
 
 using namespace sofof;
 using namespace sofof::network;
@@ -29,6 +33,15 @@ TEST_CASE("who signs a nonce proves to be whom the certificate names") {
       == mec);
   CHECK(provider.prove(vehicle.certificate_pem(), {}, vehicle.sign({})).who
         == car);
+}
+
+TEST_CASE("no nonce comes twice, and each is of 32 octets") {
+  std::set<std::string> drawn;
+  for (int k = 0; k < 1000; ++k) {
+    const auto one = draw_nonce();
+    CHECK(one.size() == 32);
+    CHECK(drawn.insert(one).second);
+  }
 }
 
 TEST_CASE("a signature over other bytes, or by another key, proves nothing") {
