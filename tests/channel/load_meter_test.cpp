@@ -35,6 +35,13 @@ TEST_CASE("a job counts in the second in which it arrives") {
   CHECK(all.between(0s, duration::max()).jobs == 2);
 }
 
+TEST_CASE("a bin counts in the time in which it begins") {
+  load_meter meter{1, start};
+  meter.add(start + 20ms, 0ms, 1ms);
+  meter.add(start + 120ms, 0ms, 2ms);
+  CHECK(meter.read().between(50ms, 150ms).asked == 2ms);
+}
+
 TEST_CASE("a job keeps servers busy when it is worked on, bin by bin") {
   load_meter meter{1, start};
   meter.add(start + 900ms, 250ms, 2s);

@@ -251,6 +251,13 @@ TEST_CASE("who reads a CPM of either release knows who looked, how far, and at "
   check(read_cpm(make_cpm_ts103324(scene, car, *in_ulm()), *in_ulm()), 300);
 }
 
+TEST_CASE("a CPM of release 1 tells how fast its sender drives") {
+  const cam own{101, start, {}, 0, 12.34};
+  const auto message = release_1::make({own, start, {}, 0});
+  CHECK(std::get<0>(message.body.parameters.station_data->value).speed.value
+        == 1234);
+}
+
 TEST_CASE("a CPM without its sensors, or with several, tells of no range") {
   const cam own{101, start, {}, 0, 10};
   const auto silent = retold({own, start, {}, 0});

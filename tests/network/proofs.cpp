@@ -76,6 +76,16 @@ TEST_CASE("a certificate of another CA, or out of its days, proves nothing") {
                                    vehicle.sign(nonce));
   CHECK_FALSE(late.who);
   CHECK(contains(late.refusal, "the certificate has expired on 20"));
+  keys.alter(folder, [](X509& certificate) {
+    ASN1_TIME_set_string_X509(X509_getm_notBefore(&certificate),
+                              "20200101000000Z");
+    ASN1_TIME_set_string_X509(X509_getm_notAfter(&certificate),
+                              "20200229123000Z");
+  });
+  CHECK(contains(
+      provider.prove(read_file(folder / "cert.pem"), nonce, vehicle.sign(nonce))
+          .refusal,
+      "the certificate has expired on 2020-02-29 12:30 UTC"));
 }
 
 TEST_CASE("what is too long is not looked at") {

@@ -28,6 +28,7 @@ struct judged_drive {
   time_point now{10s};
   double s_m = 200, d_m = 0, speed_mps = 10;
   perception seen;
+  duration own_age{}; ///< Of what the car knows of itself.
   bool granted = true;
   std::uint64_t fingerprint = 0;
   trajectory in_use;
@@ -66,7 +67,7 @@ struct judged_drive {
     judged_plan asked{*way,
                       x,
                       in_use.empty() ? nullptr : &in_use,
-                      {now, {s_m, d_m}, 0, speed_mps, 0, 0},
+                      {now - own_age, {s_m, d_m}, 0, speed_mps, 0, 0},
                       s_m,
                       seen,
                       granted,
@@ -197,6 +198,29 @@ TEST_CASE_FIXTURE(judged_drive, "a plan that stays a little beyond the lane is "
   CHECK(ask(plan(0)).refused->check == "road");
 }
 
+TEST_CASE_FIXTURE(judged_drive, "a plan whose front axle leaves the lane is "
+                                "refused, wherever its rear axle is") {
+  d_m = 0.5;
+  auto askew = plan(0);
+  CHECK(ask(askew).usable);
+  for (auto& p : askew.points)
+    p.heading_rad = 0.25; // its front is 0.78 m farther left
+  const auto verdict = ask(askew);
+  REQUIRE(verdict.refused);
+  CHECK(verdict.refused->check == "road");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "a car that does not know where it is judges "
+                                "no plan, and uses none") {
+  own_age = 200ms + 1ns;
+  for (int k = 0; k < 5; ++k) {
+    const auto verdict = ask(plan(0));
+    CHECK_FALSE(verdict.usable);
+    CHECK_FALSE(verdict.refused);
+    CHECK_FALSE(verdict.useless);
+  }
+}
+
 TEST_CASE_FIXTURE(judged_drive,
                   "a plan that leads back into the lane is used") {
   d_m = -1.2;
@@ -271,6 +295,20 @@ TEST_CASE_FIXTURE(judged_drive, "who crosses and can stop before the lane is "
   seen.objects.clear();
   see_car(222, -20, std::numbers::pi / 2, 12);
   CHECK(refused_within(200ms, 0) == "others");
+}
+
+TEST_CASE_FIXTURE(judged_drive, "who crosses the own planner's way as well is "
+                                "no reason to refuse a plan") {
+  own_accel_mps2 = 0;
+  see_car(222, -20, std::numbers::pi / 2, 12);
+  CHECK(refused_within(200ms, 0).empty());
+}
+
+TEST_CASE_FIXTURE(judged_drive,
+                  "a plan into a car that stands half in the lane "
+                  "is refused") {
+  see_car(280, 1.5, 0, 0);
+  CHECK(refused_within(10s, 0) == "others");
 }
 
 TEST_CASE_FIXTURE(judged_drive, "where braking hits as well, a plan is used") {

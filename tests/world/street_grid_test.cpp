@@ -58,6 +58,16 @@ TEST_CASE("streets are two-way, 3.5 m apart, and keep to the right") {
   CHECK(find_lane(map, "1.1n").centre.front() == point{101.75, 115});
 }
 
+TEST_CASE("a lane looks the same from either end, turns too") {
+  for (const auto& lane : village().map.lanes()) {
+    const auto& c = lane.centre;
+    const auto last = c.size() - 1;
+    for (std::size_t k = 0; k < last; ++k)
+      CHECK(distance_m(c[k], c[k + 1])
+            == doctest::Approx(distance_m(c[last - k], c[last - k - 1])));
+  }
+}
+
 TEST_CASE("over an inner junction there are three ways on, at a corner one") {
   const auto& map = village().map;
   CHECK(find_lane(map, "0.1e").next.size() == 3);
