@@ -57,7 +57,7 @@ double length_min(const recorded_run& run) {
 /// @returns a difference with its sign: what would round to 0 and is not, with
 /// its first digit.
 std::string signed_text(double x, int decimals) {
-  const auto text = fmt::format("{:+.{}f}", x, decimals);
+  auto text = fmt::format("{:+.{}f}", x, decimals);
   if (text.find_first_of("123456789") != text.npos)
     return text;
   return std::abs(x) < no_difference ? "0" : fmt::format("{:+.1g}", x);
