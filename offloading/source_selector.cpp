@@ -351,10 +351,6 @@ void source_selector::record_work() {
   work_.on_board = work_.inputs = 0;
 }
 
-void source_selector::finish() {
-  record_work();
-}
-
 // -- the standby --------------------------------------------------------------
 
 void source_selector::on_standby(std::optional<messages::standby> chosen,

@@ -95,8 +95,9 @@ public:
   /// A session has ended; one that is not known is ignored.
   void on_end(const messages::service_end& end, time_point now);
 
-  /// The vehicle has no more use for the service: what is not recorded yet is.
-  void finish();
+  /// Records what has been done since it was recorded last: for the end, since
+  /// inputs cause it once a second.
+  void record_work();
 
   /// The time that `wake_at` was given with this number has come.
   void on_timer(std::uint64_t number, time_point now);
@@ -153,7 +154,6 @@ private:
   void give_up_silent(time_point now);
 
   void use(const messages::service_result& result, time_point now);
-  void record_work();
   void begin(source& x, time_point now);
   void watch(const messages::session_id& session, time_point last);
 

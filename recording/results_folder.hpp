@@ -17,9 +17,8 @@ namespace sofof::recording {
 ///                  anything is refused unless `force`.
 /// @param scenario  Name; what does not suit a path becomes '_'.
 /// @param force     Take `wanted` as it is.
-/// @param changes   "policies.lodm=never" gives ulm_lehr-1,lodm=never; long
-/// ones
-///                  are cut off.
+/// @param changes   "policies.lodm=never" gives ulm_lehr-1,lodm=never; what is
+///                  too long for a name is cut off.
 /// @param parent    Of the folders that are not asked for.
 /// @throws input_error when refused; nothing is left behind then.
 std::filesystem::path

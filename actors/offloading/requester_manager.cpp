@@ -47,7 +47,7 @@ requester_manager_impl::behavior_type requester_manager(
   self->state.self = self;
   self->state.start(std::move(setup));
   self->set_exit_handler([self](const caf::exit_msg& exit) {
-    self->state.selector->finish();
+    self->state.selector->record_work();
     self->quit(exit.reason);
   });
   return {

@@ -8,6 +8,22 @@ using namespace sofof::channel;
 using namespace sofof::messages;
 using namespace sofof::test;
 
+namespace {
+
+struct offering_world : provider_world {
+  /// A CAM after that time brings an offer, and none a nanosecond before.
+  void second_offer_comes_in(duration d) {
+    run_for(d - 1ns);
+    hear(inside);
+    CHECK(offers().size() == 1);
+    run_for(1ns);
+    hear(inside);
+    CHECK(offers().size() == 2);
+  }
+};
+
+} // namespace
+
 TEST_CASE_FIXTURE(provider_world, "a station outside the area gets no offer") {
   hear(outside);
   run_for(5s);
@@ -45,15 +61,10 @@ TEST_CASE_FIXTURE(provider_world, "offers are repeated every second, exactly") {
         == std::vector{began, began + 1s, began + 2s, began + 3s});
 }
 
-TEST_CASE_FIXTURE(provider_world, "a CAM a nanosecond before the second is "
+TEST_CASE_FIXTURE(offering_world, "a CAM a nanosecond before the second is "
                                   "over brings no offer") {
   hear(inside);
-  run_for(1s - 1ns);
-  hear(inside);
-  CHECK(offers().size() == 1);
-  run_for(1ns);
-  hear(inside);
-  CHECK(offers().size() == 2);
+  second_offer_comes_in(1s);
 }
 
 TEST_CASE_FIXTURE(provider_world, "without CAMs there are no offers") {
@@ -86,19 +97,14 @@ TEST_CASE_FIXTURE(provider_world, "what has ended is offered again") {
   CHECK(offers().back().services == std::vector{one});
 }
 
-TEST_CASE_FIXTURE(provider_world,
+TEST_CASE_FIXTURE(offering_world,
                   "what has ended is offered again after a second, exactly") {
   hear(inside);
   start({one, two});
   stay(5s);
   tell(provider, service_end{verdicts().front().session, end_reason::qos_gap,
                              side::requester});
-  run_for(1s - 1ns);
-  hear(inside);
-  CHECK(offers().size() == 1);
-  run_for(1ns);
-  hear(inside);
-  CHECK(offers().size() == 2);
+  second_offer_comes_in(1s);
 }
 
 TEST_CASE_FIXTURE(provider_world, "a CPM of who has sent no CAM yet brings no "

@@ -331,10 +331,10 @@ TEST_CASE_FIXTURE(selecting, "own results that are used and inputs that are "
   CHECK(port.work[0].service == service_name{"numbers"});
   CHECK(port.work[0].on_board == 5);
   CHECK(port.work[0].inputs == 2);
-  selector.finish();
+  selector.record_work();
   REQUIRE(port.work.size() == 2);
   CHECK(port.work[1].on_board == 0);
   CHECK(port.work[1].inputs == 1);
-  selector.finish();
+  selector.record_work();
   CHECK(port.work.size() == 2);
 }
