@@ -52,17 +52,17 @@ bool provider::station_record::is_consistent() const {
   return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
 }
 
-// The stations that are known are in the area by their latest CAM, and requests
-// wait for the end of an epoch.
+// Requests wait for the end of an epoch.
 bool provider::is_consistent() const {
-  const auto is_here = [this](const auto& known) {
+  const auto is_sound = [this](const auto& known) {
     const auto& [id, station] = known;
     return station.is_consistent() && station.latest.station == id
            && station.heard <= now_
            && !protocol::is_of_future(station.latest.at, now_)
-           && setup_.area.contains(station.latest.position);
+           && station.is_inside
+                  == setup_.area.contains(station.latest.position);
   };
-  return std::ranges::all_of(stations_, is_here)
+  return std::ranges::all_of(stations_, is_sound)
          && (waiting_.empty() || in_epoch_);
 }
 
@@ -116,16 +116,6 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
     return; // overtaken on its way
   if (protocol::is_of_future(c.at, now))
     return; // all true ones would seem overtaken
-  if (!setup_.area.contains(c.position)) {
-    if (known != stations_.end())
-      forget(known,
-             {messages::end_reason::left_area,
-              fmt::format("x_m={:.3f} y_m={:.3f}", c.position.x_m,
-                          c.position.y_m)},
-             now);
-    assert(!stations_.contains(c.station));
-    return;
-  }
   auto [i, is_new] = stations_.try_emplace(c.station);
   auto& station = i->second;
   if (is_new) {
@@ -141,9 +131,32 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   assert(is_new || station.latest.at <= c.at);
   station.latest = c;
   station.heard = now;
+  locate(station, now);
   if (now >= station.next_offer)
     offer(station, now);
   assert(is_consistent());
+}
+
+// Who comes into the area is offered to at once, and who leaves it loses its
+// services.
+void provider::locate(station_record& station, time_point now) {
+  const auto where = station.latest.position;
+  const auto was_inside =
+      std::exchange(station.is_inside, setup_.area.contains(where));
+  if (station.is_inside) {
+    for (auto& x : station.sessions)
+      x.was_inside = true;
+    if (!was_inside)
+      station.next_offer = now;
+    return;
+  }
+  const auto all = station.sessions;
+  for (const auto& x : all)
+    if (x.was_inside)
+      end(station, x.session,
+          {messages::end_reason::left_area,
+           fmt::format("x_m={:.3f} y_m={:.3f}", where.x_m, where.y_m)},
+          true, now);
 }
 
 // A new requester knows nothing of what ran for the one before.

@@ -33,9 +33,9 @@ struct provider_computer {
 /// What a provider is made of.
 struct provider_setup {
   provider_id id = 0;
-  point position;                        ///< m, east-north.
-  polygon area;                          ///< Stations in it get offers.
-  std::vector<offered_service> services; ///< With different names.
+  point position; ///< m, east-north.
+  polygon area;   ///< Services end for stations that leave it.
+  std::vector<offered_service> services;            ///< With different names.
   std::unique_ptr<policies::central_policy> policy; ///< Not null.
   provider_computer computer;
   /// For the policy; not null. Few ask it anything.
@@ -87,14 +87,17 @@ public:
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
 };
 
-/// Offers its services to stations in its area, asks its policy about requests,
-/// and ends a session when the station has left, has fallen silent, or says so.
-/// One state machine for each station and service:
+/// Offers its services to every station that it hears, asks its policy about
+/// requests, and ends a session when the station has left the area, has fallen
+/// silent, or says so. One state machine for each station and service:
 ///
 ///     idle → offered → active → idle
 ///
-/// * Every protocol::offer_period a station is offered what does not run for
-///   it.
+/// * Every protocol::offer_period, and when it comes into the area, a station
+///   is offered what does not run for it. Whether it has to be in the area is
+///   the policy's business.
+/// * A station leaves the area with a CAM from outside; whom the policy accepts
+///   though it asks from outside leaves it when it has been inside.
 /// * Requests are answered at once, or together at the end of the policy's
 ///   epoch; each named service gets its verdict (provider_requests.cpp). With
 ///   its verdicts the policy may take running sessions back: these are revoked.
@@ -159,14 +162,16 @@ private:
     policies::periodic_task task;
     std::size_t worker = 0;
     std::vector<candidate> candidates; // as the station told
+    bool was_inside = false; // in the area as it asked, or by a CAM since
   };
 
-  /// A station in the area, or that was there a moment ago.
+  /// A station that is heard.
   struct station_record {
     std::uint64_t number = 0; // so that a timer knows its record
     std::optional<peer_id> requester;
     messages::cam latest;
-    time_point heard; // when the latest message came
+    time_point heard;       // when the latest message came
+    bool is_inside = false; // in the area, by the latest CAM
     time_point next_offer;
     std::uint32_t last_request = 0;
     std::vector<provider_session> sessions;
@@ -202,6 +207,7 @@ private:
   void meet(station_id id, station_record& station, peer_id requester,
             time_point now);
   void leave(station_record& station, const ending& why, time_point now);
+  void locate(station_record& station, time_point now);
   void offer(station_record& station, time_point now);
   void forget(stations::iterator i, const ending& why, time_point now);
   void drop_waiting(station_id station);

@@ -16,7 +16,7 @@ void provider::on_request(const messages::service_request& request,
   pass(now);
   const auto i = stations_.find(request.station);
   if (request.provider != setup_.id || i == stations_.end()) {
-    refuse(request, from, "not in the area");
+    refuse(request, from, "not heard here");
     return;
   }
   auto& station = i->second;
@@ -95,7 +95,7 @@ provider::question provider::question_of(const open_request& open,
     const auto station = stations_.find(request.station);
     const auto* service = find(name);
     if (station == stations_.end()) {
-      all.verdicts.push_back({policies::refused{}, "not in the area"});
+      all.verdicts.push_back({policies::refused{}, "not heard here"});
     } else if (!service) {
       all.verdicts.push_back({policies::refused{}, "not offered here"});
     } else if (std::ranges::find(before, name) != before.end()) {
@@ -207,8 +207,12 @@ void provider::start(station_record& station,
   task.offset = terms.offset.value_or(
       random_phase(drawn.part("remote phase"), service.options.period));
   assert(task.offset >= duration{0} && task.offset < service.options.period);
-  station.sessions.push_back(
-      {session, now, task, terms.worker, open.what.candidates});
+  const auto& route = open.what.route;
+  const auto asked_inside =
+      !route.empty() && setup_.area.contains(route.front());
+  station.sessions.push_back({session, now, task, terms.worker,
+                              open.what.candidates,
+                              station.is_inside || asked_inside});
   port_.start({.session = session,
                .requester = open.from,
                .phase = task.offset,

@@ -252,7 +252,9 @@ requester::decide(service_state& service,
   };
   if (providers.empty() || (offering && !knows(*offering)))
     return {};
-  const auto decision = ask_policy(service, providers, path, now);
+  ++decisions_;
+  const auto decision =
+      setup_.policy->decide(context_of(service, providers, path, now));
   if (std::holds_alternative<policies::come_home>(decision.what)) {
     leave(service, {messages::end_reason::released, std::string{decision.why}},
           now, [](provider_id) { return true; });
@@ -287,24 +289,23 @@ requester::decide(service_state& service,
   return wanted;
 }
 
-policies::local_decision
-requester::ask_policy(const service_state& service,
+policies::local_context
+requester::context_of(const service_state& service,
                       std::span<const policies::provider_view> providers,
-                      std::span<const point> path, time_point now) {
-  assert(!providers.empty());
+                      std::span<const point> path, time_point now) const {
   assert(service.since <= now);
-  return setup_.policy->decide({.now = now,
-                                .service = service.service.name.view(),
-                                .providers = providers,
-                                .path = path,
-                                .speed_mps = ego_.own.speed_mps,
-                                .noise = setup_.noise.part("decisions"),
-                                .number = ++decisions_,
-                                .current = service.current(),
-                                .since = service.since,
-                                .needs = service.needs,
-                                .on_board = service.on_board,
-                                .future = setup_.future.get()});
+  return {.now = now,
+          .service = service.service.name.view(),
+          .providers = providers,
+          .path = path,
+          .speed_mps = ego_.own.speed_mps,
+          .noise = setup_.noise.part("decisions"),
+          .number = decisions_,
+          .current = service.current(),
+          .since = service.since,
+          .needs = service.needs,
+          .on_board = service.on_board,
+          .future = setup_.future.get()};
 }
 
 // The provider that the policy wants beside the first may only stand by.
@@ -319,6 +320,22 @@ void requester::set_standby(service_state& service, duration after) {
   port_.set_standby(service.service.name, chosen);
 }
 
+// What the vehicle tells of the providers that it could ask instead of this
+// one, and of this one.
+std::vector<candidate> requester::candidates(service_state& service,
+                                             provider_id asked,
+                                             std::span<const point> path,
+                                             time_point now) {
+  const auto known = service.views(providers_, std::nullopt, now);
+  const auto context = context_of(service, known, path, now);
+  std::vector<policies::provider_view> left;
+  for (const auto& x : known)
+    if (!service.find(x.id)
+        && (x.id == asked || setup_.policy->objection(context, x).empty()))
+      left.push_back(x);
+  return service.candidates(std::move(left), ego_.own.position);
+}
+
 void requester::request(provider_id id,
                         std::vector<messages::service_name> wanted,
                         const std::vector<point>& path, time_point now) {
@@ -328,8 +345,7 @@ void requester::request(provider_id id,
   assert(std::ranges::all_of(wanted, [&](const messages::service_name& name) {
     return find(name)->may_ask(provider, now);
   }));
-  auto candidates =
-      find(wanted.front())->candidates(providers_, ego_.own.position, now);
+  auto told = candidates(*find(wanted.front()), id, path, now);
   const auto number = ++last_request_;
   provider.open_request = number;
   for (const auto& name : wanted) {
@@ -339,10 +355,9 @@ void requester::request(provider_id id,
     service->sessions.push_back({.provider = id});
     log(messages::event_type::request, {id, setup_.station, name, 0}, {}, now);
   }
-  port_.send(provider.peer, messages::service_request{id, setup_.station,
-                                                      number, std::move(wanted),
-                                                      path, ego_.own.speed_mps,
-                                                      std::move(candidates)});
+  port_.send(provider.peer, messages::service_request{
+                                id, setup_.station, number, std::move(wanted),
+                                path, ego_.own.speed_mps, std::move(told)});
   wake_at(now + protocol::request_timeout, request_timeout{id, number});
 }
 

@@ -169,10 +169,13 @@ private:
          std::span<const policies::provider_view> providers,
          std::optional<provider_id> offering, std::span<const point> path,
          time_point now);
-  policies::local_decision
-  ask_policy(const service_state& service,
+  policies::local_context
+  context_of(const service_state& service,
              std::span<const policies::provider_view> providers,
-             std::span<const point> path, time_point now);
+             std::span<const point> path, time_point now) const;
+  std::vector<candidate> candidates(service_state& service, provider_id asked,
+                                    std::span<const point> path,
+                                    time_point now);
   void set_standby(service_state& service, duration after);
   void request(provider_id id, std::vector<messages::service_name> wanted,
                const std::vector<point>& path, time_point now);

@@ -162,11 +162,8 @@ service_state::views(const known_providers& providers,
 }
 
 std::vector<candidate>
-service_state::candidates(const known_providers& providers, point from,
-                          time_point now) {
-  auto all = views(providers, std::nullopt, now);
-  std::erase_if(
-      all, [&](const policies::provider_view& view) { return find(view.id); });
+service_state::candidates(std::vector<policies::provider_view> all,
+                          point from) const {
   if (all.size() > protocol::most_candidates) {
     std::ranges::stable_sort(all, {}, [&](const policies::provider_view& view) {
       return distance_m(view.at, from);

@@ -97,12 +97,13 @@ struct service_state {
   std::vector<policies::provider_view>
   views(const known_providers& providers, std::optional<provider_id> offering,
         time_point now);
-  /// @returns what the vehicle tells of the providers that it could ask: not
-  /// where the service runs, which it would not leave for nothing. Of more than
-  /// protocol::most_candidates the nearest; by id.
+  /// @returns what the vehicle tells of the providers that it could ask. Of
+  /// more than protocol::most_candidates the nearest; by id.
+  /// @param all   None of them where the service runs, which it would not leave
+  ///              for nothing; by id.
   /// @param from  Where the vehicle is, m, east-north.
-  std::vector<candidate> candidates(const known_providers& providers,
-                                    point from, time_point now);
+  std::vector<candidate> candidates(std::vector<policies::provider_view> all,
+                                    point from) const;
 };
 
 } // namespace sofof::offloading

@@ -19,14 +19,17 @@ void list_filter(option_visitor& s, std::unique_ptr<central_filter>& filter) {
 
 } // namespace
 
-template <class Policy, class Filter>
-void filtered_policy<Policy, Filter>::visit_options(option_visitor& s) {
+template <class Policy, class Filter, class Context, class Candidate>
+void filtered_policy<Policy, Filter, Context, Candidate>::visit_options(
+    option_visitor& s) {
   choice_->visit_options(s);
   s.table("filter", [this](option_visitor& t) { list_filter(t, filter_); });
 }
 
-template class filtered_policy<local_policy, local_filter>;
-template class filtered_policy<central_policy, central_filter>;
+template class filtered_policy<local_policy, local_filter, local_context,
+                               provider_view>;
+template class filtered_policy<central_policy, central_filter, central_context,
+                               request_view>;
 
 filtered_lodm::filtered_lodm(std::unique_ptr<local_policy> choice)
     : filtered_policy{make_local_filter("location"), std::move(choice)} {}

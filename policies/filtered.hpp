@@ -15,7 +15,7 @@
 namespace sofof::policies {
 
 /// What both sides have in common. Goes by the name of its choice.
-template <class Policy, class Filter>
+template <class Policy, class Filter, class Context, class Candidate>
 class filtered_policy : public Policy {
 public:
   filtered_policy(std::unique_ptr<Filter> filter,
@@ -24,6 +24,10 @@ public:
     assert(filter_ && choice_);
   }
 
+  std::string_view objection(const Context& context,
+                             const Candidate& candidate) const override {
+    return filter_->objection(context, candidate);
+  }
   void observe(const cycle_outcome& outcome) override {
     choice_->observe(outcome);
   }
@@ -51,7 +55,9 @@ protected:
 /// to, the one where the service runs not excepted; "location" unless options
 /// say otherwise. When none is left nobody is asked; where the service runs
 /// already, the choice is to stay or to come home.
-class filtered_lodm final : public filtered_policy<local_policy, local_filter> {
+class filtered_lodm final
+    : public filtered_policy<local_policy, local_filter, local_context,
+                             provider_view> {
 public:
   explicit filtered_lodm(std::unique_ptr<local_policy> choice);
 
@@ -61,7 +67,8 @@ public:
 
 /// CODM: the same for requests. What its choice says of sessions holds.
 class filtered_codm final
-    : public filtered_policy<central_policy, central_filter> {
+    : public filtered_policy<central_policy, central_filter, central_context,
+                             request_view> {
 public:
   explicit filtered_codm(std::unique_ptr<central_policy> choice);
 

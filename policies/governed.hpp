@@ -17,6 +17,11 @@ public:
   explicit governed_lodm(std::unique_ptr<local_policy> whole);
 
   local_decision decide(const local_context& context) override;
+  /// That of the policy; governors may choose all the same.
+  std::string_view objection(const local_context& context,
+                             const provider_view& provider) const override {
+    return whole_->objection(context, provider);
+  }
   void observe(const cycle_outcome& outcome) override;
   void observe(const refusal_outcome& outcome) override;
   void observe(const episode_outcome& outcome) override;

@@ -7,12 +7,11 @@ namespace sofof::scenario {
 
 namespace {
 
-template <class Context, class Decision>
+template <class... Parts>
 std::shared_ptr<decision_times>
-add_timer(std::shared_ptr<policies::policy<Context, Decision>>& policy) {
+add_timer(std::shared_ptr<policies::policy<Parts...>>& policy) {
   auto times = std::make_shared<decision_times>();
-  policy =
-      std::make_shared<timed_policy<Context, Decision>>(policy->clone(), times);
+  policy = std::make_shared<timed_policy<Parts...>>(policy->clone(), times);
   return times;
 }
 

@@ -30,10 +30,11 @@ private:
 
 /// A policy, and a watch beside it: does, and is called, whatever the policy
 /// does and is. Its clones note their times in the same place.
-template <class Context, class Decision>
-class timed_policy final : public policies::policy<Context, Decision> {
+template <class Context, class Decision, class Candidate>
+class timed_policy final
+    : public policies::policy<Context, Decision, Candidate> {
 public:
-  using whole_policy = policies::policy<Context, Decision>;
+  using whole_policy = policies::policy<Context, Decision, Candidate>;
 
   timed_policy(std::unique_ptr<whole_policy> what,
                std::shared_ptr<decision_times> times)
@@ -46,6 +47,10 @@ public:
     return decision;
   }
 
+  std::string_view objection(const Context& context,
+                             const Candidate& candidate) const override {
+    return what_->objection(context, candidate);
+  }
   void observe(const policies::cycle_outcome& x) override { what_->observe(x); }
   void observe(const policies::refusal_outcome& x) override {
     what_->observe(x);

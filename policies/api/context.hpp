@@ -144,12 +144,13 @@ struct central_context {
 };
 
 /// LODM: local offloading decision making, in the vehicle.
-using local_policy = policy<local_context, local_decision>;
+using local_policy = policy<local_context, local_decision, provider_view>;
 
 /// CODM: centralised offloading decision making, at the provider: one decision
 /// per request, in their order, and then, if it likes, one per session, of
 /// which those that are not accepted end (revoked). What is missing is refused,
 /// or goes on.
-using central_policy = policy<central_context, std::vector<central_decision>>;
+using central_policy =
+    policy<central_context, std::vector<central_decision>, request_view>;
 
 } // namespace sofof::policies

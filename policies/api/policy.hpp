@@ -42,12 +42,18 @@ struct episode_outcome {
 
 /// Decides from a context and nothing else: the same context (and learned
 /// state) gives the same decision. Time and randomness come in the context.
-template <class Context, class Decision>
+template <class Context, class Decision, class Candidate>
 class policy {
 public:
   virtual ~policy() = default;
 
   virtual Decision decide(const Context& context) = 0;
+
+  /// @returns what speaks against a candidate whatever else there is, a short
+  /// literal; empty if nothing does.
+  virtual std::string_view objection(const Context&, const Candidate&) const {
+    return {};
+  }
 
   /// Feedback: planning cycles.
   virtual void observe(const cycle_outcome&) {}

@@ -14,12 +14,16 @@ public:
   decide(const central_context& context) override {
     std::vector<central_decision> all;
     for (const auto& request : context.requests) {
-      const auto why = stays_.objection(context, request);
+      const auto why = objection(context, request);
       all.push_back(why.empty()
                         ? central_decision{accepted{}, "t_in_area >= t_min"}
                         : central_decision{refused{}, why});
     }
     return all;
+  }
+  std::string_view objection(const central_context& context,
+                             const request_view& request) const override {
+    return stays_.objection(context, request);
   }
   void visit_options(option_visitor& s) override { stays_.visit_options(s); }
   std::string_view name() const override { return "location"; }
@@ -36,9 +40,9 @@ private:
 codm_entry codm_location() {
   return {
       {"location", "Accepts vehicles that will stay long enough in the area.",
-       "t_in_area >= t_min, the way on the route before it leaves the area "
-       "by the present speed; and until t_min the route is on the map",
-       "the route and the speed that requests tell",
+       "the route is on the map; and t_in_area >= t_min, the way on the route "
+       "before it leaves the area by the present speed",
+       "the route and the speed that requests tell, a map",
        "Dehler & Buchholz, IEEE RA-L 10(5), 2025", stays_in_area::parameters()},
       unfiltered<central_policy, location_codm>};
 }

@@ -12,15 +12,19 @@ namespace {
 class location final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
-    std::string_view objection; // the first
+    std::string_view first; // objection
     for (const auto& provider : context.providers) {
-      const auto why = near_.objection(context, provider);
+      const auto why = objection(context, provider);
       if (why.empty())
         return {run_at{provider.id}, "d_passed > d_min"};
-      if (objection.empty())
-        objection = why;
+      if (first.empty())
+        first = why;
     }
-    return as_it_is(objection.empty() ? "nobody offers it" : objection);
+    return as_it_is(first.empty() ? "nobody offers it" : first);
+  }
+  std::string_view objection(const local_context& context,
+                             const provider_view& provider) const override {
+    return near_.objection(context, provider);
   }
   void visit_options(option_visitor& s) override { near_.visit_options(s); }
   std::string_view name() const override { return "location"; }

@@ -93,17 +93,20 @@ TEST_CASE_FIXTURE(patient_world, "who asks twice within an epoch has given up "
   CHECK(episodes().size() == 2);
 }
 
-TEST_CASE_FIXTURE(patient_world, "who has left before the epoch is over is "
-                                 "refused") {
+TEST_CASE_FIXTURE(patient_world, "who has left before the epoch is over keeps "
+                                 "nothing beyond its next CAM") {
   ask(make_request({one}));
   ask_as_neighbour(1, {one});
   run_for(100ms);
   hear(outside);
   run_for(150ms);
-  CHECK(accepted(verdicts()) == yes_or_no{false});
-  CHECK(codm->asked.front().services == std::vector<std::string>{"one"});
+  CHECK(accepted(verdicts()) == yes_or_no{true}); // it asked from inside
   CHECK(accepted(neighbour->all<service_response>().front().verdicts)
         == yes_or_no{true});
+  hear(outside);
+  REQUIRE(ends().size() == 1);
+  CHECK(ends().front().session == verdicts().front().session);
+  CHECK(ends().front().reason == end_reason::left_area);
 }
 
 TEST_CASE_FIXTURE(patient_world, "a station that has begun anew is not "

@@ -61,7 +61,7 @@ struct echo_world : virtual_world {
     s.map = {world, &world->map};
     s.decode = decode_in_ulm();
     s.services = {service};
-    s.codm = make_codm("always");
+    s.codm = make_codm("location");
     s.recorder = recorder.handle;
     return spawn_service_provider(system(), std::move(s));
   }

@@ -34,6 +34,48 @@ TEST_CASE_FIXTURE(provider_world,
   CHECK(!still_sends());
 }
 
+TEST_CASE_FIXTURE(provider_world,
+                  "who was accepted outside keeps its service until it has "
+                  "come into the area and left it") {
+  place = outside;
+  hear(outside);
+  start({one});
+  for (auto k = 0; k < 30; ++k) {
+    run_for(100ms);
+    hear(outside);
+  }
+  CHECK(episodes().empty());
+  CHECK(still_sends());
+  hear(inside);
+  run_for(100ms);
+  CHECK(episodes().empty());
+  hear(outside);
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::left_area);
+}
+
+TEST_CASE_FIXTURE(provider_world, "who asked from inside has left with its "
+                                  "next CAM from outside, though none came "
+                                  "from inside") {
+  hear(outside);
+  start({one});
+  CHECK(episodes().empty());
+  run_for(100ms);
+  hear(outside);
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::left_area);
+}
+
+TEST_CASE_FIXTURE(provider_world, "who was accepted outside, and says nothing "
+                                  "more, is gone like everybody") {
+  place = outside;
+  hear(outside);
+  start({one});
+  run_for(2s + 1ns);
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::cam_timeout);
+}
+
 TEST_CASE_FIXTURE(provider_world, "leaving on and on ends a service once") {
   hear(inside);
   start({one});

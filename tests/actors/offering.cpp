@@ -24,19 +24,10 @@ struct offering_world : provider_world {
 
 } // namespace
 
-TEST_CASE_FIXTURE(provider_world, "a station outside the area gets no offer") {
-  hear(outside);
-  run_for(5s);
-  hear(outside);
-  CHECK(requester->entries().empty());
-}
-
 TEST_CASE_FIXTURE(provider_world,
-                  "the first CAM inside the area is answered by an offer of "
-                  "all services, at once") {
+                  "the first CAM is answered by an offer of all services, at "
+                  "once, wherever it comes from") {
   hear(outside);
-  run_for(100ms);
-  hear(inside);
   REQUIRE(offers().size() == 1);
   CHECK(requester->times<service_offer>().front() == now());
   const auto offer = offers().front();
@@ -45,12 +36,37 @@ TEST_CASE_FIXTURE(provider_world,
   CHECK(offer.services == std::vector{one, two});
 }
 
+TEST_CASE_FIXTURE(provider_world, "a station outside is offered to every "
+                                  "second, however often it is heard") {
+  const auto began = now();
+  for (auto k = 0; k < 30; ++k) {
+    hear(outside);
+    run_for(100ms);
+  }
+  CHECK(requester->times<service_offer>()
+        == std::vector{began, began + 1s, began + 2s});
+}
+
+TEST_CASE_FIXTURE(provider_world,
+                  "who comes into the area is offered to at once, whenever it "
+                  "was before") {
+  hear(outside);
+  run_for(100ms);
+  hear(inside);
+  CHECK(offers().size() == 2);
+  run_for(100ms);
+  hear(inside);
+  CHECK(offers().size() == 2);
+}
+
 TEST_CASE_FIXTURE(provider_world, "a station is inside as long as its rear "
                                   "axle is, though its front be outside") {
   hear({100.1, 0});
-  CHECK(offers().empty());
-  hear({99.9, 0});
+  run_for(100ms);
+  hear({100.1, 0});
   CHECK(offers().size() == 1);
+  hear({99.9, 0});
+  CHECK(offers().size() == 2);
 }
 
 TEST_CASE_FIXTURE(provider_world, "offers are repeated every second, exactly") {
@@ -177,6 +193,7 @@ TEST_CASE_FIXTURE(provider_world,
   hear(inside);
   run_for(100ms);
   hear(outside);
+  CHECK(offers().size() == 1);
   run_for(100ms);
   hear(inside);
   CHECK(offers().size() == 2);
@@ -352,11 +369,16 @@ TEST_CASE_FIXTURE(provider_world, "a station nobody has seen is refused") {
   CHECK(codm->asked.empty());
 }
 
-TEST_CASE_FIXTURE(provider_world, "a station that has left is refused") {
+TEST_CASE_FIXTURE(provider_world, "whether a station outside is accepted is "
+                                  "left to the CODM") {
+  codm->accepted = {"one"};
   hear(inside);
   hear(outside);
-  ask(make_request({one}));
-  CHECK(!verdicts().front().accepted);
+  ask(make_request({one, two}));
+  CHECK(codm->asked.size() == 1);
+  REQUIRE(verdicts().size() == 2);
+  CHECK(verdicts()[0].accepted);
+  CHECK(!verdicts()[1].accepted);
 }
 
 TEST_CASE_FIXTURE(provider_world,

@@ -30,6 +30,7 @@ struct provider_world : virtual_world {
   messages::roadside_provider_actor provider =
       own(actors::spawn_service_provider(system(), setup()));
   std::uint32_t last_number = 0;
+  point place = inside; ///< Where the station is as it asks.
 
   provider_world() { run_for(10s); } // the clock's zero is no special time
 
@@ -82,7 +83,7 @@ struct provider_world : virtual_world {
   }
   messages::service_request
   make_request(std::vector<messages::service_name> kinds) {
-    return {boot, station, ++last_number, std::move(kinds), {inside}, 10};
+    return {boot, station, ++last_number, std::move(kinds), {place}, 10};
   }
   void ask(const messages::service_request& request) {
     tell(provider, request, requester.handle);

@@ -471,6 +471,19 @@ TEST_CASE_FIXTURE(requester_world, "a request tells whom else the vehicle "
   CHECK(told[0].gain == doctest::Approx(told[1].gain - 0.3 * 10 / 50));
 }
 
+TEST_CASE_FIXTURE(requester_world, "a request does not tell of a provider that "
+                                   "the LODM would not ask") {
+  lodm->wanted = {};
+  offer_from(other, elsewhere, {one});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  lodm->unwanted = {here, elsewhere};
+  offer({one});
+  const auto told = last_request().candidates;
+  REQUIRE(told.size() == 1);
+  CHECK(told.front().provider == here); // it does ask this one
+}
+
 TEST_CASE_FIXTURE(requester_world, "of more providers than a request may name "
                                    "it names the nearest") {
   lodm->wanted = {};

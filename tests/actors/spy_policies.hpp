@@ -30,6 +30,7 @@ struct lodm_script {
   service_place second{};
   duration hedge_after{};
   bool release = false;
+  std::set<provider_id> unwanted; ///< To which it objects, though it asks them.
   double epoch_s = 0;
   std::vector<policies::cycle_outcome> cycles; ///< What it was told; no names.
   std::vector<policies::refusal_outcome> refusals;
@@ -58,6 +59,10 @@ public:
     if (script_->second)
       there.second = {*script_->second, script_->hedge_after};
     return {there, "as told"};
+  }
+  std::string_view objection(const policies::local_context&,
+                             const policies::provider_view& x) const override {
+    return script_->unwanted.contains(x.id) ? "as told" : "";
   }
   void observe(const policies::cycle_outcome& x) override {
     script_->cycles.push_back(x);

@@ -100,6 +100,26 @@ TEST_CASE("a choice is made among those that are near enough") {
   CHECK(lodm->name() == "nearest");
 }
 
+TEST_CASE("a policy objects to whom its filter objects to, and tells so with "
+          "governors behind it") {
+  const std::vector<provider_view> all{{1, {100, 200}, 0}, {2, {-10, -320}, 0}};
+  const std::vector<point> straight{{0, 0}, {200, 0}};
+  const local_context context{.now = time_point{},
+                              .service = "any",
+                              .providers = all,
+                              .path = straight};
+  for (const auto* name : {"nearest", "location"}) {
+    const auto lodm = make_lodm(name);
+    CHECK(lodm->objection(context, all[0]).empty());
+    CHECK(!lodm->objection(context, all[1]).empty());
+  }
+  test::option_list options;
+  options.texts = {{"filter.name", "none"}};
+  const auto unfiltered = make_lodm("nearest");
+  unfiltered->visit_options(options);
+  CHECK(unfiltered->objection(context, all[1]).empty());
+}
+
 TEST_CASE("a filter is an option, and a clone keeps it") {
   const auto lodm = make_lodm("nearest");
   test::option_list options;

@@ -88,10 +88,7 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
 struct ledger_sink final : messages::record_sink {
   std::shared_ptr<ledger> book;
   explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
-  void on_record(const messages::record& x) override {
-    if (const auto* episode = std::get_if<messages::episode_record>(&x))
-      book->add(*episode);
-  }
+  void on_record(const messages::record& x) override { book->on_record(x); }
 };
 
 struct actor_world : virtual_world {
@@ -135,7 +132,7 @@ struct actor_world : virtual_world {
     setup.area = area_of_provider(k);
     setup.map = {world, &world->map};
     setup.services = {echo_service("one"), echo_service("two")};
-    setup.codm = policies::make_codm("always");
+    setup.codm = policies::make_codm("location");
     setup.recorder = recorder;
     setup.compute = channel::compute_measured_with(profile->name);
     setup.seed = random_stream{seed, "network"};

@@ -15,6 +15,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace sofof::test {
@@ -23,15 +24,26 @@ namespace sofof::test {
 struct ledger {
   std::map<messages::session_id, int> closed_by_requester, closed_by_provider;
   std::map<messages::session_id, duration> provider_side; // how long it ran
+  std::map<messages::session_id, time_point> accepted;    // by the provider
   std::set<messages::end_reason> reasons;
   int remote_episodes = 0;
+  int refusals = 0; // that the requester was told of
+
+  void on_record(const messages::record& x) {
+    if (const auto* episode = std::get_if<messages::episode_record>(&x))
+      add(*episode);
+    if (const auto* decision = std::get_if<messages::decision_record>(&x))
+      refusals += !decision->accepted;
+  }
 
   void add(const messages::episode_record& r) {
     ++(r.of == messages::side::requester ? closed_by_requester
                                          : closed_by_provider)[r.session];
     reasons.insert(r.reason);
-    if (r.of == messages::side::provider)
+    if (r.of == messages::side::provider) {
       provider_side[r.session] = r.ended - r.accepted;
+      accepted[r.session] = r.accepted;
+    }
     if (r.of == messages::side::requester)
       remote_episodes += r.got_data;
   }

@@ -210,7 +210,7 @@ struct library_world {
       setup.area = area_of_provider(static_cast<int>(k));
       for (const auto& name : {one, two})
         setup.services.push_back(at_provider(echo_service(name), {}));
-      setup.policy = policies::make_codm("always");
+      setup.policy = policies::make_codm("location");
       setup.computer = {static_cast<std::size_t>(computers.workers),
                         computers.mean_s(), computers.deviation_s()};
       setup.map = {w.world, &w.world->map};
@@ -240,10 +240,7 @@ struct library_world {
       return workers.finish(start,
                             computers.computing_time(draws_of_results, cycle));
     }
-    void record(messages::record&& x) override {
-      if (const auto* episode = std::get_if<messages::episode_record>(&x))
-        world.book->add(*episode);
-    }
+    void record(messages::record&& x) override { world.book->on_record(x); }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
       world.time.at<provider_timer>(t, number, number_of_timer);
     }
@@ -275,10 +272,7 @@ struct library_world {
                    bool remote) override {
       world.diary->on_source(service, remote);
     }
-    void record(messages::record&& x) override {
-      if (const auto* episode = std::get_if<messages::episode_record>(&x))
-        world.book->add(*episode);
-    }
+    void record(messages::record&& x) override { world.book->on_record(x); }
     void wake_at(time_point t, std::uint64_t number) override {
       world.time.at<vehicle_timer>(t, number);
     }

@@ -65,6 +65,33 @@ TEST_CASE_TEMPLATE("on a good link a vehicle offloads at every passage, and "
   CHECK(book.reasons.contains(end_reason::left_area));
 }
 
+TEST_CASE_TEMPLATE("on a good link a vehicle asks wherever it is heard, once "
+                   "a second, and runs nothing outside the area",
+                   World, actor_world, library_world) {
+  World w{1, {}, 1};
+  w.run_and_check(200s);
+  w.dismiss();
+  // Of 1000 m there and back to the begin, 600 are in the area.
+  CHECK(w.book->refusals > 2 * 70);
+  CHECK(w.book->refusals <= 2 * 90);
+  shuttle car;
+  const auto area = area_of_provider(0);
+  std::vector<bool> inside; // at each step
+  for (auto k = 0; k < 200 * 20; ++k) {
+    car.step();
+    inside.push_back(area.contains({car.x_m, 0}));
+  }
+  constexpr auto step = 50ms;
+  CHECK(w.book->accepted.size() >= 6);
+  for (const auto& [session, since] : w.book->accepted) {
+    const auto ends = since + w.book->provider_side.at(session);
+    const auto first = since.time_since_epoch() / step;
+    const auto last = ends.time_since_epoch() / step;
+    for (auto k = first; k + 4 < last; ++k) // a CAM, and its way
+      CHECK(inside.at(static_cast<std::size_t>(k)));
+  }
+}
+
 TEST_CASE_TEMPLATE("whatever a link loses, doubles, delays and reorders: one "
                    "source, always a fresh result, every episode ends once",
                    World, actor_world, library_world) {

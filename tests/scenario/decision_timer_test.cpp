@@ -27,6 +27,10 @@ public:
   local_decision decide(const local_context&) override {
     return {run_at{wanted_}, "because"};
   }
+  std::string_view objection(const local_context&,
+                             const provider_view& x) const override {
+    return x.id == wanted_ ? "" : "not wanted";
+  }
   void observe(const cycle_outcome&) override { ++to_.cycles; }
   void observe(const episode_outcome&) override { ++to_.episodes; }
   void visit_options(option_visitor& s) override {
@@ -61,6 +65,8 @@ TEST_CASE("a timed policy is and does what the policy is and does") {
   CHECK(timed.name() == "picky");
   CHECK(goes_to(timed.decide(nothing_offered())) == 7);
   CHECK(timed.clone()->decide(nothing_offered()).why == "because");
+  CHECK(timed.objection(nothing_offered(), {7}).empty());
+  CHECK(timed.objection(nothing_offered(), {8}) == "not wanted");
   timed.observe(cycle_outcome{});
   timed.clone()->observe(episode_outcome{});
   CHECK(told.cycles == 1);
