@@ -13,32 +13,29 @@ constexpr double slowest_mps = 0.1;
 
 } // namespace
 
-std::optional<area_stay> stay_in_area(std::span<const point> route,
-                                      const polygon& area, double speed_mps,
-                                      double enough_s) {
+std::optional<double> time_in_area_s(std::span<const point> route,
+                                     const polygon& area, double speed_mps,
+                                     double enough_s) {
   if (route.empty() || !area.contains(route.front()))
     return std::nullopt;
   if (speed_mps < slowest_mps)
-    return area_stay{route.first(1), std::numeric_limits<double>::infinity()};
+    return std::numeric_limits<double>::infinity();
   const auto enough_m = enough_s * speed_mps;
   double passed_m = 0;
-  std::size_t count = 1;
-  while (count < route.size() && !(passed_m > enough_m)
-         && area.contains(route[count])) {
-    passed_m += distance_m(route[count - 1], route[count]);
-    ++count;
-  }
-  return area_stay{route.first(count), passed_m / speed_mps};
+  for (std::size_t i = 1;
+       i < route.size() && !(passed_m > enough_m) && area.contains(route[i]);
+       ++i)
+    passed_m += distance_m(route[i - 1], route[i]);
+  return passed_m / speed_mps;
 }
 
 double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m) {
   double passed_m = 0;
-  for (std::size_t i = 0; i < path.size() && passed_m <= enough_m; ++i) {
-    if (!(distance_m(path[i], centre) <= radius_m)) // nor what is no number
+  for (std::size_t i = 1; i < path.size() && passed_m <= enough_m; ++i) {
+    if (!(distance_m(path[i], centre) < radius_m)) // nor what is no number
       break;
-    if (i > 0)
-      passed_m += distance_m(path[i - 1], path[i]);
+    passed_m += distance_m(path[i - 1], path[i]);
   }
   return passed_m;
 }
@@ -60,7 +57,8 @@ void near_provider::visit_options(option_visitor& s) {
 std::vector<option_info> near_provider::parameters() {
   return {{"radius_m", "m", "r_off, of the disc round the provider"},
           {"min_distance_m", "m",
-           "d_min; the way ahead must stay longer than this within r_off"}};
+           "d_min; the way ahead must stay longer than this within r_off; the "
+           "paper has no value, 50 is ours"}};
 }
 
 std::unique_ptr<local_filter> near_provider::clone() const {
@@ -69,15 +67,17 @@ std::unique_ptr<local_filter> near_provider::clone() const {
 
 std::string_view stays_in_area::objection(const central_context& context,
                                           const request_view& request) const {
-  const auto enough_s = to_seconds(min_time_);
-  const auto stay =
-      stay_in_area(request.route, context.area, request.speed_mps, enough_s);
-  if (!stay)
-    return "outside the area";
-  if (!(stay->time_s >= enough_s)) // nor what is no number
-    return "t_in_area < t_min";
-  if (!context.map.near_lanes(stay->way, map_tolerance_m_))
+  if (context.map.lanes().empty())
+    return "no map present";
+  if (!context.map.near_lanes(request.route, map_tolerance_m_))
     return "route is not on the map";
+  const auto enough_s = to_seconds(min_time_);
+  const auto time_s =
+      time_in_area_s(request.route, context.area, request.speed_mps, enough_s);
+  if (!time_s)
+    return "outside the area";
+  if (!(*time_s >= enough_s)) // nor what is no number
+    return "t_in_area < t_min";
   return {};
 }
 
@@ -88,9 +88,10 @@ void stays_in_area::visit_options(option_visitor& s) {
 
 std::vector<option_info> stays_in_area::parameters() {
   return {{"min_time", "time",
-           "t_min; the vehicle must stay at least this long in the area"},
+           "t_min; the vehicle must stay at least this long in the area; the "
+           "paper has no value, 5 s is ours"},
           {"map_tolerance_m", "m",
-           "so near to a lane must be the route until then"}};
+           "so near to a lane must be every waypoint of the route; ours"}};
 }
 
 std::unique_ptr<central_filter> stays_in_area::clone() const {
@@ -111,9 +112,9 @@ local_filter_entry local_filter_location() {
 central_filter_entry central_filter_location() {
   return {
       {"location", "Lets vehicles through that stay long enough in the area.",
-       "t_in_area >= t_min, the way on the route before it leaves the area by "
-       "the present speed; and until t_min the route is on the map",
-       "the route and the speed that requests tell",
+       "the route is on the map; and t_in_area >= t_min, the way on the route "
+       "before it leaves the area by the present speed",
+       "the route and the speed that requests tell, a map",
        "Dehler & Buchholz, IEEE RA-L 10(5), 2025", stays_in_area::parameters()},
       unfiltered<central_filter, stays_in_area>};
 }

@@ -12,28 +12,27 @@
 
 namespace sofof::policies {
 
-/// What a vehicle has before it in an area.
-struct area_stay {
-  std::span<const point> way; ///< From the first waypoint to the last inside.
-  double time_s = 0;          ///< At constant speed; infinity when standing.
-};
-
-/// The part of a route before it first leaves an area.
+/// Time that a route spends in an area before it first leaves it, at constant
+/// speed.
 /// @param route      Waypoints from the vehicle on, m.
-/// @param speed_mps  Current speed; below 0.1 counts as standing, and the way
-///                   is the first waypoint.
-/// @param enough_s   It may be cut short once its time exceeds this.
-/// @returns nullopt when the first waypoint is outside or there is none.
+/// @param speed_mps  Current speed; below 0.1 counts as standing, which is
+///                   ours.
+/// @param enough_s   Counting may stop once this is exceeded.
+/// @returns s; infinity when standing; nullopt when the first waypoint is
+///          outside or there is none.
 /// Source: Dehler & Buchholz 2025, eq. (1).
-std::optional<area_stay>
-stay_in_area(std::span<const point> route, const polygon& area,
-             double speed_mps,
-             double enough_s = std::numeric_limits<double>::infinity());
+std::optional<double>
+time_in_area_s(std::span<const point> route, const polygon& area,
+               double speed_mps,
+               double enough_s = std::numeric_limits<double>::infinity());
 
-/// Way that a path covers near a point before it leaves the disc round it.
+/// Way that a path covers near a point before it leaves the disc round it: the
+/// sum of its steps to waypoints nearer than the radius, up to the first that
+/// is not. Where the path begins does not matter.
 /// @param path      Waypoints from the vehicle on, m.
 /// @param enough_m  Counting may stop once this is exceeded.
-/// @returns m; 0 when the path begins outside.
+/// @returns m.
+/// Source: Dehler & Buchholz 2025, algorithm 1.
 double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m);
 
@@ -50,11 +49,11 @@ public:
 
 private:
   double radius_m_ = 300;      // r_off
-  double min_distance_m_ = 50; // d_min
+  double min_distance_m_ = 50; // d_min, ours
 };
 
-/// A request may be accepted when the vehicle will stay in the offloading area
-/// long enough, on the streets of the map.
+/// A request may be accepted when its route is on the streets of the map, and
+/// stays in the offloading area long enough.
 class stays_in_area final : public central_filter {
 public:
   std::string_view objection(const central_context& context,
@@ -65,7 +64,7 @@ public:
   std::unique_ptr<central_filter> clone() const override;
 
 private:
-  duration min_time_ = std::chrono::seconds{5}; // t_min
+  duration min_time_ = std::chrono::seconds{5}; // t_min, ours
   double map_tolerance_m_ = 3.0;
 };
 

@@ -97,14 +97,15 @@ TEST_CASE("a path that ends too soon is not worth it") {
 }
 
 TEST_CASE("a path that leaves the disc too soon is not worth it") {
-  CHECK(!wants(eastward(250, 600)));
-  CHECK(wants(eastward(245, 600)));
+  CHECK(!wants(eastward(245, 600))); // 50 m to 295, the next is on the rim
+  CHECK(wants(eastward(240, 600)));
 }
 
 TEST_CASE("a path that begins outside the disc is not worth it, though it "
-          "leads inside") {
-  CHECK(!wants(eastward(-305, 305)));
-  CHECK(wants(eastward(-300, 305))); // the rim counts as inside
+          "leads inside, unless its next waypoint is inside") {
+  CHECK(!wants(eastward(-310, 305)));
+  CHECK(!wants(eastward(-305, 305))); // the rim counts as outside
+  CHECK(wants(eastward(-304.999, 305)));
 }
 
 TEST_CASE("a path that only touches the disc is not worth it") {
@@ -112,13 +113,14 @@ TEST_CASE("a path that only touches the disc is not worth it") {
   CHECK(!wants({{0, 300}, {100, 300}, {200, 300}}));
 }
 
-TEST_CASE("a path that touches the rim from inside has not left the disc") {
-  CHECK(wants({{260, 0}, {300, 0}, {280, 0}}));
+TEST_CASE("a path that touches the rim from inside has left the disc") {
+  CHECK(!wants({{260, 0}, {300, 0}, {200, 0}}));
+  CHECK(wants({{260, 0}, {299.999, 0}, {280, 0}}));
 }
 
 TEST_CASE("what a path does outside the disc never counts") {
   // 40 m inside, out, and 40 m inside again
-  CHECK(!wants({{260, 0}, {300, 0}, {310, 0}, {300, 0}, {260, 0}}));
+  CHECK(!wants({{259, 0}, {299, 0}, {310, 0}, {299, 0}, {259, 0}}));
 }
 
 TEST_CASE("the speed does not matter to the LODM") {
@@ -136,10 +138,10 @@ TEST_CASE("the way in the disc is that of a literal reference") {
     while (path.size() < 40)
       path.push_back(path.back()
                      + 5 * point{std::cos(heading), std::sin(heading)});
-    double passed_m = 0;
-    for (std::size_t i = 0;
-         i < path.size() && std::hypot(path[i].x_m, path[i].y_m) <= 300; ++i)
-      passed_m += i > 0 ? 5 : 0;
+    double passed_m = 0; // algorithm 1, line by line
+    for (std::size_t i = 1;
+         i < path.size() && std::hypot(path[i].x_m, path[i].y_m) < 300; ++i)
+      passed_m += 5;
     // Steps of 5 m: exactly 50 m are decided by rounding.
     if (std::abs(passed_m - 50) < 1)
       continue;
@@ -159,6 +161,7 @@ TEST_CASE("the disc and the least way are options") {
   CHECK(decide({{0, 0}, {11, 0}}));
   CHECK(!decide({{0, 0}, {10, 0}}));
   CHECK(!decide({{95, 0}, {105, 0}, {115, 0}}));
+  CHECK(decide({{85, 0}, {99, 0}, {115, 0}}));
 }
 
 TEST_CASE("a provider that is nowhere is not worth a request") {
@@ -201,15 +204,37 @@ TEST_CASE_FIXTURE(codm_world, "a vehicle that is not in the area yet is "
   CHECK(accepts(eastward(-100, 100), 10));
 }
 
-TEST_CASE_FIXTURE(codm_world, "a route that leaves the map before t_min is "
-                              "refused, be it by one waypoint") {
-  auto route = eastward(0, 300);
-  REQUIRE(accepts(route, 10));
-  route[3].y_m = 2.9;
-  CHECK(accepts(route, 10));
-  route[3].y_m = 3.1;
-  CHECK(!accepts(route, 10));
-  CHECK(accepts(route, 1.5)); // t_min is over before it
+TEST_CASE_FIXTURE(codm_world,
+                  "a route that leaves the map anywhere is refused, "
+                  "be it by one waypoint") {
+  for (const std::size_t k : {0, 3, 20, 59}) {
+    auto route = eastward(0, 300);
+    REQUIRE(accepts(route, 10));
+    route[k].y_m = 2.9;
+    CHECK(accepts(route, 10));
+    route[k].y_m = 3.1;
+    CHECK(!accepts(route, 10));
+  }
+}
+
+TEST_CASE_FIXTURE(codm_world, "where the provider has no map nobody is "
+                              "accepted") {
+  const road_map none;
+  const auto route = eastward(0, 300);
+  const std::vector<request_view> one{{101, "any", route, 10, 0}};
+  const auto decided =
+      codm->decide({time_point{}, one, {}, 0, 1, area, none}).front();
+  CHECK(!is_accepted(decided));
+  CHECK(decided.why == "no map present");
+}
+
+TEST_CASE_FIXTURE(codm_world, "the route is matched to the map before the area "
+                              "is looked at") {
+  // Off the map, outside the area and too short, all at once.
+  CHECK(decide({{101, 50}, {102, 50}}, 10).front().why
+        == "route is not on the map");
+  CHECK(decide({{101, 0}, {102, 0}}, 10).front().why == "outside the area");
+  CHECK(decide({{98, 0}, {99, 0}}, 10).front().why == "t_in_area < t_min");
 }
 
 TEST_CASE_FIXTURE(codm_world, "each reason to refuse has words of its own") {

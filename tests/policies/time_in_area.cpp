@@ -29,12 +29,6 @@ const polygon letter_u{{{0, 0},
 
 using line = std::vector<point>;
 
-std::optional<double> time_in_area_s(std::span<const point> route,
-                                     const polygon& area, double speed_mps) {
-  const auto stay = stay_in_area(route, area, speed_mps);
-  return stay ? std::optional{stay->time_s} : std::nullopt;
-}
-
 /// Inside, by the turns that the rim makes round a point; nothing that ray
 /// casting has in common with it.
 bool is_inside(std::span<const point> rim, point p) {
