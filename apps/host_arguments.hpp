@@ -24,12 +24,16 @@ inline network::network_address address_of(std::string_view text) {
 }
 
 struct host_arguments {
+  bool own_map = false;
   std::string keys;
   // For tests; not shown.
   std::string clock;
   std::uint32_t protocol = messages::remote_protocol;
 
   void add_to(CLI::App& command) {
+    command.add_flag("--own-map", own_map,
+                     "The other side may have another map, in the same frame; "
+                     "both sides have to say so");
     command
         .add_option("--keys", keys,
                     "Folder of the own certificate, see `sofof keys`")
@@ -40,6 +44,7 @@ struct host_arguments {
 
   /// @param to  Gets them.
   void give(scenario::host_options& to) const {
+    to.own_map = own_map;
     to.keys = keys;
     if (!keys.empty()) {
       to.keys_have_changed = &keys_have_changed;

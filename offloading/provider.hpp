@@ -38,7 +38,8 @@ struct provider_setup {
   std::vector<offered_service> services;            ///< With different names.
   std::unique_ptr<policies::central_policy> policy; ///< Not null.
   provider_computer computer;
-  /// For the policy; not null. Few ask it anything.
+  /// Of the provider; not null. Without lanes: it has none, and refuses what
+  /// needs one, whatever the policy says.
   std::shared_ptr<const world::road_map> map =
       std::make_shared<const world::road_map>();
   random_stream noise{0, ""}; ///< Of this provider.

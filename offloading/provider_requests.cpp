@@ -98,6 +98,8 @@ provider::question provider::question_of(const open_request& open,
       all.verdicts.push_back({policies::refused{}, "not heard here"});
     } else if (!service) {
       all.verdicts.push_back({policies::refused{}, "not offered here"});
+    } else if (service->needs_map && setup_.map->lanes().empty()) {
+      all.verdicts.push_back({policies::refused{}, "no map present"});
     } else if (std::ranges::find(before, name) != before.end()) {
       all.verdicts.push_back({policies::refused{}, "named twice"});
     } else {

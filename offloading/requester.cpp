@@ -326,6 +326,7 @@ std::vector<candidate> requester::candidates(service_state& service,
                                              provider_id asked,
                                              std::span<const point> path,
                                              time_point now) {
+  assert(!service.find(asked));
   const auto known = service.views(providers_, std::nullopt, now);
   const auto context = context_of(service, known, path, now);
   std::vector<policies::provider_view> left;

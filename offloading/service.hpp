@@ -127,6 +127,7 @@ public:
 struct service {
   messages::service_name name;
   service_options options;
+  bool needs_map = false; ///< It cannot run at a provider without one.
   std::function<std::shared_ptr<vehicle_service>(const vehicle_context&)>
       in_vehicle;
   std::function<std::shared_ptr<provider_service>(const provider_context&)>
@@ -145,6 +146,7 @@ struct offered_service {
   messages::service_name name;
   service_options options;                ///< Limits and period > 0.
   std::shared_ptr<provider_service> here; ///< Not null.
+  bool needs_map = false;                 ///< As `service` has it.
 };
 
 /// @returns the service as that vehicle has it.

@@ -45,6 +45,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     margins_.emplace(folder_ / "margins.csv", columns::of_margins);
   if (!run.map_toml.empty())
     write_file(folder_ / "map.toml", run.map_toml);
+  for (const auto& [name, text] : run.provider_maps)
+    write_file(folder_ / name, text);
   if (!run.trace_text.empty())
     write_file(folder_ / "trace.txt", run.trace_text);
   write_file(folder_ / "config.toml", run.config_toml);

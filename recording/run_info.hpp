@@ -51,7 +51,9 @@ struct run_info {
   std::string codm;        ///< Likewise.
   std::string config_toml; ///< The effective configuration.
   std::string map_toml;    ///< The map that it names; empty for none.
-  std::string trace_text;  ///< The trace that it names; empty for none.
+  /// Maps of providers that it names, by their names in the folder.
+  std::map<std::string, std::string> provider_maps;
+  std::string trace_text; ///< The trace that it names; empty for none.
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.

@@ -165,10 +165,7 @@ public:
             [where = where_](const messages::its_pdu& message, time_point now) {
               return messages::decode(message, *where, now);
             }} {
-    const actors::service_world known{
-        s.world, where_, {}, s.traffic.grants_crossings()};
-    for (const auto& type : s.services)
-      services_.push_back(type->in(known));
+    services_ = services_in(s.world);
     world_.recorder = actors::spawn_recorder(sys_, std::move(sink));
     name(watched_, world_.recorder, "the recorder");
     world_.has_peers = here.serves_others || !here.remotes.empty();
@@ -193,6 +190,17 @@ public:
   names& watched() { return watched_; }
 
 private:
+  /// @param streets  What is known of them where the services run.
+  std::vector<offloading::service>
+  services_in(const world::streets_ptr& streets) const {
+    const actors::service_world known{
+        streets, where_, {}, s_.traffic.grants_crossings()};
+    std::vector<offloading::service> all;
+    for (const auto& type : s_.services)
+      all.push_back(type->in(known));
+    return all;
+  }
+
   // -- providers ------------------------------------------------------------
 
   void add_provider(std::uint32_t number) {
@@ -233,9 +241,11 @@ private:
     setup.id = provider_at(number + 1, start);
     setup.position = options.position_m;
     setup.area = options.area();
-    setup.map = {s_.world, &s_.world->map};
+    const auto& own = options.streets;
+    const auto& streets = own ? own : s_.world;
+    setup.map = {streets, &streets->map};
     setup.decode = decode_;
-    for (const auto& service : services_)
+    for (const auto& service : own ? services_in(own) : services_)
       if (options.offers(service.name.view()))
         setup.services.push_back(service);
     setup.codm = s_.policies.codm->clone();

@@ -82,10 +82,15 @@ news_of(std::shared_ptr<news_board> board, const host_options& what,
   };
 }
 
-/// What both sides must have in common: the map and the services.
-std::uint64_t fingerprint_of_world(const scenario_definition& s) {
+/// What both sides must have in common: the map, or only its frame, and the
+/// services.
+std::uint64_t fingerprint_of_world(const scenario_definition& s, bool own_map) {
   auto text = s.map_text;
-  if (s.grid) {
+  if (own_map) {
+    const auto& at = s.world->map.origin();
+    text = fmt::format("{} {} {} {} {}", at.utm_e_m, at.utm_n_m, at.utm_zone,
+                       at.lat_deg, at.lon_deg);
+  } else if (s.grid) {
     scenario_definition streets; // and nothing else
     streets.grid = true;
     streets.grid_params = s.grid_params;
@@ -208,13 +213,13 @@ std::uint64_t start_of(const runtime& time) {
 
 /// @returns whom a provider lets in; what is of its actors is filled in later.
 actors::acceptor_setup acceptor_of(const scenario_definition& s,
-                                   std::size_t place,
+                                   std::size_t place, bool own_map,
                                    std::shared_ptr<network::key_ring> keys,
                                    network_runtime& time,
                                    const std::shared_ptr<news_board>& board) {
   actors::acceptor_setup setup;
   setup.name = s.providers[place].name;
-  setup.world = fingerprint_of_world(s);
+  setup.world = fingerprint_of_world(s, own_map);
   setup.clock = time.clock();
   setup.draw_nonce = &network::draw_nonce;
   setup.examine = [keys = std::move(keys), &time](
@@ -268,7 +273,7 @@ connection_to(const scenario_definition& s, std::size_t place,
   actors::provider_connection_setup setup;
   setup.provider = s.providers[place].name;
   setup.stations = stations;
-  setup.world = fingerprint_of_world(s);
+  setup.world = fingerprint_of_world(s, what.own_map);
   setup.rest = first_rest;
   setup.protocol = what.protocol;
   setup.noise = random_stream{static_cast<std::uint64_t>(s.seed), "uplink"}
@@ -311,7 +316,7 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
   here.serves_others = true;
   here.start = start_of(*time);
   const auto open = [&](const world_actors& actors) {
-    auto setup = acceptor_of(s, place, keys, *time, board);
+    auto setup = acceptor_of(s, place, what.own_map, keys, *time, board);
     setup.provider = actors.providers.front();
     setup.id = provider_at(static_cast<std::uint32_t>(place + 1), here.start);
     setup.recorder = actors.recorder;

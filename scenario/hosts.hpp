@@ -16,6 +16,9 @@ namespace sofof::scenario {
 
 /// What both sides have in common.
 struct host_options {
+  /// Whether the other side may have another map: then only the frames of both
+  /// have to be the same, and both sides have to say so.
+  bool own_map = false;
   std::string keys; ///< Folder with certificate and key; empty on loopback.
   /// Once true, the folder is read again, and this is false again; null: never.
   std::atomic<bool>* keys_have_changed = nullptr;

@@ -69,6 +69,31 @@ complete(const scenario_definition& all, channel::channel_profile profile) {
   return std::make_shared<const channel::channel_profile>(std::move(profile));
 }
 
+/// Reads the maps that providers have of their own. Positions in messages
+/// between the two sides are of one frame, so it has to be that of the
+/// scenario's map.
+void load_provider_maps(scenario_definition& all, const fs::path& folder,
+                        const toml_file& source) {
+  for (std::size_t k = 0; k < all.providers.size(); ++k) {
+    auto& p = all.providers[k];
+    if (p.map.empty())
+      continue;
+    if (p.has_no_map()) {
+      p.streets = std::make_shared<const world::streets>();
+      continue;
+    }
+    const auto key = fmt::format("provider.{}.map", k);
+    const auto file = folder / p.map;
+    p.map_text = read_named(file, key, source);
+    all.read_from.push_back(file);
+    p.streets = parse_map(p.map_text, file);
+    if (p.streets->map.origin() != all.world->map.origin())
+      source.refuse(key, fmt::format("the map {} has another origin than that "
+                                     "of the scenario; give it the same.",
+                                     file.string()));
+  }
+}
+
 void load_trace(scenario_definition& all, const fs::path& folder,
                 const toml_file& source) {
   constexpr std::string_view key = "network.trace";
@@ -129,6 +154,7 @@ scenario_definition parse_scenario(std::string_view text, const fs::path& file,
   if (!all.network.trace.empty())
     load_trace(all, folder, source);
   load_world(all, folder, source);
+  load_provider_maps(all, folder, source);
   check_whole(all, source);
   return all;
 }

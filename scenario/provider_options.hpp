@@ -5,6 +5,7 @@
 #include "base/options/option_helpers.hpp"
 #include "channel/channel_profile.hpp"
 #include "channel/provider_compute.hpp"
+#include "world/roads/streets.hpp"
 #include "world/sensing/sensors.hpp"
 
 #include <chrono>
@@ -80,9 +81,14 @@ struct provider_options {
   point position_m;           ///< pos_SP; also the centre of the area.
   double area_radius_m = 300; ///< Of the circle round the regular area.
   std::int64_t area_corners = 24;
-  std::vector<point> area_m;         ///< Polygon instead of the regular area.
-  double range_m = 2000;             ///< CAMs from farther away are not heard.
-  std::vector<std::string> services; ///< Their names; empty: all.
+  std::vector<point> area_m; ///< Polygon instead of the regular area.
+  double range_m = 2000;     ///< CAMs from farther away are not heard.
+  /// File of a map of its own, relative to the scenario file, or "none"; empty:
+  /// the scenario's.
+  std::string map;
+  world::streets_ptr streets; ///< Of its own map, loaded; null: the scenario's.
+  std::string map_text; ///< What the file of its own map says; empty: no file.
+  std::vector<std::string> services;     ///< Their names; empty: all.
   std::vector<roadside_options> sensors; ///< `sensor` in the file.
   /// Radio that reaches it: vehicles are stalled, and fade, on one radio at the
   /// same times; providers without a name share one.
@@ -97,6 +103,9 @@ struct provider_options {
   polygon area() const;
 
   bool offers(std::string_view service) const;
+
+  /// Whether it has no map at all.
+  bool has_no_map() const { return map == "none"; }
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -115,6 +124,12 @@ struct provider_options {
       s.field("area_corners", area_corners, {3, 1000});
     }
     s.field("range_m", range_m, {0, 1e6});
+    if (s.has("map", !map.empty())) {
+      s.field("map", map);
+      if (map.empty())
+        s.refuse("map", "must be a file or \"none\"; leave it out for the "
+                        "scenario's.");
+    }
     if (s.has("services", !services.empty())) {
       s.field("services", services);
       if (services.empty())

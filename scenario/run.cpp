@@ -48,6 +48,11 @@ recording::service_cost cost_of(const world::cycle_options& cycle,
           world::sending_cost(computer, cycle).energy_j, cycle.overhead_j};
 }
 
+/// @returns the name of the copy of a provider's own map in a results folder.
+std::string map_copy_of(std::size_t place) {
+  return fmt::format("map_of_provider_{}.toml", place + 1);
+}
+
 recording::run_info describe(const scenario_definition& s,
                              const run_options& options,
                              const process_share& here) {
@@ -60,6 +65,9 @@ recording::run_info describe(const scenario_definition& s,
   info.codm = s.policies.codm->title();
   info.config_toml = configuration_of(s);
   info.map_toml = s.map_text;
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    if (const auto& p = s.providers[k]; !p.map_text.empty())
+      info.provider_maps[map_copy_of(k)] = p.map_text;
   info.trace_text = s.trace_text;
   info.seed = s.seed;
   if (const auto* planning = planning_service(s))
@@ -338,6 +346,9 @@ std::string configuration_of(scenario_definition s) {
   // A results folder holds its own copies of the files that are named.
   if (!s.map_text.empty())
     s.map_file = "map.toml";
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    if (auto& p = s.providers[k]; !p.map_text.empty())
+      p.map = map_copy_of(k);
   if (!s.trace_text.empty())
     s.network.trace = "trace.txt";
   return "# The effective configuration of this run; `sofof run` takes it.\n"

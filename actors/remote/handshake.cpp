@@ -90,7 +90,8 @@ struct handshake_state {
       return "its clock shows no time of day";
     if (hello.world != setup->world)
       return fmt::format("provider {} has another map or other services; start "
-                         "both sides with the same scenario file",
+                         "both sides with the same scenario file, or both with "
+                         "--own-map",
                          setup->name);
     return std::nullopt;
   }

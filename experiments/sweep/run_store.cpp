@@ -75,10 +75,13 @@ std::optional<std::string> summary_in(const fs::path& folder) {
 std::string name_of_run(const scenario::scenario_definition& s,
                         std::string_view program) {
   const auto configuration = scenario::configuration_of(s);
+  std::vector<std::string_view> texts{program, configuration, s.map_text,
+                                      s.trace_text};
+  for (const auto& p : s.providers)
+    if (!p.map_text.empty())
+      texts.push_back(p.map_text);
   std::string whole;
-  for (const auto text :
-       {program, std::string_view{configuration}, std::string_view{s.map_text},
-        std::string_view{s.trace_text}})
+  for (const auto text : texts)
     whole += fmt::format("{}:{}", text.size(), text);
   return fmt::format("{:016x}", fingerprint(whole));
 }

@@ -216,7 +216,7 @@ TEST_CASE_FIXTURE(acceptor_world,
   SUBCASE("for its map") {
     bad.world = 6;
     why = "provider server has another map or other services; start both "
-          "sides with the same scenario file";
+          "sides with the same scenario file, or both with --own-map";
   }
   SUBCASE("as it means another provider") {
     bad.provider = "elsewhere";

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 using namespace sofof::test;
@@ -83,6 +85,32 @@ TEST_CASE("a provider ends after its duration") {
   const auto end = provider.run().wait();
   CHECK(end.code == 0);
   CHECK(summary_of(provider.out())["interrupted"] == false);
+}
+
+TEST_CASE("sides with different maps talk if both say that theirs is their "
+          "own") {
+  const workplace at;
+  const auto map = at / "older.toml";
+  const std::filesystem::path source{SOFOF_SOURCE_DIR};
+  std::ofstream{map}
+      << std::ifstream{source / "config/maps/ulm_lehr.toml"}.rdbuf()
+      << "# an older one\n";
+  const words older{"--set", "map=" + map.string()};
+  const words own{"--own-map"}, length{"--duration", "3s"};
+  const auto settings = patient(2);
+  provider_process provider{at, "provider", settings + older + own};
+  drive_process stranger{at, "stranger", provider.port(), settings + length};
+  const auto refused = stranger.run().wait();
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "another map or other services"));
+  CHECK(contains(refused.err, "--own-map"));
+  drive_process drive{at, "drive", provider.port(), settings + length + own};
+  const auto end = drive.run().wait();
+  CAPTURE(end.err);
+  CHECK(end.code == 0);
+  check_safe(summary_of(drive.out()));
+  CHECK(summary_of(drive.out())["episodes"] == 2);
+  CHECK(stop(provider.run()).code == 0);
 }
 
 TEST_CASE("vehicles may set off long before their provider") {

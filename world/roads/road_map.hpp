@@ -28,6 +28,8 @@ struct geo_origin {
   double utm_e_m = 0, utm_n_m = 0; ///< UTM of the frame's (0, 0).
   int utm_zone = 32;
   double lat_deg = 0, lon_deg = 0; ///< WGS84 of the same point.
+
+  friend bool operator==(const geo_origin&, const geo_origin&) = default;
 };
 
 /// All streets of a scenario; immutable once built.

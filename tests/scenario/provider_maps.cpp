@@ -1,0 +1,120 @@
+// Maps of providers: their own, an old one, or none.
+#include "tests/scenario/example.hpp"
+#include "tests/scenario/whole_run.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::scenario;
+using namespace sofof::test;
+
+namespace {
+
+const std::filesystem::path corridor =
+    std::filesystem::path{SOFOF_SOURCE_DIR} / "config/bench/corridor_3sp.toml";
+
+/// Cars on a straight road past three providers.
+scenario_definition drive_past(const std::vector<std::string>& changes,
+                               std::string_view length = "duration=60s") {
+  auto all = changes;
+  all.emplace_back(length);
+  return load_scenario(corridor, all);
+}
+
+/// The scenario's streets, with all lanes so far to the left.
+world::streets_ptr shifted(const world::streets& from, double left_m) {
+  std::vector<world::lane> lanes(from.map.lanes().begin(),
+                                 from.map.lanes().end());
+  for (auto& lane : lanes)
+    for (auto& p : lane.centre)
+      p.y_m += left_m; // the road runs east
+  auto all = std::make_shared<world::streets>();
+  all->map = world::road_map{"old", from.map.origin(), std::move(lanes)};
+  return all;
+}
+
+std::size_t count(const memory_sink& records, event_type what,
+                  std::string_view detail = {}) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(records.events, [&](const event_record& x) {
+        return x.what == what && (detail.empty() || x.detail == detail);
+      }));
+}
+
+const std::vector<std::string> nobody_has_a_map{"provider.west.map=none",
+                                                "provider.middle.map=none",
+                                                "provider.east.map=none"};
+
+} // namespace
+
+TEST_CASE("a provider without a map refuses whoever asks, as none is present") {
+  const auto records = play(drive_past(nobody_has_a_map));
+  CHECK(count(records, event_type::request) > 50);
+  CHECK(count(records, event_type::refused, "no map present")
+        == count(records, event_type::refused));
+  CHECK(count(records, event_type::refused) > 50);
+  CHECK(count(records, event_type::accepted) == 0);
+}
+
+TEST_CASE("without a map a provider plans for nobody, whatever its CODM says") {
+  auto changes = nobody_has_a_map;
+  changes.emplace_back("policies.codm=always");
+  const auto records = play(drive_past(changes));
+  CHECK(count(records, event_type::refused, "no map present") > 50);
+  CHECK(count(records, event_type::accepted) == 0);
+}
+
+TEST_CASE("a provider's own map that is the scenario's changes nothing") {
+  const std::vector<std::string> own{"provider.west.map=../maps/corridor.toml"};
+  const auto with = play(drive_past(own)), without = play(drive_past({}));
+  CHECK(with.cycles.size() > 1000);
+  CHECK(with.cycles.size() == without.cycles.size());
+  CHECK(with.events.size() == without.events.size());
+}
+
+TEST_CASE("whom a provider with an old map leads off the road, that vehicle "
+          "refuses its plans at once and stays on the road") {
+  auto s = drive_past({});
+  // As near as the CODM's match to the map takes for the same lane.
+  for (auto& p : s.providers)
+    p.streets = shifted(*s.world, 2.5);
+  const auto records = play(s);
+  CHECK(count(records, event_type::accepted) > 0);
+  CHECK(count(records, event_type::implausible) > 0);
+  CHECK(records.collisions.empty());
+  for (const auto& x : records.safety) {
+    CHECK(x.off_road == duration{0});
+    CHECK(x.without_fresh_plan == duration{0});
+  }
+}
+
+TEST_CASE("a provider's map of another origin is refused, and one that is not "
+          "there") {
+  const auto error = [](std::string_view map) {
+    return example::error_of(
+        example::with("area_radius_m = 80.0", "area_radius_m = 80.0\nmap = \""
+                                                  + std::string{map} + "\""));
+  };
+  CHECK(error("ring.toml").empty());
+  CHECK(error("none").empty());
+  CHECK(error("").find("leave it out") != std::string::npos);
+  CHECK(error("nowhere.toml").find("cannot be read") != std::string::npos);
+  CHECK(error("../../../config/maps/ulm_lehr.toml").find("another origin")
+        != std::string::npos);
+}
+
+TEST_CASE("a results folder has a copy of a provider's map, which its "
+          "configuration names") {
+  const auto s = example::load(example::with(
+      "area_radius_m = 80.0", "area_radius_m = 80.0\nmap = \"ring.toml\""));
+  CHECK(configuration_of(s).find("map = \"map_of_provider_1.toml\"")
+        != std::string::npos);
+}
