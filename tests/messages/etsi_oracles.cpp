@@ -1,6 +1,6 @@
 // Messages that other codecs made, beside what those codecs read in them. They
 // lie outside of the repository. Of our own are the same: known octets in
-// cam_test and cpm_ts103324_test, round trips in json_test and mcm_test, the
+// cam_test, both CPMs' and mcm_test, round trips in json_test and mcm_test, the
 // first protocol version in cam_test.
 #include "messages/etsi/hex.hpp"
 #include "messages/etsi/json.hpp"

@@ -9,6 +9,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bitset>
+#include <string>
 
 namespace sofof::messages::etsi {
 namespace {
@@ -41,7 +43,50 @@ mcm plan(std::size_t points) {
   return m;
 }
 
+/// An unsigned number in so many bits, the highest first.
+std::string bits(int count, std::uint32_t number) {
+  return std::bitset<32>{number}.to_string().substr(
+      static_cast<std::size_t>(32 - count));
+}
+
 } // namespace
+
+TEST_CASE("an MCM with a plan is known bit by bit") {
+  auto m = plan(1);
+  m.header.station = 101;
+  m.body.generation = 1000;
+  m.body.parameters.basic.station_type = passenger_car;
+  auto& at = m.body.parameters.basic.position;
+  at.latitude = 484'010'822;
+  at.longitude = 99'876'076;
+  at.confidence = {50, 40, 900};
+  at.altitude.value = 49'500;
+  at.altitude.confidence = altitude_confidence::within_1_m;
+  auto& user = std::get<road_user_container>(m.body.parameters.maneuver.value);
+  user.state = {road_user_type::connected_automated_vehicle, 1389, 1800, 47,
+                19};
+  auto& planned = *user.planned_trajectory;
+  planned.start_delta_time = 20;
+  planned.delta_time = 100;
+  planned.points[0] = {{138, -7}, 1390, 1801};
+  auto expected = bits(8, 2) + bits(8, 20) + bits(32, 101) // header
+                  + bits(16, 1000)   // generationDeltaTime
+                  + "0" + bits(8, 5) // basicContainer: no more of it
+                  + bits(31, 484'010'822 + 900'000'000)  // latitude
+                  + bits(32, 99'876'076 + 1'800'000'000) // longitude
+                  + bits(12, 50) + bits(12, 40) + bits(12, 900)
+                  + bits(20, 49'500 + 100'000) + bits(4, 6) // within 1 m
+                  + "0"                                     // roadUserContainer
+                  + "100" // of three, plannedTrajectory
+                  + "0" + bits(3, 1) + bits(14, 1389) + bits(12, 1800)
+                  + bits(6, 47 - 1) + bits(6, 19 - 1) // roadUserState
+                  + bits(16, 20) + bits(8, 100 - 1) // startDeltaTime, deltaTime
+                  + "0" + bits(7, 1 - 1)            // one point
+                  + bits(18, 138 + 131'072) + bits(18, 131'072 - 7)
+                  + bits(14, 1390) + bits(12, 1801);
+  expected.append((8 - expected.size() % 8) % 8, '0');
+  CHECK(test::to_bits(test::uper_of(m)) == expected);
+}
 
 TEST_CASE("an MCM takes the octets that its points need") {
   // 62 bits a point of a plan; 68 bits and two speeds of 14 each a suggestion.
