@@ -41,6 +41,7 @@ mean_latency_ms(std::span<const measured_run* const> runs) {
 
 /// Each vehicle of a run on the wall's clock a group.
 std::optional<cost_figures> costs_of(const measured_cpu& run) {
+  constexpr double percent = 100;
   std::vector<group> active, inactive, remote, balance;
   bool all_save = true;
   for (const auto& own : run.vehicles) {
@@ -48,10 +49,7 @@ std::optional<cost_figures> costs_of(const measured_cpu& run) {
     active.push_back({c.active * own.active_s, own.active_s});
     inactive.push_back({c.inactive * own.inactive_s, own.inactive_s});
     remote.push_back({c.requester_remote * own.inactive_s, own.inactive_s});
-    const auto pays_from = recording::break_even_share(c);
-    all_save = all_save && pays_from;
-    // A ratio of sums, as that of all vehicles together is.
-    constexpr double percent = 100;
+    all_save = all_save && recording::break_even_share(c);
     balance.push_back(
         {percent * c.requester, recording::saved_while_offloaded(c)});
   }
@@ -59,9 +57,16 @@ std::optional<cost_figures> costs_of(const measured_cpu& run) {
              r = mean_interval(remote);
   if (!a || !d || !r)
     return std::nullopt;
-  cost_figures all{*a, *d, *r, mean_interval(balance)};
-  if (all.break_even && !all_save)
-    all.break_even->high = std::numeric_limits<double>::infinity();
+  cost_figures all{*a, *d, *r, std::nullopt};
+  // The figure is that of all vehicles together, as the study's table has it;
+  // a mean over vehicles weighs them otherwise.
+  const auto together = recording::break_even_share(run.figures.shares);
+  if (const auto apart = mean_interval(balance); apart && together) {
+    const auto from = percent * *together;
+    all.break_even = {from, std::min(apart->low, from),
+                      all_save ? std::max(apart->high, from)
+                               : std::numeric_limits<double>::infinity()};
+  }
   return all;
 }
 

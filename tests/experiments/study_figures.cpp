@@ -163,6 +163,7 @@ TEST_CASE("computing costs are as sure as its vehicles are alike") {
   e.cpu_20_hz.v2x_at_most = 0.127;
   e.cpu_100_hz.v2x_at_most = 0.213;
   e.cpu_20_hz.vehicles = {vehicle(10, 1), vehicle(20, 1), vehicle(30, 1)};
+  e.cpu_20_hz.figures = vehicle(20, 1); // of all together
   const auto f = figures_of(e);
   CHECK(f.v2x_at_most == 0.213); // of the worse rate
   CHECK_FALSE(f.cpu_100_hz);
@@ -170,7 +171,7 @@ TEST_CASE("computing costs are as sure as its vehicles are alike") {
   CHECK(f.cpu_20_hz->active.mean == near(20, 1e-9));
   CHECK(f.cpu_20_hz->active.half_width() > 5);
   CHECK(f.cpu_20_hz->requester_remote.half_width() < 1e-9);
-  CHECK(f.cpu_20_hz->break_even->mean == near(5, 1e-9)); // 3 of 60
+  CHECK(f.cpu_20_hz->break_even->mean == near(5, 1e-9)); // 1 of 20
   CHECK(f.cpu_20_hz->break_even->high < 10);
   e.cpu_20_hz.vehicles.push_back(vehicle(10, 12)); // never pays there
   CHECK(std::isinf(figures_of(e).cpu_20_hz->break_even->high));
