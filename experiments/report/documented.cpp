@@ -90,16 +90,12 @@ std::string row_of(std::string_view section, std::string_view name) {
 
 std::string documented(std::string_view heading, std::string_view name) {
   const auto section = section_of(heading);
-  while (true) {
-    for (const auto& known :
-         {std::string{name}, fmt::format("services.any.{}", name)})
-      if (auto text = row_of(section, known); !text.empty())
-        return text;
-    const auto dot = name.rfind('.');
-    if (dot == name.npos)
-      return {};
-    name = name.substr(0, dot);
-  }
+  for (const auto& known :
+       {std::string{name}, fmt::format("services.any.{}", name)})
+    if (auto text = row_of(section, known); !text.empty())
+      return text;
+  const auto dot = name.rfind('.');
+  return dot == name.npos ? "" : documented(heading, name.substr(0, dot));
 }
 
 } // namespace sofof::experiments::report

@@ -17,8 +17,7 @@ byte_stream::byte_stream(descriptor socket, ssl_ptr tls)
 byte_stream::~byte_stream() {
   if (!tls_ || is_broken_)
     return;
-  SSL_shutdown(tls_.get());
-  forget_openssl_errors();
+  SSL_shutdown(tls_.get()); // what it complains of is forgotten by who is next
 }
 
 byte_stream::outcome byte_stream::read(std::span<std::byte> to) {

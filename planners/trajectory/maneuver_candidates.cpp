@@ -80,9 +80,6 @@ void list_orders(std::span<const crossing_user> users, const crossing_car& car,
   order.choice = crossing_order::waits;
   for (std::size_t i = 0; i < n; ++i)
     order.stop_m = std::min(order.stop_m, minded[i].line_m);
-  for (std::size_t i = 0; i < n; ++i)
-    if (minded[i].line_m <= order.stop_m)
-      order.opens_s = std::max(order.opens_s, minded[i].user->leave_s);
   assert(order.stop_m >= 0); // before the first crossing, and not behind
   out.push_back(order);
   put_first(out, first);

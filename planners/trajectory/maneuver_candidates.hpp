@@ -24,7 +24,6 @@ struct crossing_order {
   std::array<speed_constraints::window, most_users> windows;
   std::size_t count = 0;
   double stop_m = speed_constraints::never; ///< Way to where it waits.
-  double opens_s = 0; ///< Until when it waits, seconds from now on.
 };
 
 /// The own car at the crossings.

@@ -331,7 +331,6 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     report.violation = std::max(report.violation, result.report.violation);
     report.emergency = result.emergency;
     report.choice = order.choice << 8 | sides_;
-    report.dwell_s = std::max(0.0, order.opens_s);
     if (!first)
       std::swap(speed_, other_speed_);
   }

@@ -32,8 +32,7 @@ struct plan_report {
   std::int32_t iterations = 0; ///< Newton steps of all candidates.
   std::int32_t candidates = 1; ///< Plans that were weighed.
   std::uint32_t choice = 0;    ///< Which of them: sides and orders, as bits.
-  double dwell_s = 0; ///< Until when it waits at a crossing, from its start.
-  time_point input;   ///< When what it was made from held.
+  time_point input;            ///< When what it was made from held.
   /// Of the plan as it was made; on the air it is rounded.
   std::optional<world::motion_extremes> extremes;
 };
@@ -47,7 +46,6 @@ void visit_fields(auto& v, plan_report& x) {
   v("iterations", x.iterations);
   v("candidates", x.candidates);
   v("choice", x.choice);
-  v("dwell_s", x.dwell_s);
   v("input", x.input);
   v("extremes", x.extremes);
 }

@@ -539,6 +539,18 @@ TEST_CASE_FIXTURE(requester_world,
 }
 
 TEST_CASE_FIXTURE(requester_world,
+                  "a liar that had booted again before it lied is not "
+                  "believed for that either") {
+  start_remote({one, two});
+  offer_from(provider, here + 65536, {one, two});
+  const auto asked = requests();
+  lie(*this, at_here(one, 7));
+  run_for(10s);
+  offer_from(provider, here + 65536, {one});
+  CHECK(requests() == asked);
+}
+
+TEST_CASE_FIXTURE(requester_world,
                   "what else runs at a provider that has lied goes on") {
   start_remote({one, two});
   lie(*this, at_here(one, 7));

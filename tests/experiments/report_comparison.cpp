@@ -6,6 +6,7 @@
 #include "experiments/report/recorded_run.hpp"
 #include "tests/experiments/report_folder.hpp"
 #include "tests/experiments/report_sections.hpp"
+#include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
 
@@ -86,6 +87,9 @@ TEST_CASE("two runs are compared side by side, first what differs") {
   CHECK(by_time.curves.at(1).name == "other");
   const auto whole = describe(std::array{one.path(), other.path()}, "0.1.0");
   CHECK(whole.subtitle.starts_with("Differs in: seed 7 → 8. "));
+  CHECK(test::contains(whole.subtitle,
+                       " made_up, seed 7, 2 vehicles, 100 s, channel "
+                       "paper_sim, sofof 0.1.0 "));
 }
 
 TEST_CASE("a difference that would round to zero is shown by its first digit") {

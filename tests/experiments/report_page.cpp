@@ -161,6 +161,22 @@ TEST_CASE("nothing in a document ends the page's script, whatever it says") {
                          "%document% "));
 }
 
+/// Lines of so many points each never turn back.
+void check_lines(const std::vector<double>& counts,
+                 const std::vector<double>& x_m,
+                 const std::vector<double>& y_m) {
+  std::size_t begin = 0;
+  for (const auto count : counts) {
+    const auto end = begin + static_cast<std::size_t>(count);
+    REQUIRE(end <= x_m.size());
+    for (auto k = begin + 2; k < end; ++k)
+      CHECK((x_m[k] - x_m[k - 1]) * (x_m[k - 1] - x_m[k - 2])
+                + (y_m[k] - y_m[k - 1]) * (y_m[k - 1] - y_m[k - 2])
+            > 0);
+    begin = end;
+  }
+}
+
 TEST_CASE("a drive has streets, tracks, offloadings and events") {
   const played_folder folder;
   const auto drive = drive_json(folder.path());
@@ -168,7 +184,10 @@ TEST_CASE("a drive has streets, tracks, offloadings and events") {
   CHECK(drive["until"] == 100);
   CHECK(drive["providers"][0]["name"] == "mec");
   CHECK(drive["providers"][0]["area"].size() == 24);
-  CHECK(unpacked(drive["lanes"]["counts"]).size() > 4);
+  const auto counts = unpacked(drive["lanes"]["counts"]);
+  CHECK(counts.size() > 4);
+  check_lines(counts, unpacked(drive["lanes"]["x"]),
+              unpacked(drive["lanes"]["y"]));
   REQUIRE(drive["vehicles"].size() == 1);
   CHECK(drive["vehicles"][0]["station"] == 101);
   CHECK(unpacked(drive["vehicles"][0]["x"]) == std::vector<double>{0, 1.5, 3});

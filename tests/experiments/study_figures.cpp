@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sofof::experiments::study {
@@ -79,6 +80,26 @@ TEST_CASE("the latency plot shows the offloading times of its runs") {
   const auto& means = the<report::table>(s, "t_off in seconds");
   CHECK(row_of(means, "1").back().starts_with("50.00 ("));
   CHECK(row_of(means, "6").back().starts_with("40.00 ("));
+}
+
+TEST_CASE(
+    "latencies are drawn as shares of one, three and six vehicles' results") {
+  const scratch dir;
+  const auto s = delay_plot(two_latencies(dir, 10.6, 11.5));
+  const auto& f = the<report::figure>(s, "How latencies are distributed");
+  REQUIRE(f.curves.size() == 3);
+  CHECK(f.curves[0].name == "1 vehicle");
+  CHECK(f.curves[1].name == "3 vehicles");
+  CHECK(f.curves[2].name == "6 vehicles");
+}
+
+TEST_CASE("what it costs to be in the area together is told apart") {
+  const scratch dir;
+  const auto s = latency_plot(two_curves(dir, 50, 40, 3));
+  CHECK(std::ranges::any_of(s.blocks, [](const report::block& x) {
+    const auto* text = std::get_if<report::paragraph>(&x);
+    return text && text->text.find("spread over") != std::string::npos;
+  }));
 }
 
 TEST_CASE("episodes of one run count as one run, however many they are") {

@@ -12,11 +12,9 @@ import time
 # After those of the mutant's own folder.
 ORDER = """properties actors scenario experiments base world messages channel
     offloading policies planners network recording reference""".split()
-# The program from outside; only for mutants of apps/ and those that say so.
+# The program from outside, which takes long: for mutants of apps/, for those that
+# no other test reaches, and for those that say so.
 PROCESSES = "processes"
-# Of these some take minutes; those named here are for mutants of apps/.
-SHORT_PROCESSES = """usage bad_input policies keys echo v2x_tools moved_options
-    refused_hosts shards""".split()
 MOST_OCTETS = 8 << 30
 # On the wall's clock, beside others: so much longer than alone.
 TIMES, MORE_S = 10, 20
@@ -98,12 +96,11 @@ def order_for(mutant, files):
         return (test.folder != mutant.folder, test.folder == "reference",
                 test.folder == PROCESSES, test.seconds)
 
-    def may(test):
-        return (test.folder != PROCESSES or test.name == mutant.processes
-                or mutant.folder == "apps" and test.name in SHORT_PROCESSES)
-
-    return sorted((test for test in files
-                   if may(test) and mutant.number in test.reached), key=rank)
+    reaching = [test for test in files if mutant.number in test.reached]
+    from_outside = (mutant.folder == "apps"
+                    or all(test.folder == PROCESSES for test in reaching))
+    return sorted((test for test in reaching if test.folder != PROCESSES
+                   or from_outside or test.name == mutant.processes), key=rank)
 
 
 def noticed_by(place, mutant, files):

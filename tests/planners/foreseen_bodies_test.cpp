@@ -72,3 +72,13 @@ TEST_CASE_FIXTURE(left_turn, "a car more than twenty metres behind, as the "
   CHECK_FALSE(seen(car_at({46, -20})).any_near(30, 40));
   CHECK_FALSE(seen(car_at({-20, -20})).any_near(30, 40));
 }
+
+TEST_CASE_FIXTURE(left_turn,
+                  "a body is in reach as soon as its nearer side is") {
+  auto lorry = car_at({7, 14});
+  lorry.width_m = 8; // from 3 to 11 m beside the way
+  CHECK(seen(lorry).any_in_reach(20, 2.5, 0));
+  CHECK_FALSE(seen(lorry).any_in_reach(20, 1.5, 0));
+  lorry.width_m = 1.8;
+  CHECK_FALSE(seen(lorry).any_in_reach(20, 2.5, 0));
+}

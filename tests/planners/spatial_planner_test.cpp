@@ -247,6 +247,21 @@ TEST_CASE("without time the plan before is not kept where it would hit "
         < ride.input.others.lead->rear_s_m);
 }
 
+TEST_CASE(
+    "without time the plan before is kept past a body that leaves room, and "
+    "only then") {
+  for (const auto [low_m, leaves_room] :
+       {std::pair{1.1, true}, std::pair{0.8, false}}) {
+    ride ride{test::straight(600, {{0, 13.9}}), 20, 12};
+    for (auto i = 0; i < 10; ++i)
+      ride.go();
+    const auto s_m = ride.plan.points.front().s_m;
+    ride.input.others.beside = {{s_m + 15, s_m + 19, low_m, low_m + 1, 0}};
+    ride.go(ocp::budget{refuse});
+    CHECK((ride.report.origin == plan_origin::kept) == leaves_room);
+  }
+}
+
 TEST_CASE("when there is no time for a path round a body, the speed is planned "
           "to stop before it") {
   ride ride{test::straight(600, {{0, 13.9}}), 20, 12, {.candidates = 1}};

@@ -178,6 +178,17 @@ TEST_CASE("the table says what services took and what offloading saved") {
   CHECK_FALSE(contains(table_of(metrics{run()}), "energy"));
 }
 
+TEST_CASE("the table says how busy each cell was, and who waited for it") {
+  auto m = played();
+  channel::load_meter meter{1, at(0s)};
+  for (int k = 0; k < 1000; ++k)
+    meter.add(at(k * 100ms), 5ms, 25ms);
+  m.add(load_table{{{"mec", "uplink", meter.read()}}, {}});
+  const auto line = line_of(table_of(m), "mec uplink");
+  CHECK(contains(line, " 25.0 % "));
+  CHECK(contains(line, " 5.00 ms "));
+}
+
 TEST_CASE("nobody is called safe whose driving was not recorded") {
   const metrics m{run()};
   CHECK(contains(table_of(m), "not recorded"));

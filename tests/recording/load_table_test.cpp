@@ -39,6 +39,17 @@ TEST_CASE(
   CHECK(sum.mean_wait_ms == doctest::Approx(99 * 150.0));
 }
 
+TEST_CASE("shares are of all servers' time") {
+  const auto meter = std::make_shared<channel::load_meter>(4U, time_point{});
+  channel::shared_server_queue queue{4, meter};
+  for (int k = 0; k < 20; ++k)
+    queue.finish(time_point{k * 100ms}, 80ms);
+  const auto sum = summary_of(meter->read(), 2s);
+  CHECK(sum.busy_share == doctest::Approx(0.2));
+  CHECK(sum.asked_share == doctest::Approx(0.2));
+  CHECK(sum.peak_share == doctest::Approx(0.2));
+}
+
 TEST_CASE("at nine tenths nobody is full, above all are, the fullest first") {
   const load_table calm{{{"mec", "uplink", asked_for(90ms)}}, {}};
   CHECK(full_ones(calm, 10s).empty());

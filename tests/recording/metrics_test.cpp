@@ -54,6 +54,20 @@ TEST_CASE("a run is counted as the protocol says") {
   CHECK(m.services()[1].episodes == 0);
 }
 
+TEST_CASE("a result that came too late counts in the latency, and as unused") {
+  metrics m{run()};
+  play(m);
+  const auto before = m.headline();
+  auto late = result({}, 1, 1s, 300ms, std::nullopt);
+  late.session.service = planning;
+  late.used = false;
+  m.on_record(late);
+  const auto& x = m.headline();
+  CHECK(x.latency.ms().count() == before.latency.ms().count() + 1);
+  CHECK(x.latency.ms().max() == doctest::Approx(300));
+  CHECK(x.results_used == before.results_used);
+}
+
 TEST_CASE("implausible results are counted by the provider's name and the "
           "check") {
   metrics m{run()};

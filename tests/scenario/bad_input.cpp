@@ -401,7 +401,7 @@ TEST_CASE("a wrong --set is refused with what was typed") {
   check_set("provider.0.area_raduis_m=3", {"area_radius_m"});
   check_set("provider.0.area_radius_m=0", {"from 1"});
   check_set("provider.7.area_radius_m=3", {"\"7\""});
-  check_set("provider.fog.area_radius_m=3", {"\"fog\""});
+  check_set("provider.fog.area_radius_m=3", {"\"fog\"", "Known: "});
   check_set("fleet.0.count.more=3", {"count"});
   check_set("fleet=3", {"[[fleet]]"});
   check_set("name.first=Anna", {"text in quotes"});
@@ -417,4 +417,15 @@ TEST_CASE("a wrong --set is refused with what was typed") {
   check_set("=3", {"empty"});
   check_set("record..cycles=true", {"empty"});
   check_set("name=\xff", {});
+  check_set("fleet.city.count=3", {"there is no \"city\"."});
+  CHECK(example::error_of(example::text, {"fleet.city.count=3"})
+            .ends_with("there is no \"city\"."));
+}
+
+TEST_CASE("a --set that nests too deep is refused before it is read") {
+  const auto error =
+      example::error_of(example::text, {"seed=" + std::string(100'000, '[')
+                                        + std::string(100'000, ']')});
+  CHECK(error.starts_with("--set seed=[["));
+  CHECK(error.find("nested deeper than") != error.npos);
 }

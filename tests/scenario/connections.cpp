@@ -173,6 +173,7 @@ TEST_CASE("a peer that says that it is this process is disconnected, and so is "
     other.line.send(frame(heartbeat));
     CHECK(other.line.is_closed());
     CHECK(process.has_said("its first frame is not its handshake"));
+    CHECK(process.refusals.front().find("more") == std::string::npos);
   }
   CHECK(honest.is_heard());
 }

@@ -240,6 +240,15 @@ TEST_CASE("on straight lanes only the drift across them matters") {
   CHECK(found > 100);
 }
 
+TEST_CASE("at a lane's begin its first metre counts like others") {
+  const auto lane = one_lane({{0, 0}, {50, 0}, {100, 0}});
+  for (const auto from_m : {0.0, 0.5})
+    CHECK(time_to_collision_s(user_on(1, lane, from_m, 20),
+                              user_on(2, lane, from_m + 15, 10))
+              .value()
+          == near(1, 1e-6));
+}
+
 TEST_CASE("a lane goes straight on beyond its end") {
   const auto lane = one_lane({{0, 0}, {50, 0}, {100, 0}});
   CHECK(time_to_collision_s(user_on(1, lane, 84, 20), user_on(2, lane, 99, 10))
