@@ -93,6 +93,14 @@ TEST_CASE(
   CHECK(f.curves[2].name == "6 vehicles");
 }
 
+TEST_CASE("where curves saturate is said of one vehicle and of six") {
+  const scratch dir;
+  const auto words = words_of(latency_plot(two_curves(dir, 50, 40, 3)));
+  CHECK(contains(words, "One vehicle saturates at 50.0"));
+  CHECK(contains(words, "six at 40.0"));
+  CHECK(contains(words, "20 % below"));
+}
+
 TEST_CASE("what it costs to be in the area together is told apart") {
   const scratch dir;
   const auto s = latency_plot(two_curves(dir, 50, 40, 3));

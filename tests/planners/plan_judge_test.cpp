@@ -299,9 +299,14 @@ TEST_CASE_FIXTURE(judged_drive, "who crosses and can stop before the lane is "
 
 TEST_CASE_FIXTURE(judged_drive, "who crosses the own planner's way as well is "
                                 "no reason to refuse a plan") {
-  own_accel_mps2 = 0;
   see_car(222, -20, std::numbers::pi / 2, 12);
-  CHECK(refused_within(200ms, 0).empty());
+  SUBCASE("which keeps its speed") {
+    own_accel_mps2 = 0;
+    CHECK(refused_within(400ms, 0).empty());
+  }
+  SUBCASE("but who crosses only that of the plan is") {
+    CHECK(refused_within(400ms, 0) == "others");
+  }
 }
 
 TEST_CASE_FIXTURE(judged_drive,
