@@ -1,5 +1,6 @@
 """All mutants in one build: a copy of the committed sources in which each place
 asks which mutant is chosen, by the variable SOFOF_MUTANT of the environment."""
+import fcntl
 import io
 import os
 import pathlib
@@ -61,6 +62,17 @@ class Place:
         self.copy = pathlib.Path(copy)
         self.work = self.copy / "build"
         self.tests = self.work / "release" / "tests"
+        self.lock = None
+
+    def claim(self):
+        """Whether no other run is at work here; none can begin from now on."""
+        self.work.mkdir(parents=True, exist_ok=True)
+        self.lock = open(self.work / "lock", "w", encoding="utf-8")
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        return True
 
 
 def git(*arguments):

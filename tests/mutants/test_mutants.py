@@ -127,6 +127,14 @@ class Switch(unittest.TestCase):
         switch.write_if_new(path, b"two")
         self.assertNotEqual(path.stat().st_mtime, 1)
 
+    def test_two_runs_are_not_at_work_in_one_place(self):
+        one, other = (switch.Place(self.folder) for _ in range(2))
+        self.assertTrue(one.claim())
+        self.assertFalse(other.claim())
+        one.lock.close()
+        self.assertTrue(other.claim())
+        other.lock.close()
+
 
 class Lists(unittest.TestCase):
 
