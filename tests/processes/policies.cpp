@@ -1,7 +1,9 @@
 // Tests of what the program tells of its policies.
 #include "tests/processes/workplace.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/files.hpp"
 
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -93,4 +95,20 @@ TEST_CASE("an unknown policy is refused, and the one meant is named") {
   CHECK(end.code == 2);
   CHECK(end.out == "");
   CHECK(contains(end.err, "did you mean \"nearest\"?"));
+}
+
+TEST_CASE("what a policy has learned is in a file of its own name, unless "
+          "another is asked for") {
+  const workplace at;
+  const words short_drive{"train",      "config/bench/single_intersection.toml",
+                          "--quiet",    "--policy",
+                          "q_learning", "--seeds",
+                          "1",          "--set",
+                          "duration=5s"};
+  const auto first = at.run_sofof(short_drive);
+  CHECK(first.code == 0);
+  CHECK(contains(first.out, "snapshot in q_learning.txt"));
+  CHECK(std::filesystem::exists(at / "q_learning.txt"));
+  CHECK(at.run_sofof(short_drive + words{"--out", "mine.txt"}).code == 0);
+  CHECK(read_file(at / "mine.txt") == read_file(at / "q_learning.txt"));
 }
