@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
+#include <vector>
 
 using namespace sofof;
 using namespace sofof::messages;
@@ -74,6 +76,26 @@ struct transport {
   }
 };
 
+// -- the provider's decision: those in its area -------------------------------
+
+struct those_near final : central_policy {
+  std::vector<central_decision>
+  decide(const central_context& context) override {
+    std::vector<central_decision> all;
+    for (const auto& request : context.requests)
+      if (!request.route.empty()
+          && context.area.contains(request.route.front()))
+        all.push_back({accepted{}, "is near"});
+      else
+        all.push_back({refused{}, "is far away"});
+    return all;
+  }
+  std::string_view name() const override { return "those_near"; }
+  std::unique_ptr<central_policy> clone() const override {
+    return std::make_unique<those_near>(*this);
+  }
+};
+
 // -- both ends ----------------------------------------------------------------
 
 constexpr peer_id car{1}, server{2};
@@ -97,7 +119,7 @@ struct roadside final : provider_side_port {
     s.id = 7;
     s.area = polygon::regular({0, 0}, 150, 24); // m
     s.services = {{"root", options, std::make_shared<root_at_server>()}};
-    s.policy = make_codm("always");
+    s.policy = std::make_unique<those_near>();
     return s;
   }
 };
@@ -130,6 +152,9 @@ struct vehicle final : vehicle_port {
     s.station = 101;
     s.services = {{"root", options, std::make_shared<root_in_car>()}};
     s.policy = make_lodm("always");
+    s.path_ahead = [](const ego_state& ego) { // as far as it is planned
+      return std::vector{ego.own.position};
+    };
     return s;
   }
 };

@@ -107,7 +107,7 @@ inline const provider_view* where_it_runs(const local_context& context) {
 struct request_view {
   station_id station = 0;
   std::string_view service;
-  std::span<const point> route; ///< Planned, m, at least 1.
+  std::span<const point> route; ///< Planned, m; a vehicle may tell none.
   double speed_mps = 0;
   double utilisation = 0; ///< What it would add to that of the provider.
   /// How it computes on one worker: `wcet` is its mean and three standard
