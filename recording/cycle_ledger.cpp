@@ -40,7 +40,9 @@ void cycle_ledger::add(const messages::work_record& x) {
 void cycle_ledger::add(const messages::cycle_record& x) {
   auto& [sum, newest] = counts_[{x.session.service, x.session.station}];
   ++sum.results;
-  if (sum.results > 1 && x.cycle <= newest)
+  if (!x.used)
+    return; // the vehicle went by something else
+  if (sum.offloaded > 0 && x.cycle <= newest)
     return; // another provider has computed it too
   ++sum.offloaded;
   newest = x.cycle;

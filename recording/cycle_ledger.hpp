@@ -15,8 +15,8 @@ namespace sofof::recording {
 /// How often a service was computed.
 struct cycle_figures {
   std::uint64_t on_board = 0;  ///< In the vehicle, and the result was used.
-  std::uint64_t offloaded = 0; ///< Cycles whose result a provider has sent.
-  std::uint64_t results = 0;   ///< Of these cycles, from all providers.
+  std::uint64_t offloaded = 0; ///< By a provider, and the result was used.
+  std::uint64_t results = 0;   ///< From all providers, used or not.
   std::uint64_t inputs = 0;    ///< That vehicles sent to providers.
 
   /// @returns the share of cycles that were offloaded; nullopt for none.

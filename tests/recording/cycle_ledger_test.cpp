@@ -78,6 +78,23 @@ TEST_CASE("a cycle that two providers compute is one, with two results") {
   CHECK(x.energy(101).offloading_j == 20 * 0.125);
 }
 
+TEST_CASE("a cycle whose result comes too late is the vehicle's own, and its "
+          "result is paid for all the same") {
+  auto x = of_two_vehicles();
+  auto late = result(running(101), 1, 5s, 90ms, {});
+  late.used = false;
+  x.add(late);
+  x.add(work_record{101, planning, 1, 1});
+  const auto cycles = x.cycles(planning, 101);
+  CHECK(cycles.on_board == 1);
+  CHECK(cycles.offloaded == 0);
+  CHECK(x.energy(101).all_on_board_j == 0.5);
+  CHECK(x.energy(101).offloading_j == 0.25 + 0.125);
+  CHECK(*x.energy(101).saved_share() < 0);
+  x.add(result(running(101), 1, 5s, 20ms, {}));
+  CHECK(x.cycles(planning, 101).offloaded == 1); // an unused one hides none
+}
+
 TEST_CASE("what nothing is known of costs nothing") {
   auto x = of_two_vehicles();
   x.add(work_record{103, planning, 3, 3});
