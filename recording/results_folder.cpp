@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace sofof::recording {
@@ -25,6 +27,27 @@ constexpr std::string_view files_of_a_run[] = {
     "trace.txt",    "trace.txt.tmp",    "vehicles.csv",  "distributions.csv",
     "cpu.csv",      "cpu.csv.tmp",      "margins.csv",   "load.csv",
     "load.csv.tmp", "octets.csv",       "octets.csv.tmp"};
+
+bool is_provider_map(std::string_view name) {
+  if (!name.starts_with(provider_map_prefix))
+    return false;
+  name.remove_prefix(provider_map_prefix.size());
+  const auto digits = name.find_first_not_of("0123456789");
+  return digits > 0 && digits != name.npos
+         && (name.substr(digits) == ".toml"
+             || name.substr(digits) == ".toml.tmp");
+}
+
+/// @returns the names of all files of a run that may be there.
+std::vector<std::string> results_in(const fs::path& folder) {
+  std::vector<std::string> all{std::begin(files_of_a_run),
+                               std::end(files_of_a_run)};
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator{folder, error})
+    if (auto name = file.path().filename().string(); is_provider_map(name))
+      all.push_back(std::move(name));
+  return all;
+}
 
 [[noreturn]] void refused(const fs::path& folder, const std::string& why,
                           int error = 0) {
@@ -125,13 +148,15 @@ bool same_place(const fs::path& a, const fs::path& b) {
 }
 
 bool is_result(const fs::path& file, const fs::path& folder) {
-  return std::ranges::any_of(files_of_a_run, [&](const auto name) {
-    return same_place(file, folder / name);
-  });
+  auto names = results_in(folder);
+  if (auto name = file.filename().string(); is_provider_map(name))
+    names.push_back(std::move(name));
+  return std::ranges::any_of(
+      names, [&](const auto& name) { return same_place(file, folder / name); });
 }
 
 void remove_results(const fs::path& folder) {
-  for (const auto name : files_of_a_run) {
+  for (const auto& name : results_in(folder)) {
     std::error_code error;
     fs::remove(folder / name, error);
     if (error)

@@ -10,6 +10,9 @@
 
 namespace sofof::recording {
 
+/// Of a provider's own map: behind it follow its place, from 1, and ".toml".
+inline constexpr std::string_view provider_map_prefix = "map_of_provider_";
+
 /// Makes the folder of a run: the one asked for, or else the first free one
 /// of results/<scenario>-<seed>, -2, -3, …; two runs never get the same.
 /// Behind the seed stands what the run was told to change.

@@ -50,7 +50,7 @@ recording::service_cost cost_of(const world::cycle_options& cycle,
 
 /// @returns the name of the copy of a provider's own map in a results folder.
 std::string map_copy_of(std::size_t place) {
-  return fmt::format("map_of_provider_{}.toml", place + 1);
+  return fmt::format("{}{}.toml", recording::provider_map_prefix, place + 1);
 }
 
 recording::run_info describe(const scenario_definition& s,

@@ -73,12 +73,18 @@ TEST_CASE("force replaces the files of a run and nothing else") {
   write_text(dir / "thesis.tex", "mine");
   write_text(dir / "summary.json", "old");
   write_text(dir / "cycles.csv", "old");
+  write_text(dir / "map_of_provider_12.toml", "old");
+  write_text(dir / "map_of_provider_x.toml", "mine");
+  CHECK(is_result(dir / "map_of_provider_3.toml", dir.path()));
+  CHECK_FALSE(is_result(dir / "map_of_provider_.toml", dir.path()));
   auto info = run();
   info.cycles = false;
   results r{make_results_folder(dir.path(), "ulm", 7, true), info};
   CHECK(read_file(dir / "thesis.tex") == "mine");
   CHECK_FALSE(fs::exists(dir / "summary.json"));
   CHECK_FALSE(fs::exists(dir / "cycles.csv"));
+  CHECK_FALSE(fs::exists(dir / "map_of_provider_12.toml"));
+  CHECK(fs::exists(dir / "map_of_provider_x.toml"));
 }
 
 TEST_CASE("a file in the way of the folder is refused") {
