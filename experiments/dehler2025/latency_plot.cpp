@@ -152,15 +152,8 @@ std::string plus_minus(double mean, double deviation, int digits) {
   return fmt::format("{:.{}f} ± {:.{}f}", mean, digits, deviation, digits);
 }
 
-/// @returns whether six vehicles that plan for themselves need longer than one.
-bool pass_longer(const paper_runs& e) {
-  const auto one = mean_time_in_area_s(those(e.in_area, 0, "1"));
-  const auto six = mean_time_in_area_s(those(e.in_area, 0, "6"));
-  return one && six && *six > *one;
-}
-
-paragraph about_the_ends(const paper_runs& e, const report_text& text,
-                         const interval& one, const interval& six) {
+paragraph about_the_ends(const report_text& text, const interval& one,
+                         const interval& six) {
   const auto below = 100 * (1 - six.mean / one.mean);
   return {text.fill(
       "ends",
@@ -168,9 +161,7 @@ paragraph about_the_ends(const paper_runs& e, const report_text& text,
        {"six_s", with_interval(six)},
        {"difference",
         text.fill(below >= 0 ? "below" : "above",
-                  {{"percent", fmt::format("{:.0f}", std::abs(below))}})},
-       {"convoys",
-        text.fill(pass_longer(e) ? "longer_passes" : "no_longer_passes")}})};
+                  {{"percent", fmt::format("{:.0f}", std::abs(below))}})}})};
 }
 
 /// @returns how many early ends of six vehicles at the longest limit are for
@@ -237,7 +228,7 @@ report::section latency_plot(const paper_runs& e) {
   const auto one = mean_t_off(those(e.latency_plot, "1", longest_limit));
   const auto six = mean_t_off(those(e.latency_plot, "6", longest_limit));
   if (one && six)
-    s.blocks.emplace_back(about_the_ends(e, text, *one, *six));
+    s.blocks.emplace_back(about_the_ends(text, *one, *six));
   s.blocks.emplace_back(about_more_vehicles(e, text));
   s.blocks.emplace_back(other_reading(e, text));
   s.blocks.emplace_back(about_stalls(e, text));
