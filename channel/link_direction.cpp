@@ -12,23 +12,25 @@ link_direction::link_direction(channel_draws draws, direction to,
     : draws_{std::move(draws)}, direction_{to}, cell_{std::move(cell)},
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
 
-std::optional<passage> link_direction::carry(time_point sent,
-                                             message_class kind,
-                                             std::uint64_t number,
-                                             std::size_t octets) {
+passage link_direction::carry(time_point sent, message_class kind,
+                              std::uint64_t number, std::size_t octets) {
   const message_id m{direction_, kind, number};
   const auto airtime = draws_.airtime(m, octets);
   const auto queues = cell_ && airtime > duration{};
   const auto on_air = queues ? cell_->finish(sent, airtime) : sent + airtime;
   const auto stall = stalls_.at(sent);
-  if (draws_.lost(m, fades_.at(sent).has_value())
-      || draws_.is_out(sent - start_))
-    return std::nullopt;
+  const auto fades = fades_.at(sent).has_value();
+  if (draws_.is_out(sent - start_))
+    return {std::nullopt, disturbance::outage};
+  if (draws_.lost(m, fades))
+    return {std::nullopt, disturbance::loss};
   const auto leaves = stall ? std::max(on_air, stall->end) : on_air;
   const auto delay = stall ? draws_.burst_delay(direction_, stall->number)
                            : draws_.network_delay(m, sent);
   last_arrival_ = std::max(last_arrival_, leaves + delay); // none overtakes
-  const passage through{last_arrival_, last_arrival_ - sent - airtime - delay};
+  const passage through{last_arrival_,
+                        stall ? disturbance::stall : disturbance::none,
+                        last_arrival_ - sent - airtime - delay};
   assert(through.wait >= duration{0});
   return through;
 }

@@ -13,11 +13,20 @@
 
 namespace sofof::channel {
 
+/// What kept a message from getting through, or from doing so in time.
+enum class disturbance : std::uint8_t {
+  none,
+  loss,   ///< Lost by chance.
+  outage, ///< Lost, as nothing gets through.
+  stall,  ///< Held back until the end of a stall.
+};
+
 /// How a message gets through.
 struct passage {
-  time_point arrives;
+  std::optional<time_point> arrives; ///< nullopt when it is lost.
+  disturbance by = disturbance::none;
   /// Of its time on the way, what it waited: for its turn in the cell, for the
-  /// end of an outage, or for a message before it.
+  /// end of a stall, or for a message before it.
   duration wait{};
 };
 
@@ -38,18 +47,15 @@ public:
   /// @param number  Number of the draw: the cycle of a result, a running
   ///                number for everything else (streams of their own).
   /// @param octets  What the message takes on the air.
-  /// @returns when it arrives, never before an earlier message; nullopt when
-  /// it is lost.
-  std::optional<passage> carry(time_point sent, message_class kind,
-                               std::uint64_t number,
-                               std::size_t octets = usual_octets);
+  /// @returns among others when it arrives, never before an earlier message.
+  passage carry(time_point sent, message_class kind, std::uint64_t number,
+                std::size_t octets = usual_octets);
 
-  /// @returns the same without the wait.
+  /// @returns when it arrives; nullopt when it is lost.
   std::optional<time_point> arrival(time_point sent, message_class kind,
                                     std::uint64_t number,
                                     std::size_t octets = usual_octets) {
-    const auto through = carry(sent, kind, number, octets);
-    return through ? std::optional{through->arrives} : std::nullopt;
+    return carry(sent, kind, number, octets).arrives;
   }
 
 private:

@@ -6,44 +6,110 @@
 
 namespace sofof::channel {
 
-void octet_ledger::send(std::string_view what, std::size_t octets,
-                        time_point now, time_point arrives) {
-  assert(arrives >= now);
-  const std::lock_guard lock{mutex_};
-  deliver(now);
-  auto& line = line_of(what);
-  line.sent.add(octets);
-  under_way_.push(
-      {arrives, static_cast<std::size_t>(&line - lines_.data()), octets});
+octet_count& octet_count::operator+=(const octet_count& x) {
+  messages += x.messages;
+  octets += x.octets;
+  return *this;
 }
 
-void octet_ledger::lose(std::string_view what, std::size_t octets) {
+octet_fates& octet_fates::operator+=(const octet_fates& x) {
+  sent += x.sent;
+  delivered += x.delivered;
+  lost += x.lost;
+  under_way += x.under_way;
+  return *this;
+}
+
+octet_fates octet_line::together() const {
+  octet_fates sum;
+  for (const auto& x : seconds)
+    sum += x;
+  return sum;
+}
+
+void disturbed_count::add(disturbance by) {
+  lost += by == disturbance::loss;
+  outage += by == disturbance::outage;
+  stall += by == disturbance::stall;
+}
+
+disturbed_count& disturbed_count::operator+=(const disturbed_count& x) {
+  lost += x.lost;
+  outage += x.outage;
+  stall += x.stall;
+  return *this;
+}
+
+disturbance disturbed_count::most() const {
+  const auto largest = std::max({lost, outage, stall});
+  if (largest == 0)
+    return disturbance::none;
+  return largest == outage  ? disturbance::outage
+         : largest == stall ? disturbance::stall
+                            : disturbance::loss;
+}
+
+void octet_ledger::send(const sending& x, time_point arrives) {
+  assert(arrives >= x.at);
   const std::lock_guard lock{mutex_};
-  auto& line = line_of(what);
-  line.sent.add(octets);
-  line.lost.add(octets);
+  deliver(x.at);
+  auto& line = line_of(x.what);
+  count(x, line);
+  under_way_.push({arrives, static_cast<std::size_t>(&line - lines_.data()),
+                   second_of(x.at), x.octets});
+}
+
+void octet_ledger::lose(const sending& x) {
+  const std::lock_guard lock{mutex_};
+  count(x, line_of(x.what)).lost.add(x.octets);
 }
 
 std::vector<octet_line> octet_ledger::read(time_point now) {
   const std::lock_guard lock{mutex_};
   deliver(now);
   auto lines = lines_;
-  for (auto left = under_way_; !left.empty(); left.pop())
-    lines[left.top().line].under_way.add(left.top().octets);
+  for (auto left = under_way_; !left.empty(); left.pop()) {
+    const auto& x = left.top();
+    lines[x.line].seconds[x.second].under_way.add(x.octets);
+  }
   return lines;
+}
+
+std::vector<disturbed_line> octet_ledger::disturbed() const {
+  const std::lock_guard lock{mutex_};
+  std::vector<disturbed_line> lines;
+  for (const auto& [of, count] : disturbed_)
+    lines.push_back({of.first, of.second.first, of.second.second, count});
+  return lines;
+}
+
+std::size_t octet_ledger::second_of(time_point t) const {
+  assert(t >= start_);
+  return static_cast<std::size_t>((t - start_) / second);
 }
 
 octet_line& octet_ledger::line_of(std::string_view what) {
   const auto found = std::ranges::find(lines_, what, &octet_line::what);
-  return found != lines_.end() ? *found
-                               : lines_.emplace_back(octet_line{
-                                   std::string{what}, {}, {}, {}, {}});
+  return found != lines_.end()
+             ? *found
+             : lines_.emplace_back(octet_line{std::string{what}, {}});
+}
+
+octet_fates& octet_ledger::count(const sending& x, octet_line& line) {
+  const auto second = second_of(x.at);
+  if (second >= line.seconds.size())
+    line.seconds.resize(second + 1);
+  if (x.by != disturbance::none)
+    disturbed_[{second, {x.station, std::string{x.what}}}].add(x.by);
+  auto& fates = line.seconds[second];
+  fates.sent.add(x.octets);
+  return fates;
 }
 
 void octet_ledger::deliver(time_point now) {
   for (; !under_way_.empty() && under_way_.top().at <= now; under_way_.pop()) {
-    const auto& first = under_way_.top();
-    lines_[first.line].delivered.add(first.octets);
+    const auto& x = under_way_.top();
+    lines_[x.line].seconds[x.second].delivered.add(x.octets);
   }
 }
 

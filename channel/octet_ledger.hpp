@@ -1,15 +1,20 @@
 // What became of all octets that a radio cell was given in one direction.
 #pragma once
 
+#include "base/ids.hpp"
 #include "base/time.hpp"
+#include "channel/link_direction.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <queue>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sofof::channel {
@@ -23,15 +28,56 @@ struct octet_count {
     ++messages;
     octets += size;
   }
+  octet_count& operator+=(const octet_count& x);
+};
+
+/// What was sent; it has been delivered, was lost, or is under way.
+struct octet_fates {
+  octet_count sent;
+  octet_count delivered;
+  octet_count lost;
+  octet_count under_way;
+
+  octet_fates& operator+=(const octet_fates& x);
 };
 
 /// Of all messages for one thing.
 struct octet_line {
   std::string what; ///< What they are for.
-  octet_count sent;
-  octet_count delivered;
-  octet_count lost;
-  octet_count under_way;
+  std::vector<octet_fates>
+      seconds; ///< By when they were sent, since the start.
+
+  octet_fates together() const;
+};
+
+/// How many messages a link disturbed.
+struct disturbed_count {
+  std::uint64_t lost = 0;   ///< By chance.
+  std::uint64_t outage = 0; ///< Lost, as nothing got through.
+  std::uint64_t stall = 0;  ///< Delivered late, as a stall held them back.
+
+  void add(disturbance by);
+  disturbed_count& operator+=(const disturbed_count& x);
+  /// @returns what hit most of them; `none` for none.
+  disturbance most() const;
+};
+
+/// Messages of or to one vehicle for one thing that were sent in one second
+/// and disturbed.
+struct disturbed_line {
+  std::uint64_t second = 0; ///< Since the start.
+  station_id station = 0;
+  std::string what;
+  disturbed_count count;
+};
+
+/// A message that leaves.
+struct sending {
+  std::string_view what;  ///< What it is for: a service, or a kind of message.
+  station_id station = 0; ///< The vehicle that sends or shall get it.
+  std::size_t octets = 0; ///< On the air.
+  time_point at;          ///< Not before the start.
+  disturbance by = disturbance::none;
 };
 
 /// Counts messages when they are sent, and again when they are lost or their
@@ -39,33 +85,46 @@ struct octet_line {
 /// between threads.
 class octet_ledger {
 public:
+  /// @param start  Second 0 begins then.
+  explicit octet_ledger(time_point start) : start_{start} {}
+
   /// A message leaves that will arrive.
-  /// @param what  What it is for: a service, or a kind of message.
-  void send(std::string_view what, std::size_t octets, time_point now,
-            time_point arrives);
+  void send(const sending& x, time_point arrives);
 
   /// A message leaves that will not.
-  void lose(std::string_view what, std::size_t octets);
+  void lose(const sending& x);
 
   /// @returns a line for all that was sent for one thing, in the order of the
   /// first of each; what arrives after `now` is under way.
   /// @param now  Not earlier than in calls before.
   std::vector<octet_line> read(time_point now);
 
+  /// @returns a line for each second, vehicle and purpose that was disturbed,
+  /// in this order.
+  std::vector<disturbed_line> disturbed() const;
+
 private:
+  static constexpr duration second = std::chrono::seconds{1};
+
   struct arrival {
     time_point at;
     std::size_t line;
+    std::size_t second;
     std::size_t octets;
 
     bool operator>(const arrival& other) const { return at > other.at; }
   };
+  using who = std::pair<station_id, std::string>; // and for what
 
+  std::size_t second_of(time_point t) const;
   octet_line& line_of(std::string_view what);
+  octet_fates& count(const sending& x, octet_line& line);
   void deliver(time_point now);
 
-  std::mutex mutex_;
+  time_point start_;
+  mutable std::mutex mutex_;
   std::vector<octet_line> lines_;
+  std::map<std::pair<std::uint64_t, who>, disturbed_count> disturbed_;
   std::priority_queue<arrival, std::vector<arrival>, std::greater<>> under_way_;
 };
 

@@ -114,9 +114,7 @@ constexpr service_figure of_service[]{
      {console_block::offloaded, 30, "t_off max", 2, "s"}},
     {"offloaded_share",
      share_places,
-     [](const auto& x) {
-       return x.of.offloaded_share(x.run.vehicles, x.end.virtual_s);
-     },
+     [](const auto& x) { return x.of.offloaded_share(x.all.safety().driven); },
      {report_table::service, 90, "offloaded share, %", 1, as_percent},
      {console_block::offloaded, 40, "offloaded share", 1, "%", as_percent}},
     {"fairness", share_places,

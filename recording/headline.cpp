@@ -47,6 +47,30 @@ std::string_view in_words(end_reason reason) {
   }
 }
 
+/// @returns what made gaps between results, in words.
+std::string_view in_words(channel::disturbance of_results) {
+  switch (of_results) {
+    case channel::disturbance::loss:
+      return "gaps, as results were lost";
+    case channel::disturbance::outage:
+      return "gaps in outages";
+    case channel::disturbance::stall:
+      return "gaps, as stalls held results back";
+    default:
+      return in_words(end_reason::qos_gap);
+  }
+}
+
+/// @returns why an episode of a service ended early, in a few words.
+std::string_view in_words(const early_end& x, std::string_view service,
+                          const run_info& run, const load_table& load) {
+  if (x.reason != end_reason::qos_gap)
+    return in_words(x.reason);
+  const auto by = disturbance_of(load, {x.provider, "down", x.station, service},
+                                 x.at - run.start);
+  return in_words(by.value_or(channel::disturbance::none));
+}
+
 using provider_counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
 /// Most often first, those that are as frequent by name.
@@ -65,32 +89,36 @@ std::string listed(const provider_counts& counts) {
 
 /// @returns ": 18 by latency (junction 16, east 2), 3 by revocation (west 3)";
 /// of one reason alone ", all by latency (junction 16, east 4)".
-std::string early_ends(const service_metrics& x) {
-  std::map<end_reason, provider_counts> by_reason;
-  for (const auto& [what, count] : x.early)
-    by_reason[what.first].emplace_back(what.second, count);
+std::string early_ends(const service_metrics& x, const run_info& run,
+                       const load_table& load) {
+  using reason_and_cause = std::pair<end_reason, std::string_view>;
+  std::map<reason_and_cause, std::map<std::string, std::uint64_t>> counts;
+  for (const auto& end : x.early)
+    ++counts[{end.reason, in_words(end, x.service.view(), run, load)}]
+            [end.provider];
   struct group {
-    end_reason reason;
-    std::uint64_t count;
+    std::string_view cause;
+    std::uint64_t count = 0;
     provider_counts at;
   };
   std::vector<group> groups;
-  for (auto& [reason, at] : by_reason) {
-    sort(at);
-    std::uint64_t sum = 0;
-    for (const auto& [provider, count] : at)
-      sum += count;
-    groups.push_back({reason, sum, std::move(at)});
+  for (const auto& [why, at] : counts) {
+    auto& one = groups.emplace_back(group{why.second, 0, {}});
+    for (const auto& [provider, count] : at) {
+      one.count += count;
+      one.at.emplace_back(provider, count);
+    }
+    sort(one.at);
   }
   std::ranges::stable_sort(groups, std::ranges::greater{}, &group::count);
   if (groups.size() == 1)
-    return fmt::format(
-        ", {} by {} ({})", groups.front().count > 1 ? "all" : "that",
-        in_words(groups.front().reason), listed(groups.front().at));
+    return fmt::format(", {} by {} ({})",
+                       groups.front().count > 1 ? "all" : "that",
+                       groups.front().cause, listed(groups.front().at));
   std::string all;
   for (const auto& g : groups)
     all += fmt::format("{} {} by {} ({})", all.empty() ? ":" : ",", g.count,
-                       in_words(g.reason), listed(g.at));
+                       g.cause, listed(g.at));
   return all;
 }
 
@@ -110,27 +138,28 @@ std::string name_among(const service_metrics& x, const run_info& run) {
                                  : std::string{};
 }
 
-std::string offloading_of(const metrics& m, const run_info& run,
-                          const run_end& end) {
+std::string offloading_of(const metrics& m, const run_info& run) {
   const auto& x = m.headline();
   const auto name = name_among(x, run);
   if (x.episodes == 0)
     return fmt::format("Never offloaded{}: {}", name, why_never(x, m.offers()));
-  std::uint64_t early = 0;
-  for (const auto& [what, count] : x.early)
-    early += count;
-  const auto share = x.offloaded_share(run.vehicles, end.virtual_s);
-  auto text = fmt::format("Offloaded{} {:.1f} % of the time; ", name,
-                          100 * share.value_or(0));
-  if (early == 0)
+  const auto share = x.offloaded_share(m.safety().driven);
+  auto text =
+      share ? fmt::format("Offloaded{} {:.1f} % of the time; ", name,
+                          100 * *share)
+            : fmt::format("Offloaded{}, for what share of the driving is not "
+                          "known; ",
+                          name);
+  if (x.early.empty())
     return text
            + (x.episodes == 1
                   ? std::string{"the one episode did not end early."}
                   : fmt::format("none of {} episodes ended early.",
                                 x.episodes));
   return text
-         + fmt::format("{} of {} episode{} ended early{}.", early, x.episodes,
-                       x.episodes == 1 ? "" : "s", early_ends(x));
+         + fmt::format("{} of {} episode{} ended early{}.", x.early.size(),
+                       x.episodes, x.episodes == 1 ? "" : "s",
+                       early_ends(x, run, m.load()));
 }
 
 std::string safety_of(const safety_metrics& x) {
@@ -198,7 +227,7 @@ std::string why_never(const service_metrics& x, std::uint64_t offers) {
 headline headline_of(const metrics& m, const run_info& run,
                      const run_end& end) {
   return {
-      offloading_of(m, run, end),
+      offloading_of(m, run),
       safety_of(m.safety()) + lateness_of(end.stood_still),
       load_of(m.load(), run.clock == "virtual", from_seconds(end.virtual_s))};
 }

@@ -59,20 +59,41 @@ constexpr csv_column<load_row> of_load[]{
 };
 
 struct octet_row {
+  std::uint64_t second;
   const cell_octets& cell;
-  const channel::octet_line& x;
+  std::string_view what;
+  const channel::octet_fates& x;
 };
 
 constexpr csv_column<octet_row> of_octets[]{
+    {"t_s", [](const auto& r) { return r.second; }},
     {"provider",
      [](const auto& r) { return std::string_view{r.cell.provider}; }},
     {"direction", [](const auto& r) { return r.cell.direction; }},
-    {"what", [](const auto& r) { return std::string_view{r.x.what}; }},
+    {"what", [](const auto& r) { return r.what; }},
     {"messages", [](const auto& r) { return r.x.sent.messages; }},
     {"sent", [](const auto& r) { return r.x.sent.octets; }},
     {"delivered", [](const auto& r) { return r.x.delivered.octets; }},
     {"lost", [](const auto& r) { return r.x.lost.octets; }},
     {"under_way", [](const auto& r) { return r.x.under_way.octets; }},
+};
+
+struct disturbed_row {
+  const cell_octets& cell;
+  const channel::disturbed_line& x;
+};
+
+constexpr csv_column<disturbed_row> of_disturbed[]{
+    {"t_s", [](const auto& r) { return r.x.second; }},
+    {"provider",
+     [](const auto& r) { return std::string_view{r.cell.provider}; }},
+    {"direction", [](const auto& r) { return r.cell.direction; }},
+    {"station",
+     [](const auto& r) { return std::uint64_t{r.x.station.value()}; }},
+    {"what", [](const auto& r) { return std::string_view{r.x.what}; }},
+    {"lost", [](const auto& r) { return r.x.count.lost; }},
+    {"outage", [](const auto& r) { return r.x.count.outage; }},
+    {"stall", [](const auto& r) { return r.x.count.stall; }},
 };
 
 template <class Row>
@@ -144,8 +165,37 @@ std::string octets_csv(const load_table& table) {
   text += '\n';
   for (const auto& cell : table.cells)
     for (const auto& line : cell.lines)
-      append_line<octet_row>(text, of_octets, {cell, line});
+      for (std::size_t second = 0; second < line.seconds.size(); ++second)
+        if (const auto& x = line.seconds[second]; x.sent.messages > 0)
+          append_line<octet_row>(text, of_octets, {second, cell, line.what, x});
   return text;
+}
+
+std::string disturbed_csv(const load_table& table) {
+  std::string text;
+  append_names<disturbed_row>(text, of_disturbed);
+  text += '\n';
+  for (const auto& cell : table.cells)
+    for (const auto& line : cell.disturbed)
+      append_line<disturbed_row>(text, of_disturbed, {cell, line});
+  return text;
+}
+
+std::optional<channel::disturbance> disturbance_of(const load_table& table,
+                                                   const message_path& path,
+                                                   duration until) {
+  const auto cell = std::ranges::find_if(table.cells, [&path](const auto& x) {
+    return x.provider == path.provider && x.direction == path.direction;
+  });
+  if (cell == table.cells.end())
+    return std::nullopt;
+  const auto last = static_cast<std::uint64_t>(until / one_second);
+  channel::disturbed_count sum;
+  for (const auto& x : cell->disturbed)
+    if (x.second <= last && x.second + 1 >= last && x.station == path.station
+        && x.what == path.what)
+      sum += x.count;
+  return sum.most();
 }
 
 } // namespace sofof::recording

@@ -1,5 +1,5 @@
-// How busy providers and their radio cells were: what load.csv and octets.csv
-// hold, and what of it stands in the summary.
+// How busy providers and their radio cells were: what load.csv, octets.csv and
+// disturbed.csv hold, and what of it stands in the summary.
 #pragma once
 
 #include "base/time.hpp"
@@ -31,6 +31,7 @@ struct cell_octets {
   std::string provider;
   std::string_view direction; ///< "up" or "down".
   std::vector<channel::octet_line> lines;
+  std::vector<channel::disturbed_line> disturbed = {};
 };
 
 /// All that was measured in a run.
@@ -74,7 +75,26 @@ std::vector<full_servers> full_ones(const load_table& table, duration length);
 /// @returns load.csv: a line for each second and server.
 std::string load_csv(const load_table& table, duration length);
 
-/// @returns octets.csv: a line for each cell, direction and purpose.
+/// @returns octets.csv: a line for each second, cell, direction and purpose.
 std::string octets_csv(const load_table& table);
+
+/// @returns disturbed.csv: a line for each second in which messages of or to a
+/// vehicle for one thing were lost or held back.
+std::string disturbed_csv(const load_table& table);
+
+/// Whose messages.
+struct message_path {
+  std::string_view provider;  ///< Its name.
+  std::string_view direction; ///< "up" or "down".
+  station_id station = 0;
+  std::string_view what; ///< A service, say.
+};
+
+/// @param until  Since the start of the run.
+/// @returns what disturbed most of these messages in the second until then, or
+/// in that before it; nullopt where no modelled cell tells.
+std::optional<channel::disturbance> disturbance_of(const load_table& table,
+                                                   const message_path& path,
+                                                   duration until);
 
 } // namespace sofof::recording

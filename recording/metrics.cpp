@@ -16,15 +16,13 @@ const service_metrics nothing_happened;
 
 } // namespace
 
-std::optional<double> service_metrics::offloaded_share(std::size_t vehicles,
-                                                       double virtual_s) const {
-  const auto driving_s = static_cast<double>(vehicles) * virtual_s;
-  if (driving_s <= 0)
+std::optional<double> service_metrics::offloaded_share(duration driven) const {
+  if (driven <= duration::zero())
     return std::nullopt;
   double sum = 0;
   for (const auto& [station, seconds] : remote_s)
     sum += seconds;
-  return sum / driving_s;
+  return sum / to_seconds(driven);
 }
 
 std::optional<double> service_metrics::fairness(std::size_t vehicles) const {
@@ -146,8 +144,9 @@ void metrics::add(const messages::episode_record& x) {
   }
   ++service.episodes;
   if (!messages::is_planned(x.reason))
-    ++service
-          .early[{x.reason, std::string{name_of(x.session.provider, names_)}}];
+    service.early.push_back({x.reason,
+                             std::string{name_of(x.session.provider, names_)},
+                             x.session.station, x.ended});
   service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.session.service, x.session.station});
@@ -206,7 +205,7 @@ void metrics::add(load_table of_all) {
           services_, line.what, [](const auto& x) { return x.service.view(); });
       if (service != services_.end())
         (cell.direction == "up" ? service->octets_up : service->octets_down) +=
-            line.sent.octets;
+            line.together().sent.octets;
     }
   load_ = std::move(of_all);
 }

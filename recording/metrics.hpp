@@ -1,4 +1,5 @@
-// Scores a run while its records come in: pure sums, flat over hours.
+// Scores a run while its records come in: sums, and a line for each episode
+// that ended early.
 #pragma once
 
 #include "base/statistics.hpp"
@@ -32,6 +33,14 @@ using end_counts = std::array<std::uint64_t, end_reason_count>;
 using refusal_counts =
     std::map<std::string, std::map<std::string, std::uint64_t>>;
 
+/// An episode that ended for other than a planned reason.
+struct early_end {
+  messages::end_reason reason{};
+  std::string provider; ///< Its name.
+  station_id station = 0;
+  time_point at;
+};
+
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
   messages::service_name service;
@@ -49,8 +58,8 @@ struct service_metrics {
   std::uint64_t ping_pongs = 0;
   /// Reasons of all that ended, with data or without.
   end_counts ended_by{};
-  /// Of the episodes those that ended early, by reason and provider's name.
-  std::map<std::pair<messages::end_reason, std::string>, std::uint64_t> early;
+  /// Of the episodes those that ended early.
+  std::vector<early_end> early;
   /// How often a provider refused, and how often the vehicle wanted no
   /// provider, by the reason that was given.
   std::map<std::string, std::uint64_t> refused;
@@ -76,10 +85,10 @@ struct service_metrics {
   std::uint64_t octets_up = 0;
   std::uint64_t octets_down = 0;
 
-  /// @returns the share of driving time that was offloaded, all episodes of
-  /// all vehicles together; nullopt for no vehicle or no time.
-  std::optional<double> offloaded_share(std::size_t vehicles,
-                                        double virtual_s) const;
+  /// @param driven  By all vehicles together.
+  /// @returns the share of that time in which the service was not local;
+  /// nullopt for no time.
+  std::optional<double> offloaded_share(duration driven) const;
 
   /// @returns how evenly vehicles are offloaded, by the time x that each is:
   /// (Σx)² / (n Σx²), from 1/n, one alone, to 1; nullopt if none ever is.

@@ -36,7 +36,8 @@ public:
   /// Who computed how much, for cpu.csv.
   void add_cpu(const cpu_table& x);
 
-  /// What providers and cells had to do, for load.csv and octets.csv.
+  /// What providers and cells had to do, for load.csv,
+  /// octets.csv and disturbed.csv.
   void add_load(load_table x) { metrics_.add(std::move(x)); }
 
   const metrics& so_far() const { return metrics_; }

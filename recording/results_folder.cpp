@@ -21,12 +21,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view files_of_a_run[] = {
-    "summary.json", "summary.json.tmp", "config.toml",   "config.toml.tmp",
-    "episodes.csv", "cycles.csv",       "tracks.csv",    "events.jsonl",
-    "timing.csv",   "timing.csv.tmp",   "map.toml",      "map.toml.tmp",
-    "trace.txt",    "trace.txt.tmp",    "vehicles.csv",  "distributions.csv",
-    "cpu.csv",      "cpu.csv.tmp",      "margins.csv",   "load.csv",
-    "load.csv.tmp", "octets.csv",       "octets.csv.tmp"};
+    "summary.json",      "summary.json.tmp", "config.toml",
+    "config.toml.tmp",   "episodes.csv",     "cycles.csv",
+    "tracks.csv",        "events.jsonl",     "timing.csv",
+    "timing.csv.tmp",    "map.toml",         "map.toml.tmp",
+    "trace.txt",         "trace.txt.tmp",    "vehicles.csv",
+    "distributions.csv", "cpu.csv",          "cpu.csv.tmp",
+    "margins.csv",       "load.csv",         "load.csv.tmp",
+    "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
+    "disturbed.csv.tmp"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))

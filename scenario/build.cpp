@@ -98,7 +98,8 @@ actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
           sys, at.provider,
           {{{draws, channel::direction::up, at.cell_up}, at.octets_up},
            {{draws, channel::direction::down, at.cell_down}, at.octets_down},
-           std::nullopt}),
+           std::nullopt,
+           station}),
       at.options->position_m, at.options->range_m};
 }
 
@@ -125,8 +126,8 @@ provider_load measured(const provider_options& provider,
           meter(compute.workers),
           meter(1),
           meter(1),
-          std::make_shared<channel::octet_ledger>(),
-          std::make_shared<channel::octet_ledger>()};
+          std::make_shared<channel::octet_ledger>(start),
+          std::make_shared<channel::octet_ledger>(start)};
 }
 
 /// Actors that must live as long as the run, and what they are called.

@@ -251,7 +251,8 @@ recording::load_table table_of(const std::vector<provider_load>& loads,
     add("downlink", x.cell_down);
     const auto count = [&](std::string_view direction, const auto& octets) {
       if (auto lines = octets->read(end); !lines.empty())
-        all.cells.push_back({x.name, direction, std::move(lines)});
+        all.cells.push_back(
+            {x.name, direction, std::move(lines), octets->disturbed()});
     };
     count("up", x.octets_up);
     count("down", x.octets_down);

@@ -72,23 +72,28 @@ struct link_state {
     const auto sent = now(self);
     const auto octets = octets_on_air(message);
     const auto through = on.air.carry(sent, kind, number, octets);
-    const auto fate = through && setup->faults ? setup->faults->of(carried++)
-                                               : channel::link_faults::fate{};
-    if (!through || fate.lost) {
+    const auto fate = through.arrives && setup->faults
+                          ? setup->faults->of(carried++)
+                          : channel::link_faults::fate{};
+    channel::sending leaving{purpose_of(message), setup->station, octets, sent,
+                             through.by};
+    if (!through.arrives || fate.lost) {
+      if (fate.lost)
+        leaving.by = channel::disturbance::loss;
       if (on.octets)
-        on.octets->lose(purpose_of(message), octets);
+        on.octets->lose(leaving);
       return;
     }
     const auto deliver = [&](time_point arrives) {
       if (on.octets)
-        on.octets->send(purpose_of(message), octets, sent, arrives);
-      const auto wait = through->wait;
+        on.octets->send(leaving, arrives);
+      const auto wait = through.wait;
       send_at(self, receiver, arrives,
               after(message, {wait, arrives - sent - wait}), xs...);
     };
-    deliver(through->arrives + fate.extra_delay);
+    deliver(*through.arrives + fate.extra_delay);
     if (fate.copy_after)
-      deliver(through->arrives + *fate.copy_after);
+      deliver(*through.arrives + *fate.copy_after);
   }
 
   void meet(const messages::requester_actor& requester) {

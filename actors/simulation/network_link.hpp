@@ -1,6 +1,7 @@
 // The air between one vehicle and one provider.
 #pragma once
 
+#include "base/ids.hpp"
 #include "channel/link_direction.hpp"
 #include "channel/link_faults.hpp"
 #include "channel/octet_ledger.hpp"
@@ -25,6 +26,7 @@ struct link_setup {
   link_way up;
   link_way down;
   std::optional<channel::link_faults> faults; ///< For tests.
+  station_id station = 0; ///< The vehicle, by which disturbances are counted.
 };
 
 /// A proxy that looks like the far end to both sides: it delays and loses

@@ -27,9 +27,7 @@ public:
                                        : std::nullopt;
   }
 
-  double vehicle_hours() const {
-    return must("vehicles") * must("virtual_s") / hour_s;
-  }
+  double driven_hours() const { return must("safety.driven_s") / hour_s; }
   /// @returns how long a provider has run a service, by its place.
   double served_s(provider_id place, const std::string& service) const {
     const auto found = run_.served_s.find({place, service});
@@ -46,9 +44,13 @@ public:
            + over_services("ended_by.qos_gap")
            + over_services("ended_by.implausible");
   }
-  /// @returns the share of its time that a service was offloaded.
-  double offloaded_share(const std::string& service) const {
-    return may("services." + service + ".offloaded_share").value_or(0);
+  /// @returns how many cycles of a service were computed in vehicles.
+  double cycles_on_board(const std::string& service) const {
+    return may("services." + service + ".cycles.on_board").value_or(0);
+  }
+  /// @returns how many were computed by providers, and used.
+  double cycles_offloaded(const std::string& service) const {
+    return may("services." + service + ".cycles.offloaded").value_or(0);
   }
   /// @returns the mean latency of its results.
   double latency_s(const std::string& service) const {
@@ -105,29 +107,34 @@ double signalling(const summary_figures& run) {
          + run.over_services("ended_by.");
 }
 
-/// @returns the mean cost of a cycle, of all services.
+/// @returns the mean cost of a cycle, of all services; 0 for no cycles.
 double score(const summary_figures& run, const baseline& by) {
-  double cycles_per_s = 0, time = 0; // of one vehicle; in parts of the limits
+  double cycles = 0, time = 0; // in parts of the limits
   for (const auto& service : by.services) {
-    const auto share = run.offloaded_share(service.name);
-    const auto until_there_s =
-        share * run.latency_s(service.name) + (1 - share) * service.local_s;
-    cycles_per_s += 1 / service.period_s;
-    time += until_there_s / service.limit_s / service.period_s;
+    const auto on_board = run.cycles_on_board(service.name);
+    const auto offloaded = run.cycles_offloaded(service.name);
+    cycles += on_board + offloaded;
+    time +=
+        (offloaded * run.latency_s(service.name) + on_board * service.local_s)
+        / service.limit_s;
   }
-  const auto cycles = run.vehicle_hours() * hour_s * cycles_per_s;
-  const auto violated = cycles > 0 ? run.all_violations() / cycles : 0;
-  return of_time * time / cycles_per_s + of_energy * (1 - run.energy_saved())
-         + of_violations * violated;
+  if (cycles <= 0)
+    return 0;
+  return of_time * time / cycles + of_energy * (1 - run.energy_saved())
+         + of_violations * run.all_violations() / cycles;
 }
 
-/// @returns the share of a core that services take on board, %.
-double on_board_percent(const summary_figures& run, const baseline& by) {
-  double share = 0;
+/// @returns the share of a core that services take on board while a vehicle
+/// drives, %; nullopt if none does.
+std::optional<double> on_board_percent(const summary_figures& run,
+                                       const baseline& by) {
+  const auto driven_s = run.driven_hours() * hour_s;
+  if (driven_s <= 0)
+    return std::nullopt;
+  double busy_s = 0;
   for (const auto& service : by.services)
-    share += (1 - run.offloaded_share(service.name)) * service.local_s
-             / service.period_s;
-  return percent * share;
+    busy_s += run.cycles_on_board(service.name) * service.local_s;
+  return percent * busy_s / driven_s;
 }
 
 /// Adds how much the score of each run is above that of an entrant in the same
@@ -157,7 +164,7 @@ value_of in_percent(value_of share) {
 }
 
 value_of per_hour(const summary_figures& run, double count) {
-  const auto hours = run.vehicle_hours();
+  const auto hours = run.driven_hours();
   return hours > 0 ? value_of{count / hours} : std::nullopt;
 }
 
@@ -219,7 +226,7 @@ constexpr criterion all_criteria[]{
     {"vehicle_cpu_percent", "computing on board, % of a core", "", 2,
      better::less,
      [](const summary_figures& run, const baseline& by) {
-       return value_of{on_board_percent(run, by)};
+       return on_board_percent(run, by);
      }},
     {"energy_j_per_km", "energy in vehicles, J/km", "", 1, better::less,
      [](const summary_figures& run, const baseline&) {

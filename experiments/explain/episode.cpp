@@ -38,28 +38,12 @@ const episode_line* find(const std::vector<episode_line>& all,
       possible, {}, [](const auto* x) { return x->ended_s - x->accepted_s; });
 }
 
-// Of all sessions of a vehicle with a provider, which cycle is missing in any.
-bool are_gaps_in(const std::vector<cycle_line>& all) {
-  std::map<std::uint64_t, std::uint64_t> last; // cycle by counter
-  for (const auto& x : all) {
-    const auto [before, is_first] = last.try_emplace(x.of.counter, x.cycle);
-    if (!is_first && x.cycle > before->second + 1)
-      return true;
-    before->second = x.cycle;
-  }
-  return false;
-}
-
 void read_results(const fs::path& folder, episode& to) {
   const auto& of = to.closed.of;
-  auto lines = report::read_cycles(folder, [&of](session_key x) {
-    x.counter = of.counter;
-    return x == of;
-  });
+  auto lines = report::read_cycles(
+      folder, [&of](const session_key& x) { return x == of; });
   if (!lines)
     return;
-  to.has_gaps = are_gaps_in(*lines);
-  std::erase_if(*lines, [&of](const cycle_line& x) { return x.of != of; });
   for (const auto& x : *lines)
     if (!x.parts || !x.input_age_ms)
       throw input_error{fmt::format(
@@ -71,11 +55,31 @@ void read_results(const fs::path& folder, episode& to) {
 
 std::optional<double> lost_share(const fs::path& folder,
                                  const session_key& of) {
+  std::uint64_t sent = 0, lost = 0;
   for (const auto& x : report::read_octets(folder))
     if (x.provider == of.provider && x.direction == "down"
-        && x.what == of.service && x.sent > 0)
-      return static_cast<double>(x.lost) / static_cast<double>(x.sent);
-  return std::nullopt;
+        && x.what == of.service) {
+      sent += x.sent;
+      lost += x.lost;
+    }
+  if (sent == 0)
+    return std::nullopt;
+  return static_cast<double>(lost) / static_cast<double>(sent);
+}
+
+std::optional<channel::disturbance>
+disturbed_at(const fs::path& folder, const session_key& of, double at_s) {
+  const auto all = report::read_disturbed(folder);
+  if (!all)
+    return std::nullopt;
+  const auto second = std::floor(at_s);
+  channel::disturbed_count sum;
+  for (const auto& x : *all)
+    if (x.t_s >= second - 1 && x.t_s <= second && x.provider == of.provider
+        && x.direction == "down" && x.station == of.station
+        && x.what == of.service)
+      sum += x.count;
+  return sum.most();
 }
 
 asked_shares load_at(const fs::path& folder, const std::string& provider,
@@ -126,6 +130,7 @@ std::optional<episode> find_episode(const fs::path& folder, const question& q) {
       found.events.push_back(std::move(event));
   read_results(folder, found);
   found.lost = lost_share(folder, of);
+  found.disturbed = disturbed_at(folder, of, found.closed.ended_s);
   if (!of.provider.empty())
     found.load = load_at(folder, of.provider, found.closed.ended_s);
   return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/report/run_files.hpp"
+#include "recording/load_table.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -40,9 +41,9 @@ struct episode {
   /// Share of the octets that the provider sent for the service, to whom ever;
   /// nothing when no modelled cell counted them.
   std::optional<double> lost;
-  /// Some results between others of this vehicle, provider and service did not
-  /// come: no line tells of their cycles.
-  bool has_gaps = false;
+  /// What became of most of the vehicle's results that were disturbed in the
+  /// last second or two; nothing where no modelled cell tells.
+  std::optional<channel::disturbance> disturbed;
   asked_shares load; ///< Of the provider, at most in the last second or two.
 };
 

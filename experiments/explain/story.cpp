@@ -183,29 +183,29 @@ std::string why_slow(const episode& x, bool since_input) {
                      part.ms, usual, full(x, part.what));
 }
 
-// What was held back comes later; an outage loses what is sent meanwhile, and
-// ends a session before there are gaps in it.
 std::string why_silent(const episode& x) {
   const auto& e = x.closed;
+  const auto& provider = e.of.provider;
   if (x.at_provider && x.at_provider->ended_s < e.ended_s)
-    return fmt::format("{} had closed it {:.3f} s before ({}).", e.of.provider,
+    return fmt::format("{} had closed it {:.3f} s before ({}).", provider,
                        e.ended_s - x.at_provider->ended_s,
                        x.at_provider->reason);
-  if (!x.lost)
+  if (!x.disturbed || !x.lost)
     return "nothing came: results were lost, or held back.";
-  if (*x.lost == 0)
-    return fmt::format(
-        "nothing came, and nothing was lost in this run: the connection held "
-        "results back{}.",
-        x.at_provider ? fmt::format("; {} heard of the end {:.0f} ms later",
-                                    e.of.provider,
-                                    1e3 * (x.at_provider->ended_s - e.ended_s))
-                      : std::string{});
-  if (x.has_gaps)
-    return fmt::format("results get lost: {:.1f} % of what {} sent for this "
-                       "service in this run.",
-                       100 * *x.lost, e.of.provider);
-  return "nothing came: what was sent meanwhile was lost, as in an outage.";
+  switch (*x.disturbed) {
+    case channel::disturbance::loss:
+      return fmt::format("results get lost: {:.1f} % of what {} sent for this "
+                         "service in this run.",
+                         100 * *x.lost, provider);
+    case channel::disturbance::outage:
+      return "nothing came: what was sent meanwhile was lost in an outage.";
+    case channel::disturbance::stall:
+      return "nothing came: the connection stalled and held results back.";
+    default:
+      return fmt::format("nothing came, though nothing was lost or held back: "
+                         "{} sent nothing in time.",
+                         provider);
+  }
 }
 
 std::string why_no_data(const episode& x) {

@@ -134,6 +134,41 @@ void name_without_load(section& to, runs_view runs,
               : "load was not recorded.")});
 }
 
+/// By direction and purpose.
+using octets_of_cell =
+    std::map<std::pair<std::string, std::string>, std::vector<octets_line>>;
+
+/// By provider.
+std::map<std::string, octets_of_cell> octets_by_cell(const recorded_run& run) {
+  std::map<std::string, octets_of_cell> all;
+  for (auto& x : read_octets(run.folder)) {
+    auto& lines = all[x.provider][{x.direction, x.what}];
+    lines.push_back(std::move(x));
+  }
+  return all;
+}
+
+/// One figure for each provider, of all that was sent to it and by it.
+void add_octets_by_time(section& to, const recorded_run& run) {
+  constexpr double kilobits = 8e-3;
+  for (const auto& [provider, cell] : octets_by_cell(run)) {
+    figure shown;
+    shown.title = fmt::format("On the air of {} by time", provider);
+    shown.x_label = "time, s";
+    shown.y_label = "sent, kbit/s";
+    shown.by_clock = true;
+    for (const auto& [of, lines] : cell) {
+      auto& curve = shown.curves.emplace_back();
+      curve.name = fmt::format("{} {}", of.second, of.first);
+      for (const auto& x : lines) {
+        curve.x.push_back(x.t_s);
+        curve.y.push_back(kilobits * static_cast<double>(x.sent));
+      }
+    }
+    to.blocks.emplace_back(std::move(shown));
+  }
+}
+
 table octets_of(runs_view runs) {
   static constexpr std::string_view names[]{
       "provider", "direction", "what", "messages",
@@ -145,13 +180,19 @@ table octets_of(runs_view runs) {
     all.column_meanings.push_back(documented("octets.csv", name));
   }
   for (const auto& run : runs)
-    for (const auto& x : read_octets(run.folder)) {
-      auto& row = all.rows.emplace_back();
-      row = {label(run, x.provider, runs), x.direction, x.what};
-      for (const auto count :
-           {x.messages, x.sent, x.delivered, x.lost, x.under_way})
-        row.push_back(std::to_string(count));
-    }
+    for (const auto& [provider, cell] : octets_by_cell(run))
+      for (const auto& [of, lines] : cell) {
+        auto& row = all.rows.emplace_back();
+        row = {label(run, provider, runs), of.first, of.second};
+        for (const auto count : {&octets_line::messages, &octets_line::sent,
+                                 &octets_line::delivered, &octets_line::lost,
+                                 &octets_line::under_way}) {
+          std::uint64_t sum = 0;
+          for (const auto& x : lines)
+            sum += x.*count;
+          row.push_back(std::to_string(sum));
+        }
+      }
   return all;
 }
 
@@ -167,8 +208,11 @@ section load_section(runs_view runs) {
     name_without_load(all, runs, loads);
   }
   add_curves(all, runs, loads);
-  if (auto one = octets_of(runs); !one.rows.empty())
+  if (auto one = octets_of(runs); !one.rows.empty()) {
     all.blocks.emplace_back(std::move(one));
+    if (runs.size() == 1)
+      add_octets_by_time(all, runs.front());
+  }
   return all;
 }
 

@@ -200,14 +200,36 @@ std::vector<load_line> read_load(const fs::path& folder) {
 std::vector<octets_line> read_octets(const fs::path& folder) {
   static constexpr columns names{"provider", "direction", "what", "messages",
                                  "sent",     "delivered", "lost", "under_way"};
+  static constexpr columns newer{"t_s"};
+  enum { time = 8 };
   const auto file = folder / "octets.csv";
   std::vector<octets_line> all;
   if (!fs::exists(file))
     return all;
+  csv_reader row{file, names, ending_of(folder), newer};
+  while (row.next())
+    all.push_back({row.has(time) ? row.number(time) : 0, row.text(0),
+                   row.text(1), row.text(2), row.whole(3), row.whole(4),
+                   row.whole(5), row.whole(6), row.whole(7)});
+  return all;
+}
+
+std::optional<std::vector<disturbed_line>>
+read_disturbed(const fs::path& folder) {
+  static constexpr columns names{"t_s",  "provider", "direction", "station",
+                                 "what", "lost",     "outage",    "stall"};
+  const auto file = folder / "disturbed.csv";
+  if (!fs::exists(file))
+    return std::nullopt;
+  std::vector<disturbed_line> all;
   csv_reader row{file, names, ending_of(folder)};
   while (row.next())
-    all.push_back({row.text(0), row.text(1), row.text(2), row.whole(3),
-                   row.whole(4), row.whole(5), row.whole(6), row.whole(7)});
+    all.push_back({row.number(0),
+                   row.text(1),
+                   row.text(2),
+                   row.whole(3),
+                   row.text(4),
+                   {row.whole(5), row.whole(6), row.whole(7)}});
   return all;
 }
 

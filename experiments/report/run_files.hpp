@@ -1,6 +1,8 @@
 // The lines of a results folder's files, as docs/results.md describes them.
 #pragma once
 
+#include "recording/load_table.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -68,11 +70,22 @@ struct load_line {
 
 /// Of octets.csv.
 struct octets_line {
+  double t_s = 0; ///< Its second begins.
   std::string provider;
   std::string direction; ///< "up" or "down".
   std::string what;      ///< What they were for: a service, say.
   std::uint64_t messages = 0;
   std::uint64_t sent = 0, delivered = 0, lost = 0, under_way = 0;
+};
+
+/// Of disturbed.csv.
+struct disturbed_line {
+  double t_s = 0; ///< Its second begins.
+  std::string provider;
+  std::string direction; ///< "up" or "down".
+  std::uint64_t station = 0;
+  std::string what; ///< As in octets.csv.
+  channel::disturbed_count count;
 };
 
 /// Of tracks.csv.
@@ -125,5 +138,9 @@ read_tracks(const std::filesystem::path& folder);
 /// @returns no lines when the run wrote no such file.
 std::vector<load_line> read_load(const std::filesystem::path& folder);
 std::vector<octets_line> read_octets(const std::filesystem::path& folder);
+
+/// @returns nothing when the run wrote no such file.
+std::optional<std::vector<disturbed_line>>
+read_disturbed(const std::filesystem::path& folder);
 
 } // namespace sofof::experiments::report

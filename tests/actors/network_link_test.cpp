@@ -27,8 +27,10 @@ struct linked_world : virtual_world {
   probe<requester_actor> near = listen<requester_actor>();
   probe<provider_manager_actor> first = listen<provider_manager_actor>();
   probe<provider_manager_actor> second = listen<provider_manager_actor>();
-  std::shared_ptr<octet_ledger> octets_up = std::make_shared<octet_ledger>();
-  std::shared_ptr<octet_ledger> octets_down = std::make_shared<octet_ledger>();
+  std::shared_ptr<octet_ledger> octets_up =
+      std::make_shared<octet_ledger>(now());
+  std::shared_ptr<octet_ledger> octets_down =
+      std::make_shared<octet_ledger>(now());
   link_actor link = join({});
 
   static channel_profile steady() {
@@ -52,7 +54,8 @@ struct linked_world : virtual_world {
                               seed, 101, 0};
     link_setup setup{{{draws, direction::up, cell}, octets_up},
                      {{draws, direction::down, cell}, octets_down},
-                     {}};
+                     {},
+                     101};
     if (faults)
       setup.faults.emplace(seed.part("faults"), *faults);
     return own(spawn_network_link(system(), far.handle, std::move(setup)));
@@ -331,8 +334,8 @@ TEST_CASE_FIXTURE(linked_world, "all that is sent is counted by what it is "
   const auto line = [&](octet_ledger& ledger, std::string_view what) {
     for (const auto& x : ledger.read(now()))
       if (x.what == what)
-        return x;
-    return octet_line{};
+        return x.together();
+    return octet_fates{};
   };
   const auto down = line(*octets_down, "one");
   CHECK(down.sent.octets == down.sent.messages * octets);

@@ -263,10 +263,10 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
     p.more_delay = 5ms;
     const auto cell = std::make_shared<shared_server_queue>(1);
     link_direction link{link_channel(p), direction::up, cell};
-    CHECK(link.carry(time_point{0ms}, kind::other, 0)->wait == 0ms);
+    CHECK(link.carry(time_point{0ms}, kind::other, 0).wait == 0ms);
     const auto second = link.carry(time_point{1ms}, kind::other, 1);
-    CHECK(second->arrives == time_point{9ms});
-    CHECK(second->wait == 1ms);
+    CHECK(second.arrives == time_point{9ms});
+    CHECK(second.wait == 1ms);
   }
   SUBCASE("messages before it") {
     auto p = named("ideal");
@@ -276,12 +276,12 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
     auto waited = 0;
     for (std::uint64_t n = 0; n < 100; ++n) {
       const auto through = link.carry(time_point{n * 10ms}, kind::other, n);
-      REQUIRE(through->wait >= 0ms);
-      if (through->wait > 0ms) {
-        CHECK(through->arrives == last);
+      REQUIRE(through.wait >= 0ms);
+      if (through.wait > 0ms) {
+        CHECK(through.arrives == last);
         ++waited;
       }
-      last = through->arrives;
+      last = through.arrives.value();
     }
     CHECK(waited > 10);
   }
@@ -290,8 +290,31 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
     p.stalls = {0.5, 200ms, 300ms};
     link_direction link{link_channel(p), direction::down, nullptr};
     auto waited = 0;
-    for (std::uint64_t n = 0; n < 1000; ++n)
-      waited += link.carry(cycle(n), kind::result, n)->wait > 0ms;
+    for (std::uint64_t n = 0; n < 1000; ++n) {
+      const auto through = link.carry(cycle(n), kind::result, n);
+      waited += through.by == disturbance::stall && through.wait > 0ms;
+      REQUIRE((through.by == disturbance::none
+               || through.by == disturbance::stall));
+    }
     CHECK(waited > 10);
   }
+}
+
+TEST_CASE("a link says by what it lost a message") {
+  auto p = named("ideal");
+  p.loss = 0.5;
+  p.outages = {{1s, 2s}};
+  link_direction link{link_channel(p), direction::down, nullptr};
+  auto by_chance = 0;
+  for (int n = 0; n < 300; ++n) {
+    const duration sent = n * 10ms;
+    const auto through =
+        link.carry(time_point{sent}, kind::other, static_cast<unsigned>(n));
+    const auto out = sent >= 1s && sent < 2s;
+    CHECK(through.arrives.has_value() == (through.by == disturbance::none));
+    CHECK((through.by == disturbance::outage) == out);
+    by_chance += through.by == disturbance::loss;
+  }
+  CHECK(by_chance > 60);
+  CHECK(by_chance < 140);
 }

@@ -18,10 +18,11 @@ using test::near;
 
 namespace {
 
-/// Ten vehicles for six minutes: one vehicle hour.
+/// Twenty vehicles in six minutes, none there all the time, that drive one hour
+/// together.
 study::measured_run one_hour() {
   study::measured_run run{{{"mine"}, 3, {}}, "folder", {}, {}, 0};
-  run.figures = {{"vehicles", 10},
+  run.figures = {{"vehicles", 20},
                  {"virtual_s", 360},
                  {"offers", 100},
                  {"requests", 40},
@@ -38,10 +39,12 @@ study::measured_run one_hour() {
                  {"latency_ms.p50", 18},
                  {"latency_ms.p95", 30},
                  {"latency_ms.p99", 40},
+                 {"safety.driven_s", 3600},
                  {"safety.without_fresh_plan_s", 0},
                  {"safety.off_road_s", 0},
                  {"safety.collisions", 0},
-                 {"services.trajectory_planning.offloaded_share", 0.5},
+                 {"services.trajectory_planning.cycles.on_board", 18000},
+                 {"services.trajectory_planning.cycles.offloaded", 18000},
                  {"services.trajectory_planning.latency_ms.mean", 20},
                  {"services.trajectory_planning.ended_by.qos_latency", 3},
                  {"services.trajectory_planning.requests", 40},
@@ -73,7 +76,7 @@ judged_run scored(const char* entrant, const char* scenario, std::int64_t seed,
 
 } // namespace
 
-TEST_CASE("rates are per vehicle and hour, shares in percent") {
+TEST_CASE("rates are per hour that a vehicle drives, shares in percent") {
   const auto run = judge(one_hour(), usual());
   CHECK(run.entrant == "mine");
   CHECK(run.seed == 3);
@@ -114,7 +117,7 @@ TEST_CASE("signalling is offers, requests, answers and ends") {
 
 TEST_CASE("the score is the mean cost of a cycle: time, energy, violations") {
   const auto time = (0.5 * 0.020 + 0.5 * 0.010) / 0.05;
-  const auto violated = 5 / 36000.; // of one vehicle hour at 10 Hz
+  const auto violated = 5 / 36000.;
   auto run = one_hour();
   CHECK(value(judge(run, usual()), score_name)
         == near(0.3 * time + 0.3 + violated, 1e-12));
@@ -138,7 +141,8 @@ TEST_CASE("a cycle of every service counts in the score, and on board") {
   auto by = usual();
   by.services.push_back({"cabin_climate", 2, 1, 0.04});
   auto run = one_hour();
-  run.figures["services.cabin_climate.offloaded_share"] = 0.25;
+  run.figures["services.cabin_climate.cycles.on_board"] = 2700;
+  run.figures["services.cabin_climate.cycles.offloaded"] = 900;
   run.figures["services.cabin_climate.latency_ms.mean"] = 100;
   run.figures["services.cabin_climate.ended_by.qos_gap"] = 6;
   // Ten cycles of planning for one of the cabin.
@@ -162,7 +166,7 @@ TEST_CASE("who never offloads has the cost of planning on board") {
   for (const auto* name :
        {"offloaded_share", "requests", "rejected", "ended_by.qos_latency",
         "ended_by.qos_input_age", "ended_by.qos_gap",
-        "services.trajectory_planning.offloaded_share",
+        "services.trajectory_planning.cycles.offloaded",
         "services.trajectory_planning.ended_by.qos_latency",
         "services.trajectory_planning.ended_by.qos_gap"})
     run.figures[name] = 0;

@@ -25,7 +25,6 @@ struct told_run {
   std::string reason = "qos_latency";
   std::string because = "qos_latency value_ms=61.200000 limit_ms=50.000000";
   std::string provider_closed = "30.010000000";
-  int gap = 0; ///< Cycles before the last one that no result tells of.
   std::string last = "61.2,130.0,1,,0.0,5.0,63.8,40.0,3.2,0.0,18.0";
 
   std::string told(const question& q = {}) const {
@@ -55,8 +54,7 @@ struct told_run {
     for (int k = 0; k < 20; ++k)
       rows += "101,mec,1,planning,2," + std::to_string(400 + k)
               + ",21.0,12.0,70.0,1,50.0,0.0,5.0,53.0,0.5,3.0,0.0,8.5\n";
-    rows += "101,mec,1,planning,2," + std::to_string(420 + gap) + ",30.0,"
-            + last + '\n';
+    rows += "101,mec,1,planning,2,420,30.0," + last + '\n';
     write_text(folder / "cycles.csv", rows);
     write_text(folder / "load.csv",
                "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
@@ -209,20 +207,31 @@ TEST_CASE("each reason has a why of its own") {
   }
 }
 
-TEST_CASE("silence is told apart by what was lost") {
+TEST_CASE("silence is told apart by what the link did to the vehicle's "
+          "results") {
   told_run run;
-  run.reason = "qos_gap";
-  const auto told_with = [&run](const std::string& lost) {
-    write_text(run.folder / "octets.csv",
-               "provider,direction,what,messages,sent,delivered,lost,"
-               "under_way\nmec,down,planning,100,1000,900,"
-                   + lost + ",0\n");
+  run.reason = "qos_gap"; // at 30 s
+  write_text(run.folder / "octets.csv",
+             "t_s,provider,direction,what,messages,sent,delivered,lost,"
+             "under_way\n29,mec,down,planning,100,1000,900,50,0\n");
+  CHECK(contains(run.told({101, 25.0, ""}), "were lost, or held back"));
+  const auto told_with = [&run](const std::string& line) {
+    write_text(run.folder / "disturbed.csv",
+               "t_s,provider,direction,station,what,lost,outage,stall\n" + line
+                   + '\n');
     return run.told({101, 25.0, ""});
   };
-  CHECK(contains(told_with("0"), "nothing was lost in this run"));
-  CHECK(contains(told_with("50"), "as in an"));
-  run.gap = 1;
-  CHECK(contains(told_with("50"), "results get lost: 5.0 % of what mec sent"));
+  CHECK(contains(told_with("29,mec,down,101,planning,3,1,2"),
+                 "results get lost: 5.0 % of what mec sent"));
+  CHECK(contains(told_with("29,mec,down,101,planning,1,3,2"),
+                 "lost in an outage"));
+  CHECK(contains(told_with("30,mec,down,101,planning,1,0,2"),
+                 "the connection stalled"));
+  for (const auto* other :
+       {"27,mec,down,101,planning,9,0,0", "29,far,down,101,planning,9,0,0",
+        "29,mec,up,101,planning,9,0,0", "29,mec,down,102,planning,9,0,0",
+        "29,mec,down,101,CAM,9,0,0"})
+    CHECK(contains(told_with(other), "though nothing was lost or held back"));
 }
 
 TEST_CASE(

@@ -32,8 +32,9 @@ struct loaded_folder : played_folder {
           "0,mec,uplink,20,4.06,1.00,400.0\n"
           "1,mec,uplink,0,0.00,1.00,\n");
     write("octets.csv",
-          "provider,direction,what,messages,sent,delivered,lost,under_way\n"
-          "mec,up,CAM,10,1360,1360,0,0\n");
+          "t_s,provider,direction,what,messages,sent,delivered,lost,under_way"
+          "\n0,mec,up,CAM,7,1000,900,100,0\n"
+          "1,mec,up,CAM,3,360,360,0,0\n");
     spoil("summary.json", "\"load\": {}",
           "\"load\": {\"mec\": {\"uplink\": {\"busy_share\": 0.997, "
           "\"peak_share\": 4.057, \"wait_ms\": {\"mean\": 5420.2}}}}");
@@ -54,12 +55,13 @@ TEST_CASE("a report of one run begins with the run in sentences") {
   CHECK(contains(said, " Safe: "));
 }
 
-TEST_CASE("load has a table, a figure for each kind of server, and octets") {
+TEST_CASE("load has a table, a figure for each kind of server, and octets in "
+          "all and by time") {
   const loaded_folder folder;
   const auto all = describe_run(folder.path());
   const auto* load = find(all, "Load");
   REQUIRE(load);
-  REQUIRE(load->blocks.size() == 4);
+  REQUIRE(load->blocks.size() == 5);
   const auto& servers = std::get<table>(load->blocks[0]);
   REQUIRE(servers.rows.size() == 2);
   CHECK(servers.rows[0]
@@ -74,7 +76,14 @@ TEST_CASE("load has a table, a figure for each kind of server, and octets") {
   CHECK(uplink.title == "Asked of the uplink by time");
   CHECK(uplink.curves.at(0).y.at(0) == doctest::Approx(406));
   const auto& octets = std::get<table>(load->blocks[3]);
-  CHECK(octets.rows.at(0).at(4) == "1360");
+  CHECK(octets.rows.at(0)
+        == std::vector<std::string>{"mec", "up", "CAM", "10", "1360", "1260",
+                                    "100", "0"});
+  const auto& by_time = std::get<figure>(load->blocks[4]);
+  CHECK(by_time.title == "On the air of mec by time");
+  REQUIRE(by_time.curves.size() == 1);
+  CHECK(by_time.curves[0].name == "CAM up");
+  CHECK(by_time.curves[0].y == std::vector<double>{8, 2.88});
 }
 
 TEST_CASE("beside a run with load one without any is named") {

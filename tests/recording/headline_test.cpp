@@ -2,6 +2,7 @@
 #include "recording/headline.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
@@ -57,6 +58,7 @@ TEST_CASE("a headline says how much was offloaded, and that nothing ended "
           "early") {
   told_run run;
   run.offer();
+  run.drive();
   run.decide(true);
   run.decide(true);
   run.episode(junction, end_reason::left_area);
@@ -71,6 +73,7 @@ TEST_CASE("of early ends of one reason the headline names the providers, most "
           "often first") {
   told_run run;
   run.offer();
+  run.drive();
   run.episode(east, end_reason::qos_latency);
   run.episode(junction, end_reason::qos_latency);
   run.episode(junction, end_reason::qos_latency);
@@ -83,6 +86,7 @@ TEST_CASE("of early ends of one reason the headline names the providers, most "
 TEST_CASE("of early ends of several reasons the headline counts each") {
   told_run run;
   run.offer();
+  run.drive();
   run.episode(east, end_reason::revoked);
   run.episode(junction, end_reason::qos_gap);
   run.episode(junction, end_reason::qos_gap);
@@ -91,12 +95,51 @@ TEST_CASE("of early ends of several reasons the headline counts each") {
            "gaps between results (junction 2), 1 by revocation (east 1).");
 }
 
+TEST_CASE("of gaps between results the headline names what made them, by what "
+          "the link did to this vehicle's results") {
+  told_run run;
+  run.offer();
+  run.drive();
+  run.episode(junction, end_reason::qos_gap); // ends at 20 s
+  const auto disturbed = [&run](channel::disturbed_line line) {
+    run.figures.add(load_table{{}, {{"junction", "down", {}, {line}}}});
+    return run.said().offloading;
+  };
+  const auto said = [](std::string_view cause) {
+    return fmt::format("Offloaded 10.0 % of the time; 1 of 1 episode ended "
+                       "early, that by {} (junction 1).",
+                       cause);
+  };
+  const std::string planning = "trajectory_planning";
+  CHECK(disturbed({20, 101, planning, {3, 1, 2}})
+        == said("gaps, as results were lost"));
+  CHECK(disturbed({19, 101, planning, {0, 3, 2}}) == said("gaps in outages"));
+  CHECK(disturbed({19, 101, planning, {0, 0, 2}})
+        == said("gaps, as stalls held results back"));
+  for (const auto& other :
+       {channel::disturbed_line{18, 101, planning, {9, 0, 0}},
+        channel::disturbed_line{21, 101, planning, {9, 0, 0}},
+        channel::disturbed_line{20, 102, planning, {9, 0, 0}},
+        channel::disturbed_line{20, 101, "CAM", {9, 0, 0}}})
+    CHECK(disturbed(other) == said("gaps between results"));
+}
+
+TEST_CASE("what nobody drove has no share of time") {
+  told_run run;
+  run.offer();
+  run.episode(junction, end_reason::left_area);
+  CHECK(run.said().offloading
+        == "Offloaded, for what share of the driving is not known; the one "
+           "episode did not end early.");
+}
+
 TEST_CASE("of several services the headline names the one that it is about") {
   told_run run;
   run.info.services.emplace_back("cabin_climate");
   CHECK(run.said().offloading
         == "Never offloaded trajectory_planning: no offer came.");
   run.offer();
+  run.drive();
   run.episode(junction, end_reason::left_area);
   CHECK(run.said().offloading
         == "Offloaded trajectory_planning 10.0 % of the time; the one episode "

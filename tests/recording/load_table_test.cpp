@@ -92,16 +92,46 @@ TEST_CASE("a run that ends within a tenth of a second leaves it out") {
   CHECK(sum.asked_share == doctest::Approx(4));
 }
 
-TEST_CASE("octets.csv has a line for each cell, direction and purpose") {
-  channel::octet_ledger ledger;
-  ledger.send("CAM", 100, time_point{}, time_point{20ms});
-  ledger.send("one", 400, time_point{}, time_point{9s});
-  ledger.lose("CAM", 90);
-  const load_table table{{}, {{"mec", "up", ledger.read(time_point{1s})}}};
+TEST_CASE("octets.csv has a line for each second, cell, direction and purpose, "
+          "disturbed.csv one for each second and vehicle that was disturbed") {
+  using channel::disturbance;
+  channel::octet_ledger ledger{time_point{}};
+  ledger.send({"CAM", 101, 100, time_point{}}, time_point{20ms});
+  ledger.send({"one", 101, 400, time_point{999ms}, disturbance::stall},
+              time_point{9s});
+  ledger.lose({"CAM", 102, 90, time_point{2s}, disturbance::outage});
+  ledger.lose({"CAM", 102, 80, time_point{2s}, disturbance::loss});
+  const load_table table{
+      {}, {{"mec", "up", ledger.read(time_point{3s}), ledger.disturbed()}}};
   CHECK(octets_csv(table)
-        == "provider,direction,what,messages,sent,delivered,lost,under_way\n"
-           "mec,up,CAM,2,190,100,90,0\n"
-           "mec,up,one,1,400,0,0,400\n");
+        == "t_s,provider,direction,what,messages,sent,delivered,lost,"
+           "under_way\n"
+           "0,mec,up,CAM,1,100,100,0,0\n"
+           "2,mec,up,CAM,2,170,0,170,0\n"
+           "0,mec,up,one,1,400,0,0,400\n");
+  CHECK(disturbed_csv(table)
+        == "t_s,provider,direction,station,what,lost,outage,stall\n"
+           "0,mec,up,101,one,0,0,1\n"
+           "2,mec,up,102,CAM,1,1,0\n");
+}
+
+TEST_CASE("what disturbed most of a vehicle's messages is told of the last "
+          "second and the one before") {
+  using channel::disturbance;
+  const load_table table{{},
+                         {{"mec",
+                           "down",
+                           {},
+                           {{7, 101, "one", {0, 0, 2}},
+                            {8, 101, "one", {0, 3, 0}},
+                            {8, 101, "CAM", {9, 0, 0}},
+                            {9, 102, "one", {9, 0, 0}}}}}};
+  const message_path path{"mec", "down", 101, "one"};
+  CHECK(disturbance_of(table, path, 7s) == disturbance::stall);
+  CHECK(disturbance_of(table, path, 8s) == disturbance::outage);
+  CHECK(disturbance_of(table, path, 9999ms) == disturbance::outage);
+  CHECK(disturbance_of(table, path, 10s) == disturbance::none);
+  CHECK_FALSE(disturbance_of(table, {"mec", "up", 101, "one"}, 8s).has_value());
 }
 
 TEST_CASE("a service takes a worker's power for as long as it is busy with "

@@ -38,8 +38,7 @@ sent_inputs inputs_of(const scenario_definition& s) {
   for (const auto& provider : actors.loads)
     for (const auto& line : provider.octets_up->read(time->now())) {
       auto& sum = sent.counted_by_cells[line.what];
-      sum.messages += line.sent.messages;
-      sum.octets += line.sent.octets;
+      sum += line.together().sent;
     }
   for (const auto& x : records->work)
     sent.told_by_vehicles[std::string{x.service.view()}] += x.inputs;
