@@ -22,6 +22,7 @@ class Mutant:
     site: Site
     says: str = ""
     processes: str = ""
+    test: str = ""  # the one that must notice it, "FOLDER/FILE: CASE"; or any
     number: int = 0
 
     @property
@@ -66,7 +67,8 @@ def by_hand(files, path=HERE / "by_hand.toml"):
         found.append(Mutant(entry["name"], entry["file"],
                             line_of(source, start),
                             Site(start, text, broken, kind, "by hand"),
-                            entry["says"], entry.get("processes", "")))
+                            entry["says"], entry.get("processes", ""),
+                            entry.get("test", "")))
     names = [x.name for x in found]
     for name in names:
         if names.count(name) > 1:

@@ -106,14 +106,17 @@ def order_for(mutant, files):
 def noticed_by(place, mutant, files):
     """What notices a mutant, or None. A test that fails does so twice: what is
     only unlucky, on a busy machine, has not noticed anything."""
+    named, _, case = mutant.test.partition(": ")
     for test in order_for(mutant, files):
+        if named not in ("", f"{test.folder}/{test.name}"):
+            continue
         longest = TIMES * test.seconds + MORE_S
-        first = run(place, test, mutant.number, longest=longest)
+        first = run(place, test, mutant.number, case, longest=longest)
         if first.passed:
             continue
         if first.by.endswith(": time"):
             return first.by
-        again = run(place, test, mutant.number, longest=longest)
+        again = run(place, test, mutant.number, case, longest=longest)
         if not again.passed:
             return again.by
     return None
