@@ -98,8 +98,9 @@ provider::question provider::question_of(const open_request& open,
       all.verdicts.push_back({policies::refused{}, "not heard here"});
     } else if (!service) {
       all.verdicts.push_back({policies::refused{}, "not offered here"});
-    } else if (service->needs_map && setup_.map->lanes().empty()) {
-      all.verdicts.push_back({policies::refused{}, "no map present"});
+    } else if (const auto why = service->here->objection(request.route);
+               !why.empty()) {
+      all.verdicts.push_back({policies::refused{}, why});
     } else if (std::ranges::find(before, name) != before.end()) {
       all.verdicts.push_back({policies::refused{}, "named twice"});
     } else {

@@ -63,6 +63,10 @@ vehicle_service::termination_message(const messages::service_end&, time_point,
   return {};
 }
 
+std::string_view provider_service::objection(std::span<const point>) const {
+  return {};
+}
+
 messages::payload
 provider_service::termination_message(const messages::service_end&,
                                       time_point) {
@@ -75,7 +79,7 @@ onboard_service in_vehicle(const service& what, const vehicle_context& where) {
 
 offered_service at_provider(const service& what,
                             const provider_context& where) {
-  return {what.name, what.options, what.at_provider(where), what.needs_map};
+  return {what.name, what.options, what.at_provider(where)};
 }
 
 } // namespace sofof::offloading

@@ -12,7 +12,9 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace sofof::offloading {
 
@@ -116,6 +118,11 @@ public:
   virtual std::shared_ptr<service_function>
   make_function(station_id vehicle) = 0;
 
+  /// @param route  The way ahead of a vehicle that asks.
+  /// @returns why it cannot be served there, a short literal for the records;
+  /// by default empty: it can.
+  virtual std::string_view objection(std::span<const point> route) const;
+
   /// What tells a vehicle in the terms of the service that the provider ends a
   /// session; by default nothing.
   virtual messages::payload
@@ -127,7 +134,6 @@ public:
 struct service {
   messages::service_name name;
   service_options options;
-  bool needs_map = false; ///< It cannot run at a provider without one.
   std::function<std::shared_ptr<vehicle_service>(const vehicle_context&)>
       in_vehicle;
   std::function<std::shared_ptr<provider_service>(const provider_context&)>
@@ -146,7 +152,6 @@ struct offered_service {
   messages::service_name name;
   service_options options;                ///< Limits and period > 0.
   std::shared_ptr<provider_service> here; ///< Not null.
-  bool needs_map = false;                 ///< As `service` has it.
 };
 
 /// @returns the service as that vehicle has it.

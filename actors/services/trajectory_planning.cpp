@@ -50,7 +50,6 @@ public:
         planner_, std::move(roads));
     return {.name = name(),
             .options = options,
-            .needs_map = true,
             .in_vehicle =
                 [shared](const auto& vehicle) {
                   return make_planning_in_vehicle(shared, vehicle);

@@ -53,6 +53,9 @@ public:
   make_function(station_id vehicle) override {
     return real_->make_function(vehicle);
   }
+  std::string_view objection(std::span<const point> route) const override {
+    return real_->objection(route);
+  }
   messages::payload termination_message(const messages::service_end& end,
                                         time_point now) override {
     return real_->termination_message(end, now);

@@ -10,11 +10,15 @@
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "policies/algorithms/forecast/continuity.hpp"
+#include "world/roads/route_finder.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -147,6 +151,18 @@ public:
                                     name_of_maneuver(end.session)};
     return messages::payload::of(messages::encoded(messages::make_termination(
         what, now, status_of(end.reason), *world_->where)));
+  }
+
+  std::string_view objection(std::span<const point> route) const override {
+    constexpr auto told = static_cast<std::size_t>(protocol::authority_m
+                                                   / protocol::route_spacing_m);
+    if (world_->streets->map.lanes().empty())
+      return "no map present";
+    // As far as inputs tell the way.
+    if (!world::find_route(world_->streets->routes,
+                           route.first(std::min(route.size(), told))))
+      return "route is not on the map";
+    return {};
   }
 
   broadcast_listener* listener() override { return perceived_.get(); }
