@@ -5,6 +5,7 @@
 #include "actors/runtime/cpu_clock.hpp"
 #include "base/text/csv.hpp"
 
+#include <cassert>
 #include <set>
 
 namespace sofof::recording {
@@ -111,6 +112,31 @@ std::optional<cpu_figures> figures_of(const cpu_table& table,
       {*a, *d, *local, *far},    percent_of_core(cpu, time).value_or(0),
       stations.size(),           to_seconds(active.time),
       to_seconds(inactive.time), percent_of_core(looking, time).value_or(0)};
+}
+
+cpu_figures together(std::span<const cpu_figures> runs) {
+  assert(!runs.empty());
+  cpu_figures sum;
+  sum.vehicles = runs.front().vehicles;
+  for (const auto& x : runs) {
+    const auto all_s = x.active_s + x.inactive_s;
+    sum.shares.active += x.shares.active * x.active_s;
+    sum.shares.requester += x.shares.requester * x.active_s;
+    sum.shares.inactive += x.shares.inactive * x.inactive_s;
+    sum.shares.requester_remote += x.shares.requester_remote * x.inactive_s;
+    sum.requester_mean += x.requester_mean * all_s;
+    sum.overhead += x.overhead * all_s;
+    sum.active_s += x.active_s;
+    sum.inactive_s += x.inactive_s;
+  }
+  const auto all_s = sum.active_s + sum.inactive_s;
+  sum.shares.active /= sum.active_s;
+  sum.shares.requester /= sum.active_s;
+  sum.shares.inactive /= sum.inactive_s;
+  sum.shares.requester_remote /= sum.inactive_s;
+  sum.requester_mean /= all_s;
+  sum.overhead /= all_s;
+  return sum;
 }
 
 std::string to_csv(const cpu_table& table) {

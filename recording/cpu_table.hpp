@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,10 @@ struct cpu_figures {
 /// remote in some vehicle.
 std::optional<cpu_figures> figures_of(const cpu_table& table,
                                       std::string_view service);
+
+/// @param runs  At least one, with the same number of vehicles each.
+/// @returns all of them as one long run: each share by its own time.
+cpu_figures together(std::span<const cpu_figures> runs);
 
 /// @returns the table as cpu.csv; docs/results.md says what it holds.
 std::string to_csv(const cpu_table& table);

@@ -133,7 +133,8 @@ report::section cpu_cost(const paper_runs& e) {
   report::section s{"Computing time", {}};
   s.blocks.emplace_back(paragraph{
       text.fill("measurement",
-                {{"length_s", fmt::format("{:.0f}", e.cpu_20_hz.length_s)}})});
+                {{"runs", std::to_string(e.cpu_20_hz.runs.size())},
+                 {"length_s", fmt::format("{:.0f}", e.cpu_20_hz.length_s)}})});
   s.blocks.emplace_back(shares(e, text));
   s.blocks.emplace_back(balance(e, text));
   s.blocks.emplace_back(energy(e, text));

@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <deque>
-#include <map>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -24,25 +25,8 @@ namespace fs = std::filesystem;
 /// What a run's cpu.csv says.
 struct cpu_file {
   std::optional<recording::cpu_figures> planning;
-  std::vector<recording::cpu_figures> vehicles; ///< See `measured_cpu`.
-  double v2x_at_most = 0;                       ///< See `measured_cpu`.
+  double v2x_at_most = 0; ///< See `measured_cpu`.
 };
-
-/// @returns the figures of each vehicle that has some.
-std::vector<recording::cpu_figures>
-each_vehicle(const recording::cpu_table& all) {
-  std::map<station_id, recording::cpu_table> tables;
-  for (const auto& line : all.lines) {
-    auto& own = tables[line.account.station.value()];
-    own.look = all.look;
-    own.lines.push_back(line);
-  }
-  std::vector<recording::cpu_figures> vehicles;
-  for (const auto& [station, table] : tables)
-    if (const auto own = recording::figures_of(table, planning))
-      vehicles.push_back(*own);
-  return vehicles;
-}
 
 cpu_file read_cpu(const fs::path& file) {
   enum { station, actor, service, source, cpu_s, time_s, wakes };
@@ -72,7 +56,6 @@ cpu_file read_cpu(const fs::path& file) {
                            turns});
   }
   all.planning = recording::figures_of(table, planning);
-  all.vehicles = each_vehicle(table);
   return all;
 }
 
@@ -102,15 +85,25 @@ fs::path make_cpu_run(const cpu_run& which, const run_store& store,
   return store.folder_of(name);
 }
 
-measured_cpu read_cpu_run(const fs::path& folder) {
-  const auto cpu = read_cpu(folder / "cpu.csv");
-  if (!cpu.planning)
-    throw std::runtime_error{fmt::format(
-        "no vehicle in {} was both local and offloaded.", folder.string())};
-  const auto drove = read_run({}, folder);
-  return {*cpu.planning,
-          drove.figure("driving.distance_m") / drove.figure("safety.driven_s"),
-          drove.figure("virtual_s"), cpu.v2x_at_most, cpu.vehicles};
+measured_cpu read_cpu_runs(std::span<const fs::path> folders) {
+  assert(!folders.empty());
+  measured_cpu all;
+  double distance_m = 0, driven_s = 0;
+  for (const auto& folder : folders) {
+    const auto cpu = read_cpu(folder / "cpu.csv");
+    if (!cpu.planning)
+      throw std::runtime_error{fmt::format(
+          "no vehicle in {} was both local and offloaded.", folder.string())};
+    all.runs.push_back(*cpu.planning);
+    all.v2x_at_most = std::max(all.v2x_at_most, cpu.v2x_at_most);
+    const auto drove = read_run({}, folder);
+    distance_m += drove.figure("driving.distance_m");
+    driven_s += drove.figure("safety.driven_s");
+    all.length_s = drove.figure("virtual_s");
+  }
+  all.figures = recording::together(all.runs);
+  all.speed_mps = distance_m / driven_s;
+  return all;
 }
 
 } // namespace sofof::experiments::study

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,9 @@ struct cpu_run {
 std::filesystem::path make_cpu_run(const cpu_run& which, const run_store& store,
                                    const std::atomic<bool>& interrupted);
 
-/// @param folder  Of such a run.
+/// @param folders  Of such runs, at least one.
 /// @throws input_error when a file is missing or broken; std::runtime_error
-/// when
-///         no vehicle was both local and offloaded.
-measured_cpu read_cpu_run(const std::filesystem::path& folder);
+///         when no vehicle of a run was both local and offloaded.
+measured_cpu read_cpu_runs(std::span<const std::filesystem::path> folders);
 
 } // namespace sofof::experiments::study

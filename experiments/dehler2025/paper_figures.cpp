@@ -39,12 +39,12 @@ mean_latency_ms(std::span<const measured_run* const> runs) {
   return mean_interval(groups);
 }
 
-/// Each vehicle of a run on the wall's clock a group.
-std::optional<cost_figures> costs_of(const measured_cpu& run) {
+/// Each run on the wall's clock a group.
+std::optional<cost_figures> costs_of(const measured_cpu& measured) {
   constexpr double percent = 100;
   std::vector<group> active, inactive, remote, balance;
   bool all_save = true;
-  for (const auto& own : run.vehicles) {
+  for (const auto& own : measured.runs) {
     const auto& c = own.shares;
     active.push_back({c.active * own.active_s, own.active_s});
     inactive.push_back({c.inactive * own.inactive_s, own.inactive_s});
@@ -58,9 +58,9 @@ std::optional<cost_figures> costs_of(const measured_cpu& run) {
   if (!a || !d || !r)
     return std::nullopt;
   cost_figures all{*a, *d, *r, std::nullopt};
-  // The figure is that of all vehicles together, as the study's table has it;
-  // a mean over vehicles weighs them otherwise.
-  const auto together = recording::break_even_share(run.figures.shares);
+  // The figure is that of all runs together, as the study's table has it; a
+  // mean over runs weighs them otherwise.
+  const auto together = recording::break_even_share(measured.figures.shares);
   if (const auto apart = mean_interval(balance); apart && together) {
     const auto from = percent * *together;
     all.break_even = {from, std::min(apart->low, from),

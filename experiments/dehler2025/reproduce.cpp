@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -53,15 +54,23 @@ std::vector<sweep_plan> first_plans(const reproduction_options& options) {
 /// Thrown to get out of the middle of a reproduction.
 struct interruption {};
 
+/// How often computing time is measured at each rate: no two are alike.
+constexpr std::size_t cpu_runs_of_a_rate = 5;
+
+/// First those at 20 Hz, then those at 100 Hz.
 std::vector<cpu_run> cpu_runs(const reproduction_options& options) {
-  const auto file = options.sweeps / "cpu.toml";
-  const auto& program = options.runs.program;
-  return {{"cpu_20_hz", file, {}, program, options.version},
-          {"cpu_100_hz",
-           file,
-           {"service.0.period=10ms"},
-           program,
-           options.version}};
+  std::vector<cpu_run> runs;
+  for (const auto* name : {"cpu_20_hz", "cpu_100_hz"})
+    for (std::size_t seed = 1; seed <= cpu_runs_of_a_rate; ++seed) {
+      auto& run = runs.emplace_back(cpu_run{fmt::format("{}-{}", name, seed),
+                                            options.sweeps / "cpu.toml",
+                                            {fmt::format("seed={}", seed)},
+                                            options.runs.program,
+                                            options.version});
+      if (name == std::string_view{"cpu_100_hz"})
+        run.given.emplace_back("service.0.period=10ms");
+    }
+  return runs;
 }
 
 void say(const reproduction_options& options, std::ostream& console,
@@ -111,8 +120,9 @@ public:
     e.loaded_host = next_runs();
     // Nothing else computes meanwhile.
     const auto folders = make_cpu_runs(options_, interrupted_, console_);
-    e.cpu_20_hz = read_cpu_run(folders[0]);
-    e.cpu_100_hz = read_cpu_run(folders[1]);
+    const std::span all{folders};
+    e.cpu_20_hz = read_cpu_runs(all.first(cpu_runs_of_a_rate));
+    e.cpu_100_hz = read_cpu_runs(all.last(cpu_runs_of_a_rate));
     return e;
   }
 

@@ -11,17 +11,16 @@
 
 namespace sofof::experiments::study {
 
-/// What a run on the wall's clock cost.
+/// What runs on the wall's clock cost.
 struct measured_cpu {
-  recording::cpu_figures figures; ///< Of all vehicles together.
-  double speed_mps = 0;           ///< Mean of its vehicles.
-  double length_s = 0;
+  recording::cpu_figures figures; ///< Of all vehicles and runs together.
+  double speed_mps = 0;           ///< Mean of all vehicles.
+  double length_s = 0;            ///< Of one run.
   /// Percent of a core, of one vehicle: its V2X messages and, since an actor
   /// has one account, what moves the simulated car and the links. So V2X takes
-  /// less.
+  /// less. Of the runs the largest.
   double v2x_at_most = 0;
-  /// Each vehicle that was both local and offloaded, alone.
-  std::vector<recording::cpu_figures> vehicles{};
+  std::vector<recording::cpu_figures> runs{}; ///< Of all vehicles of each.
 };
 
 /// The runs of all sweeps in config/paper.

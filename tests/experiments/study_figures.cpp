@@ -183,16 +183,16 @@ TEST_CASE("latencies are those of the seeds that each point has") {
         == near(12.5, 1e-9));
 }
 
-TEST_CASE("computing costs are as sure as its vehicles are alike") {
+TEST_CASE("computing costs are as sure as their runs are alike") {
   paper_runs e;
-  const auto vehicle = [](double active, double remote) {
+  const auto run = [](double active, double remote) {
     return recording::cpu_figures{{active, 0, 1, remote}, 1, 1, 10, 10, 0};
   };
   e.cpu_20_hz.length_s = e.cpu_100_hz.length_s = 20;
   e.cpu_20_hz.v2x_at_most = 0.127;
   e.cpu_100_hz.v2x_at_most = 0.213;
-  e.cpu_20_hz.vehicles = {vehicle(10, 1), vehicle(20, 1), vehicle(30, 1)};
-  e.cpu_20_hz.figures = vehicle(20, 1); // of all together
+  e.cpu_20_hz.runs = {run(10, 1), run(20, 1), run(30, 1)};
+  e.cpu_20_hz.figures = recording::together(e.cpu_20_hz.runs);
   const auto f = figures_of(e);
   CHECK(f.v2x_at_most == 0.213); // of the worse rate
   CHECK_FALSE(f.cpu_100_hz);
@@ -202,7 +202,7 @@ TEST_CASE("computing costs are as sure as its vehicles are alike") {
   CHECK(f.cpu_20_hz->requester_remote.half_width() < 1e-9);
   CHECK(f.cpu_20_hz->break_even->mean == near(5, 1e-9)); // 1 of 20
   CHECK(f.cpu_20_hz->break_even->high < 10);
-  e.cpu_20_hz.vehicles.push_back(vehicle(10, 12)); // never pays there
+  e.cpu_20_hz.runs.push_back(run(10, 12)); // never pays there
   CHECK(std::isinf(figures_of(e).cpu_20_hz->break_even->high));
 }
 

@@ -73,9 +73,10 @@ TEST_CASE("computing time is shown beside the paper's, which does not add up") {
   e.cpu_100_hz.figures = {{0.2, 0, 0.02, 0.3}, 0.07, 6, 60, 40, 0.001};
   e.cpu_100_hz.speed_mps = 10;
   e.cpu_20_hz.length_s = 20;
+  e.cpu_20_hz.runs.resize(3);
   e.cpu_20_hz.v2x_at_most = 0.05;
   const auto s = cpu_cost(e);
-  CHECK(contains(words_of(s), "Wall-clock runs of 20 s"));
+  CHECK(contains(words_of(s), "3 wall-clock runs of 20 s each"));
   CHECK(contains(words_of(s), "At 20 Hz offloading pays from 20.00 %"));
   CHECK(contains(words_of(s), "At 100 Hz offloading does not pay"));
   const auto& shares = the<report::table>(s, "Computing time");

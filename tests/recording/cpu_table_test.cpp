@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <vector>
 
 using namespace sofof;
 using namespace sofof::actors;
@@ -97,4 +98,19 @@ TEST_CASE("a meter begins when it is made") {
   CHECK(table.process_cpu < 3s);
   CHECK(table.look > 0ns);
   CHECK(table.look < 100us);
+}
+
+TEST_CASE("runs together are one long run: each share by its own time") {
+  const cpu_figures first{{10, 2, 1, 4}, 2, 6, 30, 10, 0.1};
+  const cpu_figures second{{20, 4, 3, 8}, 4, 6, 10, 30, 0.2};
+  const auto all = together(std::vector{first, second});
+  CHECK(all.shares.active == near(12.5, 1e-9));
+  CHECK(all.shares.requester == near(1.5, 1e-9));
+  CHECK(all.shares.inactive == near(3.5, 1e-9));
+  CHECK(all.shares.requester_remote == near(7, 1e-9));
+  CHECK(all.requester_mean == near(3, 1e-9));
+  CHECK(all.overhead == near(0.15, 1e-9));
+  CHECK(all.active_s == 40);
+  CHECK(all.inactive_s == 40);
+  CHECK(all.vehicles == 6);
 }
