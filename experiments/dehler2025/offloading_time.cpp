@@ -2,6 +2,7 @@
 #include "experiments/dehler2025/offloading_time.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <set>
 
 namespace sofof::experiments::study {
@@ -120,6 +121,15 @@ bool needs_more_runs(std::span<const run_episodes> runs,
                      const seed_rule& rule) {
   const auto t_off = cautious_t_off(runs);
   return !t_off || t_off->half_width() > rule.narrow_s;
+}
+
+std::size_t runs_wanted(std::size_t have, std::size_t most,
+                        std::span<const run_episodes> runs,
+                        const seed_rule& rule) {
+  assert(have >= 1);
+  if (have >= most || !needs_more_runs(runs, rule))
+    return have;
+  return std::min(2 * have, most);
 }
 
 } // namespace sofof::experiments::study

@@ -64,4 +64,12 @@ inline constexpr seed_rule full_rule{1, 10};
 /// @returns whether the interval, seen with caution, is not narrow yet.
 bool needs_more_runs(std::span<const run_episodes> runs, const seed_rule& rule);
 
+/// @param have  How many runs a point has, >= 1; `runs` may be fewer, where
+///              some say nothing.
+/// @param most  That it may have.
+/// @returns how many it shall have next: twice as many, or as many as it has.
+std::size_t runs_wanted(std::size_t have, std::size_t most,
+                        std::span<const run_episodes> runs,
+                        const seed_rule& rule);
+
 } // namespace sofof::experiments::study

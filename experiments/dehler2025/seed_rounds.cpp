@@ -27,12 +27,11 @@ bool add_seeds(sweep_plan& plan, std::span<const measured_run> runs,
   const auto combinations = points_of(one_each);
   for (std::size_t i = 0; i < combinations.size(); ++i) {
     auto& count = plan.seeds_of[i];
-    if (count >= most
-        || !needs_more_runs(episodes_of(by_values[combinations[i].labels]),
-                            rule))
-      continue;
-    count = std::min(2 * count, most);
-    added = true;
+    const auto wanted =
+        runs_wanted(count, most,
+                    episodes_of(by_values[combinations[i].labels]), rule);
+    added = added || wanted > count;
+    count = wanted;
   }
   return added;
 }

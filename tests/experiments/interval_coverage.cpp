@@ -82,12 +82,10 @@ coverage coverage_of(const made_up_point& p, std::size_t from,
   for (int k = 0; k < data_sets; ++k) {
     const auto draws = noise.part(static_cast<std::uint64_t>(k));
     std::vector<run_episodes> runs;
-    for (auto wanted = from;; wanted = std::min(2 * wanted, most)) {
+    for (auto wanted = from; runs.size() < wanted;
+         wanted = runs_wanted(runs.size(), most, runs, {}))
       while (runs.size() < wanted)
         runs.push_back(drawn(p, draws, runs.size()));
-      if (wanted == most || !needs_more_runs(runs, {}))
-        break;
-    }
     const auto x = mean_t_off(runs).value();
     all.held += x.low <= p.truth_s() && p.truth_s() <= x.high ? 1 : 0;
     all.width_s += x.high - x.low;
