@@ -76,9 +76,11 @@ def look(report, folder):
         ages = [one for one in cycles if one["input_age_ms"]]
         seen |= {
             "points": points,
-            # Each quantity by time and as a distribution; load by time.
+            # Each quantity by time and as a distribution; load and octets
+            # by time.
             "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages))
-            + len(rows_of(folder, "load.csv")),
+            + len(rows_of(folder, "load.csv"))
+            + len(rows_of(folder, "octets.csv")),
             "track_points":
                 page.run("sofof.players[0].track_rows[0]"),
             "track_rows": len(rows_of(folder, "tracks.csv")),

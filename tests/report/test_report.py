@@ -287,11 +287,11 @@ class Paper(unittest.TestCase):
 
     def test_every_chart_has_its_title_and_its_curve(self):
         self.assertEqual(self.errors, [])
-        self.assertEqual(len(self.charts), 17)
+        self.assertEqual(len(self.charts), 18)
         for title in self.charts:
             self.assertIn(title, self.text)
         self.assertEqual(self.text.count("share of results, 1 − F"), 6)
-        self.assertEqual(self.text.count("time, s"), 11)
+        self.assertEqual(self.text.count("time, s"), 12)
         with_curves = [sheet for sheet in self.sheets
                        if len(sheet.places_of((0x00, 0x72, 0xB2), 40)) > 300]
         self.assertGreaterEqual(len(with_curves), 3)
