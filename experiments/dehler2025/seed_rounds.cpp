@@ -27,9 +27,8 @@ bool add_seeds(sweep_plan& plan, std::span<const measured_run> runs,
   const auto combinations = points_of(one_each);
   for (std::size_t i = 0; i < combinations.size(); ++i) {
     auto& count = plan.seeds_of[i];
-    const auto wanted =
-        runs_wanted(count, most,
-                    episodes_of(by_values[combinations[i].labels]), rule);
+    const auto wanted = runs_wanted(
+        count, most, episodes_of(by_values[combinations[i].labels]), rule);
     added = added || wanted > count;
     count = wanted;
   }
