@@ -28,8 +28,9 @@ passage link_direction::carry(time_point sent, message_class kind,
   const auto delay = stall ? draws_.burst_delay(direction_, stall->number)
                            : draws_.network_delay(m, sent);
   last_arrival_ = std::max(last_arrival_, leaves + delay); // none overtakes
+  const auto is_held = stall && stall->end > on_air;
   const passage through{last_arrival_,
-                        stall ? disturbance::stall : disturbance::none,
+                        is_held ? disturbance::stall : disturbance::none,
                         last_arrival_ - sent - airtime - delay};
   assert(through.wait >= duration{0});
   return through;

@@ -100,7 +100,7 @@ octet_fates& octet_ledger::count(const sending& x, octet_line& line) {
   if (second >= line.seconds.size())
     line.seconds.resize(second + 1);
   if (x.by != disturbance::none)
-    disturbed_[{second, {x.station, std::string{x.what}}}].add(x.by);
+    disturbed_[{x.at - start_, {x.station, std::string{x.what}}}].add(x.by);
   auto& fates = line.seconds[second];
   fates.sent.add(x.octets);
   return fates;

@@ -62,10 +62,10 @@ struct disturbed_count {
   disturbance most() const;
 };
 
-/// Messages of or to one vehicle for one thing that were sent in one second
+/// Messages of or to one vehicle for one thing that were sent at one moment
 /// and disturbed.
 struct disturbed_line {
-  std::uint64_t second = 0; ///< Since the start.
+  duration at{}; ///< Since the start.
   station_id station = 0;
   std::string what;
   disturbed_count count;
@@ -99,7 +99,7 @@ public:
   /// @param now  Not earlier than in calls before.
   std::vector<octet_line> read(time_point now);
 
-  /// @returns a line for each second, vehicle and purpose that was disturbed,
+  /// @returns a line for each moment, vehicle and purpose that was disturbed,
   /// in this order.
   std::vector<disturbed_line> disturbed() const;
 
@@ -124,7 +124,7 @@ private:
   time_point start_;
   mutable std::mutex mutex_;
   std::vector<octet_line> lines_;
-  std::map<std::pair<std::uint64_t, who>, disturbed_count> disturbed_;
+  std::map<std::pair<duration, who>, disturbed_count> disturbed_;
   std::priority_queue<arrival, std::vector<arrival>, std::greater<>> under_way_;
 };
 

@@ -119,6 +119,7 @@ cpu_figures together(std::span<const cpu_figures> runs) {
   cpu_figures sum;
   sum.vehicles = runs.front().vehicles;
   for (const auto& x : runs) {
+    assert(x.vehicles == sum.vehicles);
     const auto all_s = x.active_s + x.inactive_s;
     sum.shares.active += x.shares.active * x.active_s;
     sum.shares.requester += x.shares.requester * x.active_s;
@@ -130,6 +131,7 @@ cpu_figures together(std::span<const cpu_figures> runs) {
     sum.inactive_s += x.inactive_s;
   }
   const auto all_s = sum.active_s + sum.inactive_s;
+  assert(sum.active_s > 0 && sum.inactive_s > 0);
   sum.shares.active /= sum.active_s;
   sum.shares.requester /= sum.active_s;
   sum.shares.inactive /= sum.inactive_s;

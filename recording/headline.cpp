@@ -62,13 +62,17 @@ std::string_view in_words(channel::disturbance of_results) {
 }
 
 /// @returns why an episode of a service ended early, in a few words.
-std::string_view in_words(const early_end& x, std::string_view service,
-                          const run_info& run, const load_table& load) {
+std::string in_words(const early_end& x, std::string_view service,
+                     const run_info& run, const load_table& load) {
+  const auto takes_time = x.reason == end_reason::qos_latency
+                          || x.reason == end_reason::qos_input_age;
+  if (takes_time && !x.mostly.empty())
+    return fmt::format("{}, mostly {}", in_words(x.reason), x.mostly);
   if (x.reason != end_reason::qos_gap)
-    return in_words(x.reason);
+    return std::string{in_words(x.reason)};
   const auto by = disturbance_of(load, {x.provider, "down", x.station, service},
-                                 x.at - run.start);
-  return in_words(by.value_or(channel::disturbance::none));
+                                 {x.last_sent - run.start, x.at - run.start});
+  return std::string{in_words(by.value_or(channel::disturbance::none))};
 }
 
 using provider_counts = std::vector<std::pair<std::string, std::uint64_t>>;
@@ -91,13 +95,13 @@ std::string listed(const provider_counts& counts) {
 /// of one reason alone ", all by latency (junction 16, east 4)".
 std::string early_ends(const service_metrics& x, const run_info& run,
                        const load_table& load) {
-  using reason_and_cause = std::pair<end_reason, std::string_view>;
+  using reason_and_cause = std::pair<end_reason, std::string>;
   std::map<reason_and_cause, std::map<std::string, std::uint64_t>> counts;
   for (const auto& end : x.early)
     ++counts[{end.reason, in_words(end, x.service.view(), run, load)}]
             [end.provider];
   struct group {
-    std::string_view cause;
+    std::string cause;
     std::uint64_t count = 0;
     provider_counts at;
   };

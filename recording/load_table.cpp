@@ -84,7 +84,7 @@ struct disturbed_row {
 };
 
 constexpr csv_column<disturbed_row> of_disturbed[]{
-    {"t_s", [](const auto& r) { return r.x.second; }},
+    {"t_s", [](const auto& r) { return seconds(r.x.at); }},
     {"provider",
      [](const auto& r) { return std::string_view{r.cell.provider}; }},
     {"direction", [](const auto& r) { return r.cell.direction; }},
@@ -183,16 +183,15 @@ std::string disturbed_csv(const load_table& table) {
 
 std::optional<channel::disturbance> disturbance_of(const load_table& table,
                                                    const message_path& path,
-                                                   duration until) {
+                                                   const time_window& sent) {
   const auto cell = std::ranges::find_if(table.cells, [&path](const auto& x) {
     return x.provider == path.provider && x.direction == path.direction;
   });
   if (cell == table.cells.end())
     return std::nullopt;
-  const auto last = static_cast<std::uint64_t>(until / one_second);
   channel::disturbed_count sum;
   for (const auto& x : cell->disturbed)
-    if (x.second <= last && x.second + 1 >= last && x.station == path.station
+    if (x.at > sent.after && x.at <= sent.until && x.station == path.station
         && x.what == path.what)
       sum += x.count;
   return sum.most();

@@ -78,8 +78,8 @@ std::string load_csv(const load_table& table, duration length);
 /// @returns octets.csv: a line for each second, cell, direction and purpose.
 std::string octets_csv(const load_table& table);
 
-/// @returns disturbed.csv: a line for each second in which messages of or to a
-/// vehicle for one thing were lost or held back.
+/// @returns disturbed.csv: a line for each moment at which messages of or to a
+/// vehicle for one thing were sent that were lost or held back.
 std::string disturbed_csv(const load_table& table);
 
 /// Whose messages.
@@ -90,11 +90,16 @@ struct message_path {
   std::string_view what; ///< A service, say.
 };
 
-/// @param until  Since the start of the run.
-/// @returns what disturbed most of these messages in the second until then, or
-/// in that before it; nullopt where no modelled cell tells.
+/// A time in a run, since its start, without its beginning.
+struct time_window {
+  duration after{};
+  duration until{};
+};
+
+/// @returns what disturbed most of the messages that were sent in a window;
+/// nullopt where no modelled cell tells.
 std::optional<channel::disturbance> disturbance_of(const load_table& table,
                                                    const message_path& path,
-                                                   duration until);
+                                                   const time_window& sent);
 
 } // namespace sofof::recording

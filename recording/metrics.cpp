@@ -14,6 +14,29 @@ namespace {
 
 const service_metrics nothing_happened;
 
+/// @param rest         What the input waited for the cycle.
+/// @param since_cycle  The time to the input, and before the cycle, is left
+/// out.
+/// @returns the part that is half of all, or more; empty if there is none.
+std::string_view longest_part(const messages::result_timing& x, duration rest,
+                              bool since_cycle) {
+  using part = std::pair<std::string_view, duration>;
+  const auto before = since_cycle ? 0 : 1;
+  const part parts[]{{"the wait for the uplink", before * x.up.wait},
+                     {"the way up", before * x.up.travel},
+                     {"the wait for the cycle", before * rest},
+                     {"the wait for a worker", x.queue},
+                     {"the computing", x.computing},
+                     {"the wait for the downlink", x.down.wait},
+                     {"the way down", x.down.travel}};
+  duration all{};
+  for (const auto& p : parts)
+    all += p.second;
+  const auto& longest = std::ranges::max(parts, {}, &part::second);
+  return all > duration{} && longest.second >= all / 2 ? longest.first
+                                                       : std::string_view{};
+}
+
 } // namespace
 
 std::optional<double> service_metrics::offloaded_share(duration driven) const {
@@ -126,6 +149,9 @@ void metrics::add(const messages::cycle_record& x) {
   }
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
+  const auto& down = x.timing.down;
+  results_[{x.session.service, x.session.station}] = {
+      x.session, x.received - down.wait - down.travel, x.timing, x.rest()};
   work_.add(x);
 }
 
@@ -143,10 +169,17 @@ void metrics::add(const messages::episode_record& x) {
     return;
   }
   ++service.episodes;
-  if (!messages::is_planned(x.reason))
-    service.early.push_back({x.reason,
-                             std::string{name_of(x.session.provider, names_)},
-                             x.session.station, x.ended});
+  if (!messages::is_planned(x.reason)) {
+    const auto last = results_.find({x.session.service, x.session.station});
+    auto& end = service.early.emplace_back(
+        early_end{x.reason, std::string{name_of(x.session.provider, names_)},
+                  x.session.station, x.ended, x.accepted});
+    if (last != results_.end() && last->second.session == x.session) {
+      end.last_sent = last->second.sent;
+      end.mostly = longest_part(last->second.timing, last->second.rest,
+                                x.reason == messages::end_reason::qos_latency);
+    }
+  }
   service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.session.service, x.session.station});

@@ -39,6 +39,11 @@ struct early_end {
   std::string provider; ///< Its name.
   station_id station = 0;
   time_point at;
+  /// When the last result that came was sent; else its acceptance.
+  time_point last_sent{};
+  /// What took half of the time that was too long, or more: "the computing",
+  /// say; empty if nothing did.
+  std::string_view mostly{};
 };
 
 /// The figures of one kind of service, as the requesters see it.
@@ -195,6 +200,13 @@ private:
     time_point since;
     time_point remote_since; ///< Perhaps at other providers before.
   };
+  /// Of a session.
+  struct last_result {
+    messages::session_id session;
+    time_point sent;
+    messages::result_timing timing;
+    duration rest;
+  };
 
   /// Where a service was remote before.
   struct left_provider {
@@ -227,6 +239,7 @@ private:
   std::vector<service_metrics> services_;
   std::map<user, open_episode> open_;
   std::map<user, left_provider> left_; ///< The last one.
+  std::map<user, last_result> results_;
   drive_metrics together_;
   std::map<station_id, drive_metrics> vehicles_;
   switch_metrics switches_;

@@ -98,7 +98,7 @@ report::table ranking(const leaderboard& board) {
            "of their scores, run by run, holds 0. Means over all runs: the "
            "score; how much it is above that of the "
            "entrant location, run by run; the offloaded share; QoS violations "
-           "per vehicle and hour; the 99 % quantile of latency; energy saved; "
+           "per hour of driving; the 99 % quantile of latency; energy saved; "
            "and how much the score is above the oracle's.";
   return t;
 }

@@ -40,13 +40,13 @@ ratio(runs_view runs, const std::function<group(const measured_run&)>& part) {
   return mean_interval(groups);
 }
 
-double vehicle_seconds(const measured_run& run) {
-  return run.figure("vehicles") * run.figure("virtual_s");
+double driven_s(const measured_run& run) {
+  return run.figure("safety.driven_s");
 }
 
 std::optional<interval> offloaded_share(runs_view runs) {
   return ratio(runs, [](const measured_run& run) {
-    const auto time_s = vehicle_seconds(run);
+    const auto time_s = driven_s(run);
     const auto share = run.figures.find("offloaded_share");
     return share == run.figures.end() ? group{}
                                       : group{share->second * time_s, time_s};
@@ -66,7 +66,7 @@ std::optional<interval> mean_latency(runs_view runs) {
 std::optional<interval> fallbacks_per_hour(runs_view runs) {
   constexpr double hour_s = 3600;
   return ratio(runs, [](const measured_run& run) {
-    return group{run.figure("fallbacks"), vehicle_seconds(run) / hour_s};
+    return group{run.figure("fallbacks"), driven_s(run) / hour_s};
   });
 }
 
@@ -76,7 +76,7 @@ const std::vector<measure>& measures() {
        [](runs_view runs) { return mean_t_off(runs); }},
       {"Offloaded share", "share of driving time", offloaded_share},
       {"Latency", "mean, ms", mean_latency},
-      {"Fallbacks", "per vehicle and hour", fallbacks_per_hour},
+      {"Fallbacks", "per hour of driving", fallbacks_per_hour},
   };
   return all;
 }

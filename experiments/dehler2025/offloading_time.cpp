@@ -93,8 +93,7 @@ episodes_of(std::span<const measured_run* const> runs) {
     e.early = static_cast<double>(run->ended_early);
     const auto share = run->figures.find("offloaded_share");
     if (share != run->figures.end())
-      e.hours = share->second * run->figure("vehicles")
-                * run->figure("virtual_s") / hour_s;
+      e.hours = share->second * run->figure("safety.driven_s") / hour_s;
   }
   return all;
 }

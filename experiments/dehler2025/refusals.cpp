@@ -21,7 +21,10 @@ struct decisions {
   double offloaded_share = 0;
   double runs = 0;
 
-  double lodm_no() const { return share(offers - requests, offers); }
+  /// @param outside  Offers to vehicles outside r_off.
+  double lodm_no(double outside) const {
+    return share(offers - outside - requests, offers - outside);
+  }
   double codm_no() const { return share(refused, requests); }
 
 private:
@@ -48,19 +51,20 @@ report::section refusals(const paper_runs& e) {
   const auto text = report_text::of("refusals");
   report::table t;
   t.title = "Decisions, and what they change";
-  constexpr std::size_t offloadings = 5, t_off_s = 6, time_share = 7;
-  t.columns = {"t_min, d_min", "offers",
-               "LODM says no", "requests",
-               "CODM says no", "offloadings",
-               "t_off, s",     "share of the time offloaded"};
+  constexpr std::size_t offloadings = 6, t_off_s = 7, time_share = 8;
+  t.columns = {"t_min, d_min", "offers",   "within r_off",
+               "LODM says no", "requests", "CODM says no",
+               "offloadings",  "t_off, s", "share of the time offloaded"};
   report::figure f;
   f.title = "Requirements and refusals";
   f.x_label = "requirements, in the order of the table";
   f.y_label = "share";
   report::curve lodm, codm, offloaded;
-  lodm.name = "of offers, the LODM refuses";
+  lodm.name = "of offers within r_off, the LODM refuses";
   codm.name = "of requests, the CODM refuses";
   offloaded.name = "of the time, offloaded";
+  const auto free = decisions_in(those(e.refusals, 0, "none"));
+  const auto outside = free.offers - free.requests;
   double number = 0;
   for (const auto& requirements : labels_of(e.refusals, 0)) {
     const auto runs = those(e.refusals, 0, requirements);
@@ -68,7 +72,8 @@ report::section refusals(const paper_runs& e) {
     const auto t_off = mean_t_off(runs);
     const auto share = d.offloaded_share / d.runs;
     t.rows.push_back({requirements, fmt::format("{:.0f}", d.offers),
-                      fmt::format("{:.1f} %", 100 * d.lodm_no()),
+                      fmt::format("{:.0f}", d.offers - outside),
+                      fmt::format("{:.1f} %", 100 * d.lodm_no(outside)),
                       fmt::format("{:.0f}", d.requests),
                       fmt::format("{:.1f} %", 100 * d.codm_no()),
                       fmt::format("{:.0f}", d.requests - d.refused),
@@ -79,7 +84,7 @@ report::section refusals(const paper_runs& e) {
     ++number;
     for (auto* c : {&lodm, &codm, &offloaded})
       c->x.push_back(number);
-    lodm.y.push_back(d.lodm_no());
+    lodm.y.push_back(d.lodm_no(outside));
     codm.y.push_back(d.codm_no());
     offloaded.y.push_back(share);
   }

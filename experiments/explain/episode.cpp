@@ -67,19 +67,27 @@ std::optional<double> lost_share(const fs::path& folder,
   return static_cast<double>(lost) / static_cast<double>(sent);
 }
 
+/// @param results  That came; the one after the last of them is missing.
 std::optional<channel::disturbance>
-disturbed_at(const fs::path& folder, const session_key& of, double at_s) {
+disturbed_in(const fs::path& folder, const episode_line& x,
+             const std::optional<std::vector<report::cycle_line>>& results) {
+  constexpr double ms_per_s = 1e3;
   const auto all = report::read_disturbed(folder);
-  if (!all)
+  if (!all || !results)
     return std::nullopt;
-  const auto second = std::floor(at_s);
-  channel::disturbed_count sum;
-  for (const auto& x : *all)
-    if (x.t_s >= second - 1 && x.t_s <= second && x.provider == of.provider
-        && x.direction == "down" && x.station == of.station
-        && x.what == of.service)
-      sum += x.count;
-  return sum.most();
+  auto last_sent_s = x.accepted_s;
+  if (!results->empty()) {
+    const auto& last = results->back();
+    last_sent_s =
+        last.received_s
+        - (last.parts->downlink_wait + last.parts->downlink) / ms_per_s;
+  }
+  return recording::disturbance_of(
+             *all,
+             {x.of.provider, "down", static_cast<std::uint32_t>(x.of.station),
+              x.of.service},
+             {from_seconds(last_sent_s), from_seconds(x.ended_s)})
+      .value_or(channel::disturbance::none);
 }
 
 asked_shares load_at(const fs::path& folder, const std::string& provider,
@@ -130,7 +138,7 @@ std::optional<episode> find_episode(const fs::path& folder, const question& q) {
       found.events.push_back(std::move(event));
   read_results(folder, found);
   found.lost = lost_share(folder, of);
-  found.disturbed = disturbed_at(folder, of, found.closed.ended_s);
+  found.disturbed = disturbed_in(folder, found.closed, found.results);
   if (!of.provider.empty())
     found.load = load_at(folder, of.provider, found.closed.ended_s);
   return found;

@@ -202,9 +202,10 @@ std::string why_silent(const episode& x) {
     case channel::disturbance::stall:
       return "nothing came: the connection stalled and held results back.";
     default:
-      return fmt::format("nothing came, though nothing was lost or held back: "
-                         "{} sent nothing in time.",
-                         provider);
+      return fmt::format("nothing came in time, though no result was lost, nor "
+                         "held back in a stall: {} sent none, or the network "
+                         "was slow{}.",
+                         provider, full(x, "way down"));
   }
 }
 

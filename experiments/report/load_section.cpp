@@ -148,6 +148,17 @@ std::map<std::string, octets_of_cell> octets_by_cell(const recorded_run& run) {
   return all;
 }
 
+/// Seconds without a line are seconds in which nothing was sent.
+void add_silence(curve& to, double next_s) {
+  if (to.x.empty() || to.x.back() + 1 >= next_s)
+    return;
+  for (const auto t_s : {to.x.back() + 1, next_s - 1})
+    if (t_s > to.x.back()) {
+      to.x.push_back(t_s);
+      to.y.push_back(0);
+    }
+}
+
 /// One figure for each provider, of all that was sent to it and by it.
 void add_octets_by_time(section& to, const recorded_run& run) {
   constexpr double kilobits = 8e-3;
@@ -161,11 +172,16 @@ void add_octets_by_time(section& to, const recorded_run& run) {
       auto& curve = shown.curves.emplace_back();
       curve.name = fmt::format("{} {}", of.second, of.first);
       for (const auto& x : lines) {
-        curve.x.push_back(x.t_s);
+        if (!x.t_s)
+          continue;
+        add_silence(curve, *x.t_s);
+        curve.x.push_back(*x.t_s);
         curve.y.push_back(kilobits * static_cast<double>(x.sent));
       }
     }
-    to.blocks.emplace_back(std::move(shown));
+    if (std::ranges::any_of(shown.curves,
+                            [](const auto& c) { return !c.x.empty(); }))
+      to.blocks.emplace_back(std::move(shown));
   }
 }
 

@@ -208,28 +208,34 @@ std::vector<octets_line> read_octets(const fs::path& folder) {
     return all;
   csv_reader row{file, names, ending_of(folder), newer};
   while (row.next())
-    all.push_back({row.has(time) ? row.number(time) : 0, row.text(0),
-                   row.text(1), row.text(2), row.whole(3), row.whole(4),
-                   row.whole(5), row.whole(6), row.whole(7)});
+    all.push_back(
+        {row.has(time) ? std::optional{row.number(time)} : std::nullopt,
+         row.text(0), row.text(1), row.text(2), row.whole(3), row.whole(4),
+         row.whole(5), row.whole(6), row.whole(7)});
   return all;
 }
 
-std::optional<std::vector<disturbed_line>>
-read_disturbed(const fs::path& folder) {
+std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   static constexpr columns names{"t_s",  "provider", "direction", "station",
                                  "what", "lost",     "outage",    "stall"};
   const auto file = folder / "disturbed.csv";
   if (!fs::exists(file))
     return std::nullopt;
-  std::vector<disturbed_line> all;
+  recording::load_table all;
   csv_reader row{file, names, ending_of(folder)};
-  while (row.next())
-    all.push_back({row.number(0),
-                   row.text(1),
-                   row.text(2),
-                   row.whole(3),
-                   row.text(4),
-                   {row.whole(5), row.whole(6), row.whole(7)}});
+  while (row.next()) {
+    const auto provider = row.text(1);
+    const auto direction = row.text(2) == "up" ? "up" : "down";
+    auto cell = std::ranges::find_if(all.cells, [&](const auto& x) {
+      return x.provider == provider && x.direction == direction;
+    });
+    if (cell == all.cells.end())
+      cell = all.cells.insert(cell, {provider, direction, {}, {}});
+    cell->disturbed.push_back({from_seconds(row.number(0)),
+                               static_cast<std::uint32_t>(row.whole(3)),
+                               row.text(4),
+                               {row.whole(5), row.whole(6), row.whole(7)}});
+  }
   return all;
 }
 

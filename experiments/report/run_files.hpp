@@ -70,22 +70,13 @@ struct load_line {
 
 /// Of octets.csv.
 struct octets_line {
-  double t_s = 0; ///< Its second begins.
+  /// Its second begins; folders of older versions have one line for all.
+  std::optional<double> t_s;
   std::string provider;
   std::string direction; ///< "up" or "down".
   std::string what;      ///< What they were for: a service, say.
   std::uint64_t messages = 0;
   std::uint64_t sent = 0, delivered = 0, lost = 0, under_way = 0;
-};
-
-/// Of disturbed.csv.
-struct disturbed_line {
-  double t_s = 0; ///< Its second begins.
-  std::string provider;
-  std::string direction; ///< "up" or "down".
-  std::uint64_t station = 0;
-  std::string what; ///< As in octets.csv.
-  channel::disturbed_count count;
 };
 
 /// Of tracks.csv.
@@ -139,8 +130,9 @@ read_tracks(const std::filesystem::path& folder);
 std::vector<load_line> read_load(const std::filesystem::path& folder);
 std::vector<octets_line> read_octets(const std::filesystem::path& folder);
 
-/// @returns nothing when the run wrote no such file.
-std::optional<std::vector<disturbed_line>>
+/// @returns what disturbed.csv holds, without any other load; nothing when the
+/// run wrote no such file.
+std::optional<recording::load_table>
 read_disturbed(const std::filesystem::path& folder);
 
 } // namespace sofof::experiments::report

@@ -81,22 +81,23 @@ TEST_CASE("of all that is sent for something nothing vanishes, at any time") {
   }
 }
 
-TEST_CASE("what is disturbed is counted by second, vehicle and purpose") {
+TEST_CASE("what is disturbed is counted by moment, vehicle and purpose") {
   octet_ledger ledger{at(1s)};
   const auto lose = [&ledger](duration t, station_id of, disturbance by) {
     ledger.lose({"one", of, 10, at(t), by});
   };
   lose(3s, 102, disturbance::loss);
   lose(2s, 101, disturbance::outage);
-  lose(3999ms, 102, disturbance::loss);
+  lose(3s, 102, disturbance::loss);
+  lose(3001ms, 102, disturbance::loss);
   ledger.send({"one", 102, 10, at(3s), disturbance::stall}, at(4s));
   ledger.send({"one", 102, 10, at(3s)}, at(4s));
   const auto all = ledger.disturbed();
-  REQUIRE(all.size() == 2);
-  CHECK(all[0].second == 1);
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].at == 1s);
   CHECK(all[0].station == 101);
   CHECK(all[0].count.outage == 1);
-  CHECK(all[1].second == 2);
+  CHECK(all[1].at == 2s);
   CHECK(all[1].what == "one");
   CHECK(all[1].count.lost == 2);
   CHECK(all[1].count.stall == 1);

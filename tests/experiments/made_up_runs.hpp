@@ -78,7 +78,7 @@ inline paper_runs two_curves(const scratch& dir, double one_s, double six_s,
       auto& run = e.latency_plot.emplace_back();
       run.point.labels = {n, gap};
       run.figures = {
-          {"virtual_s", 180}, {"vehicles", 1}, {"offloaded_share", 1}};
+          {"safety.driven_s", 180}, {"virtual_s", 180}, {"offloaded_share", 1}};
       run.t_off_s = {gap == std::string_view{"80ms"} ? 1 : height_s};
     }
   e.latency_plot.back().ended_early = 3;

@@ -34,7 +34,8 @@ struct loaded_folder : played_folder {
     write("octets.csv",
           "t_s,provider,direction,what,messages,sent,delivered,lost,under_way"
           "\n0,mec,up,CAM,7,1000,900,100,0\n"
-          "1,mec,up,CAM,3,360,360,0,0\n");
+          "1,mec,up,CAM,3,360,360,0,0\n"
+          "5,mec,up,CAM,1,125,125,0,0\n");
     spoil("summary.json", "\"load\": {}",
           "\"load\": {\"mec\": {\"uplink\": {\"busy_share\": 0.997, "
           "\"peak_share\": 4.057, \"wait_ms\": {\"mean\": 5420.2}}}}");
@@ -77,13 +78,14 @@ TEST_CASE("load has a table, a figure for each kind of server, and octets in "
   CHECK(uplink.curves.at(0).y.at(0) == doctest::Approx(406));
   const auto& octets = std::get<table>(load->blocks[3]);
   CHECK(octets.rows.at(0)
-        == std::vector<std::string>{"mec", "up", "CAM", "10", "1360", "1260",
+        == std::vector<std::string>{"mec", "up", "CAM", "11", "1485", "1385",
                                     "100", "0"});
   const auto& by_time = std::get<figure>(load->blocks[4]);
   CHECK(by_time.title == "On the air of mec by time");
   REQUIRE(by_time.curves.size() == 1);
   CHECK(by_time.curves[0].name == "CAM up");
-  CHECK(by_time.curves[0].y == std::vector<double>{8, 2.88});
+  CHECK(by_time.curves[0].x == std::vector<double>{0, 1, 2, 4, 5});
+  CHECK(by_time.curves[0].y == std::vector<double>{8, 2.88, 0, 0, 1});
 }
 
 TEST_CASE("beside a run with load one without any is named") {

@@ -32,6 +32,7 @@ void make_sweep(const std::filesystem::path& folder) {
       table += fmt::format("{},{},{},ok,{}\n", number, gap, seed, run);
       write(folder / "runs" / run / "summary.json",
             fmt::format(R"({{"interrupted":false,"vehicles":2,"virtual_s":100,
+                "safety":{{"driven_s":{0}00}},
                 "offloaded_share":0.{0},"fallbacks":{0},
                 "latency_ms":{{"count":{0}0,"mean":{0},"std":1}}}})",
                         number));
@@ -139,6 +140,10 @@ TEST_CASE("a folder of sweeps is shown with curves over what was varied") {
   CHECK(f.curves[0].high[0] > 19);
   const auto& latency = the<report::figure>(all.sections[0], "Latency");
   CHECK(latency.curves[0].y[0] == near(50.0 / 30, 1e-9)); // of all results
+  const auto& share = the<report::figure>(all.sections[0], "Offloaded share");
+  CHECK(share.curves[0].y[0] == near(50.0 / 300, 1e-9)); // of all driving
+  const auto& back = the<report::figure>(all.sections[0], "Fallbacks");
+  CHECK(back.curves[0].y[0] == near(3 / (300.0 / 3600), 1e-9));
   const auto& points = the<report::table>(all.sections[0], "All points");
   REQUIRE(points.rows.size() == 2);
   CHECK(points.rows[0][0] == "60ms");

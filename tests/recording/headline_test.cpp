@@ -46,6 +46,14 @@ struct told_run {
                        .ended = time_point{20s},
                        .reason = reason});
   }
+  /// One that came before the end, and where its time went.
+  void result(provider_id at, const result_timing& timing) {
+    figures.on_record(
+        cycle_record{.session = {at, 101, "trajectory_planning", 1},
+                     .created = time_point{19'800ms},
+                     .received = time_point{19'900ms},
+                     .timing = timing});
+  }
   void drive() {
     figures.on_record(safety_record{.station = 101, .driven = 100s});
   }
@@ -100,7 +108,8 @@ TEST_CASE("of gaps between results the headline names what made them, by what "
   told_run run;
   run.offer();
   run.drive();
-  run.episode(junction, end_reason::qos_gap); // ends at 20 s
+  run.result(junction, {.down = {0ms, 20ms}}); // sent at 19.88 s
+  run.episode(junction, end_reason::qos_gap);  // ends at 20 s
   const auto disturbed = [&run](channel::disturbed_line line) {
     run.figures.add(load_table{{}, {{"junction", "down", {}, {line}}}});
     return run.said().offloading;
@@ -111,17 +120,46 @@ TEST_CASE("of gaps between results the headline names what made them, by what "
                        cause);
   };
   const std::string planning = "trajectory_planning";
-  CHECK(disturbed({20, 101, planning, {3, 1, 2}})
+  CHECK(disturbed({20s, 101, planning, {3, 1, 2}})
         == said("gaps, as results were lost"));
-  CHECK(disturbed({19, 101, planning, {0, 3, 2}}) == said("gaps in outages"));
-  CHECK(disturbed({19, 101, planning, {0, 0, 2}})
+  CHECK(disturbed({19'881ms, 101, planning, {0, 3, 2}})
+        == said("gaps in outages"));
+  CHECK(disturbed({19'881ms, 101, planning, {0, 0, 2}})
         == said("gaps, as stalls held results back"));
   for (const auto& other :
-       {channel::disturbed_line{18, 101, planning, {9, 0, 0}},
-        channel::disturbed_line{21, 101, planning, {9, 0, 0}},
-        channel::disturbed_line{20, 102, planning, {9, 0, 0}},
-        channel::disturbed_line{20, 101, "CAM", {9, 0, 0}}})
+       {channel::disturbed_line{19'880ms, 101, planning, {9, 0, 0}},
+        channel::disturbed_line{20'001ms, 101, planning, {9, 0, 0}},
+        channel::disturbed_line{20s, 102, planning, {9, 0, 0}},
+        channel::disturbed_line{20s, 101, "CAM", {9, 0, 0}}})
     CHECK(disturbed(other) == said("gaps between results"));
+}
+
+TEST_CASE("of results that were too late the headline names what took half of "
+          "their time or more") {
+  const auto said = [](end_reason reason, const result_timing& timing) {
+    told_run run;
+    run.offer();
+    run.drive();
+    run.result(junction, timing);
+    run.episode(junction, reason);
+    return run.said().offloading;
+  };
+  const auto text = [](std::string_view cause) {
+    return fmt::format("Offloaded 10.0 % of the time; 1 of 1 episode ended "
+                       "early, that by {} (junction 1).",
+                       cause);
+  };
+  const result_timing computed{
+      .up = {0ms, 60ms}, .queue = 5ms, .computing = 20ms, .down = {1ms, 14ms}};
+  CHECK(said(end_reason::qos_latency, computed)
+        == text("latency, mostly the computing"));
+  CHECK(said(end_reason::qos_latency,
+             {.queue = 15ms, .computing = 3ms, .down = {5ms, 14ms}})
+        == text("latency"));
+  auto old = computed; // made 100 ms before it was received
+  old.input_at = time_point{19'800ms};
+  CHECK(said(end_reason::qos_input_age, old)
+        == text("the age of inputs, mostly the way up"));
 }
 
 TEST_CASE("what nobody drove has no share of time") {

@@ -93,7 +93,7 @@ TEST_CASE("a run that ends within a tenth of a second leaves it out") {
 }
 
 TEST_CASE("octets.csv has a line for each second, cell, direction and purpose, "
-          "disturbed.csv one for each second and vehicle that was disturbed") {
+          "disturbed.csv one for each moment and vehicle that was disturbed") {
   using channel::disturbance;
   channel::octet_ledger ledger{time_point{}};
   ledger.send({"CAM", 101, 100, time_point{}}, time_point{20ms});
@@ -111,27 +111,27 @@ TEST_CASE("octets.csv has a line for each second, cell, direction and purpose, "
            "0,mec,up,one,1,400,0,0,400\n");
   CHECK(disturbed_csv(table)
         == "t_s,provider,direction,station,what,lost,outage,stall\n"
-           "0,mec,up,101,one,0,0,1\n"
-           "2,mec,up,102,CAM,1,1,0\n");
+           "0.999000000,mec,up,101,one,0,0,1\n"
+           "2.000000000,mec,up,102,CAM,1,1,0\n");
 }
 
-TEST_CASE("what disturbed most of a vehicle's messages is told of the last "
-          "second and the one before") {
+TEST_CASE("what disturbed most of a vehicle's messages is told of those that "
+          "were sent in a window, without its beginning") {
   using channel::disturbance;
   const load_table table{{},
                          {{"mec",
                            "down",
                            {},
-                           {{7, 101, "one", {0, 0, 2}},
-                            {8, 101, "one", {0, 3, 0}},
-                            {8, 101, "CAM", {9, 0, 0}},
-                            {9, 102, "one", {9, 0, 0}}}}}};
+                           {{7s, 101, "one", {0, 0, 2}},
+                            {7050ms, 101, "one", {0, 3, 0}},
+                            {7050ms, 101, "CAM", {9, 0, 0}},
+                            {7100ms, 102, "one", {9, 0, 0}}}}}};
   const message_path path{"mec", "down", 101, "one"};
-  CHECK(disturbance_of(table, path, 7s) == disturbance::stall);
-  CHECK(disturbance_of(table, path, 8s) == disturbance::outage);
-  CHECK(disturbance_of(table, path, 9999ms) == disturbance::outage);
-  CHECK(disturbance_of(table, path, 10s) == disturbance::none);
-  CHECK_FALSE(disturbance_of(table, {"mec", "up", 101, "one"}, 8s).has_value());
+  CHECK(disturbance_of(table, path, {6s, 7s}) == disturbance::stall);
+  CHECK(disturbance_of(table, path, {6s, 8s}) == disturbance::outage);
+  CHECK(disturbance_of(table, path, {7s, 7050ms}) == disturbance::outage);
+  CHECK(disturbance_of(table, path, {7050ms, 8s}) == disturbance::none);
+  CHECK_FALSE(disturbance_of(table, {"mec", "up", 101, "one"}, {6s, 8s}));
 }
 
 TEST_CASE("a service takes a worker's power for as long as it is busy with "
