@@ -224,8 +224,8 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   recording::load_table all;
   csv_reader row{file, names, ending_of(folder)};
   while (row.next()) {
-    const auto provider = row.text(1);
-    const auto direction = row.text(2) == "up" ? "up" : "down";
+    const auto& provider = row.text(1);
+    const auto* direction = row.text(2) == "up" ? "up" : "down";
     auto cell = std::ranges::find_if(all.cells, [&](const auto& x) {
       return x.provider == provider && x.direction == direction;
     });
