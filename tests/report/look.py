@@ -29,6 +29,17 @@ def moved(before, after):
     return sum(before[one] != after[one] for one in both), len(both)
 
 
+def points_of_octets(rows):
+    """One for each second in which anything was sent, and where a pause has its
+    first and its last second."""
+    seconds = {}
+    for one in rows:
+        of = one["provider"], one["direction"], one["what"]
+        seconds.setdefault(of, []).append(int(one["t_s"]))
+    return len(rows) + sum(min(later - sooner - 1, 2) for of in seconds.values()
+                           for sooner, later in zip(of, of[1:]))
+
+
 def look(report, folder):
     """Numbers by name: what the page shows beside what the folder says."""
     cycles = rows_of(folder, "cycles.csv")
@@ -77,10 +88,10 @@ def look(report, folder):
         seen |= {
             "points": points,
             # Each quantity by time and as a distribution; load and octets
-            # by time.
+            # by time, these with the ends of pauses.
             "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages))
             + len(rows_of(folder, "load.csv"))
-            + len(rows_of(folder, "octets.csv")),
+            + points_of_octets(rows_of(folder, "octets.csv")),
             "track_points":
                 page.run("sofof.players[0].track_rows[0]"),
             "track_rows": len(rows_of(folder, "tracks.csv")),
