@@ -70,8 +70,9 @@ std::string in_words(const early_end& x, std::string_view service,
     return fmt::format("{}, mostly {}", in_words(x.reason), x.mostly);
   if (x.reason != end_reason::qos_gap)
     return std::string{in_words(x.reason)};
-  const auto by = disturbance_of(load, {x.provider, "down", x.station, service},
-                                 {x.last_sent - run.start, x.at - run.start});
+  const auto by = disturbance_of(
+      load, {x.provider, "down", x.station, service},
+      due_next(x.last_sent - run.start, x.sent_after, x.at - run.start));
   return std::string{in_words(by.value_or(channel::disturbance::none))};
 }
 

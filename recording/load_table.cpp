@@ -181,6 +181,15 @@ std::string disturbed_csv(const load_table& table) {
   return text;
 }
 
+time_window due_next(duration last_sent, std::optional<duration> sent_after,
+                     duration ended) {
+  // Computing and the one before that may have been lost move it.
+  constexpr int most_periods = 3;
+  return {last_sent,
+          sent_after ? std::min(ended, last_sent + most_periods * *sent_after)
+                     : ended};
+}
+
 std::optional<channel::disturbance> disturbance_of(const load_table& table,
                                                    const message_path& path,
                                                    const time_window& sent) {
@@ -189,12 +198,12 @@ std::optional<channel::disturbance> disturbance_of(const load_table& table,
   });
   if (cell == table.cells.end())
     return std::nullopt;
-  channel::disturbed_count sum;
+  const channel::disturbed_line* first = nullptr;
   for (const auto& x : cell->disturbed)
     if (x.at > sent.after && x.at <= sent.until && x.station == path.station
-        && x.what == path.what)
-      sum += x.count;
-  return sum.most();
+        && x.what == path.what && (!first || x.at < first->at))
+      first = &x;
+  return first ? first->count.most() : channel::disturbance::none;
 }
 
 } // namespace sofof::recording

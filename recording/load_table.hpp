@@ -96,8 +96,17 @@ struct time_window {
   duration until{};
 };
 
-/// @returns what disturbed most of the messages that were sent in a window;
-/// nullopt where no modelled cell tells.
+/// @param last_sent   When the last result that came was sent.
+/// @param sent_after  How long after the one before, if one came before.
+/// @param ended       When the gap had become too long.
+/// @returns when the next result was sent, which did not come: one that is
+/// disturbed later did not make the gap.
+time_window due_next(duration last_sent, std::optional<duration> sent_after,
+                     duration ended);
+
+/// @returns what disturbed the first of the messages that were disturbed of
+/// those sent in a window (most of them, where several were sent at once); none
+/// where no one was; nullopt where no modelled cell tells.
 std::optional<channel::disturbance> disturbance_of(const load_table& table,
                                                    const message_path& path,
                                                    const time_window& sent);

@@ -16,7 +16,7 @@ const service_metrics nothing_happened;
 
 /// @param rest         What the input waited for the cycle.
 /// @param since_cycle  The time to the input, and before the cycle, is left
-/// out.
+///                     out.
 /// @returns the part that is half of all, or more; empty if there is none.
 std::string_view longest_part(const messages::result_timing& x, duration rest,
                               bool since_cycle) {
@@ -149,9 +149,13 @@ void metrics::add(const messages::cycle_record& x) {
   }
   if (x.interarrival)
     service.interarrival.add(*x.interarrival);
-  const auto& down = x.timing.down;
-  results_[{x.session.service, x.session.station}] = {
-      x.session, x.received - down.wait - down.travel, x.timing, x.rest()};
+  const auto sent = x.received - x.timing.down.wait - x.timing.down.travel;
+  auto& last = results_[{x.session.service, x.session.station}];
+  const auto sent_after = last.session == x.session
+                              ? std::optional{sent - last.sent}
+                              : std::nullopt;
+  last = {x.session, sent, x.timing, x.rest(), x.created == x.timing.input_at,
+          sent_after};
   work_.add(x);
 }
 
@@ -176,8 +180,10 @@ void metrics::add(const messages::episode_record& x) {
                   x.session.station, x.ended, x.accepted});
     if (last != results_.end() && last->second.session == x.session) {
       end.last_sent = last->second.sent;
+      end.sent_after = last->second.sent_after;
       end.mostly = longest_part(last->second.timing, last->second.rest,
-                                x.reason == messages::end_reason::qos_latency);
+                                x.reason == messages::end_reason::qos_latency
+                                    && !last->second.counts_from_input);
     }
   }
   service.t_off_s.add(to_seconds(x.ended - x.first_data));

@@ -41,6 +41,8 @@ struct early_end {
   time_point at;
   /// When the last result that came was sent; else its acceptance.
   time_point last_sent{};
+  /// So long before it the one before that came was sent.
+  std::optional<duration> sent_after{};
   /// What took half of the time that was too long, or more: "the computing",
   /// say; empty if nothing did.
   std::string_view mostly{};
@@ -206,6 +208,8 @@ private:
     time_point sent;
     messages::result_timing timing;
     duration rest;
+    bool counts_from_input; ///< Its latency does, as its service asks for.
+    std::optional<duration> sent_after; ///< The one before.
   };
 
   /// Where a service was remote before.

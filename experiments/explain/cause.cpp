@@ -40,6 +40,10 @@ double median(std::vector<double> values) {
 
 } // namespace
 
+bool counts_from_input(const report::cycle_line& x) {
+  return x.latency_ms == x.input_age_ms;
+}
+
 part longest_part(std::span<const report::cycle_line> results,
                   bool since_input) {
   assert(!results.empty());

@@ -18,6 +18,10 @@ struct part {
   double more_ms() const { return ms - usual_ms; }
 };
 
+/// @returns whether the latency of a result counts from its input on, as a
+/// service may ask for: then all parts are parts of it.
+bool counts_from_input(const report::cycle_line& x);
+
 /// @param results      Of the session, not empty, with their parts; the last
 ///                     one is explained.
 /// @param since_input  All parts; else those since the cycle began.

@@ -75,18 +75,22 @@ disturbed_in(const fs::path& folder, const episode_line& x,
   const auto all = report::read_disturbed(folder);
   if (!all || !results)
     return std::nullopt;
-  auto last_sent_s = x.accepted_s;
-  if (!results->empty()) {
-    const auto& last = results->back();
-    last_sent_s =
-        last.received_s
-        - (last.parts->downlink_wait + last.parts->downlink) / ms_per_s;
-  }
-  return recording::disturbance_of(
-             *all,
-             {x.of.provider, "down", static_cast<std::uint32_t>(x.of.station),
-              x.of.service},
-             {from_seconds(last_sent_s), from_seconds(x.ended_s)})
+  const auto sent_at = [](const report::cycle_line& r) {
+    return from_seconds(
+        r.received_s - (r.parts->downlink_wait + r.parts->downlink) / ms_per_s);
+  };
+  auto last_sent = from_seconds(x.accepted_s);
+  std::optional<duration> sent_after;
+  if (!results->empty())
+    last_sent = sent_at(results->back());
+  if (results->size() > 1)
+    sent_after = last_sent - sent_at((*results)[results->size() - 2]);
+  return recording::disturbance_of(*all,
+                                   {x.of.provider, "down",
+                                    static_cast<std::uint32_t>(x.of.station),
+                                    x.of.service},
+                                   recording::due_next(last_sent, sent_after,
+                                                       from_seconds(x.ended_s)))
       .value_or(channel::disturbance::none);
 }
 

@@ -41,8 +41,8 @@ struct episode {
   /// Share of the octets that the provider sent for the service, to whom ever;
   /// nothing when no modelled cell counted them.
   std::optional<double> lost;
-  /// What became of most of the vehicle's results that were disturbed after the
-  /// last one that came; nothing where that is not recorded.
+  /// What became of the result that was due after the last one that came;
+  /// nothing where that is not recorded.
   std::optional<channel::disturbance> disturbed;
   asked_shares load; ///< Of the provider, at most in the last second or two.
 };

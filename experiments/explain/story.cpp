@@ -123,7 +123,8 @@ void course(lines& to, const episode& x) {
   to.at(last.received_s,
         fmt::format("the last result: latency {:.1f} ms, input {:.1f} ms old",
                     last.latency_ms, *last.input_age_ms));
-  const auto of_age = x.closed.reason != "qos_latency";
+  const auto of_age =
+      x.closed.reason != "qos_latency" || counts_from_input(last);
   to.more(fmt::format("of the {}: {} ms", of_age ? "age" : "latency",
                       in_parts(*last.parts, of_age)));
 }
@@ -175,7 +176,8 @@ std::string why_slow(const episode& x, bool since_input) {
       since_input ? "the input was too old" : "it was too late";
   if (!x.results || x.results->empty())
     return fmt::format("{}; results were not recorded.", subject);
-  const auto part = longest_part(*x.results, since_input);
+  const auto part = longest_part(
+      *x.results, since_input || counts_from_input(x.results->back()));
   const auto usual = x.results->size() > 1
                          ? fmt::format(", {:.1f} as a rule", part.usual_ms)
                          : std::string{};
@@ -190,6 +192,8 @@ std::string why_silent(const episode& x) {
     return fmt::format("{} had closed it {:.3f} s before ({}).", provider,
                        e.ended_s - x.at_provider->ended_s,
                        x.at_provider->reason);
+  if (!x.results)
+    return "nothing came; what became of the results was not recorded.";
   if (!x.disturbed || !x.lost)
     return "nothing came: results were lost, or held back.";
   switch (*x.disturbed) {
@@ -202,10 +206,10 @@ std::string why_silent(const episode& x) {
     case channel::disturbance::stall:
       return "nothing came: the connection stalled and held results back.";
     default:
-      return fmt::format("nothing came in time, though no result was lost, nor "
-                         "held back in a stall: {} sent none, or the network "
-                         "was slow{}.",
-                         provider, full(x, "way down"));
+      return fmt::format("nothing came in time, though what was due was not "
+                         "lost, nor held back in a stall: {} sent none, or the "
+                         "network was slow{}.",
+                         provider, full(x, "way down") + full(x, "worker"));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -226,13 +227,19 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   while (row.next()) {
     const auto& provider = row.text(1);
     const auto* direction = row.text(2) == "up" ? "up" : "down";
+    if (row.text(2) != direction)
+      row.refuse(2, "is neither up nor down");
+    if (std::abs(row.number(0)) > to_seconds(longest_time))
+      row.refuse(0, "is no time in a run");
+    if (row.whole(3) > std::numeric_limits<station_id::rep>::max())
+      row.refuse(3, "is no station");
     auto cell = std::ranges::find_if(all.cells, [&](const auto& x) {
       return x.provider == provider && x.direction == direction;
     });
     if (cell == all.cells.end())
       cell = all.cells.insert(cell, {provider, direction, {}, {}});
     cell->disturbed.push_back({from_seconds(row.number(0)),
-                               static_cast<std::uint32_t>(row.whole(3)),
+                               static_cast<station_id::rep>(row.whole(3)),
                                row.text(4),
                                {row.whole(5), row.whole(6), row.whole(7)}});
   }

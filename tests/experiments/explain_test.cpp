@@ -233,7 +233,18 @@ TEST_CASE("silence is told apart by what the link did to the vehicle's "
         "29.990,far,down,101,planning,9,0,0",
         "29.990,mec,up,101,planning,9,0,0",
         "29.990,mec,down,102,planning,9,0,0", "29.990,mec,down,101,CAM,9,0,0"})
-    CHECK(contains(told_with(other), "mec sent none, or the network was slow"));
+    CHECK(contains(told_with(other), "slow; the workers were asked"));
+  for (const auto* broken : {"29.990,mec,sideways,101,planning,9,0,0",
+                             "1e300,mec,down,101,planning,9,0,0",
+                             "29.990,mec,down,4294967397,planning,9,0,0"})
+    CHECK_THROWS_WITH_AS(told_with(broken),
+                         doctest::Contains("disturbed.csv:2"), input_error);
+}
+
+TEST_CASE("a latency that counts from its input has all parts") {
+  told_run run;
+  run.last = "130.0,130.0,1,,0.0,70.0,10.0,20.0,20.0,0.0,10.0";
+  CHECK(contains(run.told(), "it was too late: the way up took 70.0 ms"));
 }
 
 TEST_CASE(

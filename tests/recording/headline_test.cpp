@@ -134,6 +134,29 @@ TEST_CASE("of gaps between results the headline names what made them, by what "
     CHECK(disturbed(other) == said("gaps between results"));
 }
 
+TEST_CASE(
+    "a result that was lost long after the next one was due made no gap") {
+  told_run run;
+  run.offer();
+  run.drive();
+  run.result(junction, {.down = {0ms, 50ms}}); // sent at 19.85 s
+  run.result(junction, {.down = {0ms, 20ms}}); // and at 19.88 s
+  run.episode(junction, end_reason::qos_gap);  // ends at 20 s
+  const auto lost_at = [&run](duration at) {
+    run.figures.add(
+        load_table{{},
+                   {{"junction",
+                     "down",
+                     {},
+                     {channel::disturbed_line{
+                         at, 101, "trajectory_planning", {1, 0, 0}}}}}});
+    return run.said().offloading.find("as results were lost")
+           != std::string::npos;
+  };
+  CHECK(lost_at(19'970ms));
+  CHECK_FALSE(lost_at(19'971ms));
+}
+
 TEST_CASE("of results that were too late the headline names what took half of "
           "their time or more") {
   const auto said = [](end_reason reason, const result_timing& timing) {
@@ -156,6 +179,10 @@ TEST_CASE("of results that were too late the headline names what took half of "
   CHECK(said(end_reason::qos_latency,
              {.queue = 15ms, .computing = 3ms, .down = {5ms, 14ms}})
         == text("latency"));
+  auto of_its_input = computed; // its latency counts from there
+  of_its_input.input_at = time_point{19'800ms};
+  CHECK(said(end_reason::qos_latency, of_its_input)
+        == text("latency, mostly the way up"));
   auto old = computed; // made 100 ms before it was received
   old.input_at = time_point{19'800ms};
   CHECK(said(end_reason::qos_input_age, old)

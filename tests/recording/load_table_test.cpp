@@ -115,8 +115,8 @@ TEST_CASE("octets.csv has a line for each second, cell, direction and purpose, "
            "2.000000000,mec,up,102,CAM,1,1,0\n");
 }
 
-TEST_CASE("what disturbed most of a vehicle's messages is told of those that "
-          "were sent in a window, without its beginning") {
+TEST_CASE("what disturbed the first of a vehicle's messages is told of those "
+          "that were sent in a window, without its beginning") {
   using channel::disturbance;
   const load_table table{{},
                          {{"mec",
@@ -128,10 +128,19 @@ TEST_CASE("what disturbed most of a vehicle's messages is told of those that "
                             {7100ms, 102, "one", {9, 0, 0}}}}}};
   const message_path path{"mec", "down", 101, "one"};
   CHECK(disturbance_of(table, path, {6s, 7s}) == disturbance::stall);
-  CHECK(disturbance_of(table, path, {6s, 8s}) == disturbance::outage);
+  CHECK(disturbance_of(table, path, {6s, 8s}) == disturbance::stall);
   CHECK(disturbance_of(table, path, {7s, 7050ms}) == disturbance::outage);
   CHECK(disturbance_of(table, path, {7050ms, 8s}) == disturbance::none);
   CHECK_FALSE(disturbance_of(table, {"mec", "up", 101, "one"}, {6s, 8s}));
+}
+
+TEST_CASE("the result that makes a gap is due within three periods, or before "
+          "the gap is too long") {
+  const auto sent = due_next(10s, 50ms, 12s);
+  CHECK(sent.after == 10s);
+  CHECK(sent.until == 10s + 150ms);
+  CHECK(due_next(10s, 50ms, 10'100ms).until == 10'100ms);
+  CHECK(due_next(10s, std::nullopt, 12s).until == 12s);
 }
 
 TEST_CASE("a service takes a worker's power for as long as it is busy with "
