@@ -285,6 +285,15 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
     }
     CHECK(waited > 10);
   }
+  SUBCASE("its turn, which comes after the end of a stall: not held by it") {
+    auto p = named("ideal");
+    p.stalls = {0.5, 200ms, 300ms};
+    p.airtime = delay_distribution::uniform(400ms, 400ms);
+    const auto cell = std::make_shared<shared_server_queue>(1);
+    link_direction link{link_channel(p), direction::down, cell};
+    for (std::uint64_t n = 0; n < 100; ++n)
+      REQUIRE(link.carry(cycle(n), kind::result, n).by == disturbance::none);
+  }
   SUBCASE("the end of a stall") {
     auto p = named("ideal");
     p.stalls = {0.5, 200ms, 300ms};

@@ -1,4 +1,5 @@
 // One vehicle and its latencies, and the sections that vary what is chosen.
+#include "base/input_error.hpp"
 #include "experiments/dehler2025/latency_model.hpp"
 #include "experiments/dehler2025/sections.hpp"
 #include "tests/experiments/made_up_runs.hpp"
@@ -88,13 +89,26 @@ TEST_CASE("refusals are shares of the decisions of each side") {
   const auto s = refusals(e);
   const auto& t = the<report::table>(s, "Decisions");
   REQUIRE(t.rows.size() == 2);
-  CHECK(t.rows[0][3] == "0.0 %");
+  CHECK(t.rows[0][3] == "–"); // it is what the others are held against
   CHECK(t.rows[0][5] == "0.0 %");
   CHECK(t.rows[1]
         == std::vector<std::string>{"strict", "200", "180", "20.0 %", "144",
                                     "25.0 %", "108", "2.50 (2.50–2.50)",
                                     "20.0 %"});
   CHECK(contains(words_of(s), "the offloadings go from 180 to 108"));
+}
+
+TEST_CASE("without the line that requires nothing, one sentence says so") {
+  paper_runs e;
+  auto& run = e.refusals.emplace_back();
+  run.point = {{"strict"}, 1, {}};
+  run.figures = {{"offers", 100},
+                 {"requests", 72},
+                 {"rejected", 18},
+                 {"offloaded_share", 0.2},
+                 {"safety.driven_s", 1080}};
+  CHECK_THROWS_WITH_AS(refusals(e), doctest::Contains("no line \"none\""),
+                       input_error);
 }
 
 TEST_CASE("the least delay's drives have as many results as the real ones") {
