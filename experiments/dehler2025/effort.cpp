@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <map>
+#include <string_view>
 #include <vector>
 
 namespace sofof::experiments::study {
@@ -41,15 +43,20 @@ effort longest_effort(std::span<const sweep_plan> plans,
   for (const auto& plan : plans) {
     auto some = plan;
     some.seeds.resize(std::min<std::size_t>(options.jobs, plan.seeds.size()));
-    some.most_seeds = some.seeds.size();
-    const auto grows = plan.most_seeds > plan.seeds.size();
-    const auto seeds = grows ? plan.most_seeds * rule.times : plan.seeds.size();
-    all.runs += plan.combinations() * seeds;
-    const auto times =
-        static_cast<double>(seeds) / static_cast<double>(some.seeds.size());
-    for (const auto& run :
-         runs_wanted_by(some, options.program, interrupted).runs) {
-      cost += run.cost * times;
+    some.most_seeds.clear();
+    const auto times = plan.most_seeds.empty() ? 1 : rule.times;
+    for (std::size_t i = 0; i < plan.combinations(); ++i)
+      all.runs += plan.most_seeds_of(i) * times;
+    const auto wanted = runs_wanted_by(some, options.program, interrupted);
+    std::map<std::string_view, double> cost_of;
+    for (const auto& run : wanted.runs)
+      cost_of[run.name] = run.cost;
+    const auto probed = some.seeds.size();
+    for (std::size_t i = 0; i < wanted.run_of.size(); ++i)
+      cost += cost_of[wanted.run_of[i]]
+              * static_cast<double>(plan.most_seeds_of(i / probed) * times)
+              / static_cast<double>(probed);
+    for (const auto& run : wanted.runs) {
       if (!probes.empty() && run.cost > probes.front().cost)
         probes.clear();
       if (probes.empty()

@@ -12,9 +12,8 @@ namespace sofof::experiments::study {
 
 bool add_seeds(sweep_plan& plan, std::span<const measured_run> runs,
                const seed_rule& rule) {
-  if (plan.most_seeds <= plan.seeds.size())
+  if (plan.most_seeds.empty())
     return false;
-  const auto most = plan.most_seeds * rule.times;
   std::map<std::vector<std::string>, std::vector<const measured_run*>>
       by_values;
   for (const auto& run : runs)
@@ -27,8 +26,9 @@ bool add_seeds(sweep_plan& plan, std::span<const measured_run> runs,
   const auto combinations = points_of(one_each);
   for (std::size_t i = 0; i < combinations.size(); ++i) {
     auto& count = plan.seeds_of[i];
-    const auto wanted = runs_wanted(
-        count, most, episodes_of(by_values[combinations[i].labels]), rule);
+    const auto wanted =
+        runs_wanted(count, plan.most_seeds_of(i) * rule.times,
+                    episodes_of(by_values[combinations[i].labels]), rule);
     added = added || wanted > count;
     count = wanted;
   }
@@ -38,8 +38,7 @@ bool add_seeds(sweep_plan& plan, std::span<const measured_run> runs,
 sweep_plan next_round(sweep_plan plan, const sweep_options& options,
                       const seed_rule& rule,
                       const std::atomic<bool>& interrupted) {
-  if (plan.most_seeds <= plan.seeds.size()
-      || !std::filesystem::exists(options.out / "runs"))
+  if (plan.most_seeds.empty() || !std::filesystem::exists(options.out / "runs"))
     return plan;
   const run_store store{options.out};
   while (!interrupted) {

@@ -37,7 +37,6 @@ public:
     plan.scenario =
         std::filesystem::path{file_}.parent_path() / text_of(root_, "scenario");
     read_seeds(plan.seeds);
-    plan.most_seeds = most_seeds(plan.seeds.size());
     if (const auto* set = root_.get("set"))
       plan.given = assignments(*set);
     plan.given.insert(plan.given.end(), overrides.begin(), overrides.end());
@@ -48,6 +47,7 @@ public:
       for (const auto* draw : tables_of(*draws, "draw"))
         plan.draws.push_back(draw_of(*draw));
     check_axes(plan);
+    read_most_seeds(plan);
     if (plan.size() > most_sweep_points)
       fail(root_, fmt::format("these are {} runs; {} are the most.",
                               plan.size(), most_sweep_points));
@@ -115,16 +115,31 @@ private:
       fail(*node, "seeds must be how many, or a list of integers.");
   }
 
-  std::size_t most_seeds(std::size_t at_least) const {
+  void read_most_seeds(sweep_plan& plan) const {
     const auto* node = root_.get("most_seeds");
     if (!node)
-      return at_least;
-    const auto count = node->value_exact<std::int64_t>();
-    if (!count || *count < static_cast<std::int64_t>(at_least)
+      return;
+    const auto* list = node->as_array();
+    if (!list) {
+      plan.most_seeds = {seeds_at_most(*node, plan.seeds.size())};
+      return;
+    }
+    for (const auto& entry : *list)
+      plan.most_seeds.push_back(seeds_at_most(entry, plan.seeds.size()));
+    const auto values = plan.axes.empty() ? 0 : plan.axes[0].values.size();
+    if (values == 0 || plan.most_seeds.size() != values)
+      fail(*node, fmt::format("most_seeds must be a number, or a list of one "
+                              "for each of the {} values of the first axis.",
+                              values));
+  }
+
+  std::size_t seeds_at_most(const toml::node& node, std::size_t seeds) const {
+    const auto count = node.value_exact<std::int64_t>();
+    if (!count || *count < static_cast<std::int64_t>(seeds)
         || *count > std::int64_t{most_sweep_points})
-      fail(*node, fmt::format("most_seeds must be from {}, as many as seeds, "
-                              "to {}.",
-                              at_least, most_sweep_points));
+      fail(node, fmt::format("most_seeds must be from {}, as many as seeds, "
+                             "to {}.",
+                             seeds, most_sweep_points));
     return static_cast<std::size_t>(*count);
   }
 
@@ -266,6 +281,14 @@ std::size_t sweep_plan::combinations() const {
   for (const auto& axis : axes)
     all = std::min(all * axis.values.size(), most_sweep_points + 1);
   return all;
+}
+
+std::size_t sweep_plan::most_seeds_of(std::size_t combination) const {
+  assert(combination < combinations());
+  if (most_seeds.empty())
+    return seeds.size();
+  const auto of_one_value = combinations() / most_seeds.size();
+  return most_seeds[combination / of_one_value];
 }
 
 std::size_t sweep_plan::size() const {

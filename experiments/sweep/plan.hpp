@@ -43,8 +43,9 @@ struct sweep_plan {
   std::vector<sweep_axis> axes;
   std::vector<drawn_option> draws;
   std::vector<std::int64_t> seeds{1};
-  /// How many seeds one who needs more may use for a point, >= seeds.size().
-  std::size_t most_seeds = 1;
+  /// How many seeds a point that needs more may have, each >= seeds.size(): one
+  /// for each value of the first axis, or one for all; empty: `seeds`.
+  std::vector<std::size_t> most_seeds;
   /// How many seeds each combination of values has, in the order of the points;
   /// empty: `seeds`. Those beyond `seeds` count on from the
   /// largest of them.
@@ -56,6 +57,9 @@ struct sweep_plan {
   /// How many combinations of values there are, at most one more than
   /// `most_sweep_points`.
   std::size_t combinations() const;
+
+  /// @returns the entry of `most_seeds` for a combination of values.
+  std::size_t most_seeds_of(std::size_t combination) const;
 
   /// How many points there are, likewise.
   std::size_t size() const;

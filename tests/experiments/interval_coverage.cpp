@@ -75,8 +75,14 @@ struct coverage {
   double runs = 0; ///< Mean.
 };
 
-coverage coverage_of(const made_up_point& p, std::size_t from,
-                     std::size_t most) {
+/// As `most_seeds` in config/paper/latency_plot.toml.
+std::size_t most_runs(std::uint64_t vehicles) {
+  return std::min<std::size_t>(40, 90 / vehicles);
+}
+
+coverage coverage_of(const made_up_point& p) {
+  constexpr std::size_t from = 10;
+  const auto most = most_runs(p.vehicles);
   coverage all;
   const random_stream noise{17, "coverage"};
   for (int k = 0; k < data_sets; ++k) {
@@ -110,7 +116,7 @@ const std::vector<made_up_point> made_up_points{
 TEST_CASE("of a thousand intervals of early ends per hour at least 93 of 100 "
           "hold the truth") {
   for (const auto& p : made_up_points) {
-    const auto c = coverage_of(p, 10, 40);
+    const auto c = coverage_of(p);
     const auto line = fmt::format(
         "{} vehicles, {:.0f} % of runs with early ends: {:.1f} % hold {:.2f} "
         "per hour, mean width {:.2f}, {:.1f} runs",
@@ -130,7 +136,7 @@ TEST_CASE(
   points.push_back({1, 0, 0, 0.05});
   points.push_back({1, 0, 0, 0.25});
   for (const auto& p : points) {
-    const auto c = coverage_of(p, 10, 40);
+    const auto c = coverage_of(p);
     const auto line = fmt::format(
         "{} vehicles, {:.0f} % of runs with early ends, spread {}: {:.1f} % "
         "hold {:.2f} s, mean width {:.2f} s, {:.1f} runs",

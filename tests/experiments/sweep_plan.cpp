@@ -99,7 +99,7 @@ TEST_CASE("without axes a sweep is its seeds") {
 
 TEST_CASE("each combination of values may have seeds of its own") {
   auto plan = parsed(changed("[3, 5]", "[3, 5]\nmost_seeds = 4"));
-  CHECK(plan.most_seeds == 4);
+  CHECK(plan.most_seeds_of(0) == 4);
   const auto combinations = plan.combinations();
   CHECK(plan.size() == 2 * combinations);
   plan.seeds_of.assign(combinations, 1);
@@ -113,7 +113,15 @@ TEST_CASE("each combination of values may have seeds of its own") {
   CHECK(points[3].seed == 7);
   CHECK(points[3].labels == points[0].labels);
   CHECK(points[4].labels != points[0].labels);
-  CHECK(parsed(changed("[3, 5]", "[3, 5]")).most_seeds == 2);
+  CHECK(parsed(text).most_seeds_of(0) == 2);
+}
+
+TEST_CASE("each value of the first axis may have a most of its own") {
+  const auto plan = parsed(changed("[3, 5]", "[3, 5]\nmost_seeds = [9, 4]"));
+  const auto points = points_of(plan);
+  for (std::size_t i = 0; i < plan.combinations(); ++i)
+    CHECK(plan.most_seeds_of(i)
+          == (points[i * plan.seeds.size()].labels[0] == "1" ? 9 : 4));
 }
 
 TEST_CASE("what seeds draw varies over them, and over nothing else") {
@@ -146,6 +154,10 @@ TEST_CASE("what seeds draw varies over them, and over nothing else") {
 TEST_CASE("a mistake in a sweep file is named with its place") {
   const mistake mistakes[] = {
       {"seeds = [3, 5]", "seeds = [3, 5]\nmost_seeds = @1", {"from 2"}},
+      {"seeds = [3, 5]",
+       "seeds = [3, 5]\nmost_seeds = @[4]",
+       {"each of the 2 values"}},
+      {"seeds = [3, 5]", "seeds = [3, 5]\nmost_seeds = [4, @1]", {"from 2"}},
       {"seeds = [3, 5]", "seeds = [3, 5]\ndraw = @1", {"draw", "tables"}},
       {"seeds = [3, 5]",
        "seeds = [3, 5]\ndraw = [{key='a', from=1, to=@1}]",
