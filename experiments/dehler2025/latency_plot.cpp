@@ -26,7 +26,7 @@ using report::paragraph;
 struct run_counts_of_points {
   std::uint64_t fewest = 0;
   std::uint64_t most = 0;
-  std::uint64_t minutes = 0;
+  std::uint64_t lasts_s = 0;
 };
 
 run_counts_of_points counts_of(const paper_runs& e) {
@@ -39,14 +39,13 @@ run_counts_of_points counts_of(const paper_runs& e) {
       all.fewest = all.most == 0 ? runs : std::min(all.fewest, runs);
       all.most = std::max(all.most, runs);
     }
-  constexpr double minute_s = 60;
-  all.minutes = static_cast<std::uint64_t>(
-      std::lround(e.latency_plot.front().figure("virtual_s") / minute_s));
+  all.lasts_s = static_cast<std::uint64_t>(
+      std::lround(e.latency_plot.front().figure("virtual_s")));
   return all;
 }
 
 std::string length_of(const run_counts_of_points& x) {
-  return fmt::format("{} minute{}", x.minutes, x.minutes == 1 ? "" : "s");
+  return fmt::format("{} s", x.lasts_s);
 }
 
 std::string text_of(const run_counts_of_points& x) {
