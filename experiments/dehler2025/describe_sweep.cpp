@@ -28,7 +28,7 @@ struct measure {
   const char* title;
   const char* unit;
   std::function<std::optional<interval>(runs_view)> of;
-  const char* note = ""; ///< What its figures leave out.
+  std::string note; ///< What its figures leave out.
 };
 
 /// @returns the mean of what each run adds to `sums`, over what it adds to
@@ -78,9 +78,9 @@ const std::vector<measure>& measures() {
        "Episodes that the end of a run cuts off are left out, as nobody knows "
        "how long they would have been: a point that has no others has no "
        "value."},
-      {"Offloaded share", "share of driving time", offloaded_share},
-      {"Latency", "mean, ms", mean_latency},
-      {"Fallbacks", "per hour of driving", fallbacks_per_hour},
+      {"Offloaded share", "share of driving time", offloaded_share, {}},
+      {"Latency", "mean, ms", mean_latency, {}},
+      {"Fallbacks", "per hour of driving", fallbacks_per_hour, {}},
   };
   return all;
 }
@@ -140,9 +140,10 @@ report::figure figure_of(const sweep_results& s, const measure& what,
       parse_duration(s.runs.front().point.labels[axis]).has_value();
   f.x_label = s.axes[axis] + (durations ? ", ms" : "");
   f.y_label = what.unit;
-  f.caption = fmt::format("Means over all seeds together, with 95 % intervals "
-                          "over runs. {}",
-                          what.note);
+  f.caption = "Means over all seeds together, with 95 % intervals over "
+              "runs.";
+  if (!what.note.empty())
+    f.caption += ' ' + what.note;
   std::map<std::string, std::map<double, interval>> curves;
   for (const auto& [labels, runs] : points_in(s)) {
     std::string name;
@@ -182,8 +183,7 @@ report::table table_of(const sweep_results& s) {
     }
     t.rows.push_back(std::move(row));
   }
-  for (const auto& what : measures())
-    t.note += what.note;
+  t.note = measures().front().note;
   return t;
 }
 

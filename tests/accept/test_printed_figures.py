@@ -62,10 +62,10 @@ STUDY = """Curves end at 1.5 s.
 
 **Claims that these runs measure**
 
-| claim | ours |
-| --- | --- |
-| rises | 1.5 s |
-| cost_20_hz | 0.25 % |
+| claim | verdict | ours |
+| --- | --- | --- |
+| rises | reproduced | 1.5 s |
+| cost_20_hz | in part | 0.25 % |
 
 **Computing time in the vehicle, percent of one core**
 
@@ -95,6 +95,14 @@ class Study(unittest.TestCase):
         lines, _ = lines_of_study(other, STUDY.format("0.3"))
         self.assertEqual([x[1] for x in lines], ["3 of 4 rows", "2 of 3 rows", "0 of 1"])
         self.assertEqual([x[3] for x in lines], [False, False, False])
+
+    def test_a_verdict_counts_but_for_computing_times(self):
+        page = STUDY.format("1")
+        for made, rows in (("in part", "4 of 4"), ("reproduced", "3 of 4")):
+            lines, _ = lines_of_study(page.replace(made, "contradicts"), page)
+            self.assertEqual(lines[0][1], f"{rows} rows")
+        lines, _ = lines_of_study(page.replace("0.25", "2.5"), page)
+        self.assertEqual(lines[0][1], "3 of 4 rows")
 
     def test_a_table_that_has_gone_or_is_new_is_told(self):
         first, second = STUDY.format("1").split("\n**Computing")

@@ -3,6 +3,7 @@
 #include "base/random.hpp"
 #include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/share_interval.hpp"
+#include "experiments/sweep/plan.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 namespace sofof::experiments::study {
@@ -75,14 +77,13 @@ struct coverage {
   double runs = 0; ///< Mean.
 };
 
-/// As `most_seeds` in config/paper/latency_plot.toml.
-std::size_t most_runs(std::uint64_t vehicles) {
-  return std::min<std::size_t>(40, 90 / vehicles);
-}
-
+/// Of a point that has as many runs as the study would give it.
 coverage coverage_of(const made_up_point& p) {
-  constexpr std::size_t from = 10;
-  const auto most = most_runs(p.vehicles);
+  static const auto study = load_sweep(std::filesystem::path{SOFOF_SOURCE_DIR}
+                                       / "config/paper/latency_plot.toml");
+  const auto limits = study.axes.at(1).values.size();
+  const auto from = study.seeds.size();
+  const auto most = study.most_seeds_of((p.vehicles - 1) * limits);
   coverage all;
   const random_stream noise{17, "coverage"};
   for (int k = 0; k < data_sets; ++k) {

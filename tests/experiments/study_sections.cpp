@@ -148,6 +148,8 @@ TEST_CASE("a folder of sweeps is shown with curves over what was varied") {
   REQUIRE(points.rows.size() == 2);
   CHECK(points.rows[0][0] == "60ms");
   CHECK(points.rows[1][2] == "35.000");
+  for (const auto& said : {f.caption, points.note})
+    CHECK(said.find("the end of a run cuts off are left out") != said.npos);
 }
 
 TEST_CASE("a sweep's folder without a table, or without a run, is refused") {

@@ -41,7 +41,7 @@ TEST_CASE("the paper's evaluation becomes one page and one text") {
         "## Offloading time", "## Latency", "## Real drives",
         "## Computing time", "## Quality of the offloaded result",
         "10.54 ± 9.83", "8.73 %",
-        "Means over all episodes of one run of 1 minute for each point",
+        "Means over all episodes of one run of 60 s for each point",
         "5 wall-clock runs of 14 s each"})
     CHECK(text.find(part) != text.npos);
   CHECK(text.find('{') == text.npos);
