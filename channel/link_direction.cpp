@@ -29,8 +29,12 @@ passage link_direction::carry(time_point sent, message_class kind,
                            : draws_.network_delay(m, sent);
   last_arrival_ = std::max(last_arrival_, leaves + delay); // none overtakes
   const auto is_held = stall && stall->end > on_air;
+  // Behind a slow one it is as late as that, since none overtakes.
+  const auto is_slow = last_arrival_ - leaves >= slow_delay;
   const passage through{last_arrival_,
-                        is_held ? disturbance::stall : disturbance::none,
+                        is_held   ? disturbance::stall
+                        : is_slow ? disturbance::slow
+                                  : disturbance::none,
                         last_arrival_ - sent - airtime - delay};
   assert(through.wait >= duration{0});
   return through;

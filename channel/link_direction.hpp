@@ -19,7 +19,13 @@ enum class disturbance : std::uint8_t {
   loss,   ///< Lost by chance.
   outage, ///< Lost, as nothing gets through.
   stall,  ///< Held back until the end of a stall.
+  slow,   ///< Delivered, but the network's delay was `slow_delay` or more.
 };
+
+/// A delay of the network, apart from waiting and from time on the air, that
+/// counts as a disturbance: as long as the gap between results that ends an
+/// episode by default.
+inline constexpr duration slow_delay = std::chrono::milliseconds{100};
 
 /// How a message gets through.
 struct passage {

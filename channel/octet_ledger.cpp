@@ -31,22 +31,25 @@ void disturbed_count::add(disturbance by) {
   lost += by == disturbance::loss;
   outage += by == disturbance::outage;
   stall += by == disturbance::stall;
+  slow += by == disturbance::slow;
 }
 
 disturbed_count& disturbed_count::operator+=(const disturbed_count& x) {
   lost += x.lost;
   outage += x.outage;
   stall += x.stall;
+  slow += x.slow;
   return *this;
 }
 
 disturbance disturbed_count::most() const {
-  const auto largest = std::max({lost, outage, stall});
+  const auto largest = std::max({lost, outage, stall, slow});
   if (largest == 0)
     return disturbance::none;
   return largest == outage  ? disturbance::outage
          : largest == stall ? disturbance::stall
-                            : disturbance::loss;
+         : largest == lost  ? disturbance::loss
+                            : disturbance::slow;
 }
 
 void octet_ledger::send(const sending& x, time_point arrives) {

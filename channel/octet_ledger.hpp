@@ -55,6 +55,7 @@ struct disturbed_count {
   std::uint64_t lost = 0;   ///< By chance.
   std::uint64_t outage = 0; ///< Lost, as nothing got through.
   std::uint64_t stall = 0;  ///< Delivered late, as a stall held them back.
+  std::uint64_t slow = 0;   ///< Delivered late, as the network was slow.
 
   void add(disturbance by);
   disturbed_count& operator+=(const disturbed_count& x);

@@ -56,6 +56,8 @@ std::string_view in_words(channel::disturbance of_results) {
       return "gaps in outages";
     case channel::disturbance::stall:
       return "gaps, as stalls held results back";
+    case channel::disturbance::slow:
+      return "gaps, as the network was slow";
     default:
       return in_words(end_reason::qos_gap);
   }

@@ -94,6 +94,7 @@ constexpr csv_column<disturbed_row> of_disturbed[]{
     {"lost", [](const auto& r) { return r.x.count.lost; }},
     {"outage", [](const auto& r) { return r.x.count.outage; }},
     {"stall", [](const auto& r) { return r.x.count.stall; }},
+    {"slow", [](const auto& r) { return r.x.count.slow; }},
 };
 
 template <class Row>

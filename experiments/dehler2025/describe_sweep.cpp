@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using runs_view = std::span<const measured_run* const>;
+
+/// For an interval: those of fewer tell no more than the runs themselves.
+constexpr std::size_t least_runs = 5;
 
 /// A figure of some runs together.
 struct measure {
@@ -140,8 +144,9 @@ report::figure figure_of(const sweep_results& s, const measure& what,
       parse_duration(s.runs.front().point.labels[axis]).has_value();
   f.x_label = s.axes[axis] + (durations ? ", ms" : "");
   f.y_label = what.unit;
-  f.caption = "Means over all seeds together, with 95 % intervals over "
-              "runs.";
+  f.caption = fmt::format("Means over all seeds together, with 95 % intervals "
+                          "over runs where a point has {} or more.",
+                          least_runs);
   if (!what.note.empty())
     f.caption += ' ' + what.note;
   std::map<std::string, std::map<double, interval>> curves;
@@ -151,8 +156,12 @@ report::figure figure_of(const sweep_results& s, const measure& what,
       if (i != axis)
         name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", s.axes[i],
                             labels[i]);
-    if (const auto x = what.of(runs))
+    constexpr auto none = std::numeric_limits<double>::quiet_NaN();
+    if (auto x = what.of(runs)) {
+      if (runs.size() < least_runs)
+        x->low = x->high = none;
       curves[name][number_of(labels[axis]).value()] = *x;
+    }
   }
   for (const auto& [name, values] : curves) {
     auto& c = f.curves.emplace_back();

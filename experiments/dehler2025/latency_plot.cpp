@@ -58,15 +58,9 @@ report::figure offloading_times(const paper_runs& e, const report_text& text) {
   auto f = t_off_figure("Offloading time against the longest allowed gap");
   for (const auto& n : labels_of(e.latency_plot, 0))
     f.curves.push_back(t_off_curve(e.latency_plot, n, count_of_vehicles(n)));
-  curve saturation{
-      fmt::format("the paper's text: about {} s", paper::saturation_s),
-      {10, 150},
-      {},
-      {},
-      {}};
-  saturation.y = {paper::saturation_s, paper::saturation_s};
-  saturation.dashed = true;
-  f.curves.push_back(std::move(saturation));
+  f.levels.emplace_back(
+      paper::saturation_s,
+      fmt::format("the paper's text: about {} s", paper::saturation_s));
   f.marks.emplace_back(paper::max_interarrival_ms, "the paper's choice");
   const auto counts = counts_of(e);
   f.caption = text.fill(

@@ -159,12 +159,7 @@ report::figure least_delays(const paper_runs& e, const report_text& text) {
                          least_ms, paper::max_latency_ms, results));
   }
   f.curves.push_back(std::move(ours));
-  report::curve theirs;
-  theirs.name = "the paper";
-  theirs.x = {2, 8};
-  theirs.y = {paper::real_early_ends, paper::real_early_ends};
-  theirs.dashed = true;
-  f.curves.push_back(std::move(theirs));
+  f.levels.emplace_back(paper::real_early_ends, "the paper");
   f.marks.emplace_back(5, "paper_5g");
   f.caption = text.fill(
       "least_delay",

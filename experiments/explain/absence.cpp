@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string_view>
@@ -86,7 +87,45 @@ attempts count_attempts(const std::vector<report::event_line>& events,
   return all;
 }
 
+void refuse_time_outside(const fs::path& folder, double at_s) {
+  const auto summary = report::read_summary(folder);
+  const auto length = summary ? summary->figures.find("virtual_s")
+                              : decltype(summary->figures.end()){};
+  if (at_s < 0
+      || (summary && length != summary->figures.end() && at_s > length->second))
+    throw input_error{
+        at_s < 0 ? fmt::format("--at {:g}: a run begins at 0 s.", at_s)
+                 : fmt::format("--at {:g}: the run in {} ended at {:g} s.",
+                               at_s, folder.string(), length->second)};
+}
+
 } // namespace
+
+std::string tell_moment(const fs::path& folder, const question& q) {
+  constexpr double near_s = 1;
+  const auto at_s = q.at_s.value();
+  refuse_time_outside(folder, at_s);
+  const auto far_s = [at_s](const report::event_line& x) {
+    return std::abs(x.t_s - at_s);
+  };
+  const auto events = report::read_events(folder);
+  const report::event_line* nearest = nullptr;
+  for (const auto& x : events)
+    if ((x.what == "refused" || x.what == "stay_local") && q.is_about(x.of)
+        && far_s(x) <= near_s && (!nearest || far_s(x) < far_s(*nearest)))
+      nearest = &x;
+  auto text = fmt::format("No episode ran at {:g} s", at_s);
+  if (!nearest)
+    return text;
+  const auto& of = nearest->of;
+  return text
+         + fmt::format("; at {:.3f} s {} of station {} {}: {}", nearest->t_s,
+                       of.service, of.station,
+                       nearest->what == "refused"
+                           ? fmt::format("was refused by {}", of.provider)
+                           : "stayed in the vehicle",
+                       nearest->detail);
+}
 
 std::string tell_absence(const fs::path& folder, const question& q) {
   constexpr std::size_t line_width = 80;

@@ -1,4 +1,4 @@
-// Why a run, a vehicle or a service has no episode.
+// Why a run, a vehicle, a service or a moment has no episode.
 #pragma once
 
 #include "experiments/explain/episode.hpp"
@@ -16,5 +16,13 @@ namespace sofof::experiments::explain {
 /// vehicle or service, or is broken.
 std::string tell_absence(const std::filesystem::path& folder,
                          const question& question);
+
+/// @param question  With a time at which no such episode ran.
+/// @returns a sentence without its stop: that none ran then, and what became
+/// of the request that was refused, or not made, within a second of it.
+/// @throws input_error when the run was over then, had not begun, or its
+/// folder is broken.
+std::string tell_moment(const std::filesystem::path& folder,
+                        const question& question);
 
 } // namespace sofof::experiments::explain

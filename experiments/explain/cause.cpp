@@ -74,11 +74,16 @@ std::string in_parts(const report::time_parts& ms, bool since_input) {
     if ((since_input || x.since_cycle) && ms.*x.of >= least_ms)
       parts.push_back({x.what, ms.*x.of, 0});
   std::ranges::stable_sort(parts, std::ranges::greater{}, &part::ms);
-  parts.resize(std::min(parts.size(), most));
+  const auto named = std::min(parts.size(), most);
   std::string all;
-  for (const auto& x : parts)
-    all += fmt::format("{}{} {:.1f}", all.empty() ? "" : ", ", x.what, x.ms);
-  return all;
+  double others_ms = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (k < named)
+      all += fmt::format("{}{} {:.1f}", k == 0 ? "" : ", ", parts[k].what,
+                         parts[k].ms);
+    else
+      others_ms += parts[k].ms;
+  return others_ms > 0 ? fmt::format("{}, other {:.1f}", all, others_ms) : all;
 }
 
 } // namespace sofof::experiments::explain

@@ -19,12 +19,17 @@ using report::cycle_line;
 using report::episode_line;
 using report::session_key;
 
-const episode_line* find(const std::vector<episode_line>& all,
-                         const question& q) {
+std::vector<const episode_line*>
+possible_of(const std::vector<episode_line>& all, const question& q) {
   std::vector<const episode_line*> possible;
   for (const auto& x : all)
     if (x.by_requester && q.is_about(x.of))
       possible.push_back(&x);
+  return possible;
+}
+
+const episode_line* choose(const std::vector<const episode_line*>& possible,
+                           const question& q) {
   if (possible.empty())
     return nullptr;
   if (q.at_s)
@@ -121,11 +126,15 @@ double distance_s(const episode_line& x, double at_s) {
 
 std::optional<episode> find_episode(const fs::path& folder, const question& q) {
   const auto all = report::read_episodes(folder);
-  const auto* closed = find(all, q);
+  const auto possible = possible_of(all, q);
+  const auto* closed = choose(possible, q);
   if (!closed)
     return std::nullopt;
   episode found;
   found.closed = *closed;
+  found.among = {possible.size(),
+                 static_cast<std::size_t>(std::ranges::count_if(
+                     possible, [](const auto* x) { return ended_early(*x); }))};
   const auto& of = found.closed.of;
   for (const auto& x : all) {
     if (x.of == of && !x.by_requester)

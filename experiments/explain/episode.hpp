@@ -30,9 +30,16 @@ struct question {
 /// ("workers", "uplink", "downlink").
 using asked_shares = std::map<std::string, double>;
 
+/// Those that a question is about.
+struct candidates {
+  std::size_t all = 0;
+  std::size_t early = 0; ///< Of them ended for other than a planned reason.
+};
+
 /// All that is known of one episode.
 struct episode {
   report::episode_line closed; ///< By the vehicle.
+  candidates among;            ///< It is one of these.
   std::optional<report::episode_line> at_provider;
   std::optional<report::episode_line> next; ///< Of this service and vehicle.
   std::vector<report::event_line> events;   ///< Of this vehicle and provider.

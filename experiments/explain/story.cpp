@@ -205,10 +205,13 @@ std::string why_silent(const episode& x) {
       return "nothing came: what was sent meanwhile was lost in an outage.";
     case channel::disturbance::stall:
       return "nothing came: the connection stalled and held results back.";
+    case channel::disturbance::slow:
+      return "nothing came in time: the network's own delay held back what was "
+             "due by 100 ms or more.";
     default:
-      return fmt::format("nothing came in time, though what was due was not "
-                         "lost, nor held back in a stall: {} sent none, or the "
-                         "network was slow{}.",
+      return fmt::format("nothing came in time, though what was due was "
+                         "neither lost nor held back by the network: {} sent "
+                         "none, or it waited{}.",
                          provider, full(x, "way down") + full(x, "worker"));
   }
 }
@@ -264,6 +267,24 @@ std::string why(const episode& x) {
   return "the run ended, or the vehicle had arrived.";
 }
 
+/// @returns which of the episodes that are asked about it is, on a line.
+std::string place_among(const episode& x, const question& q) {
+  const auto& [all, early] = x.among;
+  if (all == 1)
+    return "";
+  const auto early_ones =
+      early == 0 ? std::string{"none"} : fmt::format("{}", early);
+  if (q.at_s)
+    return fmt::format("(one of {} episodes; {} ended early)\n", all,
+                       early_ones);
+  if (early == 0)
+    return fmt::format("(the longest of {} episodes; none ended early)\n", all);
+  if (early == 1)
+    return fmt::format("(the only one of {} episodes that ended early)\n", all);
+  return fmt::format("(the first of {} that ended early, of {} episodes)\n",
+                     early, all);
+}
+
 } // namespace
 
 std::string tell(const fs::path& folder, const question& question) {
@@ -280,14 +301,17 @@ std::string tell(const fs::path& folder, const question& question) {
   course(to, *x);
   ending(to, *x);
   const auto nearest =
-      question.at_s && distance_s(e, *question.at_s) > 0 ? fmt::format(
-          "No episode ran at {:g} s; the nearest is:\n", *question.at_s)
-                                                         : std::string{};
-  return fmt::format("{}Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}\n",
+      question.at_s && distance_s(e, *question.at_s) > 0
+          ? wrapped(tell_moment(folder, question) + ". The nearest episode:",
+                    line_width)
+                + '\n'
+          : std::string{};
+  return fmt::format("{}Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}{}\n",
                      nearest, e.of.station, e.of.service, e.of.provider,
                      e.accepted_s, e.ended_s,
                      ended_early(e) ? "ended early" : "ended as planned",
-                     to.take(), wrapped("Why: " + why(*x), line_width));
+                     place_among(*x, question), to.take(),
+                     wrapped("Why: " + why(*x), line_width));
 }
 
 } // namespace sofof::experiments::explain

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -22,10 +24,18 @@ constexpr std::string_view style_names[]{"line", "points", "steps", "tail"};
 constexpr std::string_view verdict_names[]{"different", "same", "better",
                                            "worse"};
 
+/// A line through a single point would not be seen.
+curve::style style_of(const curve& x) {
+  const auto points =
+      std::ranges::count_if(x.y, [](double y) { return std::isfinite(y); });
+  return x.drawn == curve::style::line && points == 1 ? curve::style::points
+                                                      : x.drawn;
+}
+
 json to_json(const curve& x) {
   json all{{"name", x.name},
            {"x", delta_encoding(x.x)},
-           {"style", style_names[static_cast<std::size_t>(x.drawn)]},
+           {"style", style_names[static_cast<std::size_t>(style_of(x))]},
            {"dashed", x.dashed}};
   // The page reckons the shares of a tail, of all vehicles or of one.
   if (x.drawn != curve::style::tail)

@@ -217,8 +217,9 @@ std::vector<octets_line> read_octets(const fs::path& folder) {
 }
 
 std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
-  static constexpr columns names{"t_s",  "provider", "direction", "station",
-                                 "what", "lost",     "outage",    "stall"};
+  static constexpr columns names{"t_s",     "provider", "direction",
+                                 "station", "what",     "lost",
+                                 "outage",  "stall",    "slow"};
   const auto file = folder / "disturbed.csv";
   if (!fs::exists(file))
     return std::nullopt;
@@ -238,10 +239,11 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
     });
     if (cell == all.cells.end())
       cell = all.cells.insert(cell, {provider, direction, {}, {}});
-    cell->disturbed.push_back({from_seconds(row.number(0)),
-                               static_cast<station_id::rep>(row.whole(3)),
-                               row.text(4),
-                               {row.whole(5), row.whole(6), row.whole(7)}});
+    cell->disturbed.push_back(
+        {from_seconds(row.number(0)),
+         static_cast<station_id::rep>(row.whole(3)),
+         row.text(4),
+         {row.whole(5), row.whole(6), row.whole(7), row.whole(8)}});
   }
   return all;
 }

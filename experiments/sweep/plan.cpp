@@ -137,8 +137,8 @@ private:
     const auto count = node.value_exact<std::int64_t>();
     if (!count || *count < static_cast<std::int64_t>(seeds)
         || *count > std::int64_t{most_sweep_points})
-      fail(node, fmt::format("most_seeds must be from {}, as many as seeds, "
-                             "to {}.",
+      fail(node, fmt::format("most_seeds must be a whole number from {}, the "
+                             "number of seeds, to {}.",
                              seeds, most_sweep_points));
     return static_cast<std::size_t>(*count);
   }

@@ -309,6 +309,18 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
   }
 }
 
+TEST_CASE("a link says of a message that the network delivered it late") {
+  auto slow = measured();
+  slow.trace = {{0, 0.099}, {1, 0.100}, {2, 0.001}};
+  link_direction link{link_channel(slow), direction::down, nullptr};
+  const auto by = [&link](time_point sent, std::uint64_t number) {
+    return link.carry(sent, kind::result, number, 0).by;
+  };
+  CHECK(by(time_point{}, 0) == disturbance::none);
+  CHECK(by(time_point{1s}, 1) == disturbance::slow);
+  CHECK(by(time_point{2s}, 2) == disturbance::none);
+}
+
 TEST_CASE("a link says by what it lost a message") {
   auto p = named("ideal");
   p.loss = 0.5;

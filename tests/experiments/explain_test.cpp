@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -65,12 +66,19 @@ struct told_run {
   }
 };
 
+/// Without its breaks of lines.
+std::string unwrapped(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
 } // namespace
 
 TEST_CASE("a story goes from the offer to why it ended, in the order of time") {
   const told_run run;
   CHECK(run.told()
         == "Station 101, planning at mec: 20.000 to 30.000 s, ended early\n"
+           "(the only one of 2 episodes that ended early)\n"
            "    19.900 s  offer of mec\n"
            "    20.000 s  accepted: room\n"
            "    20.100 s  the first result in time: it is used from now on\n"
@@ -101,9 +109,42 @@ TEST_CASE("the episode that is told of is the one at a time, or the first that "
 TEST_CASE("where no episode ran at a time, the nearest is called so") {
   const told_run run;
   CHECK(run.told({101, 14.5, ""})
-            .starts_with("No episode ran at 14.5 s; the nearest is:\nStation "
-                         "101, planning at mec: 1.000 to 11.000 s"));
+            .starts_with("No episode ran at 14.5 s. The nearest episode:\n"
+                         "Station 101, planning at mec: 1.000 to 11.000 s"));
   CHECK(run.told({101, 5.0, ""}).starts_with("Station 101"));
+}
+
+TEST_CASE("where no episode ran at a time, a refusal near it is told") {
+  const told_run run;
+  run.told();
+  const auto refused = [](const char* t_s, const char* station) {
+    return std::string{R"({"t_s":)"} + t_s + R"(,"what":"refused","station":)"
+           + station
+           + R"(,"provider":"mec","provider_id":1,"service":"planning",)"
+             R"("counter":0,"detail":"outside the area"})"
+             "\n";
+  };
+  write_text(run.folder / "events.jsonl", refused("12.9", "101")
+                                              + refused("14.25", "101")
+                                              + refused("14.5", "102"));
+  CHECK(unwrapped(tell(run.folder.path(), {101, 14.5, ""}))
+            .starts_with("No episode ran at 14.5 s; at 14.250 s planning of "
+                         "station 101 was refused by mec: outside the area. "
+                         "The nearest episode: Station 101"));
+}
+
+TEST_CASE("a time outside the run is refused") {
+  const told_run run;
+  run.told();
+  write_text(run.folder / "summary.json", "{\"virtual_s\": 40}\n");
+  const auto told_at = [&run](double at_s) {
+    return tell(run.folder.path(), {{}, at_s, ""});
+  };
+  CHECK_THROWS_WITH_AS(told_at(-1), "--at -1: a run begins at 0 s.",
+                       input_error);
+  CHECK_THROWS_WITH_AS(told_at(40.5), doctest::Contains("ended at 40 s"),
+                       input_error);
+  CHECK(contains(told_at(39), "No episode ran at 39 s"));
 }
 
 TEST_CASE("one sentence says that there is no such vehicle or service") {
@@ -217,26 +258,28 @@ TEST_CASE("silence is told apart by what the link did to the vehicle's "
   CHECK(contains(run.told({101, 25.0, ""}), "were lost, or held back"));
   const auto told_with = [&run](const std::string& line) {
     write_text(run.folder / "disturbed.csv",
-               "t_s,provider,direction,station,what,lost,outage,stall\n" + line
-                   + '\n');
-    return run.told({101, 25.0, ""});
+               "t_s,provider,direction,station,what,lost,outage,stall,slow\n"
+                   + line + '\n');
+    return unwrapped(run.told({101, 25.0, ""}));
   };
-  CHECK(contains(told_with("29.990,mec,down,101,planning,3,1,2"),
+  CHECK(contains(told_with("29.990,mec,down,101,planning,3,1,2,0"),
                  "results get lost: 5.0 % of what mec sent"));
-  CHECK(contains(told_with("30.000,mec,down,101,planning,1,3,2"),
+  CHECK(contains(told_with("30.000,mec,down,101,planning,1,3,2,0"),
                  "lost in an outage"));
-  CHECK(contains(told_with("29.990,mec,down,101,planning,1,0,2"),
+  CHECK(contains(told_with("29.990,mec,down,101,planning,1,0,2,0"),
                  "the connection stalled"));
-  for (const auto* other :
-       {"29.981,mec,down,101,planning,9,0,0",
-        "30.001,mec,down,101,planning,9,0,0",
-        "29.990,far,down,101,planning,9,0,0",
-        "29.990,mec,up,101,planning,9,0,0",
-        "29.990,mec,down,102,planning,9,0,0", "29.990,mec,down,101,CAM,9,0,0"})
-    CHECK(contains(told_with(other), "slow; the workers were asked"));
-  for (const auto* broken : {"29.990,mec,sideways,101,planning,9,0,0",
-                             "1e300,mec,down,101,planning,9,0,0",
-                             "29.990,mec,down,4294967397,planning,9,0,0"})
+  CHECK(contains(told_with("29.990,mec,down,101,planning,0,0,1,2"),
+                 "the network's own delay held back what was due by 100 ms"));
+  for (const auto* other : {"29.981,mec,down,101,planning,9,0,0,0",
+                            "30.001,mec,down,101,planning,9,0,0,0",
+                            "29.990,far,down,101,planning,9,0,0,0",
+                            "29.990,mec,up,101,planning,9,0,0,0",
+                            "29.990,mec,down,102,planning,9,0,0,0",
+                            "29.990,mec,down,101,CAM,9,0,0,0"})
+    CHECK(contains(told_with(other), "sent none, or it waited; the workers"));
+  for (const auto* broken : {"29.990,mec,sideways,101,planning,9,0,0,0",
+                             "1e300,mec,down,101,planning,9,0,0,0",
+                             "29.990,mec,down,4294967397,planning,9,0,0,0"})
     CHECK_THROWS_WITH_AS(told_with(broken),
                          doctest::Contains("disturbed.csv:2"), input_error);
 }

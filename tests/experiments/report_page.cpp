@@ -108,6 +108,19 @@ TEST_CASE("dots with names stand in their page as they are") {
   CHECK(block["joined"] == json{1, 0});
 }
 
+TEST_CASE("a line that has a single point is drawn as that point") {
+  constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
+  const auto style_of = [](std::vector<double> y) {
+    figure f;
+    f.curves.push_back({"c", {1, 2}, std::move(y), {}, {}});
+    const document what{"t", "", {{"s", {f}}}};
+    const auto block = document_in(html(what))["sections"][0]["blocks"][0];
+    return block["curves"][0]["style"].get<std::string>();
+  };
+  CHECK(style_of({3, gap}) == "points");
+  CHECK(style_of({3, 4}) == "line");
+}
+
 TEST_CASE("a document stands in its page as it is") {
   const document what{
       "A title",

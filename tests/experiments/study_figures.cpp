@@ -72,7 +72,8 @@ TEST_CASE("the latency plot shows the offloading times of its runs") {
   const scratch dir;
   const auto s = latency_plot(two_curves(dir, 50, 40, 3));
   const auto& f = the<report::figure>(s, "Offloading time against");
-  REQUIRE(f.curves.size() == 3); // the last one is the paper's
+  REQUIRE(f.curves.size() == 2);
+  CHECK(f.levels.at(0).second == "the paper's text: about 70 s");
   CHECK(f.curves[0].name == "1 vehicle");
   CHECK(f.curves[0].x == std::vector<double>{80, 150});
   CHECK(f.curves[0].y == std::vector<double>{1, 50});

@@ -110,9 +110,9 @@ TEST_CASE("octets.csv has a line for each second, cell, direction and purpose, "
            "2,mec,up,CAM,2,170,0,170,0\n"
            "0,mec,up,one,1,400,0,0,400\n");
   CHECK(disturbed_csv(table)
-        == "t_s,provider,direction,station,what,lost,outage,stall\n"
-           "0.999000000,mec,up,101,one,0,0,1\n"
-           "2.000000000,mec,up,102,CAM,1,1,0\n");
+        == "t_s,provider,direction,station,what,lost,outage,stall,slow\n"
+           "0.999000000,mec,up,101,one,0,0,1,0\n"
+           "2.000000000,mec,up,102,CAM,1,1,0,0\n");
 }
 
 TEST_CASE("what disturbed the first of a vehicle's messages is told of those "
