@@ -48,11 +48,28 @@ std::string ms_text(const episode_results& of, double ms) {
   return of.count > 0 ? fmt::format("{:.2f}", ms) : "";
 }
 
-/// An episode, and its results.
+/// An episode, its results, and what the provider says of its end.
 struct episode_entry {
   const episode_line& x;
   episode_results results;
+  const episode_line* at_provider; ///< Null where that is not recorded.
 };
+
+/// @returns the reason of the side that ended it, as far as it is known.
+std::string why(const episode_entry& e) {
+  return e.at_provider && e.x.because == "told by the provider"
+             ? e.at_provider->because
+             : e.x.because;
+}
+
+std::map<session_key, const episode_line*>
+those_of_providers(const recorded_run& run) {
+  std::map<session_key, const episode_line*> all;
+  for (const auto& one : run.episodes)
+    if (!one.by_requester)
+      all.emplace(one.of, &one);
+  return all;
+}
 
 struct episode_column {
   std::string_view title;
@@ -76,7 +93,7 @@ constexpr episode_column episode_columns[]{
     {"offloaded, s", "t_off_s",
      [](const episode_entry& e) { return seconds_text(e.x.t_off_s); }},
     {"ended by", "reason", [](const episode_entry& e) { return e.x.reason; }},
-    {"why", "because", [](const episode_entry& e) { return e.x.because; }},
+    {"why", "because", why},
     {"fallback", "fallback",
      [](const episode_entry& e) {
        return std::string{e.x.fallback ? "yes" : ""};
@@ -117,12 +134,15 @@ table episode_table(const recorded_run& run) {
   const auto by_vehicles =
       std::ranges::any_of(run.episodes, &episode_line::by_requester);
   const auto results = results_by_episode(run);
+  const auto at_providers = those_of_providers(run);
   for (const auto& one : run.episodes) {
     if (one.by_requester != by_vehicles)
       continue;
     const auto found = results.find(one.of);
-    const episode_entry entry{one, found == results.end() ? episode_results{}
-                                                          : found->second};
+    const auto other = at_providers.find(one.of);
+    const episode_entry entry{
+        one, found == results.end() ? episode_results{} : found->second,
+        other == at_providers.end() ? nullptr : other->second};
     auto& row = all.rows.emplace_back();
     for (const auto& column : episode_columns)
       row.push_back(column.text(entry));

@@ -108,7 +108,7 @@ void add_table(std::vector<table>& all, std::span<const recorded_run> runs,
 /// Near misses stand in each such table, wherever the list of figures puts
 /// them.
 void add_safety(std::vector<table>& all, std::span<const recorded_run> runs) {
-  figure_table shown{runs, "Safety and comfort"};
+  figure_table shown{runs, "Safety, comfort and energy"};
   constexpr std::string_view near_misses = "safety.near_misses";
   const auto figures = recording::reported_in(recording::report_table::safety);
   const auto listed = std::ranges::find(figures, near_misses,

@@ -366,6 +366,16 @@ TEST_CASE("the table of episodes says why each ended") {
   CHECK(episodes.rows[0][why - episodes.columns.begin()] == "x_m=300.000");
 }
 
+TEST_CASE("why an episode ended is told by the side that ended it") {
+  const played_folder folder;
+  folder.spoil("episodes.csv", "left_area,0,\n",
+               "left_area,0,told by the provider\n");
+  const auto sections = describe_run(folder.path());
+  const auto& episodes = first_of<table>(sections, "Episodes");
+  const auto why = std::ranges::find(episodes.columns, "why");
+  CHECK(episodes.rows[0][why - episodes.columns.begin()] == "x_m=1 y_m=2");
+}
+
 TEST_CASE("near misses are counted apart from QoS events") {
   const played_folder folder;
   folder.write("events.jsonl",
@@ -385,7 +395,7 @@ TEST_CASE("near misses are counted apart from QoS events") {
     if (one.title == "Key figures")
       for (const auto& block : one.blocks)
         if (const auto& t = std::get<table>(block);
-            t.title == "Safety and comfort")
+            t.title == "Safety, comfort and energy")
           CHECK(cell(t, "near misses", 1) == "0"); // as the summary says
 }
 
