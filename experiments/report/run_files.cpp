@@ -217,14 +217,15 @@ std::vector<octets_line> read_octets(const fs::path& folder) {
 }
 
 std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
-  static constexpr columns names{"t_s",     "provider", "direction",
-                                 "station", "what",     "lost",
-                                 "outage",  "stall",    "slow"};
+  static constexpr columns names{"t_s",  "provider", "direction", "station",
+                                 "what", "lost",     "outage",    "stall"};
+  static constexpr columns newer{"slow"};
+  constexpr std::size_t slow = 8;
   const auto file = folder / "disturbed.csv";
   if (!fs::exists(file))
     return std::nullopt;
   recording::load_table all;
-  csv_reader row{file, names, ending_of(folder)};
+  csv_reader row{file, names, ending_of(folder), newer};
   while (row.next()) {
     const auto& provider = row.text(1);
     const auto* direction = row.text(2) == "up" ? "up" : "down";
@@ -239,11 +240,11 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
     });
     if (cell == all.cells.end())
       cell = all.cells.insert(cell, {provider, direction, {}, {}});
-    cell->disturbed.push_back(
-        {from_seconds(row.number(0)),
-         static_cast<station_id::rep>(row.whole(3)),
-         row.text(4),
-         {row.whole(5), row.whole(6), row.whole(7), row.whole(8)}});
+    cell->disturbed.push_back({from_seconds(row.number(0)),
+                               static_cast<station_id::rep>(row.whole(3)),
+                               row.text(4),
+                               {row.whole(5), row.whole(6), row.whole(7),
+                                row.has(slow) ? row.whole(slow) : 0}});
   }
   return all;
 }

@@ -284,6 +284,21 @@ TEST_CASE("silence is told apart by what the link did to the vehicle's "
                          doctest::Contains("disturbed.csv:2"), input_error);
 }
 
+TEST_CASE(
+    "what disturbed results is read of runs that did not tell slow ones") {
+  told_run run;
+  run.reason = "qos_gap"; // at 30 s
+  write_text(run.folder / "disturbed.csv",
+             "t_s,provider,direction,station,what,lost,outage,stall\n"
+             "29.990,mec,down,101,planning,1,0,2\n");
+  CHECK(contains(run.told({101, 25.0, ""}), "the connection stalled"));
+}
+
+TEST_CASE("the parts of an age add up: the smallest of them are together") {
+  CHECK(in_parts({.uplink = 20, .rest = 50, .queue = 3, .downlink = 30}, true)
+        == "wait for the cycle 50.0, way down 30.0, way up 20.0, other 3.0");
+}
+
 TEST_CASE("a latency that counts from its input has all parts") {
   told_run run;
   run.last = "130.0,130.0,1,,0.0,70.0,10.0,20.0,20.0,0.0,10.0";
