@@ -288,6 +288,9 @@ TEST_CASE(
     "what disturbed results is read of runs that did not tell slow ones") {
   told_run run;
   run.reason = "qos_gap"; // at 30 s
+  write_text(run.folder / "octets.csv",
+             "t_s,provider,direction,what,messages,sent,delivered,lost,"
+             "under_way\n29,mec,down,planning,100,1000,900,50,0\n");
   write_text(run.folder / "disturbed.csv",
              "t_s,provider,direction,station,what,lost,outage,stall\n"
              "29.990,mec,down,101,planning,1,0,2\n");
