@@ -2,6 +2,7 @@
 #include "offloading/provider.hpp"
 
 #include "base/protocol.hpp"
+#include "messages/protocol/record.hpp"
 #include "offloading/qos_monitor.hpp"
 #include "policies/api/periodic_task.hpp"
 
@@ -258,7 +259,8 @@ void provider::on_end(const messages::service_end& e, time_point now) {
     return;
   const auto i = stations_.find(e.session.station);
   if (i != stations_.end())
-    end(i->second, e.session, {e.reason, "told by the vehicle"}, false, now);
+    end(i->second, e.session,
+        {e.reason, std::string{messages::told_by_vehicle}}, false, now);
   assert(is_consistent());
 }
 

@@ -1,5 +1,6 @@
 // From verdicts and data to the end of a session.
 #include "base/protocol.hpp"
+#include "messages/protocol/record.hpp"
 #include "offloading/qos_monitor.hpp"
 #include "offloading/requester.hpp"
 
@@ -229,8 +230,8 @@ void requester::on_end(const messages::service_end& e, time_point now) {
   pass(now);
   if (const auto found = find(e.session);
       found && e.from == messages::side::provider)
-    end(*found.service, e.session.provider, {e.reason, "told by the provider"},
-        false, now);
+    end(*found.service, e.session.provider,
+        {e.reason, std::string{messages::told_by_provider}}, false, now);
   assert(e.from != messages::side::provider || !find(e.session));
   assert(is_consistent());
 }

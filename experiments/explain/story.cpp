@@ -5,11 +5,13 @@
 #include "base/text/wrapped.hpp"
 #include "experiments/explain/absence.hpp"
 #include "experiments/explain/cause.hpp"
+#include "messages/protocol/record.hpp"
 #include "recording/load_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <span>
 #include <string_view>
@@ -23,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t line_width = 80;
-constexpr std::string_view told_by_vehicle = "told by the vehicle";
 
 /// Lines with a time, in its order, and lines that belong to these.
 class lines {
@@ -206,8 +207,9 @@ std::string why_silent(const episode& x) {
     case channel::disturbance::stall:
       return "nothing came: the connection stalled and held results back.";
     case channel::disturbance::slow:
-      return "nothing came in time: the network's own delay held back what was "
-             "due by 100 ms or more.";
+      return fmt::format("nothing came in time: the network's own delay held "
+                         "back what was due by {} ms or more.",
+                         channel::slow_delay / std::chrono::milliseconds{1});
     default:
       return fmt::format("nothing came in time, though what was due was "
                          "neither lost nor held back by the network: {} sent "
@@ -219,7 +221,7 @@ std::string why_silent(const episode& x) {
 std::string why_no_data(const episode& x) {
   const auto provider_says =
       x.at_provider && x.at_provider->reason == "no_data"
-              && x.at_provider->because != told_by_vehicle
+              && x.at_provider->because != messages::told_by_vehicle
           ? fmt::format(" ({}: {})", x.closed.of.provider,
                         x.at_provider->because)
           : std::string{};

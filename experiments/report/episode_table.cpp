@@ -2,6 +2,7 @@
 #include "experiments/report/episode_table.hpp"
 
 #include "experiments/report/documented.hpp"
+#include "messages/protocol/record.hpp"
 
 #include <fmt/format.h>
 
@@ -57,7 +58,7 @@ struct episode_entry {
 
 /// @returns the reason of the side that ended it, as far as it is known.
 std::string why(const episode_entry& e) {
-  return e.at_provider && e.x.because == "told by the provider"
+  return e.at_provider && e.x.because == messages::told_by_provider
              ? e.at_provider->because
              : e.x.because;
 }

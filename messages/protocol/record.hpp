@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -70,6 +71,11 @@ struct work_record {
   std::uint64_t on_board = 0; ///< Results of its own function that it used.
   std::uint64_t inputs = 0;   ///< That it sent to providers.
 };
+
+/// The `because` of an episode that the other side ended: the record of that
+/// side has the rest.
+inline constexpr std::string_view told_by_provider = "told by the provider";
+inline constexpr std::string_view told_by_vehicle = "told by the vehicle";
 
 /// One side has closed a session.
 struct episode_record {
