@@ -135,6 +135,7 @@ private:
         || !redirect(out_, STDOUT_FILENO) || !redirect(err_, STDERR_FILENO)
         || chdir(folder.c_str()) != 0)
       _exit(cannot_start);
+    signal(SIGHUP, SIG_DFL); // who has started the tests may ignore it
     if (how.largest_file != RLIM_INFINITY) {
       const rlimit limit{how.largest_file, how.largest_file};
       setrlimit(RLIMIT_FSIZE, &limit);
