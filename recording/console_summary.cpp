@@ -132,6 +132,14 @@ public:
       row("  still running", &service_metrics::running_at_end);
   }
 
+  /// Figures of results look better where episodes ended early.
+  void say_what_is_cut_off() {
+    const auto ends = [](const service_metrics& x) { return !x.early.empty(); };
+    if (std::ranges::any_of(services_, ends))
+      lines_.push_back(
+          {"  (without what would have come after an early end)", false, {}});
+  }
+
   /// Appends it, as many columns side by side as fit into a line.
   void print(std::string& out, const terminal_style& paint) const {
     for (std::size_t first = 0; first < services_.size();) {
@@ -199,6 +207,7 @@ void offloading(block& to) {
 void remote_results(block& to) {
   to.names("remote results");
   to.rows(service_figures(), console_block::results);
+  to.say_what_is_cut_off();
 }
 
 /// What a process has to say that only provides.

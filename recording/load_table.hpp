@@ -38,6 +38,7 @@ struct cell_octets {
 struct load_table {
   std::vector<server_load> servers; ///< Those that had work.
   std::vector<cell_octets> cells;   ///< Those that were given anything.
+  bool tells_slow = true; ///< Older versions did not record what was slow.
 };
 
 /// What servers did in a run. Shares are of all their time.

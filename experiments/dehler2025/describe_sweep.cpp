@@ -35,14 +35,32 @@ struct measure {
   std::string note; ///< What its figures leave out.
 };
 
+/// @returns it without its ends where few runs have a value.
+std::optional<interval> with_ends_of_many(std::optional<interval> x,
+                                          std::size_t have) {
+  constexpr auto none = std::numeric_limits<double>::quiet_NaN();
+  if (x && have < least_runs)
+    x->low = x->high = none;
+  return x;
+}
+
 /// @returns the mean of what each run adds to `sums`, over what it adds to
 /// `counts`.
 std::optional<interval>
 ratio(runs_view runs, const std::function<group(const measured_run&)>& part) {
   std::vector<group> groups;
   for (const auto* run : runs)
-    groups.push_back(part(*run));
-  return mean_interval(groups);
+    if (const auto own = part(*run); own.count > 0)
+      groups.push_back(own);
+  return with_ends_of_many(mean_interval(groups), groups.size());
+}
+
+std::optional<interval> offloading_time(runs_view runs) {
+  const auto episodes = episodes_of(runs);
+  const auto have = std::ranges::count_if(
+      episodes, [](const auto& run) { return run.count > 0; });
+  return with_ends_of_many(mean_t_off(episodes),
+                           static_cast<std::size_t>(have));
 }
 
 double driven_s(const measured_run& run) {
@@ -77,8 +95,7 @@ std::optional<interval> fallbacks_per_hour(runs_view runs) {
 
 const std::vector<measure>& measures() {
   static const std::vector<measure> all{
-      {"Offloading time", "t_off per episode, s",
-       [](runs_view runs) { return mean_t_off(runs); },
+      {"Offloading time", "t_off per episode, s", offloading_time,
        "Episodes that the end of a run cuts off are left out, as nobody knows "
        "how long they would have been: a point that has no others has no "
        "value."},
@@ -145,7 +162,7 @@ report::figure figure_of(const sweep_results& s, const measure& what,
   f.x_label = s.axes[axis] + (durations ? ", ms" : "");
   f.y_label = what.unit;
   f.caption = fmt::format("Means over all seeds together, with 95 % intervals "
-                          "over runs where a point has {} or more.",
+                          "over runs where {} or more have a value.",
                           least_runs);
   if (!what.note.empty())
     f.caption += ' ' + what.note;
@@ -156,12 +173,8 @@ report::figure figure_of(const sweep_results& s, const measure& what,
       if (i != axis)
         name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", s.axes[i],
                             labels[i]);
-    constexpr auto none = std::numeric_limits<double>::quiet_NaN();
-    if (auto x = what.of(runs)) {
-      if (runs.size() < least_runs)
-        x->low = x->high = none;
+    if (const auto x = what.of(runs))
       curves[name][number_of(labels[axis]).value()] = *x;
-    }
   }
   for (const auto& [name, values] : curves) {
     auto& c = f.curves.emplace_back();

@@ -64,7 +64,9 @@ report::figure offloading_times(const paper_runs& e, const report_text& text) {
   f.marks.emplace_back(paper::max_interarrival_ms, "the paper's choice");
   const auto counts = counts_of(e);
   f.caption = text.fill(
-      "curves", {{"runs", text_of(counts)}, {"length", length_of(counts)}});
+      "curves", {{"runs", text_of(counts)},
+                 {"length", length_of(counts)},
+                 {"saturation_s", fmt::format("{:g}", paper::saturation_s)}});
   return f;
 }
 

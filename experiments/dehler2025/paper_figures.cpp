@@ -39,6 +39,29 @@ mean_latency_ms(std::span<const measured_run* const> runs) {
   return mean_interval(groups);
 }
 
+std::map<std::int64_t, spread>
+latencies_by_seed(std::span<const measured_run* const> runs) {
+  std::map<std::int64_t, std::vector<const measured_run*>> by_seed;
+  for (const auto* run : runs)
+    by_seed[run->point.seed].push_back(run);
+  std::map<std::int64_t, spread> all;
+  for (const auto& [seed, own] : by_seed)
+    all.emplace(seed, pooled(own, "latency_ms"));
+  return all;
+}
+
+/// @returns the mean change from some runs to others, seed by seed.
+std::optional<interval> step_between(const std::map<std::int64_t, spread>& from,
+                                     const std::map<std::int64_t, spread>& to,
+                                     double spread::*of) {
+  std::vector<group> steps;
+  for (const auto& [seed, after] : to)
+    if (const auto before = from.find(seed);
+        before != from.end() && before->second.count > 0 && after.count > 0)
+      steps.push_back({after.*of - before->second.*of, 1});
+  return mean_interval(steps);
+}
+
 /// Each run on the wall's clock a group.
 std::optional<cost_figures> costs_of(const measured_cpu& measured) {
   constexpr double percent = 100;
@@ -110,8 +133,14 @@ std::vector<const measured_run*> latency_runs(const paper_runs& e,
 
 paper_figures figures_of(const paper_runs& e) {
   paper_figures all;
-  for (const auto& n : labels_of(e.latency_plot, 0))
-    all.by_vehicles.push_back(figures_of(e, n));
+  std::map<std::int64_t, spread> before;
+  for (const auto& n : labels_of(e.latency_plot, 0)) {
+    auto& own = all.by_vehicles.emplace_back(figures_of(e, n));
+    auto latencies = latencies_by_seed(latency_runs(e, n));
+    own.mean_step_ms = step_between(before, latencies, &spread::mean);
+    own.deviation_step_ms = step_between(before, latencies, &spread::deviation);
+    before = std::move(latencies);
+  }
   std::vector<const measured_run*> drives;
   for (const auto& run : e.real_world) {
     drives.push_back(&run);

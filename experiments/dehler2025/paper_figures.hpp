@@ -24,7 +24,11 @@ struct vehicle_figures {
   std::optional<double> time_in_area_s;
   std::optional<interval> latency_ms; ///< Of the mean; as `latency_runs`.
   double latency_deviation_ms = 0;    ///< Likewise.
-  double late_share = 0;              ///< Likewise; of those above l_max.
+  /// How much mean and deviation changed from the number of vehicles before, in
+  /// the mean over seeds.
+  std::optional<interval> mean_step_ms{};
+  std::optional<interval> deviation_step_ms{};
+  double late_share = 0; ///< Likewise; of those above l_max.
 };
 
 /// What one vehicle's computer does, percent of one core; the vehicles of a run

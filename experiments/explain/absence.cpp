@@ -41,13 +41,13 @@ stations_in(const fs::path& folder,
 void refuse_unknown(const fs::path& folder, const question& q,
                     const std::vector<report::event_line>& events,
                     const std::optional<report::run_summary>& summary) {
-  const auto refuse = [&folder](const std::string& what) {
-    throw input_error{fmt::format("{}: this run has no {}; episodes.csv and "
-                                  "summary.json name all.",
-                                  folder.string(), what)};
+  const auto refuse = [&folder](const std::string& what,
+                                std::string_view file) {
+    throw input_error{fmt::format("{}: this run has no {}; {} names all.",
+                                  folder.string(), what, file)};
   };
   if (q.station && !stations_in(folder, events).contains(*q.station))
-    refuse(fmt::format("station {}", *q.station));
+    refuse(fmt::format("station {}", *q.station), "vehicles.csv");
   const auto is_known =
       q.service.empty()
       || std::ranges::any_of(
@@ -56,7 +56,7 @@ void refuse_unknown(const fs::path& folder, const question& q,
           && summary->figures.contains(
               fmt::format("services.{}.requests", q.service)));
   if (!is_known)
-    refuse(fmt::format("service {}", q.service));
+    refuse(fmt::format("service {}", q.service), "summary.json");
 }
 
 /// What came before an episode could begin.
@@ -87,16 +87,20 @@ attempts count_attempts(const std::vector<report::event_line>& events,
   return all;
 }
 
-void refuse_time_outside(const fs::path& folder, double at_s) {
+void refuse_time_outside(const fs::path& folder, double at_s,
+                         const std::vector<report::event_line>& events) {
   if (at_s < 0)
     throw input_error{fmt::format("--at {:g}: a run begins at 0 s.", at_s)};
   const auto summary = report::read_summary(folder);
-  if (!summary)
-    return; // it was killed, nobody knows when
-  const auto length = summary->figures.find("virtual_s");
-  if (length != summary->figures.end() && at_s > length->second)
+  const auto length = summary ? summary->figures.find("virtual_s")
+                              : decltype(summary->figures.end()){};
+  // A run that was killed went on until its last event, at least.
+  auto ended_s = events.empty() ? 0 : events.back().t_s;
+  if (summary && length != summary->figures.end())
+    ended_s = length->second;
+  if (at_s > ended_s)
     throw input_error{fmt::format("--at {:g}: the run in {} ended at {:g} s.",
-                                  at_s, folder.string(), length->second)};
+                                  at_s, folder.string(), ended_s)};
 }
 
 } // namespace
@@ -104,11 +108,11 @@ void refuse_time_outside(const fs::path& folder, double at_s) {
 std::string tell_moment(const fs::path& folder, const question& q) {
   constexpr double near_s = 1;
   const auto at_s = q.at_s.value();
-  refuse_time_outside(folder, at_s);
+  const auto events = report::read_events(folder);
+  refuse_time_outside(folder, at_s, events);
   const auto far_s = [at_s](const report::event_line& x) {
     return std::abs(x.t_s - at_s);
   };
-  const auto events = report::read_events(folder);
   const report::event_line* nearest = nullptr;
   for (const auto& x : events)
     if ((x.what == "refused" || x.what == "stay_local") && q.is_about(x.of)
@@ -119,12 +123,12 @@ std::string tell_moment(const fs::path& folder, const question& q) {
     return text;
   const auto& of = nearest->of;
   return text
-         + fmt::format("; at {:.3f} s {} of station {} {}: {}", nearest->t_s,
+         + fmt::format("; at {:.3f} s {} of station {} {}{}{}", nearest->t_s,
                        of.service, of.station,
                        nearest->what == "refused"
                            ? fmt::format("was refused by {}", of.provider)
                            : "stayed in the vehicle",
-                       nearest->detail);
+                       nearest->detail.empty() ? "" : ": ", nearest->detail);
 }
 
 std::string tell_absence(const fs::path& folder, const question& q) {
@@ -139,10 +143,12 @@ std::string tell_absence(const fs::path& folder, const question& q) {
                                   folder.string())};
   refuse_unknown(folder, q, events, summary);
   std::string text;
-  if (summary)
+  if (q.at_s)
+    text = wrapped(tell_moment(folder, q) + '.', line_width) + '\n';
+  else if (summary)
     for (const auto& sentence : summary->headline)
       text += wrapped(sentence, line_width) + '\n';
-  if (!text.empty() && !q.station && q.service.empty())
+  if (summary && !q.station && q.service.empty())
     return text;
   const auto all = count_attempts(events, q);
   std::string whose;

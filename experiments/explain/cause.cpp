@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace sofof::experiments::explain {
@@ -70,20 +72,30 @@ std::string in_parts(const report::time_parts& ms, bool since_input) {
   constexpr double least_ms = 0.05;
   constexpr std::size_t most = 3;
   std::vector<part> parts;
+  double all_ms = 0;
   for (const auto& x : all_parts)
-    if ((since_input || x.since_cycle) && ms.*x.of >= least_ms)
+    if (since_input || x.since_cycle) {
       parts.push_back({x.what, ms.*x.of, 0});
+      all_ms += parts.back().ms;
+    }
   std::ranges::stable_sort(parts, std::ranges::greater{}, &part::ms);
-  const auto named = std::min(parts.size(), most);
+  std::size_t named = 0;
+  auto other_tenths = std::lround(10 * all_ms);
+  for (; named < most && parts[named].ms >= least_ms; ++named) {
+    const auto tenths = std::lround(10 * parts[named].ms);
+    parts[named].ms = static_cast<double>(tenths) / 10;
+    other_tenths -= tenths;
+  }
+  if (other_tenths < 0)
+    parts.front().ms +=
+        static_cast<double>(std::exchange(other_tenths, 0)) / 10;
+  if (named > 0 && other_tenths > 0)
+    parts[named++] = {"other", static_cast<double>(other_tenths) / 10, 0};
   std::string all;
-  double others_ms = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    if (k < named)
-      all += fmt::format("{}{} {:.1f}", k == 0 ? "" : ", ", parts[k].what,
-                         parts[k].ms);
-    else
-      others_ms += parts[k].ms;
-  return others_ms > 0 ? fmt::format("{}, other {:.1f}", all, others_ms) : all;
+  for (std::size_t k = 0; k < named; ++k)
+    all += fmt::format("{}{} {:.1f}", k == 0 ? "" : ", ", parts[k].what,
+                       parts[k].ms);
+  return all;
 }
 
 } // namespace sofof::experiments::explain

@@ -31,8 +31,10 @@ part longest_part(std::span<const report::cycle_line> results,
                   bool since_input);
 
 /// @param since_input  As above.
-/// @returns "wait for a worker 18.1, way down 10.1, computing 3.0": the three
-/// longest parts of at least 0.05 ms.
+/// @returns "wait for a worker 18.1, way down 10.1, computing 3.0, other 0.4":
+/// the three longest parts of at least 0.05 ms, and what they leave of all
+/// parts as printed; where rounding leaves too little, the longest is the
+/// shorter by it. Nothing where none is as long.
 std::string in_parts(const report::time_parts& ms, bool since_input);
 
 } // namespace sofof::experiments::explain

@@ -90,13 +90,24 @@ disturbed_in(const fs::path& folder, const episode_line& x,
     last_sent = sent_at(results->back());
   if (results->size() > 1)
     sent_after = last_sent - sent_at((*results)[results->size() - 2]);
-  return recording::disturbance_of(*all,
-                                   {x.of.provider, "down",
-                                    static_cast<std::uint32_t>(x.of.station),
-                                    x.of.service},
-                                   recording::due_next(last_sent, sent_after,
-                                                       from_seconds(x.ended_s)))
-      .value_or(channel::disturbance::none);
+  const auto found =
+      recording::disturbance_of(
+          *all,
+          {x.of.provider, "down", static_cast<std::uint32_t>(x.of.station),
+           x.of.service},
+          recording::due_next(last_sent, sent_after, from_seconds(x.ended_s)))
+          .value_or(channel::disturbance::none);
+  if (found == channel::disturbance::none && !all->tells_slow)
+    return std::nullopt; // or it was slow
+  return found;
+}
+
+bool ends_with_run(const fs::path& folder, const episode_line& x) {
+  const auto summary = report::read_summary(folder);
+  if (!summary)
+    return false;
+  const auto length = summary->figures.find("virtual_s");
+  return length != summary->figures.end() && x.ended_s >= length->second;
 }
 
 asked_shares load_at(const fs::path& folder, const std::string& provider,
@@ -135,6 +146,10 @@ std::optional<episode> find_episode(const fs::path& folder, const question& q) {
   found.among = {possible.size(),
                  static_cast<std::size_t>(std::ranges::count_if(
                      possible, [](const auto* x) { return ended_early(*x); }))};
+  for (const auto* x : possible)
+    found.among.services.insert(x->of.service);
+  found.cut_off =
+      closed->reason == "shutdown" && ends_with_run(folder, *closed);
   const auto& of = found.closed.of;
   for (const auto& x : all) {
     if (x.of == of && !x.by_requester)

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ using asked_shares = std::map<std::string, double>;
 struct candidates {
   std::size_t all = 0;
   std::size_t early = 0; ///< Of them ended for other than a planned reason.
+  std::set<std::string> services{};
 };
 
 /// All that is known of one episode.
@@ -51,7 +53,8 @@ struct episode {
   /// What became of the result that was due after the last one that came;
   /// nothing where that is not recorded.
   std::optional<channel::disturbance> disturbed;
-  asked_shares load; ///< Of the provider, at most in the last second or two.
+  bool cut_off = false; ///< By the end of the run.
+  asked_shares load;    ///< Of the provider, at most in the last second or two.
 };
 
 /// @returns whether an episode ended for other than a planned reason.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <span>
 #include <string_view>
@@ -126,8 +127,8 @@ void course(lines& to, const episode& x) {
                     last.latency_ms, *last.input_age_ms));
   const auto of_age =
       x.closed.reason != "qos_latency" || counts_from_input(last);
-  to.more(fmt::format("of the {}: {} ms", of_age ? "age" : "latency",
-                      in_parts(*last.parts, of_age)));
+  if (const auto parts = in_parts(*last.parts, of_age); !parts.empty())
+    to.more(fmt::format("of the {}: {} ms", of_age ? "age" : "latency", parts));
 }
 
 void load(lines& to, const episode& x) {
@@ -197,6 +198,7 @@ std::string why_silent(const episode& x) {
     return "nothing came; what became of the results was not recorded.";
   if (!x.disturbed || !x.lost)
     return "nothing came: results were lost, or held back.";
+  constexpr auto slow_ms = channel::slow_delay / std::chrono::milliseconds{1};
   switch (*x.disturbed) {
     case channel::disturbance::loss:
       return fmt::format("results get lost: {:.1f} % of what {} sent for this "
@@ -208,13 +210,14 @@ std::string why_silent(const episode& x) {
       return "nothing came: the connection stalled and held results back.";
     case channel::disturbance::slow:
       return fmt::format("nothing came in time: the network's own delay held "
-                         "back what was due by {} ms or more.",
-                         channel::slow_delay / std::chrono::milliseconds{1});
+                         "back what was due, by {} ms or more.",
+                         slow_ms);
     default:
-      return fmt::format("nothing came in time, though what was due was "
-                         "neither lost nor held back by the network: {} sent "
-                         "none, or it waited{}.",
-                         provider, full(x, "way down") + full(x, "worker"));
+      return fmt::format("nothing came in time, though the network neither "
+                         "lost what was due nor held it back by {} ms or "
+                         "more: {} sent none, or it waited{}.",
+                         slow_ms, provider,
+                         full(x, "way down") + full(x, "worker"));
   }
 }
 
@@ -236,7 +239,9 @@ std::string why_no_data(const episode& x) {
 std::string why(const episode& x) {
   const auto& e = x.closed;
   const auto provider_says =
-      x.at_provider ? x.at_provider->because : std::string{};
+      x.at_provider && x.at_provider->because != messages::told_by_vehicle
+          ? x.at_provider->because
+          : std::string{};
   if (e.reason == "qos_latency")
     return why_slow(x, false);
   if (e.reason == "qos_input_age")
@@ -266,25 +271,40 @@ std::string why(const episode& x) {
     return fmt::format("the vehicle left the area of {}.", e.of.provider);
   if (e.reason == "handed_over")
     return "another provider had taken over.";
-  return "the run ended, or the vehicle had arrived.";
+  return x.cut_off ? "the run ended."
+                   : "the vehicle had arrived, or its process was ended.";
 }
 
 /// @returns which of the episodes that are asked about it is, on a line.
 std::string place_among(const episode& x, const question& q) {
-  const auto& [all, early] = x.among;
+  const auto& [all, early, services] = x.among;
   if (all == 1)
     return "";
+  const auto of = services.size() > 1
+                      ? fmt::format(" of {} services", services.size())
+                      : std::string{};
   const auto early_ones =
       early == 0 ? std::string{"none"} : fmt::format("{}", early);
   if (q.at_s)
-    return fmt::format("(one of {} episodes; {} ended early)\n", all,
+    return fmt::format("(one of {} episodes{}; {} ended early)\n", all, of,
                        early_ones);
   if (early == 0)
-    return fmt::format("(the longest of {} episodes; none ended early)\n", all);
+    return fmt::format("(the longest of {} episodes{}; none ended early)\n",
+                       all, of);
   if (early == 1)
-    return fmt::format("(the only one of {} episodes that ended early)\n", all);
-  return fmt::format("(the first of {} that ended early, of {} episodes)\n",
-                     early, all);
+    return fmt::format("(the only one of {} episodes{} that ended early)\n",
+                       all, of);
+  return fmt::format("(the first of {} that ended early, of {} episodes{})\n",
+                     early, all, of);
+}
+
+/// @returns how to ask about the other services at a time, on lines.
+std::string others_then(const episode& x, const question& q) {
+  std::string text;
+  for (const auto& service : x.among.services)
+    if (q.at_s && service != x.closed.of.service)
+      text += fmt::format("(--service {} tells of that one then)\n", service);
+  return text;
 }
 
 } // namespace
@@ -294,6 +314,8 @@ std::string tell(const fs::path& folder, const question& question) {
     throw input_error{fmt::format("{} is no results folder: it has no "
                                   "episodes.csv.",
                                   folder.string())};
+  if (question.at_s && !std::isfinite(*question.at_s))
+    throw input_error{fmt::format("--at {:g} is no time.", *question.at_s)};
   const auto x = find_episode(folder, question);
   if (!x)
     return tell_absence(folder, question);
@@ -308,12 +330,14 @@ std::string tell(const fs::path& folder, const question& question) {
                     line_width)
                 + '\n'
           : std::string{};
-  return fmt::format("{}Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}{}\n",
-                     nearest, e.of.station, e.of.service, e.of.provider,
-                     e.accepted_s, e.ended_s,
-                     ended_early(e) ? "ended early" : "ended as planned",
-                     place_among(*x, question), to.take(),
-                     wrapped("Why: " + why(*x), line_width));
+  const auto how = ended_early(e) ? "ended early"
+                   : x->cut_off   ? "cut off"
+                                  : "ended as planned";
+  return fmt::format(
+      "{}Station {}, {} at {}: {:.3f} to {:.3f} s, {}\n{}{}{}{}\n", nearest,
+      e.of.station, e.of.service, e.of.provider, e.accepted_s, e.ended_s, how,
+      place_among(*x, question), others_then(*x, question), to.take(),
+      wrapped("Why: " + why(*x), line_width));
 }
 
 } // namespace sofof::experiments::explain

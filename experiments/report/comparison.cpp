@@ -49,6 +49,14 @@ wish wish_for(std::string_view member) {
   return wish::none;
 }
 
+/// @returns whether a figure is one of results that came.
+bool is_of_results(std::string_view member) {
+  constexpr std::string_view all[]{"latency_ms.", "input_age_ms.",
+                                   "interarrival_ms."};
+  return std::ranges::any_of(
+      all, [member](auto begins) { return member.starts_with(begins); });
+}
+
 double length_min(const recorded_run& run) {
   constexpr double s_per_min = 60;
   return run.figure("virtual_s").value_or(0) / s_per_min;
@@ -73,6 +81,14 @@ void warn_of_unlike_lengths(section& to, std::span<const recorded_run> runs) {
       "time to reach, are not subtracted.",
       runs[0].label, length_min(runs[0]) * s_per_min, runs[1].label,
       length_min(runs[1]) * s_per_min)});
+}
+
+void warn_of_early_ends(section& to, std::span<const recorded_run> runs) {
+  if (runs.size() == 2 && comparison{runs}.cuts_off())
+    to.blocks.emplace_back(paragraph{
+        "Episodes ended early. What would have come after that is in no figure "
+        "of results: where more end early, latency, age and gaps of the others "
+        "look better, and are not judged."});
 }
 
 void warn_of_seeds(section& to, std::span<const recorded_run> runs) {
@@ -103,7 +119,10 @@ figure_nature nature_of(std::string_view member) {
 comparison::comparison(std::span<const recorded_run> runs)
     : first_min_{length_min(runs[0])}, second_min_{length_min(runs[1])},
       unlike_{std::abs(first_min_ - second_min_)
-              > no_longer * std::max(first_min_, second_min_)} {}
+              > no_longer * std::max(first_min_, second_min_)},
+      cuts_off_{std::ranges::any_of(runs, [](const recorded_run& run) {
+        return run.figure("fallbacks").value_or(0) > 0;
+      })} {}
 
 double comparison::of_first(std::string_view member, double x) const {
   const auto is_rate = unlike_ && nature_of(member) == figure_nature::total;
@@ -133,7 +152,8 @@ std::string comparison::difference(std::string_view member, double first,
 
 table::verdict comparison::verdict(std::string_view member, double first,
                                    double second) const {
-  if (unlike_ && nature_of(member) == figure_nature::extreme)
+  if ((unlike_ && nature_of(member) == figure_nature::extreme)
+      || (cuts_off_ && is_of_results(member)))
     return table::verdict::different;
   const auto before = of_first(member, first);
   const auto after = of_second(member, second);
@@ -154,6 +174,7 @@ section what_differs(std::span<const recorded_run> runs) {
     texts.push_back(run.config_toml);
   auto options = differing_options(texts);
   warn_of_unlike_lengths(all, runs);
+  warn_of_early_ends(all, runs);
   warn_of_seeds(all, runs);
   if (options.rows.empty()) {
     all.blocks.emplace_back(paragraph{"The runs have the same configuration."});

@@ -38,8 +38,13 @@ public:
   std::string difference(std::string_view member, double first, double second,
                          int decimals) const;
 
+  /// @returns whether either lost results: what comes after an early end is in
+  /// no figure of results, so that one that ends more looks better.
+  bool cuts_off() const { return cuts_off_; }
+
   /// @returns whether the second is better, where less or more of something is,
-  /// and the difference is more than a hundredth.
+  /// and the difference is more than a hundredth; `different` where it would be
+  /// so of what was cut off.
   table::verdict verdict(std::string_view member, double first,
                          double second) const;
 
@@ -49,6 +54,7 @@ private:
 
   double first_min_, second_min_; // lengths
   bool unlike_;
+  bool cuts_off_; // an episode, in either
 };
 
 /// @returns a table of the options in which runs differ, without a row if they

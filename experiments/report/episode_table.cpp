@@ -17,12 +17,15 @@ namespace sofof::experiments::report {
 
 namespace {
 
+constexpr double ms_per_s = 1e3;
+
 /// What the results of one episode were like.
 struct episode_results {
   std::size_t count = 0;
   double latency_sum_ms = 0;
   double longest_latency_ms = 0;
   double longest_gap_ms = 0;
+  double last_s = 0; ///< When the last one came.
 };
 
 std::map<session_key, episode_results>
@@ -37,6 +40,7 @@ results_by_episode(const recorded_run& run) {
     one.longest_latency_ms = std::max(one.longest_latency_ms, line.latency_ms);
     one.longest_gap_ms =
         std::max(one.longest_gap_ms, line.interarrival_ms.value_or(0));
+    one.last_s = std::max(one.last_s, line.received_s);
   }
   return all;
 }
@@ -58,9 +62,11 @@ struct episode_entry {
 
 /// @returns the reason of the side that ended it, as far as it is known.
 std::string why(const episode_entry& e) {
-  return e.at_provider && e.x.because == messages::told_by_provider
-             ? e.at_provider->because
-             : e.x.because;
+  const auto provider_knows =
+      e.x.because == messages::told_by_provider && e.at_provider
+      && !e.at_provider->because.empty()
+      && e.at_provider->because != messages::told_by_vehicle;
+  return provider_knows ? e.at_provider->because : e.x.because;
 }
 
 std::map<session_key, const episode_line*>
@@ -141,9 +147,13 @@ table episode_table(const recorded_run& run) {
       continue;
     const auto found = results.find(one.of);
     const auto other = at_providers.find(one.of);
-    const episode_entry entry{
+    episode_entry entry{
         one, found == results.end() ? episode_results{} : found->second,
         other == at_providers.end() ? nullptr : other->second};
+    if (entry.results.count > 0 && one.reason == "qos_gap")
+      entry.results.longest_gap_ms =
+          std::max(entry.results.longest_gap_ms,
+                   ms_per_s * (one.ended_s - entry.results.last_s));
     auto& row = all.rows.emplace_back();
     for (const auto& column : episode_columns)
       row.push_back(column.text(entry));

@@ -65,7 +65,15 @@ void write(std::string& out, const figure& f) {
     out += fmt::format("*{}: see the figure in the report.*\n\n", f.title);
     return;
   }
-  table points{f.title + " (" + f.y_label + ")", {f.x_label}, {}, f.caption};
+  auto note = f.caption;
+  const auto add = [&note](const std::string& sentence) {
+    note += (note.empty() ? "" : " ") + sentence;
+  };
+  for (const auto& [at, name] : f.marks)
+    add(fmt::format("Line at {} = {}: {}.", f.x_label, number(at), name));
+  for (const auto& [at, name] : f.levels)
+    add(fmt::format("Line at {}: {}.", number(at), name));
+  table points{f.title + " (" + f.y_label + ")", {f.x_label}, {}, note};
   for (const auto& c : f.curves)
     points.columns.push_back(c.name);
   for (const auto x : places) {

@@ -226,6 +226,7 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
     return std::nullopt;
   recording::load_table all;
   csv_reader row{file, names, ending_of(folder), newer};
+  all.tells_slow = row.has(slow);
   while (row.next()) {
     const auto& provider = row.text(1);
     const auto* direction = row.text(2) == "up" ? "up" : "down";

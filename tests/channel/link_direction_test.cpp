@@ -311,7 +311,7 @@ TEST_CASE("what a message waits for is told apart from what it travels") {
 
 TEST_CASE("a link says of a message that the network delivered it late") {
   auto slow = measured();
-  slow.trace = {{0, 0.099}, {1, 0.100}, {2, 0.001}};
+  slow.trace = {{0, 0.049}, {1, 0.050}, {2, 0.001}};
   link_direction link{link_channel(slow), direction::down, nullptr};
   const auto by = [&link](time_point sent, std::uint64_t number) {
     return link.carry(sent, kind::result, number, 0).by;
@@ -319,6 +319,18 @@ TEST_CASE("a link says of a message that the network delivered it late") {
   CHECK(by(time_point{}, 0) == disturbance::none);
   CHECK(by(time_point{1s}, 1) == disturbance::slow);
   CHECK(by(time_point{2s}, 2) == disturbance::none);
+}
+
+TEST_CASE("a message is as late as the slow one before it") {
+  auto slow = measured();
+  slow.trace = {{0, 0.200}, {1, 0.001}};
+  link_direction link{link_channel(slow), direction::down, nullptr};
+  const auto by = [&link](time_point sent, std::uint64_t number) {
+    return link.carry(sent, kind::result, number, 0).by;
+  };
+  CHECK(by(time_point{}, 0) == disturbance::slow);
+  CHECK(by(time_point{10ms}, 1) == disturbance::slow);
+  CHECK(by(time_point{1s}, 2) == disturbance::none);
 }
 
 TEST_CASE("a link says by what it lost a message") {

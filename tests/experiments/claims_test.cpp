@@ -224,6 +224,23 @@ TEST_CASE("latency grows, in the mean only, not surely, or falls") {
   CHECK(growth(-0.2, 0.1, -0.1) == contradicts);
 }
 
+TEST_CASE("latency does not grow in a step whose interval is below 0") {
+  const auto step = [](double mean_ms, double half_width) {
+    return after("latency_grows", [=](figures& f) {
+      f.by_vehicles[2].deviation_step_ms = about(mean_ms, half_width);
+    });
+  };
+  CHECK(step(0.1, 0.05) == reproduced);
+  CHECK(step(-0.006, 0.04) == reproduced);
+  CHECK(step(-0.1, 0.05) == in_part);
+  CHECK(after("latency_grows",
+              [](figures& f) {
+                f.by_vehicles[2].mean_step_ms = about(-0.1, 0.05);
+                f.by_vehicles[3].deviation_step_ms = about(-0.1, 0.05);
+              })
+        == not_reproduced);
+}
+
 TEST_CASE("a fit is met, half met, uncertain, or missed") {
   const auto one = [](double mean, double half_width, double deviation) {
     return after("latency_of_one", [=](figures& f) {

@@ -1,5 +1,6 @@
 // The story of an episode, from the files of a made-up run.
 #include "base/input_error.hpp"
+#include "base/random.hpp"
 #include "experiments/explain/cause.hpp"
 #include "experiments/explain/story.hpp"
 #include "tests/support/contains.hpp"
@@ -9,10 +10,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 using namespace sofof;
+using namespace sofof::experiments;
 using namespace sofof::experiments::explain;
 using test::contains;
 using test::scratch;
@@ -144,7 +148,33 @@ TEST_CASE("a time outside the run is refused") {
                        input_error);
   CHECK_THROWS_WITH_AS(told_at(40.5), doctest::Contains("ended at 40 s"),
                        input_error);
+  CHECK_THROWS_AS(told_at(std::nan("")), input_error);
   CHECK(contains(told_at(39), "No episode ran at 39 s"));
+  write_text(run.folder / "summary.json", "{}\n"); // it was killed
+  CHECK_THROWS_AS(told_at(1e9), input_error);
+}
+
+TEST_CASE("an episode that the run's end cut off did not end as planned") {
+  told_run run;
+  run.reason = "shutdown";
+  CHECK(contains(run.told({101, 25.0, ""}), "30.000 s, ended as planned"));
+  CHECK(contains(run.told({101, 25.0, ""}), "Why: the vehicle had arrived"));
+  write_text(run.folder / "summary.json", "{\"virtual_s\": 30}\n");
+  const auto cut = tell(run.folder.path(), {101, 25.0, ""});
+  CHECK(contains(cut, "30.000 s, cut off"));
+  CHECK(contains(cut, "Why: the run ended."));
+}
+
+TEST_CASE("a time is told of one service, and how to ask for another") {
+  const told_run run;
+  run.told();
+  const auto file = run.folder / "episodes.csv";
+  write_text(file, test::read_file(file)
+                       + "requester,101,mec,1,climate,1,20.0,20.1,31.0,10.9,"
+                         "left_area,0,told\n");
+  const auto told = tell(run.folder.path(), {101, 25.0, ""});
+  CHECK(contains(told, "(one of 3 episodes of 2 services; 1 ended early)\n"
+                       "(--service climate tells of that one then)\n"));
 }
 
 TEST_CASE("one sentence says that there is no such vehicle or service") {
@@ -209,6 +239,12 @@ TEST_CASE("a vehicle or a service without episodes is told why") {
                  "Station 101, planning: never offloaded: 2 requests, none "
                  "accepted; most often (2\ntimes): no room."));
   CHECK(contains(refused.told({102, {}, ""}), "no offer came"));
+  CHECK(
+      unwrapped(refused.told({101, 1.0, ""}))
+          .starts_with("No episode ran at 1 s; at 1.000 s planning of station "
+                       "101 stayed in the vehicle: too short. Station 101: "
+                       "never offloaded"));
+  CHECK_THROWS_AS(refused.told({101, 500.0, ""}), input_error);
 }
 
 TEST_CASE("a folder of a provider is not one to explain") {
@@ -269,7 +305,7 @@ TEST_CASE("silence is told apart by what the link did to the vehicle's "
   CHECK(contains(told_with("29.990,mec,down,101,planning,1,0,2,0"),
                  "the connection stalled"));
   CHECK(contains(told_with("29.990,mec,down,101,planning,0,0,1,2"),
-                 "the network's own delay held back what was due by 100 ms"));
+                 "the network's own delay held back what was due, by 50 ms"));
   for (const auto* other : {"29.981,mec,down,101,planning,9,0,0,0",
                             "30.001,mec,down,101,planning,9,0,0,0",
                             "29.990,far,down,101,planning,9,0,0,0",
@@ -295,11 +331,35 @@ TEST_CASE(
              "t_s,provider,direction,station,what,lost,outage,stall\n"
              "29.990,mec,down,101,planning,1,0,2\n");
   CHECK(contains(run.told({101, 25.0, ""}), "the connection stalled"));
+  write_text(run.folder / "disturbed.csv",
+             "t_s,provider,direction,station,what,lost,outage,stall\n"
+             "10.000,mec,down,101,planning,1,0,2\n");
+  CHECK(contains(unwrapped(run.told({101, 25.0, ""})),
+                 "nothing came: results were lost, or held back"));
 }
 
 TEST_CASE("the parts of an age add up: the smallest of them are together") {
   CHECK(in_parts({.uplink = 20, .rest = 50, .queue = 3, .downlink = 30}, true)
         == "wait for the cycle 50.0, way down 30.0, way up 20.0, other 3.0");
+}
+
+TEST_CASE("the parts of an age add up as printed, whatever is rounded") {
+  const random_stream noise{1, "parts"};
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    report::time_parts x;
+    double all = 0;
+    std::uint64_t k = 0;
+    for (auto* of : {&x.uplink_wait, &x.uplink, &x.rest, &x.queue, &x.computing,
+                     &x.downlink_wait, &x.downlink})
+      all += * of = noise.exponential(k % 2 == 0 ? 0.04 : 5, 10 * n + k++);
+    const auto text = in_parts(x, true);
+    double sum = 0;
+    for (auto at = text.find_first_of("0123456789"); at != text.npos;
+         at = text.find_first_of("0123456789", text.find(',', at)))
+      sum += std::stod(text.substr(at));
+    REQUIRE(sum == doctest::Approx(std::round(10 * all) / 10));
+  }
+  CHECK(in_parts({.uplink = 0.01, .queue = 0.04}, true).empty());
 }
 
 TEST_CASE("a latency that counts from its input has all parts") {

@@ -60,6 +60,8 @@ TEST_CASE("two runs are compared side by side, first what differs") {
   const played_folder other{"other"};
   other.spoil("config.toml", "seed = 7", "seed = 8");
   other.spoil("summary.json", "\"offers\": ", "\"offers\": 1");
+  one.ends_no_episode_early();
+  other.ends_no_episode_early();
   const auto sections = compare_runs(one.path(), other.path());
   CHECK(sections[0].title == "What differs");
   CHECK(sections[1].title == "In short");
@@ -131,6 +133,8 @@ TEST_CASE(
 TEST_CASE("a comparison tells better from worse where that is clear") {
   const played_folder one{"one"};
   const played_folder other{"other"};
+  one.ends_no_episode_early();
+  other.ends_no_episode_early();
   const auto runs = open_runs(std::array{one.path(), other.path()});
   const comparison both{runs};
   using enum table::verdict;
@@ -140,6 +144,23 @@ TEST_CASE("a comparison tells better from worse where that is clear") {
   CHECK(both.verdict("driving.min_accel_mps2", -3, -2) == better);
   CHECK(both.verdict("latency_ms.count", 10, 20) == different);
   CHECK(both.difference("driving.max_jerk_mps3", 1, 3, 1) == "+2.0");
+}
+
+TEST_CASE("figures of results are not judged where episodes ended early") {
+  const played_folder one{"one"};
+  const played_folder other{"other"};
+  other.ends_no_episode_early();
+  const auto runs = open_runs(std::array{one.path(), other.path()});
+  const comparison both{runs};
+  using enum table::verdict;
+  CHECK(both.verdict("latency_ms.mean", 20, 10) == different);
+  CHECK(both.verdict("interarrival_ms.max", 20, 10) == different);
+  CHECK(both.verdict("offloaded_share", 0.5, 0.6) == better);
+  CHECK(
+      test::contains(first_of<paragraph>(compare_runs(one.path(), other.path()),
+                                         "What differs")
+                         .text,
+                     "is in no figure of results"));
 }
 
 TEST_CASE("options that differ are written as people write them") {

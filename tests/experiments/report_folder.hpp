@@ -96,6 +96,11 @@ public:
     write(file, text.replace(place, from.size(), to));
   }
 
+  /// As if all had ended as planned.
+  void ends_no_episode_early() const {
+    spoil("summary.json", "\"fallbacks\": 1,", "\"fallbacks\": 0,");
+  }
+
 private:
   std::filesystem::path base_;
   std::filesystem::path folder_;

@@ -376,6 +376,21 @@ TEST_CASE("why an episode ended is told by the side that ended it") {
   CHECK(episodes.rows[0][why - episodes.columns.begin()] == "x_m=1 y_m=2");
 }
 
+TEST_CASE("the gap that ended an episode is one of its gaps") {
+  const auto longest_ms = [](const played_folder& folder) {
+    const auto sections = describe_run(folder.path());
+    const auto& episodes = first_of<table>(sections, "Episodes");
+    const auto gap = std::ranges::find(episodes.columns, "longest gap, ms");
+    REQUIRE(gap != episodes.columns.end());
+    return std::stod(episodes.rows[0][gap - episodes.columns.begin()]);
+  };
+  const played_folder folder;
+  const auto before = longest_ms(folder);
+  folder.spoil("episodes.csv", "30.000000000,20.000000000,left_area,0,",
+               "33.000000000,23.000000000,qos_gap,0,");
+  CHECK(longest_ms(folder) > before + 2900);
+}
+
 TEST_CASE("near misses are counted apart from QoS events") {
   const played_folder folder;
   folder.write("events.jsonl",

@@ -169,6 +169,18 @@ TEST_CASE("intervals over runs are drawn where a point has five or more") {
   CHECK(high > 39);
 }
 
+TEST_CASE("a run without a value does not count for an interval") {
+  const scratch dir;
+  make_sweep(dir.path(), 5);
+  write(dir / "runs/a1/episodes.csv", episodes_header);
+  const auto all = describe_sweeps(dir.path(), "1");
+  const auto low_of = [&all](const char* title) {
+    return the<report::figure>(all.sections[0], title).curves[0].low[0];
+  };
+  CHECK(std::isnan(low_of("Offloading time")));
+  CHECK(std::isfinite(low_of("Latency")));
+}
+
 TEST_CASE("a sweep's folder without a table, or without a run, is refused") {
   const scratch dir;
   make_sweep(dir.path());

@@ -244,8 +244,10 @@ class Report(unittest.TestCase):
             rows = list(csv.DictReader(saved))
         cycles = [row for row in rows_of(self.folder, "cycles.csv")
                   if row["service"] == "trajectory_planning"]
+        *rows, limit = rows
         self.assertEqual(len(rows), len(cycles))
         self.assertEqual(rows[0]["station"], cycles[0]["station"])
+        self.assertEqual(limit["curve"], "limit 50 ms")
 
     def test_the_map_shows_all_areas(self):
         with Browser() as page:

@@ -64,19 +64,45 @@ function axes(block, { x, y, left }, width, height) {
   ];
 }
 
+/// @returns [first, behind] of each run of values without a gap.
+function stretches_of(ys) {
+  const all = [];
+  ys.forEach((y, i) => {
+    if (Number.isNaN(y)) return;
+    const last = all[all.length - 1];
+    if (last?.[1] === i) last[1] = i + 1;
+    else all.push([i, i + 1]);
+  });
+  return all;
+}
+
+function corners(xs, ys, { x, y }) {
+  return [...xs].map((at, i) => `${two(x.at(at))} ${two(y.at(ys[i]))}`);
+}
+
 /// Lines begin anew after a gap.
-function line_path(xs, ys, { x, y }) {
-  let path = "";
-  let pen = "M";
-  for (let i = 0; i < xs.length; ++i) {
-    if (Number.isNaN(ys[i])) {
-      pen = "M";
-      continue;
-    }
-    path += `${pen}${two(x.at(xs[i]))} ${two(y.at(ys[i]))}`;
-    pen = "L";
-  }
-  return path;
+function line_path(xs, ys, scale) {
+  return stretches_of(ys)
+    .map(([from, until]) => `M${corners(xs.slice(from, until), ys.slice(from, until), scale).join("L")}`)
+    .join("");
+}
+
+/// Values between two gaps, which no line shows.
+function lone_points_path(xs, ys, scale) {
+  return stretches_of(ys)
+    .filter(([from, until]) => until === from + 1)
+    .map(([at, until]) => `M${corners(xs.slice(at, until), ys.slice(at, until), scale)[0]}h0`)
+    .join("");
+}
+
+/// An area for each stretch that has both ends.
+function band_path(xs, lows, highs, scale) {
+  return stretches_of(lows.map((low, i) => low + highs[i]))
+    .map(([from, until]) => {
+      const part = (of) => corners(xs.slice(from, until), of.slice(from, until), scale);
+      return `M${[...part(highs), ...part(lows).reverse()].join("L")}Z`;
+    })
+    .join("");
 }
 
 /// @param ahead  Whether a value holds until its x, else from it on.
@@ -123,18 +149,14 @@ function curve_elements(curve, scale) {
     ];
   if (style === "steps" || style === "tail")
     return [svg("path", { ...stroke, d: steps_path(x, y, scale, style === "tail") })];
-  const band = low && high
-    ? [
-        svg("path", {
-          d: `${line_path(x, high, scale)}${line_path([...x].reverse(), [...low].reverse(), scale).replace("M", "L")}Z`,
-          fill: paint,
-          "fill-opacity": 0.16,
-        }),
-      ]
-    : [];
+  const area = low && high ? band_path(x, low, high, scale) : "";
+  const dots = lone_points_path(x, y, scale);
   return [
-    ...band,
+    ...(area ? [svg("path", { d: area, fill: paint, "fill-opacity": 0.16 })] : []),
     svg("path", { ...stroke, d: line_path(x, y, scale), "stroke-dasharray": dashed ? "6 4" : null }),
+    ...(dots
+      ? [svg("path", { ...stroke, d: dots, "stroke-width": point_size(1), "stroke-linecap": "round" })]
+      : []),
   ];
 }
 

@@ -185,14 +185,26 @@ class Shown {
       for (let k = 0; k < x.length; ++k)
         rows.push([this.block.curves[i].name, x[k], y[k], low?.[k], high?.[k], stations?.[k]]);
     });
+    for (const [at, name] of this.labels.marks) rows.push([name, at, "", "", "", ""]);
+    for (const [at, name] of this.labels.levels) rows.push([name, "", at, "", "", ""]);
     return rows;
   }
+}
+
+/// @returns the places of values that have a gap on either side; no line shows
+/// them.
+function lone_points(ys) {
+  const own = [...ys.keys()].filter((i) => ys[i] !== undefined);
+  const is_gap = (k) => (ys[own[k]] ?? null) === null;
+  const places = own.filter((_, k) => !is_gap(k) && is_gap(k - 1) && is_gap(k + 1));
+  return places.length ? places : null;
 }
 
 function series_of(shown, layout) {
   return layout.map(([i, role]) => {
     const curve = shown.block.curves[i];
     const line = role === "y";
+    const dots = line && shown.style_of(curve) === "line";
     return {
       label: curve.name,
       show: !shown.hidden.has(i),
@@ -200,7 +212,7 @@ function series_of(shown, layout) {
       width: line ? 1.75 : 0,
       dash: curve.dashed ? [6, 4] : undefined,
       paths: line ? paths[shown.style_of(curve)] : paths.line,
-      points: { show: false },
+      points: { show: false, filter: (u, k) => (dots ? lone_points(u.data[k]) : null), size: 4 },
       spanGaps: false,
     };
   });
