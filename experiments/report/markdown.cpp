@@ -70,9 +70,9 @@ void write(std::string& out, const figure& f) {
     note += (note.empty() ? "" : " ") + sentence;
   };
   for (const auto& [at, name] : f.marks)
-    add(fmt::format("Line at {} = {}: {}.", f.x_label, number(at), name));
+    add(fmt::format("Upright line at {}: {}.", number(at), name));
   for (const auto& [at, name] : f.levels)
-    add(fmt::format("Line at {}: {}.", number(at), name));
+    add(fmt::format("Level line at {}: {}.", number(at), name));
   table points{f.title + " (" + f.y_label + ")", {f.x_label}, {}, note};
   for (const auto& c : f.curves)
     points.columns.push_back(c.name);

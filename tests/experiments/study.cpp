@@ -107,7 +107,8 @@ TEST_CASE("a report as text has tables, and figures with few points as such") {
         == "# Title\nSub\n\n## Section\n\nWords.\n\n**T**\n\n| a | b\\|c |\n"
            "| --- | --- |\n| 1 | 2 |\n\nNote.\n\n**Few (y)**\n\n"
            "| x | one | two |\n| --- | --- | --- |\n| 1 | 0.5 |  |\n"
-           "| 2 |  | 3 |\n\nLine at x = 1.5: a limit. Line at 70: theirs.\n\n"
+           "| 2 |  | 3 |\n\nUpright line at 1.5: a limit. Level line at 70: "
+           "theirs.\n\n"
            "**Plane**\n\n|  | x | y |\n"
            "| --- | --- | --- |\n| dot | 1 | 2.5 |\n\nSaid.\n");
 }
