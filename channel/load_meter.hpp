@@ -1,8 +1,10 @@
-// How much servers were asked for over time, and how long jobs waited.
+// How much servers were asked for over time, and how long jobs waited. What is
+// remembered of a long run grows coarser, not longer.
 #pragma once
 
 #include "base/statistics.hpp"
 #include "base/time.hpp"
+#include "channel/time_rows.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -28,18 +30,35 @@ struct load_figures {
     bin& operator+=(const bin& other);
   };
   static constexpr duration width = std::chrono::milliseconds{100};
+  /// Loads are told as the most in such a time, and as full above this share.
+  static constexpr duration peak_length = std::chrono::milliseconds{500};
+  static constexpr double full_share = 0.9;
+  /// What was used for one thing, bin by bin after what is longer ago.
+  struct use {
+    duration before{};
+    std::vector<duration> bins;
+  };
 
   unsigned servers = 1;
-  std::vector<bin> bins; ///< From the start, as far as there was work.
-  /// Servers' time that was used, by what for, bin by bin.
-  std::map<std::string, std::vector<duration>, std::less<>> busy_by;
+  time_rows<bin> rows;   ///< What is longer ago than a minute.
+  duration bins_from{};  ///< Here these end, and `bins` begin, since the start.
+  std::vector<bin> bins; ///< As far as there was work.
+  duration most_asked{}; ///< In any `peak_length` that begins before these.
+  duration full{};       ///< How long of that time servers were full.
+  /// Servers' time that was used, by what for.
+  std::map<std::string, use, std::less<>> busy_by;
   distribution waits; ///< Of all jobs.
 
-  /// @returns the sum of the bins that begin in [from, to), since the start.
+  /// @returns the sum of the bins that begin in [from, to), since the start; of
+  /// those in `rows`, all of a row count where it begins.
   bin between(duration from, duration to) const;
 
+  /// @returns whether servers were full, if that was asked of them in half a
+  /// second.
+  bool is_full(duration asked) const;
+
   /// @returns servers' time that was used for that, in the bins that begin
-  /// before `to`, since the start.
+  /// before `to`, since the start; not before `bins_from`.
   duration busy_for(std::string_view what, duration to) const;
 };
 
@@ -64,6 +83,8 @@ private:
   std::size_t number_of(time_point t) const;
   load_figures::bin& at(time_point t);
   void use(time_point from, time_point until, std::string_view what);
+  void put_into_rows(time_point now);
+  void note_peaks();
 
   time_point start_;
   mutable std::mutex mutex_;

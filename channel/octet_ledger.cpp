@@ -22,7 +22,7 @@ octet_fates& octet_fates::operator+=(const octet_fates& x) {
 
 octet_fates octet_line::together() const {
   octet_fates sum;
-  for (const auto& x : seconds)
+  for (const auto& x : rows.sums())
     sum += x;
   return sum;
 }
@@ -59,7 +59,7 @@ void octet_ledger::send(const sending& x, time_point arrives) {
   auto& line = line_of(x.what);
   count(x, line);
   under_way_.push({arrives, static_cast<std::size_t>(&line - lines_.data()),
-                   second_of(x.at), x.octets});
+                   x.at - start_, x.octets});
 }
 
 void octet_ledger::lose(const sending& x) {
@@ -73,7 +73,7 @@ std::vector<octet_line> octet_ledger::read(time_point now) {
   auto lines = lines_;
   for (auto left = under_way_; !left.empty(); left.pop()) {
     const auto& x = left.top();
-    lines[x.line].seconds[x.second].under_way.add(x.octets);
+    lines[x.line].rows.at(x.sent).under_way.add(x.octets);
   }
   return lines;
 }
@@ -86,11 +86,6 @@ std::vector<disturbed_line> octet_ledger::disturbed() const {
   return lines;
 }
 
-std::size_t octet_ledger::second_of(time_point t) const {
-  assert(t >= start_);
-  return static_cast<std::size_t>((t - start_) / second);
-}
-
 octet_line& octet_ledger::line_of(std::string_view what) {
   const auto found = std::ranges::find(lines_, what, &octet_line::what);
   return found != lines_.end()
@@ -99,12 +94,10 @@ octet_line& octet_ledger::line_of(std::string_view what) {
 }
 
 octet_fates& octet_ledger::count(const sending& x, octet_line& line) {
-  const auto second = second_of(x.at);
-  if (second >= line.seconds.size())
-    line.seconds.resize(second + 1);
+  assert(x.at >= start_);
   if (x.by != disturbance::none)
     disturbed_[{x.at - start_, {x.station, std::string{x.what}}}].add(x.by);
-  auto& fates = line.seconds[second];
+  auto& fates = line.rows.at(x.at - start_);
   fates.sent.add(x.octets);
   return fates;
 }
@@ -112,7 +105,7 @@ octet_fates& octet_ledger::count(const sending& x, octet_line& line) {
 void octet_ledger::deliver(time_point now) {
   for (; !under_way_.empty() && under_way_.top().at <= now; under_way_.pop()) {
     const auto& x = under_way_.top();
-    lines_[x.line].seconds[x.second].delivered.add(x.octets);
+    lines_[x.line].rows.at(x.sent).delivered.add(x.octets);
   }
 }
 

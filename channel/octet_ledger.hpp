@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 #include "channel/link_direction.hpp"
+#include "channel/time_rows.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -43,9 +44,8 @@ struct octet_fates {
 
 /// Of all messages for one thing.
 struct octet_line {
-  std::string what; ///< What they are for.
-  std::vector<octet_fates>
-      seconds; ///< By when they were sent, since the start.
+  std::string what;            ///< What they are for.
+  time_rows<octet_fates> rows; ///< By when they were sent, since the start.
 
   octet_fates together() const;
 };
@@ -86,7 +86,7 @@ struct sending {
 /// between threads.
 class octet_ledger {
 public:
-  /// @param start  Second 0 begins then.
+  /// @param start  Row 0 begins then.
   explicit octet_ledger(time_point start) : start_{start} {}
 
   /// A message leaves that will arrive.
@@ -105,19 +105,16 @@ public:
   std::vector<disturbed_line> disturbed() const;
 
 private:
-  static constexpr duration second = std::chrono::seconds{1};
-
   struct arrival {
     time_point at;
     std::size_t line;
-    std::size_t second;
+    duration sent; // since the start
     std::size_t octets;
 
     bool operator>(const arrival& other) const { return at > other.at; }
   };
   using who = std::pair<station_id, std::string>; // and for what
 
-  std::size_t second_of(time_point t) const;
   octet_line& line_of(std::string_view what);
   octet_fates& count(const sending& x, octet_line& line);
   void deliver(time_point now);

@@ -13,7 +13,7 @@ namespace {
 using bin = channel::load_figures::bin;
 
 constexpr duration one_second = std::chrono::seconds{1};
-constexpr duration peak_length = std::chrono::milliseconds{500};
+constexpr auto peak_length = channel::load_figures::peak_length;
 constexpr int places_of_share = 6;
 
 /// @returns a length as far as bins fill it, so that none counts that the end
@@ -29,13 +29,18 @@ double share(duration used, unsigned servers, duration of) {
 
 struct load_row {
   const server_load& x;
-  std::uint64_t second;
+  duration from; ///< Since the start.
   bin in;
-  duration length; ///< Of this second.
+  duration length; ///< Of this row.
 };
 
+/// @returns in whole seconds.
+std::uint64_t seconds_at(duration t) {
+  return static_cast<std::uint64_t>(t / one_second);
+}
+
 constexpr csv_column<load_row> of_load[]{
-    {"t_s", [](const auto& r) { return r.second; }},
+    {"t_s", [](const auto& r) { return seconds_at(r.from); }},
     {"provider", [](const auto& r) { return std::string_view{r.x.provider}; }},
     {"what", [](const auto& r) { return r.x.what; }},
     {"jobs", [](const auto& r) { return r.in.jobs; }},
@@ -59,14 +64,14 @@ constexpr csv_column<load_row> of_load[]{
 };
 
 struct octet_row {
-  std::uint64_t second;
+  duration from; ///< Since the start.
   const cell_octets& cell;
   std::string_view what;
   const channel::octet_fates& x;
 };
 
 constexpr csv_column<octet_row> of_octets[]{
-    {"t_s", [](const auto& r) { return r.second; }},
+    {"t_s", [](const auto& r) { return seconds_at(r.from); }},
     {"provider",
      [](const auto& r) { return std::string_view{r.cell.provider}; }},
     {"direction", [](const auto& r) { return r.cell.direction; }},
@@ -111,16 +116,19 @@ load_summary summary_of(const channel::load_figures& x, duration length) {
   load_summary sum{.jobs = all.jobs,
                    .busy_share = share(all.busy, x.servers, length),
                    .asked_share = share(all.asked, x.servers, length),
+                   .peak_share = share(x.most_asked, x.servers, peak_length),
+                   .full_s = to_seconds(x.full),
                    .mean_wait_ms = x.waits.ms().mean(),
                    .p99_wait_ms = x.waits.quantile_ms(0.99),
                    .max_wait_ms = x.waits.ms().max()};
-  const auto asked_from = [&x](duration t, duration of) {
-    return share(x.between(t, t + of).asked, x.servers, of);
+  const auto asked_from = [&x](duration t) {
+    return x.between(t, t + peak_length).asked;
   };
-  for (duration t{}; t + peak_length <= length; t += x.width)
-    sum.peak_share = std::max(sum.peak_share, asked_from(t, peak_length));
-  for (duration t{}; t + peak_length <= length; t += peak_length)
-    if (asked_from(t, peak_length) > full_share)
+  for (auto t = x.bins_from; t + peak_length <= length; t += x.width)
+    sum.peak_share =
+        std::max(sum.peak_share, share(asked_from(t), x.servers, peak_length));
+  for (auto t = x.bins_from; t + peak_length <= length; t += peak_length)
+    if (x.is_full(asked_from(t)))
       sum.full_s += to_seconds(peak_length);
   return sum;
 }
@@ -151,12 +159,16 @@ std::string load_csv(const load_table& table, duration length) {
   append_names<load_row>(text, of_load);
   text += '\n';
   length = whole_bins(length);
-  for (const auto& x : table.servers)
-    for (duration t{}; t < length; t += one_second)
+  const auto until = std::max(duration{0}, length - duration{1});
+  for (const auto& x : table.servers) {
+    const auto row =
+        std::max(x.of.rows.length(), channel::length_of_rows(until));
+    for (duration t{}; t < length; t += row) {
+      const auto end = std::min(t + row, length);
       append_line<load_row>(text, of_load,
-                            {x, static_cast<std::uint64_t>(t / one_second),
-                             x.of.between(t, std::min(t + one_second, length)),
-                             std::min(one_second, length - t)});
+                            {x, t, x.of.between(t, end), end - t});
+    }
+  }
   return text;
 }
 
@@ -166,9 +178,11 @@ std::string octets_csv(const load_table& table) {
   text += '\n';
   for (const auto& cell : table.cells)
     for (const auto& line : cell.lines)
-      for (std::size_t second = 0; second < line.seconds.size(); ++second)
-        if (const auto& x = line.seconds[second]; x.sent.messages > 0)
-          append_line<octet_row>(text, of_octets, {second, cell, line.what, x});
+      for (duration t{}; const auto& x : line.rows.sums()) {
+        if (x.sent.messages > 0)
+          append_line<octet_row>(text, of_octets, {t, cell, line.what, x});
+        t += line.rows.length();
+      }
   return text;
 }
 

@@ -16,7 +16,7 @@ namespace sofof::recording {
 
 /// Above this share of what servers can do in half a second they count as full.
 /// A queue's mean wait grows as 1 / (1 - share): tenfold here.
-inline constexpr double full_share = 0.9;
+inline constexpr auto full_share = channel::load_figures::full_share;
 
 /// The workers of a provider, or its radio cell in one direction.
 struct server_load {
@@ -73,10 +73,12 @@ struct full_servers {
 /// @returns them all, the one of the highest peak first.
 std::vector<full_servers> full_ones(const load_table& table, duration length);
 
-/// @returns load.csv: a line for each second and server.
+/// @returns load.csv: a line for each second and server; for each 2, 4, 8 … s
+/// of a run of more than half an hour.
 std::string load_csv(const load_table& table, duration length);
 
-/// @returns octets.csv: a line for each second, cell, direction and purpose.
+/// @returns octets.csv: a line for each second, cell, direction and purpose;
+/// for each 2, 4, 8 … s where something was sent after half an hour.
 std::string octets_csv(const load_table& table);
 
 /// @returns disturbed.csv: a line for each moment at which messages of or to a
