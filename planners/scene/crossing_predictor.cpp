@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 
 namespace sofof::planners {
 
@@ -19,10 +21,19 @@ double forward_mps(const track& x) {
   return std::max(0.0, x.speed_mps());
 }
 
-bool gives_way(const track& x, const conflict_visit& when, int own_rank) {
-  const auto v = forward_mps(x);
-  return when.way_m > 0 && when.rank > own_rank
-         && v * v <= 2 * yielding_decel_mps2 * when.way_m;
+/// Ways at a smaller angle than 30° to each other, either way, come from
+/// neither side.
+constexpr auto across_sine = 0.5;
+
+/// Who stands before a zone for longer than this is not waited for any more.
+constexpr duration patience = std::chrono::seconds{4};
+constexpr duration more_patience = std::chrono::milliseconds{500};
+constexpr std::uint32_t different_patiences = 8;
+
+duration patience_of(const std::optional<station_id>& who) {
+  constexpr auto spread = 2654435761U; // of neighbouring numbers (Knuth)
+  const auto mixed = who ? who->value() * spread >> 16 : 0;
+  return patience + (mixed % different_patiences) * more_patience;
 }
 
 } // namespace
@@ -38,28 +49,58 @@ crossing_predictor::crossing_predictor(
   foreseen_.reserve(many);
 }
 
-void crossing_predictor::judge(double from_m, double to_m,
+void crossing_predictor::judge(const crossing_viewer& me, double to_m,
                                std::span<other_body> others,
                                std::vector<crossing_user>& found,
-                               std::vector<double>& yields) {
-  assert(from_m < to_m);
-  find_zones(from_m, to_m);
-  for (const auto& [own, middle] : zones_)
-    if (lanes_->rank(own.other_side()) < own.rank)
-      yields.push_back(own.from_m);
+                               std::vector<double>& yields,
+                               std::vector<way_stretch>& keep_free) {
+  assert(me.rear_m < me.front_m && me.front_m < to_m);
+  find_zones(me.rear_m, to_m);
+  join_zones(me.front_m - me.rear_m, keep_free);
+  for (const auto& own : zones_)
+    if (lanes_->rank(own.on.other_side()) < own.on.rank)
+      yields.push_back(own.on.from_m);
   foresee(others);
-  for (const auto& [own, middle] : zones_)
+  for (const auto& own : zones_)
     for (const auto& [who, when] : foreseen_) {
       auto& [x, is_crossing] = others[who];
-      if (when.side != own.other_side()
-          || (when.way_m == 0 && drives_along(x, own)))
+      if (when.side != own.on.other_side() || !std::isfinite(when.leave_s)
+          || (when.way_m == 0 && drives_along(x, own.on)))
         continue;
-      found.push_back({own.from_m, own.to_m, when.enter_s, when.leave_s,
-                       !gives_way(x, when, own.rank)});
-      is_crossing = is_crossing || std::isfinite(when.leave_s);
+      found.push_back({own.on.from_m, own.on.to_m, when.enter_s, when.leave_s,
+                       !gives_way(me, x, when, own), x.id});
+      is_crossing =
+          is_crossing || (own.on.from_m >= me.front_m && !when.sets_off);
     }
   assert(std::ranges::is_sorted(found, {}, &crossing_user::from_m));
   assert(std::ranges::is_sorted(yields));
+}
+
+/// Zones between which no car fits are one.
+void crossing_predictor::join_zones(double car_m,
+                                    std::vector<way_stretch>& keep_free) const {
+  for (const auto& [own, middle] : zones_)
+    if (!keep_free.empty() && own.from_m < keep_free.back().to_m + car_m)
+      keep_free.back().to_m = std::max(keep_free.back().to_m, own.to_m);
+    else
+      keep_free.push_back({own.from_m, own.to_m});
+  assert(std::ranges::is_sorted(keep_free, {}, &way_stretch::from_m));
+}
+
+bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
+                                   const conflict_visit& when,
+                                   const own_zone& own) const {
+  const auto v = forward_mps(x);
+  if (when.way_m == 0 || v * v > 2 * yielding_decel_mps2 * when.way_m)
+    return false; // it is there, or will be
+  if (when.sets_off && x.at - x.moved > patience_of(me.station))
+    return true;
+  if (when.rank != own.on.rank)
+    return when.rank > own.on.rank;
+  const auto sine = std::sin(x.heading_rad - own.middle.heading_rad);
+  if (std::abs(sine) > across_sine)
+    return sine < 0; // it comes from the left
+  return me.station && x.station && *me.station < *x.station;
 }
 
 void crossing_predictor::find_zones(double from_m, double to_m) {
@@ -70,7 +111,7 @@ void crossing_predictor::find_zones(double from_m, double to_m) {
                    const auto middle_m = (z.from_m + z.to_m) / 2;
                    assert(z.from_m <= z.to_m && z.from_m < to_m);
                    if (z.to_m > from_m)
-                     zones_.push_back({z, way_.on()->path().at(middle_m).at});
+                     zones_.push_back({z, way_.on()->path().at(middle_m)});
                    return true;
                  });
 }
@@ -81,11 +122,12 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
   for (std::size_t who = 0; who < others.size(); ++who) {
     const auto& x = others[who].x;
     const auto within_m =
-        std::min(foresight_s_ * forward_mps(x), lane_network::farthest_m);
+        std::clamp(foresight_s_ * forward_mps(x), lane_network::at_line_m,
+                   lane_network::farthest_m);
     assert(within_m >= 0 && x.length_m > 0);
     const auto gets_there = [&](const own_zone& z) {
       const auto reach_m = within_m + x.length_m + z.on.to_m - z.on.from_m;
-      const auto apart = z.middle - x.centre();
+      const auto apart = z.middle.at - x.centre();
       return dot(apart, apart) < reach_m * reach_m;
     };
     if (std::ranges::none_of(zones_, gets_there))

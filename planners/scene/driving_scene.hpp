@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct crossing_user {
                                ///< there.
   double leave_s = 0;          ///< Its rear has left; infinite: it stands.
   bool goes_first = true;      ///< By right of way; else it gives way.
+  std::uint32_t body = 0;      ///< One number for all entries of a road user.
+};
+
+/// A part of the own way, arc length on the own route.
+struct way_stretch {
+  double from_m = 0, to_m = 0;
 };
 
 /// A body that reaches into the lane but leaves room to pass beside it.
@@ -47,6 +54,9 @@ struct driving_scene {
   /// Where crossings begin at which others would go first, whether anybody is
   /// seen or not: arc length on the own route, rising.
   std::vector<double> yields_m;
+  /// Where others cross: no place to come to rest. Rising, apart by more than a
+  /// car's length.
+  std::vector<way_stretch> keep_free;
 };
 
 } // namespace sofof::planners

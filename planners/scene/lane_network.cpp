@@ -22,8 +22,13 @@ constexpr auto wedge = 0.25;
 /// Cosine of the largest angle between a body and its lane, 45°.
 constexpr auto same_way = std::numbers::sqrt2 / 2;
 
-/// Slower is standing.
-constexpr auto still_mps = 0.3;
+/// Who stands sets off like this.
+constexpr auto sets_off_after_s = 0.5;
+constexpr auto sets_off_mps2 = 1.5;
+
+double standing_start_s(double way_m) {
+  return sets_off_after_s + std::sqrt(2 * way_m / sets_off_mps2);
+}
 
 } // namespace
 
@@ -116,7 +121,8 @@ void lane_network::foresee(const track& x, double within_m,
                            std::vector<conflict_visit>& out) const {
   assert(within_m >= 0 && within_m <= farthest_m);
   assert(x.length_m > 0);
-  const driver who{x.length_m / 2, x.speed_mps(), within_m, out.size(), out};
+  const driver who{x.length_m / 2, x.speed_mps(), std::max(within_m, at_line_m),
+                   out.size(), out};
   for (const auto& [lane, s_m] : find(x.body())) {
     drive(who, lane, -s_m);
     if (s_m < who.half_length_m) // its rear is still there
@@ -133,14 +139,21 @@ void lane_network::meet(const driver& who, std::size_t lane,
   for (const auto& e : meetings_[lane]) {
     const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
     const auto left_m = start_m + e.to_m + who.half_length_m;
-    const auto stands = who.speed_mps < still_mps;
+    const auto stands = who.speed_mps < standing_mps;
     if (e.how == world::conflict::kind::diverge || left_m <= 0
-        || way_m > who.within_m || (stands && way_m > 0))
+        || way_m > (stands ? at_line_m : who.within_m))
       continue;
-    const conflict_visit here{e.side, e.rank, way_m,
-                              way_m > 0 ? way_m / who.speed_mps : 0.0,
-                              stands ? std::numeric_limits<double>::infinity()
-                                     : left_m / who.speed_mps};
+    conflict_visit here{e.side, e.rank, way_m};
+    here.sets_off = stands && way_m > 0;
+    if (here.sets_off) {
+      here.enter_s = standing_start_s(way_m);
+      here.leave_s = standing_start_s(left_m);
+    } else if (stands) {
+      here.leave_s = std::numeric_limits<double>::infinity();
+    } else {
+      here.enter_s = way_m / who.speed_mps;
+      here.leave_s = left_m / who.speed_mps;
+    }
     assert(here.way_m >= 0 && here.enter_s <= here.leave_s);
     const auto known = std::find_if(
         who.out.begin() + static_cast<std::ptrdiff_t>(who.first), who.out.end(),

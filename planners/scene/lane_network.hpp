@@ -23,6 +23,7 @@ struct conflict_visit {
   double way_m = 0;       ///< From its front to the stretch; 0: on it.
   double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
   double leave_s = 0;     ///< Its rear leaves; infinite: it stands there.
+  bool sets_off = false;  ///< If it does: it stands before the stretch.
 };
 
 /// Lanes, how they follow each other, and their conflicts; immutable, one for
@@ -30,6 +31,8 @@ struct conflict_visit {
 class lane_network {
 public:
   static constexpr double farthest_m = 300;
+  /// Who stands no farther than this before a conflict may set off, m.
+  static constexpr double at_line_m = 8;
 
   explicit lane_network(const world::road_map& map);
 
@@ -61,7 +64,8 @@ public:
 
   /// Appends the conflicts that a body is on or drives towards, on whatever
   /// lanes it may take; each side once, with the earliest entry and the latest
-  /// exit of all ways. Who stands drives towards none.
+  /// exit of all ways. Who stands is thought to set off at once, if it is at
+  /// most `at_line_m` away.
   /// @param within_m  How far its front looks, m, at most `farthest_m`.
   void foresee(const track& x, double within_m,
                std::vector<conflict_visit>& out) const;

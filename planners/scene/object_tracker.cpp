@@ -36,9 +36,10 @@ constexpr auto whole_after_s = 0.2;
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;
 
-/// Nothing on a road is faster or longer, or farther away.
+/// Nothing on a road is faster, larger or farther away: no load that is carried
+/// on one is 60 m long, nor what is left standing on one.
 constexpr auto max_speed_mps = 100.0;
-constexpr auto max_length_m = 30.0;
+constexpr auto max_size_m = 60.0;
 constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
 
@@ -49,7 +50,8 @@ bool is_sound(const world::perceived_object& o) {
          && std::abs(o.heading_rad) <= max_heading_rad
          && std::isfinite(o.accel_mps2)
          && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0
-         && o.length_m >= o.width_m && o.length_m <= max_length_m;
+         && o.width_m <= max_size_m && o.length_m > 0
+         && o.length_m <= max_size_m;
 }
 
 } // namespace
@@ -165,7 +167,8 @@ void object_tracker::match(std::uint32_t t, std::uint32_t s) {
       x.motion.covariance(0, 0) + other.motion.covariance(0, 0);
   assert(variance_m2 > 0);
   const auto is_same =
-      in_one_place(distance2_m2, x.width_m, other.object.width_m);
+      in_one_place(distance2_m2, x.narrow_m(),
+                   std::min(other.object.length_m, other.object.width_m));
   if (distance2_m2 > gate * variance_m2 && !is_same)
     return; // as far apart, they are outside the gate whatever their speeds
   const auto [distance2, cost] = x.motion.compare(other.motion);
@@ -207,6 +210,8 @@ void object_tracker::correct(track& x, time_point at, const observation& s,
   const auto share_of_new =
       std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
   x.seen = at;
+  if (!x.stands())
+    x.moved = at;
   x.heading_rad += share_of_new * wrap_angle(o.heading_rad - x.heading_rad);
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
   x.length_m += share_of_new * (o.length_m - x.length_m);
@@ -223,6 +228,7 @@ void object_tracker::give_birth(time_point at, const observation& s) {
   tracks_.push_back({++last_id_,
                      {},
                      newest_,
+                     at,
                      at,
                      s.motion,
                      o.heading_rad,

@@ -54,7 +54,7 @@ public:
   /// Tells what one observer sees.
   /// @param at    When it saw this.
   /// @param seen  Each body once, in any order; those that no body on a road
-  ///              can be (not finite, 0 m or 31 m long, 101 m/s, 1e7 m away)
+  ///              can be (not finite, 0 m or 61 m long, 101 m/s, 1e7 m away)
   ///              are left out, and so are all after the first 256. May be
   ///              empty: time passes.
   void update(time_point at, std::span<const world::perceived_object> seen);

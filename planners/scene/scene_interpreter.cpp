@@ -72,12 +72,13 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   out.crossings.clear();
   out.beside.clear();
   out.yields_m.clear();
+  out.keep_free.clear();
   gather(now, me, tracks);
   if (params_.judges_crossings) {
     const auto rear_m = me.s_m - params_.car.rear_m;
     const auto front_m = me.s_m + params_.car.front_m;
-    crossings_.judge(rear_m, front_m + params_.horizon_m, others_,
-                     out.crossings, out.yields_m);
+    crossings_.judge({me.station, rear_m, front_m}, front_m + params_.horizon_m,
+                     others_, out.crossings, out.yields_m, out.keep_free);
   }
   find_near(me);
   find_bodies(me, out);
@@ -99,7 +100,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     const auto x = predict(known, now);
     const auto apart = x.centre() - own_centre;
     if (!known.station
-        && in_one_place(dot(apart, apart), x.width_m, car.width_m))
+        && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
       continue;
     assert(x.length_m > 0 && x.width_m > 0);
     others_.push_back({x, false});
@@ -184,23 +185,27 @@ scene_interpreter::measure(const near& where) const {
   if (std::abs(on.d_m) - across_m - bulge_m > wide_m)
     return {};
 
-  const auto pieces = std::ceil(x.length_m / outline_m);
-  assert(pieces >= 1);
   const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
-  for (auto i = 0.0; i <= pieces; ++i)
-    for (const auto side : {-0.5, 0.5}) {
-      const auto along_m = (i / pieces - 0.5) * x.length_m;
-      const auto left_m = side * x.width_m;
-      const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
-      const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
-                                  guess_m, bead_m_);
-      print.from_m = std::min(print.from_m, p.s_m);
-      print.to_m = std::max(print.to_m, p.s_m);
-      print.low_m = std::min(print.low_m, p.d_m);
-      print.high_m = std::max(print.high_m, p.d_m);
-    }
+  const auto add = [&](double along_m, double left_m) {
+    const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
+    const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
+                                guess_m, bead_m_);
+    print.from_m = std::min(print.from_m, p.s_m);
+    print.to_m = std::max(print.to_m, p.s_m);
+    print.low_m = std::min(print.low_m, p.d_m);
+    print.high_m = std::max(print.high_m, p.d_m);
+  };
+  const auto pieces_along = std::ceil(x.length_m / outline_m);
+  const auto pieces_across = std::ceil(x.width_m / outline_m);
+  assert(pieces_along >= 1 && pieces_across >= 1);
+  for (const auto side : {-0.5, 0.5}) {
+    for (auto i = 0.0; i <= pieces_along; ++i)
+      add((i / pieces_along - 0.5) * x.length_m, side * x.width_m);
+    for (auto i = 1.0; i < pieces_across; ++i)
+      add(side * x.length_m, (i / pieces_across - 0.5) * x.width_m);
+  }
   if (print.low_m >= wide_m || print.high_m <= -wide_m)
     return {};
   assert(print.from_m <= print.to_m && print.low_m <= print.high_m);

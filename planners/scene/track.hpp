@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -39,17 +40,21 @@ struct motion_estimate {
   mismatch compare(const motion_estimate& other) const;
 };
 
+/// Slower than this, a body stands: sensors are not better.
+inline constexpr double standing_mps = 0.3;
+
 /// A body that has been seen on the road.
 struct track {
   std::uint32_t id = 0;              ///< Counts the bodies ever seen.
   std::optional<station_id> station; ///< Of a vehicle that was heard.
   time_point at;                     ///< When `motion` holds.
   time_point seen;                   ///< When it was last seen or heard.
+  time_point moved; ///< When it last moved; its first sighting if never.
   motion_estimate motion;
-  double heading_rad = 0; ///< Of its long axis, known at rest as well.
+  double heading_rad = 0; ///< Where its front is, known at rest as well.
   double accel_mps2 = 0;  ///< Along its heading.
-  double length_m = 0;
-  double width_m = 0;
+  double length_m = 0;    ///< Along its heading.
+  double width_m = 0;     ///< Across it.
 
   point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
 
@@ -61,6 +66,11 @@ struct track {
 
   double speed_mps() const { return speed_along_mps(heading_rad); }
 
+  bool stands() const { return std::abs(speed_mps()) < standing_mps; }
+
+  /// @returns the smaller of length and width: it may be wider than long.
+  double narrow_m() const { return std::min(length_m, width_m); }
+
   oriented_box body() const {
     return {centre(), heading_rad, length_m, width_m};
   }
@@ -69,12 +79,11 @@ struct track {
 /// @returns `x` at a later time; as it is when `then` is not later.
 track predict(track x, time_point then);
 
-/// @returns whether two bodies with these widths and a distance of this
-/// square between their centres overlap whatever their headings: their
-/// inscribed circles do. Bodies are not wider than long.
-inline bool in_one_place(double distance2_m2, double width_a_m,
-                         double width_b_m) {
-  const auto apart_m = 0.5 * (width_a_m + width_b_m);
+/// @param a_m, b_m  Of each body, the smaller of length and width.
+/// @returns whether two bodies with a distance of this square between their
+/// centres overlap whatever their headings: their inscribed circles do.
+inline bool in_one_place(double distance2_m2, double a_m, double b_m) {
+  const auto apart_m = 0.5 * (a_m + b_m);
   return distance2_m2 < apart_m * apart_m;
 }
 

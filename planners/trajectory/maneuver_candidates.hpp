@@ -14,17 +14,30 @@
 
 namespace sofof::planners {
 
-/// In which order to cross with the others, or to wait for all of them.
-struct crossing_order {
-  static constexpr std::size_t most_users = 4;
-  static constexpr std::uint32_t waits = 1U << most_users;
+/// What was decided last about those who cross, by the numbers of their bodies.
+struct crossing_choice {
+  bool waits = false;
+  std::vector<std::uint32_t> before; ///< Those that the car goes before.
+};
 
-  /// Bit i: before the i-th user; `waits`: before the first crossing.
+/// In which order to cross with the others, or to wait for all of them. One
+/// decision is made for each of them, whatever number of places it crosses at.
+struct crossing_order {
+  static constexpr std::size_t most_cars = 4;
+  static constexpr std::size_t most_windows = 16;
+  static constexpr std::uint32_t waits = 1U << most_cars;
+
+  /// Bit i: before the i-th car, in the order in which they come; `waits`:
+  /// before the first crossing.
   std::uint32_t choice = 0;
-  std::array<speed_constraints::window, most_users> windows;
+  std::array<std::uint32_t, most_cars> cars{}; ///< Their bodies, by bit.
+  std::array<speed_constraints::window, most_windows> windows;
   std::size_t count = 0;
   double stop_m = speed_constraints::never; ///< Way to where it waits.
 };
+
+/// @returns the decision that an order is.
+crossing_choice choice_of(const crossing_order& order);
 
 /// The own car at the crossings.
 struct crossing_car {
@@ -32,17 +45,29 @@ struct crossing_car {
   double speed_mps = 0;
   double top_mps = 0; ///< It will not drive faster.
   double max_accel_mps2 = 0;
+  double firm_decel_mps2 = 2.5;
 };
 
-/// Lists the orders that are possible at all, at most `most`, and to wait,
-/// which always is; `first`, if it still is one, comes first. Without anybody
-/// to mind there is one, free of windows.
+/// @returns when the car has come so far, at the soonest, s.
+double soonest_s(double way_m, const crossing_car& car);
+
+/// @returns the way on which it can come to rest, braking firmly, m.
+double stopping_m(const crossing_car& car);
+
+/// Lists the orders that are possible at all, and to wait, which always is.
+/// First comes what was decided last, if it still is possible; then after all,
+/// before all, and others, at most `most`, but those three in any case.
+/// Without anybody to mind there is one, free of windows. Who goes before
+/// another leaves it 1.5 s; 0.8 s once it has begun to, and 0.3 s where it
+/// could not stop any more.
 /// @param users  Times from now on.
 /// @param way    From arc length on the route to way from the car on.
 /// @param out    Reused.
-void list_orders(std::span<const crossing_user> users, const crossing_car& car,
-                 const std::function<double(double)>& way, std::uint32_t first,
-                 std::size_t most, std::vector<crossing_order>& out);
+/// @returns whether the first one is what was decided last.
+bool list_orders(std::span<const crossing_user> users, const crossing_car& car,
+                 const std::function<double(double)>& way,
+                 const crossing_choice& last, std::size_t most,
+                 std::vector<crossing_order>& out);
 
 /// More bodies than this are not passed at once.
 inline constexpr std::size_t most_bodies = 4;

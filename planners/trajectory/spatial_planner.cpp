@@ -21,6 +21,8 @@ constexpr double least_left_s = 1.5;
 constexpr double rounding_mps2 = 1e-6;
 /// A car ahead that slows down less than this keeps its speed.
 constexpr double least_braking_mps2 = 0.3;
+/// What a car keeps to the one ahead behind a crossing.
+constexpr double least_way_out_m = 1.0;
 /// A path that could not be planned on ends here, before its end.
 constexpr double path_end_gap_m = 2.0;
 
@@ -125,7 +127,8 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
 void spatial_planner::forget() {
   path_->forget();
   speed_->forget();
-  sides_ = order_ = 0;
+  sides_ = 0;
+  crossed_ = {};
   kept_from_.reset();
 }
 
@@ -277,6 +280,34 @@ speed_constraints spatial_planner::task(const scene& at) const {
   return t;
 }
 
+crossing_car spatial_planner::crossing(const scene& at) const {
+  return {style_.front_m,        car_.rear_m,
+          at.start.speed_mps,    way_->line.limit_mps(at.start.s_m),
+          style_.max_accel_mps2, style_.firm_decel_mps2()};
+}
+
+// Before a place where others cross, rather than on it, where the way out is
+// not free, as long as the car can stop there.
+double spatial_planner::kept_free_m(const speed_constraints& t,
+                                    const scene& at) const {
+  const auto car = crossing(at);
+  const auto stopping = stopping_m(car);
+  assert(stopping >= 0);
+  for (const auto& stretch : at.others.keep_free) {
+    const auto line_m = way_from_car(stretch.from_m - style_.front_m);
+    const auto clear_m = way_from_car(stretch.to_m + car_.rear_m);
+    if (line_m < stopping)
+      continue;
+    const auto stops_on_it = t.stop_m > line_m && t.stop_m < clear_m;
+    const auto stops_behind_it =
+        t.ahead && t.ahead->touch_m > line_m
+        && t.ahead->at(soonest_s(clear_m, car)) < clear_m + least_way_out_m;
+    if (stops_on_it || stops_behind_it)
+      return std::min(t.stop_m, line_m);
+  }
+  return t.stop_m;
+}
+
 bool spatial_planner::plan_speed(const scene& at, plan_report& report,
                                  const ocp::budget& go_on) {
   assert(!path_->path().empty() && !all_sides_.empty());
@@ -287,34 +318,32 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
-  const crossing_car car{style_.front_m, car_.rear_m, at.start.speed_mps,
-                         way_->line.limit_mps(at.start.s_m),
-                         style_.max_accel_mps2};
-  list_orders(
-      users_, car, [this](double s) { return way_from_car(s); }, order_, most(),
-      all_orders_);
+  const auto is_as_before = list_orders(
+      users_, crossing(at), [this](double s) { return way_from_car(s); },
+      crossed_, most(), all_orders_);
   const auto free = task(at);
   assert(!all_orders_.empty() && speed_ != other_speed_);
   auto found = false, calm = false;
   auto cheapest = std::numeric_limits<double>::infinity();
   report.candidates =
       static_cast<std::int32_t>(all_sides_.size() * all_orders_.size());
-  const auto last = order_;
   for (const auto& order : all_orders_) {
-    if (order.choice == crossing_order::waits && calm && last != order.choice)
-      continue; // only when nothing else is left
     const auto first = &order == &all_orders_.front();
+    if (order.choice == crossing_order::waits && calm
+        && !(first && is_as_before))
+      continue; // only when nothing else is left
     auto& trial = first ? speed_ : other_speed_;
     if (!first)
       trial->forget();
     auto t = free;
     t.windows = std::span{order.windows}.first(order.count);
     t.stop_m = std::min(t.stop_m, order.stop_m);
+    t.stop_m = kept_free_m(t, at);
     const auto result = trial->plan(path_->path(), way_m_, t, go_on);
     report.iterations += result.report.iterations;
     const auto good = !trial->motion().empty();
     const auto price =
-        order.choice == last ? (1 - hysteresis) * result.price : result.price;
+        first && is_as_before ? (1 - hysteresis) * result.price : result.price;
     // A plan in comfort is better than any other.
     const auto better = !found || (!calm && !result.emergency)
                         || (calm != result.emergency && price < cheapest);
@@ -326,7 +355,7 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     found = true;
     calm = !result.emergency;
     cheapest = price;
-    order_ = order.choice;
+    crossed_ = choice_of(order);
     report.velocity = result.report.status;
     report.violation = std::max(report.violation, result.report.violation);
     report.emergency = result.emergency;

@@ -116,8 +116,21 @@ TEST_CASE("nobody looks farther than asked") {
   CHECK_FALSE(foresee(make_track({-50, -1.75}, 0, 10), 45).empty());
 }
 
-TEST_CASE("who stands drives towards nothing, but may stand on a conflict") {
+TEST_CASE("who stands before a conflict may set off, who stands farther away "
+          "drives towards nothing") {
   CHECK(foresee(make_track({-20, -1.75}, 0, 0), 100).empty());
+  const auto found = foresee(make_track({-14, -1.75}, 0, 0), 100);
+  REQUIRE_FALSE(found.empty());
+  for (const auto& a : found) {
+    CHECK(a.sets_off);
+    CHECK(a.way_m > 0);
+    CHECK(a.way_m <= lane_network::at_line_m);
+    CHECK(a.enter_s == doctest::Approx(0.5 + std::sqrt(2 * a.way_m / 1.5)));
+    CHECK(a.leave_s > a.enter_s);
+  }
+}
+
+TEST_CASE("who stands on a conflict does not leave it") {
   const auto found = foresee(make_track({1.75, -1.75}, 0, 0), 100);
   const auto e = find_encounter("3>0>1", "4>0>2");
   const auto a = std::ranges::find(found, e.side, &conflict_visit::side);

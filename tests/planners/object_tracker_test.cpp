@@ -482,7 +482,7 @@ TEST_CASE("a name is nobody else's") {
 TEST_CASE("what no body can be is left out") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   object_tracker model;
-  std::vector wrong(10, perceived_car({}));
+  std::vector wrong(12, perceived_car({}));
   wrong[0].centre.x_m = nan;
   wrong[1].heading_rad = std::numeric_limits<double>::infinity();
   wrong[2].speed_mps = nan;
@@ -493,10 +493,30 @@ TEST_CASE("what no body can be is left out") {
   wrong[7].centre.y_m = -2e7;
   wrong[8].heading_rad = 2e6;
   wrong[9].heading_rad = nan;
+  wrong[10].width_m = 61;
+  wrong[11].length_m = 0;
   model.update(first_sight, wrong);
   for (const auto& o : wrong)
     model.on_report(first_sight, 1, o);
   CHECK(model.tracks().empty());
+}
+
+TEST_CASE(
+    "a body of any shape is tracked as one, whatever it is wider or longer "
+    "than") {
+  for (const auto& [length_m, width_m] :
+       {std::pair{0.1, 50.0}, {50.0, 0.1}, {2.0, 8.0}, {0.1, 0.1}}) {
+    CAPTURE(length_m);
+    observer eyes{7};
+    object_tracker model;
+    const perceived_object o{{20, 5}, 0.3, 0, 0, length_m, width_m};
+    for (int k = 0; k < 40; ++k)
+      model.update(first_sight + k * 50ms, std::vector{eyes.look(o)});
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(model.tracks()[0].length_m == test::near(length_m, 1e-9));
+    CHECK(model.tracks()[0].width_m == test::near(width_m, 1e-9));
+    CHECK(distance_m(model.tracks()[0].centre(), o.centre) < 0.2);
+  }
 }
 
 TEST_CASE("nobody can tell of more bodies at once than a road shows") {

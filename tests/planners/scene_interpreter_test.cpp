@@ -155,6 +155,31 @@ TEST_CASE("a body across the lane leads with its near side") {
   CHECK(seen.lead->speed_mps < 1e-9);
 }
 
+TEST_CASE("a body that is wider than long is seen along all its width") {
+  auto o = ten_metres_down_the_street();
+  auto wall = seen_track({80, -1.25});
+  wall.length_m = 0.5;
+  wall.width_m = 6; // up to 1.75 m to the left
+  const auto& seen = o.look({wall});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(79.75, 1e-6));
+  wall.motion.mean(1, 0) = -4.25; // up to 1.25 m to the right: it leaves 3 m
+  o.look({wall});
+  CHECK_FALSE(seen.lead);
+  REQUIRE(seen.beside.size() == 1);
+  CHECK(seen.beside[0].high_m == test::near(-1.25, 1e-6));
+  CHECK(seen.beside[0].low_m == test::near(-7.25, 1e-6));
+}
+
+TEST_CASE("a body of 50 m leads with its near end") {
+  auto o = ten_metres_down_the_street();
+  auto convoy = seen_track({80, 0});
+  convoy.length_m = 50;
+  const auto& seen = o.look({convoy});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(55, 1e-6));
+}
+
 TEST_CASE("whoever is behind, or farther than one looks, does not lead") {
   auto o = ten_metres_down_the_street();
   CHECK_FALSE(o.look({seen_track({5, 0}, 0, 30)}).lead);
@@ -386,12 +411,67 @@ TEST_CASE("who has to give way does so, unless it cannot stop any more") {
   CHECK(c->goes_first);
 }
 
-TEST_CASE("of equals the other goes first") {
+TEST_CASE("of equals who comes from the right goes first") {
   auto o = at_cross_roads({3, 0, 1}, 100, true);
   o.look({seen_track({1.75, -60}, pi / 2, 10)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->goes_first);
+  o.look({seen_track({-1.75, 60}, -pi / 2, 10)}); // from the left
+  c = find_crossing(o, {-1.75, -1.75});
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+}
+
+TEST_CASE(
+    "of equals that come towards each other the lower station goes first, "
+    "and of unknown ones the other") {
+  auto o = at_cross_roads({3, 0, 2}, 100, true); // turns left
+  auto x = seen_track({60, 1.75}, pi, 10);
+  const auto other_first = [&] {
+    REQUIRE_FALSE(o.look({x}).crossings.empty());
+    return o.seen.crossings.front().goes_first;
+  };
+  CHECK(other_first());
+  o.me.station = 101;
+  CHECK(other_first());
+  x.station = 102;
+  CHECK_FALSE(other_first());
+  x.station = 100;
+  CHECK(other_first());
+}
+
+TEST_CASE("who stands before a crossing is waited for until it has stood there "
+          "for some seconds") {
+  auto o = at_cross_roads({3, 0, 1}, 130, true);
+  auto x = seen_track({1.75, -9.5}, pi / 2); // its front at 6.95 m
+  const auto other_first = [&](duration stood) {
+    x.moved = look_time - stood;
+    o.look({x});
+    const auto* c = find_crossing(o, from_south_meets_from_west);
+    REQUIRE(c);
+    CHECK(c->enter_s > 0.5);
+    CHECK(std::isfinite(c->leave_s));
+    return c->goes_first;
+  };
+  CHECK(other_first(1s));
+  CHECK(other_first(4s));
+  CHECK_FALSE(other_first(4s + 1ms));
+  for (std::uint32_t station = 101; station < 120; ++station) {
+    o.me.station = station;
+    CHECK(other_first(4s));
+    CHECK_FALSE(other_first(8s));
+  }
+}
+
+TEST_CASE("a car does not come to rest where others cross") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({});
+  REQUIRE(o.seen.keep_free.size() == 1); // no car fits between its zones
+  CHECK(o.seen.keep_free[0].from_m
+        < o.way->path().project(from_south_meets_from_west).s_m - 3);
+  CHECK(o.seen.keep_free[0].to_m
+        > o.way->path().project(from_south_meets_from_west).s_m + 3);
 }
 
 TEST_CASE("who comes towards one may turn across, but gives way then") {
@@ -425,15 +505,25 @@ TEST_CASE(
   CHECK(o.look({across}).lead);
 }
 
-TEST_CASE("who stands on a crossing blocks it, and leads") {
+TEST_CASE(
+    "who stands on a crossing leads where it is in the way, and is nobody's "
+    "business where it is not") {
   auto o = at_cross_roads({3, 0, 1}, 100); // one's own right of way or not
   o.look({seen_track({1.75, -1.75}, pi / 2)});
-  const auto* c = find_crossing(o, from_south_meets_from_west);
-  REQUIRE(c);
-  CHECK(c->enter_s == 0);
-  CHECK(std::isinf(c->leave_s));
-  CHECK(c->goes_first);
+  CHECK(o.seen.crossings.empty());
   CHECK(o.seen.lead);
+  o.look({seen_track({1.75, -6.5}, pi / 2)}); // its nose 2.2 m beside
+  CHECK(o.seen.crossings.empty());
+  CHECK_FALSE(o.seen.lead);
+}
+
+TEST_CASE("who crosses where the own front is already leads while it is in the "
+          "way") {
+  auto o = at_cross_roads({3, 0, 1}, 132);
+  const auto across = seen_track({1.75, -4}, pi / 2, 5);
+  CHECK_FALSE(o.look({across}).lead);
+  o.me.s_m = 136;
+  CHECK(o.look({across}).lead);
 }
 
 TEST_CASE("who goes ahead on the own way leads over a crossing") {

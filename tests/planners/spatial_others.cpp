@@ -107,10 +107,12 @@ crossing_drive cross(test_drive& drive, const std::vector<crosser>& all,
   for (auto t = 0.0; t < seconds; t += 0.05) {
     auto& users = drive.others.crossings;
     users.clear();
-    for (const auto& c : all)
+    for (std::uint32_t body = 0; const auto& c : all) {
+      ++body;
       if (c.leave_s > t && drive.rear_m() < c.to_m)
         users.push_back({c.from_m, c.to_m, std::max(0.0, c.enter_s - t),
-                         c.leave_s - t, c.goes_first});
+                         c.leave_s - t, c.goes_first, body});
+    }
     drive.cycle();
     const auto order = drive.report.choice >> 8 & 0xf;
     if (users.size() == known && known > 0)
