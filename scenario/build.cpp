@@ -195,7 +195,7 @@ private:
   std::vector<offloading::service>
   services_in(const world::streets_ptr& streets) const {
     const actors::service_world known{
-        streets, where_, {}, s_.traffic.grants_crossings()};
+        streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors};
     std::vector<offloading::service> all;
     for (const auto& type : s_.services)
       all.push_back(type->in(known));

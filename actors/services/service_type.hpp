@@ -7,6 +7,7 @@
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
 #include "world/roads/streets.hpp"
+#include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <memory>
@@ -22,6 +23,7 @@ struct service_world {
   world::vehicle_params car{};      ///< Each vehicle.
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
+  world::sensor_params eyes{}; ///< Of each vehicle.
 };
 
 // actors/services/service_client.hpp has both.

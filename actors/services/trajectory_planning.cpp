@@ -47,7 +47,7 @@ public:
         std::make_shared<known_roads>(world.streets->map, planner_.style);
     auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        planner_, std::move(roads));
+        world.eyes, planner_, std::move(roads));
     return {.name = name(),
             .options = options,
             .in_vehicle =

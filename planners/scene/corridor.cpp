@@ -26,8 +26,6 @@ constexpr std::array<part, ocp::path_rows::most_discs> parts{
 constexpr double same_knot = 1e-6;
 /// The car on the line itself fits by this, whatever the discs say.
 constexpr double least_room_m = 0.12;
-/// Kept between the car and a body it passes.
-constexpr double passing_gap_m = 0.3;
 /// Discs are wider than the car by this at their middle.
 constexpr double disc_excess_m = disc_radius_m - 0.945;
 /// Way before and after a body on which the car may leave the centre line.
@@ -104,7 +102,7 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
-      const auto gap = passing_gap_m + p.radius_m - disc_excess_m;
+      const auto gap = passing_gap_m - body.give_m + p.radius_m - disc_excess_m;
       if (side == side_of_road::left)
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
       else

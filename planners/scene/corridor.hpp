@@ -24,7 +24,10 @@ public:
   static constexpr double freedom_m = 0.25;
 
   /// A car needs so much room beside a body: the discs, and a gap.
-  static constexpr double room_beside_m = 2.52;
+  static constexpr double room_beside_m = 2.42;
+
+  /// Of that, the gap.
+  static constexpr double passing_gap_m = 0.2;
 
   /// The free lane along the knots s_m + k · ds_m, k = 0..steps. The line
   /// itself always fits.

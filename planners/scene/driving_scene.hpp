@@ -38,8 +38,11 @@ struct way_stretch {
 /// A body that reaches into the lane but leaves room to pass beside it.
 struct lane_obstacle {
   double from_m = 0, to_m = 0;  ///< Of the body, arc length on the own route.
-  double low_m = 0, high_m = 0; ///< Its lateral extent, left positive.
+  double low_m = 0, high_m = 0; ///< Its lateral extent, left positive, with
+                                ///< what is uncertain of it.
   double speed_mps = 0; ///< Along the own route; negative when it comes.
+  double give_m = 0;    ///< It may be passed with so much less room: that has
+                        ///< begun, or cannot be stopped any more.
 };
 
 /// What a driver has to know about the others.

@@ -56,6 +56,13 @@ bool is_sound(const world::perceived_object& o) {
 
 } // namespace
 
+sighting_noise noise_of(const world::sensor_params& sensor) {
+  constexpr sighting_noise least{0.02, 0.02, 0.002};
+  return {std::max(sensor.position_noise_m, least.position_m),
+          std::max(sensor.speed_noise_mps, least.speed_mps),
+          std::max(sensor.heading_noise_rad, least.heading_rad)};
+}
+
 duration sighting_rhythm::silence(double speed_mps) const {
   // Of numbers from outside: the comparison with NaN is false.
   const auto way_s = moved_m / std::abs(speed_mps);

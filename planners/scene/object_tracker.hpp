@@ -4,6 +4,7 @@
 
 #include "planners/scene/track.hpp"
 #include "world/sensing/perception.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,6 +18,10 @@ struct sighting_noise {
   double speed_mps = 0.1;
   double heading_rad = 0.01;
 };
+
+/// @returns that of a sensor, at least of a very good one: what is told has
+/// been rounded.
+sighting_noise noise_of(const world::sensor_params& sensor);
 
 /// When observers tell again of a body that they still see.
 struct sighting_rhythm {

@@ -22,6 +22,14 @@ constexpr auto outline_m = 2.6;
 /// Curvature changes by no more than this beneath a car, 1/m.
 constexpr auto curvature_change_1pm = 0.05;
 
+/// A body that was passable stays so with so much less room.
+constexpr auto hysteresis_m = 0.1;
+/// Where a car cannot stop before a body any more it goes on beside it if so
+/// much is left on both sides together.
+constexpr auto least_room_m = 0.15;
+constexpr auto decides_within_s = 0.3;
+constexpr auto stops_mps2 = 4.0;
+
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
 /// To be expected at once; more take more memory, once.
@@ -212,7 +220,21 @@ scene_interpreter::measure(const near& where) const {
   return print;
 }
 
+/// @returns how much less room than usual a body may leave.
+double scene_interpreter::give_m(const own_place& me, const track& x,
+                                 double from_m) const {
+  if (!std::ranges::binary_search(were_beside_, x.id))
+    return 0;
+  const auto way_m = from_m - me.s_m - params_.car.front_m;
+  const auto stopping_m =
+      me.speed_mps * (decides_within_s + me.speed_mps / (2 * stops_mps2));
+  assert(params_.margin_m >= 0);
+  return way_m < stopping_m ? 2 * params_.margin_m - least_room_m
+                            : hysteresis_m;
+}
+
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
+  beside_.clear();
   const auto front_m = me.s_m + params_.car.front_m;
   const auto rear_m = me.s_m - params_.car.rear_m;
   const auto need_m = 2 * corridor_m();
@@ -224,20 +246,29 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!print || print->to_m <= rear_m
         || print->from_m > front_m + params_.horizon_m)
       continue;
-    const auto& b = *print;
+    auto b = *print;
     const auto& [x, is_crossing] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;
+    b.low_m -= x.margin_m();
+    b.high_m += x.margin_m();
     const auto room_m =
         b.half_lane_m + std::max(-b.high_m, b.low_m); // on its better side
     const auto is_in_the_way =
         b.low_m < corridor_m() && b.high_m > -corridor_m();
-    if (!is_in_the_way || room_m >= need_m)
-      out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps});
-    else if (b.to_m > front_m && (!out.lead || b.from_m < out.lead->rear_s_m))
+    const auto give = give_m(me, x, b.from_m);
+    if (!is_in_the_way || room_m >= need_m - give) {
+      out.beside.push_back(
+          {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, give});
+      beside_.push_back(x.id);
+    } else if (b.to_m > front_m
+               && (!out.lead || b.from_m < out.lead->rear_s_m)) {
       out.lead = {x.station, b.from_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+    }
   }
+  std::ranges::sort(beside_);
+  were_beside_ = beside_;
   assert(!out.lead || out.lead->speed_mps >= 0);
   if (out.lead)
     std::erase_if(out.beside, [&](const lane_obstacle& o) {

@@ -8,6 +8,7 @@
 #include "planners/scene/track.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,13 +32,16 @@ struct own_place {
   std::optional<station_id> station; ///< If it is heard by that name.
   double s_m = 0;                    ///< Rear axle on the route, with laps.
   double d_m = 0; ///< Offset from the centre line, left positive.
+  double speed_mps = 0;
 };
 
 /// Finds out who leads, who stands in the lane, and who crosses. A body is
 /// * nobody's business while it stays out of the own lane, whatever its
 ///   heading;
 /// * beside, when it reaches into the lane but leaves room for the own body
-///   and both margins on one side;
+///   and both margins on one side; once it has been that, with a little less
+///   room too, and with as much as the own body needs when there is no way to
+///   stop before it any more;
 /// * the lead, when it is the nearest that reaches into the way of the own
 ///   body (and margins) on the centre line, and leaves no such room; bodies
 ///   beyond it are not looked for;
@@ -80,6 +84,7 @@ private:
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
+  double give_m(const own_place& me, const track& x, double from_m) const;
 
   world::route_ptr way_;
   scene_params params_;
@@ -89,6 +94,7 @@ private:
   double half_lane_m_ = 0; // at its widest
   std::vector<other_body> others_;
   std::vector<near> near_;
+  std::vector<std::uint32_t> beside_, were_beside_; // their tracks, sorted
 };
 
 } // namespace sofof::planners

@@ -23,11 +23,17 @@ struct motion_estimate {
   /// Of position and velocity along any one axis; symmetric, m and m/s.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 
+  /// Spectral density of the acceleration, m²/s³: drivers change it by 2 m/s²
+  /// (standard deviation) about once a second, ...
+  static constexpr double driven_m2ps3 = 4.0;
+  /// ... and what stands mostly goes on standing.
+  static constexpr double standing_m2ps3 = 0.05;
+
   /// Lets time pass: at constant velocity, but for random manoeuvres
   /// (acceleration is white noise), which make the estimate less certain.
   /// Source: Bar-Shalom, Li & Kirubarajan 2001, section 6.2.2.
   /// @param dt_s  >= 0.
-  void advance(double dt_s);
+  void advance(double dt_s, double manoeuvre_m2ps3 = driven_m2ps3);
 
   /// Makes the most of two independent estimates of one body at one time.
   void fuse(const motion_estimate& other);
@@ -67,6 +73,15 @@ struct track {
   double speed_mps() const { return speed_along_mps(heading_rad); }
 
   bool stands() const { return std::abs(speed_mps()) < standing_mps; }
+
+  /// @returns how far its side may be from where it is thought to be, m: three
+  /// standard deviations. Who drives may speed up and slow down, which makes
+  /// its place uncertain, but keeps to its lane.
+  double margin_m() const {
+    constexpr auto most_of_driven_m = 0.2;
+    const auto margin = 3 * std::sqrt(motion.covariance(0, 0));
+    return stands() ? margin : std::min(margin, most_of_driven_m);
+  }
 
   /// @returns the smaller of length and width: it may be wider than long.
   double narrow_m() const { return std::min(length_m, width_m); }

@@ -28,8 +28,12 @@ world::perceived_object body_of(const messages::cam& c) {
 }
 
 edge_perception::edge_perception(std::function<time_point()> clock,
-                                 std::span<const world::building> houses)
-    : clock_{std::move(clock)}, doubts_{houses} {}
+                                 std::span<const world::building> houses,
+                                 const planners::sighting_noise& noise)
+    : clock_{std::move(clock)}, model_{noise,
+                                       {messages::generation::moved_m,
+                                        messages::generation::longest}},
+      doubts_{houses} {}
 
 void edge_perception::on_cam(const messages::cam& c, sender_id from) {
   const auto now = clock_();

@@ -25,8 +25,10 @@ world::perceived_object body_of(const messages::cam& c);
 class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
+  /// @param noise   Of those who tell what they see.
   explicit edge_perception(std::function<time_point()> clock,
-                           std::span<const world::building> houses = {});
+                           std::span<const world::building> houses = {},
+                           const planners::sighting_noise& noise = {});
 
   void on_cam(const messages::cam& c, sender_id from) override;
   void on_objects(const messages::object_list& told, sender_id from) override;
@@ -47,8 +49,7 @@ private:
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
   // Told by CAMs and CPMs, which come when there is news.
-  planners::object_tracker model_{
-      {}, {messages::generation::moved_m, messages::generation::longest}};
+  planners::object_tracker model_;
   planners::plausibility doubts_;
   std::map<station_id, messages::cam> told_; // the newest CAM of each
   time_point tidied_;
