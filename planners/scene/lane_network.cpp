@@ -40,18 +40,22 @@ struct lane_network::driver {
 
 lane_network::lane_network(const world::road_map& map)
     : meetings_{world::list_encounters(map)},
-      ranks_(2 * map.conflicts().size()), next_(map.lanes().size()),
-      previous_(map.lanes().size()) {
+      ranks_(2 * map.conflicts().size()), begins_(ranks_.size()),
+      next_(map.lanes().size()), previous_(map.lanes().size()) {
   assert(meetings_.size() == map.lanes().size());
-  for (const auto& lane : meetings_)
-    for (const auto& e : lane) {
+  for (std::size_t lane = 0; lane < meetings_.size(); ++lane)
+    for (const auto& e : meetings_[lane]) {
       assert(e.side < ranks_.size() && e.from_m <= e.to_m);
       ranks_[e.side] = e.rank;
+      begins_[e.side] = {lane, e.from_m};
     }
   std::unordered_map<std::string_view, std::size_t> index;
   for (const auto& l : map.lanes()) {
     index.emplace(l.name, paths_.size());
     half_widths_m_.push_back(l.half_width_m);
+    limits_mps_.push_back(
+        std::ranges::max(l.limits, {}, &world::speed_zone::limit_mps)
+            .limit_mps);
     paths_.emplace_back(l.centre);
     cut(paths_.size() - 1);
   }
@@ -115,6 +119,31 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
   });
   settle();
   return found;
+}
+
+std::vector<point> lane_network::approach(std::uint32_t side,
+                                          double within_s) const {
+  assert(side < begins_.size() && within_s >= 0);
+  std::vector<point> places;
+  come(begins_[side].lane, begins_[side].s_m, within_s, places);
+  return places;
+}
+
+/// @param s_m  From here on the lane back.
+void lane_network::come(std::size_t lane, double s_m, double within_s,
+                        std::vector<point>& out) const {
+  constexpr auto apart_m = 4.0;
+  const auto limit_mps = limits_mps_[lane];
+  assert(limit_mps > 0);
+  for (auto way_m = 0.0; way_m <= within_s * limit_mps; way_m += apart_m) {
+    if (way_m > s_m) {
+      for (const auto before : previous_[lane])
+        come(before, paths_[before].length_m(), within_s - way_m / limit_mps,
+             out);
+      return;
+    }
+    out.push_back(paths_[lane].at(s_m - way_m).at);
+  }
 }
 
 void lane_network::foresee(const track& x, double within_m,

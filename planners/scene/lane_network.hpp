@@ -41,6 +41,11 @@ public:
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
 
+  /// @returns places on the way of those who come to a conflict's side, from
+  /// where it begins back, 4 m apart, as far as one gets at the lanes' speed
+  /// limits in that time.
+  std::vector<point> approach(std::uint32_t side, double within_s) const;
+
   /// Where a body is on a lane that it drives along.
   struct placement {
     std::size_t lane = 0; ///< Index into the map's lanes.
@@ -78,13 +83,16 @@ private:
   };
   struct driver; // on its way
   void cut(std::size_t lane);
+  void come(std::size_t lane, double s_m, double within_s,
+            std::vector<point>& out) const;
   void meet(const driver& who, std::size_t lane, double start_m) const;
   void drive(const driver& who, std::size_t lane, double start_m) const;
 
   world::conflict_sides meetings_;
-  std::vector<int> ranks_; // of all sides
+  std::vector<int> ranks_;        // of all sides
+  std::vector<placement> begins_; // likewise, where they begin
   std::vector<world::path> paths_;
-  std::vector<double> half_widths_m_;
+  std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
   std::vector<piece> pieces_;
   cell_grid cells_; // of the pieces, as wide as the lanes

@@ -12,8 +12,10 @@ namespace sofof::planners {
 /// A route as it is sampled, and how fast it may be driven. It takes
 /// milliseconds to compute and never changes: all planners share one.
 struct route_profile {
-  route_profile(world::route_ptr way, const comfort_limits& style)
-      : line{std::move(way)}, envelope{line.way(), style} {}
+  route_profile(world::route_ptr way, const comfort_limits& style,
+                const route_sight* sight = nullptr,
+                const lane_network* lanes = nullptr)
+      : line{std::move(way)}, envelope{line.way(), style, sight, lanes} {}
 
   reference_line line;
   speed_envelope envelope;

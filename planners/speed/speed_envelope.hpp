@@ -1,6 +1,7 @@
 // How fast a route may be driven where.
 #pragma once
 
+#include "planners/scene/route_sight.hpp"
 #include "planners/speed/comfort_limits.hpp"
 #include "world/roads/route.hpp"
 
@@ -19,8 +20,13 @@ public:
     double accel_mps2 = 0;
   };
 
-  /// @param way  Its limits must be positive.
-  speed_envelope(const world::route& way, const comfort_limits& params);
+  /// @param way    Its limits must be positive.
+  /// @param sight  What is seen from it; null: enough.
+  /// @param lanes  Where crossings are judged, else null: at blind corners a
+  ///               car can stop, and feels its way where it never sees.
+  speed_envelope(const world::route& way, const comfort_limits& params,
+                 const route_sight* sight = nullptr,
+                 const lane_network* lanes = nullptr);
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.
