@@ -25,6 +25,9 @@ double forward_mps(const track& x) {
 /// neither side.
 constexpr auto across_sine = 0.5;
 
+/// Who turns left by more than this crosses who comes towards it.
+constexpr auto turning_rad = 0.5;
+
 /// Who stands before a zone for longer than this is not waited for any more.
 constexpr duration patience = std::chrono::seconds{4};
 constexpr duration more_patience = std::chrono::milliseconds{500};
@@ -97,9 +100,16 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
     return true;
   if (when.rank != own.on.rank)
     return when.rank > own.on.rank;
-  const auto sine = std::sin(x.heading_rad - own.middle.heading_rad);
+  const auto theirs = lanes_->course_of(when.side);
+  const auto ours = lanes_->course_of(own.on.side);
+  const auto sine = std::sin(theirs.from_rad - ours.from_rad);
   if (std::abs(sine) > across_sine)
     return sine < 0; // it comes from the left
+  const auto turns_left = [](const lane_network::course& c) {
+    return c.turn_rad > turning_rad;
+  };
+  if (turns_left(theirs) != turns_left(ours))
+    return turns_left(theirs);
   return me.station && x.station && *me.station < *x.station;
 }
 

@@ -49,8 +49,9 @@ public:
   /// on the way there. Marks those who cross.
   ///
   /// Who goes first: whoever is on the zone, or cannot stop before it any more;
-  /// then the lower rank; of equal ones who comes from the right; else the
-  /// lower station; else the other. Who stands before a zone may set off as
+  /// then the lower rank; of equal ones who comes from the right, or goes
+  /// straight on where the other turns left; else the lower station; else the
+  /// other. Who stands before a zone may set off as
   /// long as it has not stood there for too long, each vehicle waits for
   /// another time, so that not all set off at once. Who stands on a zone is not
   /// crossing: it is in the way, or it is not.

@@ -22,6 +22,9 @@ constexpr auto wedge = 0.25;
 /// Cosine of the largest angle between a body and its lane, 45°.
 constexpr auto same_way = std::numbers::sqrt2 / 2;
 
+/// So far before a conflict a lane shows where it comes from.
+constexpr auto before_m = 15.0;
+
 /// Who stands sets off like this.
 constexpr auto sets_off_after_s = 0.5;
 constexpr auto sets_off_mps2 = 1.5;
@@ -41,7 +44,8 @@ struct lane_network::driver {
 lane_network::lane_network(const world::road_map& map)
     : meetings_{world::list_encounters(map)},
       ranks_(2 * map.conflicts().size()), begins_(ranks_.size()),
-      next_(map.lanes().size()), previous_(map.lanes().size()) {
+      courses_(ranks_.size()), next_(map.lanes().size()),
+      previous_(map.lanes().size()) {
   assert(meetings_.size() == map.lanes().size());
   for (std::size_t lane = 0; lane < meetings_.size(); ++lane)
     for (const auto& e : meetings_[lane]) {
@@ -59,6 +63,13 @@ lane_network::lane_network(const world::road_map& map)
     paths_.emplace_back(l.centre);
     cut(paths_.size() - 1);
   }
+  for (std::size_t i = 0; i < paths_.size(); ++i)
+    for (const auto& e : meetings_[i]) {
+      const auto from_rad =
+          paths_[i].at(std::max(0.0, e.from_m - before_m)).heading_rad;
+      courses_[e.side] = {from_rad,
+                          paths_[i].at(e.to_m).heading_rad - from_rad};
+    }
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const auto& name : map.lanes()[i].next) {
       next_[i].push_back(index.at(name));
@@ -168,7 +179,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
   for (const auto& e : meetings_[lane]) {
     const auto way_m = std::max(0.0, start_m + e.from_m - who.half_length_m);
     const auto left_m = start_m + e.to_m + who.half_length_m;
-    const auto stands = who.speed_mps < standing_mps;
+    const auto stands = who.speed_mps < stands_below_mps;
     if (e.how == world::conflict::kind::diverge || left_m <= 0
         || way_m > (stands ? at_line_m : who.within_m))
       continue;

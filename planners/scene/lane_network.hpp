@@ -41,6 +41,13 @@ public:
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
 
+  /// How a lane comes to a conflict and goes through it.
+  struct course {
+    double from_rad = 0; ///< Its direction shortly before.
+    double turn_rad = 0; ///< How it has turned at the end, left positive.
+  };
+  course course_of(std::uint32_t side) const { return courses_[side]; }
+
   /// @returns places on the way of those who come to a conflict's side, from
   /// where it begins back, 4 m apart, as far as one gets at the lanes' speed
   /// limits in that time.
@@ -91,6 +98,7 @@ private:
   world::conflict_sides meetings_;
   std::vector<int> ranks_;        // of all sides
   std::vector<placement> begins_; // likewise, where they begin
+  std::vector<course> courses_;   // likewise
   std::vector<world::path> paths_;
   std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane

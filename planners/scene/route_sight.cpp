@@ -13,7 +13,7 @@ namespace {
 /// The centre line is looked at in these steps, m.
 constexpr double look_step_m = 2;
 /// From so far before a crossing on, who comes is looked for.
-constexpr double approach_m = 80;
+constexpr double approach_m = 60;
 constexpr double approach_step_m = 1;
 /// Who comes within this time is seen in time, s.
 constexpr double in_time_s = 4;

@@ -47,7 +47,7 @@ struct motion_estimate {
 };
 
 /// Slower than this, a body stands: sensors are not better.
-inline constexpr double standing_mps = 0.3;
+inline constexpr double stands_below_mps = 0.3;
 
 /// A body that has been seen on the road.
 struct track {
@@ -72,7 +72,7 @@ struct track {
 
   double speed_mps() const { return speed_along_mps(heading_rad); }
 
-  bool stands() const { return std::abs(speed_mps()) < standing_mps; }
+  bool stands() const { return std::abs(speed_mps()) < stands_below_mps; }
 
   /// @returns how far its side may be from where it is thought to be, m: three
   /// standard deviations. Who drives may speed up and slow down, which makes

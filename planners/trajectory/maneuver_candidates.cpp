@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace sofof::planners {
 namespace {
@@ -14,7 +15,7 @@ constexpr double gap_after_s = 0.8;
 /// all when it decides to, less once it has begun.
 constexpr double gap_to_begin_s = 1.5;
 constexpr double gap_once_begun_s = 0.8;
-constexpr double gap_at_last_s = 0.3;
+constexpr double gap_at_last_s = 0.5;
 /// It takes so long until a car that decides to stop brakes.
 constexpr double hesitation_s = 0.5;
 
@@ -45,9 +46,12 @@ struct minded_cars {
   std::size_t car_count = 0;
 };
 
-/// A crossing that the own front has not reached, of one who goes first there.
-bool is_minded(const crossing_user& user, double line_m) {
-  return line_m >= 0 && (user.goes_first || user.enter_s <= 0);
+/// A crossing that the own front has not reached, of one who goes first there
+/// and will not have left before the car can be there.
+bool is_minded(const crossing_user& user, double line_m,
+               const crossing_car& car) {
+  return line_m >= 0 && (user.goes_first || user.enter_s <= 0)
+         && user.leave_s + gap_after_s > soonest_s(line_m, car);
 }
 
 /// The first cars to come; of more there is no telling anyway.
@@ -56,7 +60,7 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
   std::array<minded_cars::car, 4 * crossing_order::most_cars> all;
   std::size_t count = 0;
   for (const auto& user : users) {
-    if (!is_minded(user, way(user.from_m - car.front_m)))
+    if (!is_minded(user, way(user.from_m - car.front_m), car))
       continue;
     const auto known =
         std::find_if(all.begin(), all.begin() + count,
@@ -66,9 +70,9 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
     else if (count < all.size())
       all[count++] = {user.body, user.enter_s, gap_to_begin_s};
   }
-  std::stable_sort(
-      all.begin(), all.begin() + count,
-      [](const auto& a, const auto& b) { return a.enter_s < b.enter_s; });
+  std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
+    return std::pair{x.enter_s, x.body};
+  });
   found.car_count = std::min(count, found.cars.size());
   std::copy_n(all.begin(), found.car_count, found.cars.begin());
   assert(found.car_count <= crossing_order::most_cars);
@@ -84,12 +88,12 @@ minded_cars find_minded(std::span<const crossing_user> users,
     const auto line_m = way(user.from_m - car.front_m);
     for (std::size_t i = 0; i < found.car_count; ++i) {
       auto& x = found.cars[i];
-      if (x.body != user.body || !is_minded(user, line_m)
+      if (x.body != user.body || !is_minded(user, line_m, car)
           || found.count == found.places.size())
         continue;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
                                      i};
-      if (std::ranges::find(last.before, x.body) != last.before.end())
+      if (last.goes_before(x.body))
         x.gap_s = stopping_m(car) > line_m
                       ? gap_at_last_s
                       : std::min(x.gap_s, gap_once_begun_s);
@@ -119,16 +123,31 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
   return possible;
 }
 
+/// Who goes before one at a place goes before all who come there later, too.
+/// @returns the bits with those of such cars.
+std::uint32_t with_later(std::uint32_t bits, const minded_cars& minded) {
+  const auto is_before = [&](const minded_place& x) {
+    return (bits >> x.car & 1U) != 0;
+  };
+  for (std::size_t i = 0; i < minded.count; ++i)
+    for (std::size_t k = 0; k < minded.count; ++k) {
+      const auto &a = minded.places[i], &b = minded.places[k];
+      if (is_before(a) && !is_before(b) && a.user->enter_s <= b.user->enter_s
+          && a.user->from_m < b.user->to_m && b.user->from_m < a.user->to_m)
+        return with_later(bits | 1U << b.car, minded);
+    }
+  return bits;
+}
+
 /// @returns the bits of the cars that the last plan went before.
 std::uint32_t bits_of(const crossing_choice& last, const minded_cars& minded) {
   if (last.waits)
     return crossing_order::waits;
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < minded.car_count; ++i)
-    if (std::ranges::find(last.before, minded.cars[i].body)
-        != last.before.end())
+    if (last.goes_before(minded.cars[i].body))
       bits |= 1U << i;
-  return bits;
+  return with_later(bits, minded);
 }
 
 } // namespace
@@ -153,7 +172,7 @@ crossing_choice choice_of(const crossing_order& order) {
   crossing_choice choice{order.choice == crossing_order::waits, {}};
   for (std::size_t i = 0; i < order.cars.size(); ++i)
     if (!choice.waits && (order.choice >> i & 1U) != 0)
-      choice.before.push_back(order.cars[i]);
+      choice.before[i] = order.cars[i];
   return choice;
 }
 
@@ -173,7 +192,7 @@ bool list_orders(std::span<const crossing_user> users, const crossing_car& car,
   for (std::uint32_t choice = 0; choice <= before_all; ++choice) {
     auto order = blank;
     order.choice = choice;
-    if (add_windows(minded, car, order))
+    if (with_later(choice, minded) == choice && add_windows(minded, car, order))
       out.push_back(order);
   }
   put_first(out, before_all);

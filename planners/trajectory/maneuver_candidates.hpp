@@ -6,6 +6,7 @@
 #include "planners/scene/driving_scene.hpp"
 #include "planners/speed/speed_constraints.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -16,14 +17,21 @@ namespace sofof::planners {
 
 /// What was decided last about those who cross, by the numbers of their bodies.
 struct crossing_choice {
+  static constexpr std::size_t most_cars = 4;
+
   bool waits = false;
-  std::vector<std::uint32_t> before; ///< Those that the car goes before.
+  /// Those that the car goes before; 0: nobody.
+  std::array<std::uint32_t, most_cars> before{};
+
+  bool goes_before(std::uint32_t body) const {
+    return body > 0 && std::ranges::find(before, body) != before.end();
+  }
 };
 
 /// In which order to cross with the others, or to wait for all of them. One
 /// decision is made for each of them, whatever number of places it crosses at.
 struct crossing_order {
-  static constexpr std::size_t most_cars = 4;
+  static constexpr std::size_t most_cars = crossing_choice::most_cars;
   static constexpr std::size_t most_windows = 16;
   static constexpr std::uint32_t waits = 1U << most_cars;
 
@@ -58,7 +66,7 @@ double stopping_m(const crossing_car& car);
 /// First comes what was decided last, if it still is possible; then after all,
 /// before all, and others, at most `most`, but those three in any case.
 /// Without anybody to mind there is one, free of windows. Who goes before
-/// another leaves it 1.5 s; 0.8 s once it has begun to, and 0.3 s where it
+/// another leaves it 1.5 s; 0.8 s once it has begun to, and 0.5 s where it
 /// could not stop any more.
 /// @param users  Times from now on.
 /// @param way    From arc length on the route to way from the car on.

@@ -153,9 +153,9 @@ TEST_CASE("beside a body the car keeps its distance, on the side it was told") {
         if (s + 4.0175 < from || s - 1.0825 > from + length)
           continue; // the car is not beside it
         if (left)
-          CHECK(lo - half_car_m >= edge + 0.25);
+          CHECK(lo - half_car_m >= edge + corridor::passing_gap_m - 0.05);
         else
-          CHECK(hi + half_car_m <= -edge - 0.25);
+          CHECK(hi + half_car_m <= -edge - corridor::passing_gap_m + 0.05);
         CHECK(std::abs(left ? hi : lo) + half_car_m <= 1.75);
       }
     }

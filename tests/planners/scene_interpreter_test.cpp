@@ -195,25 +195,52 @@ TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
 
 TEST_CASE("who leaves room in the lane is beside, who does not leads") {
   auto o = ten_metres_down_the_street();
-  // Of 3.5 m the own car needs 2.52 m: 0.98 m are free.
+  // Of 3.5 m the own car needs 2.42 m: 1.08 m are free, 0.1 m less once it has
+  // found room.
+  std::uint32_t id = 0;
+  const auto other = [&](double beside_m, double speed_mps = 0) {
+    auto x = seen_track({60, beside_m}, 0, speed_mps);
+    x.id = ++id;
+    return x;
+  };
   for (const auto side : {-1.0, 1.0}) {
-    o.look({seen_track({60, side * (0.78 + 0.945)}, 0, 2)});
+    o.look({other(side * (0.68 + 0.945), 2)});
     CHECK_FALSE(o.seen.lead);
     REQUIRE(o.seen.beside.size() == 1);
     const auto& b = o.seen.beside[0];
     CHECK(b.from_m == test::near(60 - 2.55, 1e-6));
     CHECK(b.to_m == test::near(60 + 2.55, 1e-6));
     CHECK(std::min(std::abs(b.low_m), std::abs(b.high_m))
-          == test::near(0.78, 1e-6));
+          == test::near(0.68, 1e-6));
     CHECK(b.low_m * side > 0);
     CHECK(b.speed_mps == test::near(2, 1e-9));
-    o.look({seen_track({60, side * (0.73 + 0.945)})});
+    o.look({other(side * (0.66 + 0.945))});
     CHECK(o.seen.lead);
     CHECK(o.seen.beside.empty());
     o.look({seen_track({60, side * (1.76 + 0.945)})});
     CHECK_FALSE(o.seen.lead);
     CHECK(o.seen.beside.empty());
   }
+}
+
+TEST_CASE(
+    "who has left room is beside with a little less, too, and with as much "
+    "as the body needs when there is no way to stop any more") {
+  const auto is_beside = [](double speed_mps, double beside_m) {
+    auto o = ten_metres_down_the_street();
+    o.me.speed_mps = speed_mps;
+    auto x = seen_track({34, 0.7 + 0.945});
+    o.look({x});
+    REQUIRE(o.seen.beside.size() == 1);
+    CHECK(o.seen.beside[0].give_m == 0);
+    x.motion.mean(1, 0) = beside_m + 0.945;
+    o.look({x});
+    return !o.seen.beside.empty() && o.seen.beside[0].give_m > 0;
+  };
+  CHECK(is_beside(5, 0.6));
+  CHECK_FALSE(is_beside(5, 0.55));
+  CHECK(is_beside(13.9, 0.35));
+  CHECK_FALSE(is_beside(13.9, 0.25));
 }
 
 TEST_CASE("those beside come in order, as far as the lead") {
@@ -319,6 +346,7 @@ TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
                                     * point{-std::sin(here.heading_rad),
                                             std::cos(here.heading_rad)},
                           here.heading_rad + dice.uniform(-pi, pi, n, 2));
+      x.id = n + 1;
       x.length_m = dice.uniform(2, 12, n, 3);
       auto nearest_m = 1e9; // of its outline
       const auto box = x.body();
@@ -339,7 +367,7 @@ TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
         CHECK_FALSE(is_found);
       if (nearest_m < 1.65) // between measured points, sides bulge
         CHECK(is_found);
-      if (nearest_m < 0.7)
+      if (nearest_m < 0.6)
         CHECK(seen.lead);
       reaching += is_found ? 1 : 0;
     }
@@ -423,22 +451,15 @@ TEST_CASE("of equals who comes from the right goes first") {
   CHECK_FALSE(c->goes_first);
 }
 
-TEST_CASE(
-    "of equals that come towards each other the lower station goes first, "
-    "and of unknown ones the other") {
-  auto o = at_cross_roads({3, 0, 2}, 100, true); // turns left
-  auto x = seen_track({60, 1.75}, pi, 10);
-  const auto other_first = [&] {
-    REQUIRE_FALSE(o.look({x}).crossings.empty());
-    return o.seen.crossings.front().goes_first;
-  };
-  CHECK(other_first());
-  o.me.station = 101;
-  CHECK(other_first());
-  x.station = 102;
-  CHECK_FALSE(other_first());
-  x.station = 100;
-  CHECK(other_first());
+TEST_CASE("of equals that come towards each other who turns left gives way") {
+  const auto oncoming = seen_track({60, 1.75}, pi, 10);
+  auto left = at_cross_roads({3, 0, 2}, 100, true);
+  REQUIRE_FALSE(left.look({oncoming}).crossings.empty());
+  CHECK(std::ranges::any_of(left.seen.crossings, &crossing_user::goes_first));
+  auto straight = at_cross_roads({3, 0, 1}, 100, true);
+  REQUIRE_FALSE(straight.look({oncoming}).crossings.empty()); // it may turn
+  for (const auto& user : straight.seen.crossings)
+    CHECK_FALSE(user.goes_first);
 }
 
 TEST_CASE("who stands before a crossing is waited for until it has stood there "
@@ -513,7 +534,8 @@ TEST_CASE(
   CHECK(o.seen.crossings.empty());
   CHECK(o.seen.lead);
   o.look({seen_track({1.75, -6.5}, pi / 2)}); // its nose 2.2 m beside
-  CHECK(o.seen.crossings.empty());
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
   CHECK_FALSE(o.seen.lead);
 }
 
