@@ -22,6 +22,13 @@ constexpr auto wedge = 0.25;
 /// Cosine of the largest angle between a body and its lane, 45°.
 constexpr auto same_way = std::numbers::sqrt2 / 2;
 
+/// Nobody drives through a bend, or brakes before it, with more, m/s².
+constexpr auto most_lateral_mps2 = 4.0;
+constexpr auto most_braking_mps2 = 4.0;
+/// A bend begins where it is this share of its sharpest.
+constexpr auto share_of_sharpest = 0.7;
+constexpr auto least_curvature_1pm = 1e-3;
+
 /// So far before a conflict a lane shows where it comes from.
 constexpr auto before_m = 15.0;
 
@@ -62,6 +69,16 @@ lane_network::lane_network(const world::road_map& map)
             .limit_mps);
     paths_.emplace_back(l.centre);
     cut(paths_.size() - 1);
+    auto sharpest_1pm = least_curvature_1pm;
+    const auto& path = paths_.back();
+    for (auto s_m = 0.0; s_m < path.length_m(); ++s_m)
+      sharpest_1pm = std::max(sharpest_1pm, std::abs(path.curvature_1pm(s_m)));
+    auto s_m = 0.0;
+    while (s_m < path.length_m()
+           && std::abs(path.curvature_1pm(s_m))
+                  < share_of_sharpest * sharpest_1pm)
+      ++s_m;
+    bends_.push_back({s_m, std::sqrt(most_lateral_mps2 / sharpest_1pm)});
   }
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const auto& e : meetings_[i]) {
@@ -163,12 +180,29 @@ void lane_network::foresee(const track& x, double within_m,
   assert(x.length_m > 0);
   const driver who{x.length_m / 2, x.speed_mps(), std::max(within_m, at_line_m),
                    out.size(), out};
-  for (const auto& [lane, s_m] : find(x.body())) {
+  const auto on = find(x.body());
+  const auto any = std::ranges::any_of(
+      on, [&](const placement& p) { return takes(who, p.lane, -p.s_m); });
+  for (const auto& [lane, s_m] : on) {
+    if (any && !takes(who, lane, -s_m))
+      continue;
     drive(who, lane, -s_m);
     if (s_m < who.half_length_m) // its rear is still there
       for (const auto before : previous_[lane])
         meet(who, before, -s_m - paths_[before].length_m());
   }
+}
+
+/// @returns whether a body may go along a lane, as fast as it is.
+bool lane_network::takes(const driver& who, std::size_t lane,
+                         double start_m) const {
+  assert(lane < bends_.size());
+  const auto& [s_m, speed_mps] = bends_[lane];
+  const auto way_m = start_m + s_m;
+  const auto v = who.speed_mps;
+  return v * v <= speed_mps * speed_mps
+                      + 2 * most_braking_mps2 * std::max(0.0, way_m)
+         || way_m < -who.half_length_m; // it has gone through
 }
 
 /// @param start_m  Where the lane begins, from the body's centre on.
@@ -213,8 +247,12 @@ void lane_network::drive(const driver& who, std::size_t lane,
   meet(who, lane, start_m);
   const auto end_m = start_m + paths_[lane].length_m();
   assert(end_m > start_m); // or lanes that end in each other had no end
-  if (end_m - who.half_length_m <= who.within_m)
-    for (const auto following : next_[lane])
+  if (end_m - who.half_length_m > who.within_m)
+    return;
+  const auto any = std::ranges::any_of(
+      next_[lane], [&](std::size_t next) { return takes(who, next, end_m); });
+  for (const auto following : next_[lane])
+    if (!any || takes(who, following, end_m))
       drive(who, following, end_m);
 }
 

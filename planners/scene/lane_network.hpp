@@ -76,7 +76,8 @@ public:
 
   /// Appends the conflicts that a body is on or drives towards, on whatever
   /// lanes it may take; each side once, with the earliest entry and the latest
-  /// exit of all ways. Who stands is thought to set off at once, if it is at
+  /// exit of all ways; but for those with bends that it is too fast for. Who
+  /// stands is thought to set off at once, if it is at
   /// most `at_line_m` away.
   /// @param within_m  How far its front looks, m, at most `farthest_m`.
   void foresee(const track& x, double within_m,
@@ -90,6 +91,10 @@ private:
   };
   struct driver; // on its way
   void cut(std::size_t lane);
+  struct bend {            // where a lane is sharpest
+    double s_m, speed_mps; // and how fast anybody drives there
+  };
+  bool takes(const driver& who, std::size_t lane, double start_m) const;
   void come(std::size_t lane, double s_m, double within_s,
             std::vector<point>& out) const;
   void meet(const driver& who, std::size_t lane, double start_m) const;
@@ -98,6 +103,7 @@ private:
   world::conflict_sides meetings_;
   std::vector<int> ranks_;        // of all sides
   std::vector<placement> begins_; // likewise, where they begin
+  std::vector<bend> bends_;       // of each lane
   std::vector<course> courses_;   // likewise
   std::vector<world::path> paths_;
   std::vector<double> half_widths_m_, limits_mps_;

@@ -31,9 +31,12 @@ struct way_table {
 
 /// v²/2 that limits and bends allow at a place.
 double allowed_at(const world::route& way, double s_m,
-                  const comfort_limits& params) {
+                  const comfort_limits& params,
+                  std::span<const double> most_mps) {
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
-  const auto limit = std::max(min_speed_mps, way.limit_mps(s_m));
+  const auto limit =
+      std::max(min_speed_mps,
+               std::min(way.limit_mps(s_m), seen_limit_mps(most_mps, s_m)));
   return std::min(limit * limit, params.max_lateral_accel_mps2
                                      / std::max(bend, min_curvature_1pm))
          / 2;
@@ -43,65 +46,19 @@ double allowed_at(const world::route& way, double s_m,
 /// to the entries beside it, so that the line between two entries stays below
 /// what is allowed between them.
 way_table allowed(const world::route& way, double step_m, long size,
-                  const comfort_limits& params) {
+                  const comfort_limits& params,
+                  std::span<const double> most_mps) {
   assert(step_m > 0 && size > 0);
   way_table half{{}, way.closed()}; // in half steps
   for (long i = 0; i < 2 * size; ++i)
     half.values.push_back(
-        allowed_at(way, static_cast<double>(i) * step_m / 2, params));
+        allowed_at(way, static_cast<double>(i) * step_m / 2, params, most_mps));
   way_table u{{}, way.closed()};
   for (long i = 0; i < 2 * size; i += 2)
     u.values.push_back(std::min(
         {half[i - 2], half[i - 1], half[i], half[i + 1], half[i + 2]}));
   assert(std::ranges::all_of(u.values, [](double x) { return x > 0; }));
   return u;
-}
-
-/// A plan reckons with what it does not see only after so long.
-constexpr double reacts_after_s = 0.3;
-/// From the middle of the nearest car that is not seen yet to its rear, and
-/// what is kept to it.
-constexpr double unseen_car_m = 2.55 + 1.0;
-/// At a crossing that is never seen into, a car feels its way.
-constexpr double groping_mps = 2.5;
-
-/// The speed from which a car comes to rest within a way, firmly.
-double speed_to_stop_mps(double way_m, const comfort_limits& params) {
-  const auto a = params.firm_decel_mps2();
-  const auto way = std::max(0.0, way_m);
-  return a
-         * (std::sqrt(reacts_after_s * reacts_after_s + 2 * way / a)
-            - reacts_after_s);
-}
-
-/// No faster than a car can stop within what it sees of its way.
-void see_ahead(way_table& u, double step_m, const comfort_limits& params,
-               const route_sight& sight) {
-  for (long i = 0; i < u.size(); ++i) {
-    const auto free_m =
-        sight.ahead_m(static_cast<double>(i) * step_m) - unseen_car_m;
-    const auto v = std::max(speed_to_stop_mps(free_m, params), groping_mps);
-    u.values[i] = std::min(u[i], v * v / 2);
-  }
-}
-
-/// No faster before a blind corner than a car can stop there, until it sees
-/// who comes.
-void see_round(way_table& u, double step_m, const comfort_limits& params,
-               const std::vector<blind_corner>& corners) {
-  constexpr auto least = groping_mps * groping_mps / 2;
-  for (const auto& corner : corners) {
-    const auto last = std::lround(corner.seen_from_m / step_m);
-    const auto reach = std::lround(100 / step_m);
-    for (auto i = std::max(u.closed ? last - reach : 0L, last - reach);
-         i <= last; ++i) {
-      const auto way_m = corner.line_m - static_cast<double>(i) * step_m;
-      const auto v = speed_to_stop_mps(way_m, params);
-      const auto k = u.closed ? (i % u.size() + u.size()) % u.size()
-                              : std::clamp(i, 0L, u.size() - 1);
-      u.values[k] = std::min(u.values[k], std::max(v * v / 2, least));
-    }
-  }
 }
 
 /// No slow place is left (`way` 1) or approached (`way` -1) with more than
@@ -144,8 +101,7 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 
 speed_envelope::speed_envelope(const world::route& way,
                                const comfort_limits& params,
-                               const route_sight* sight,
-                               const lane_network* lanes)
+                               std::span<const double> most_mps)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   assert(length_m_ > 0 && params.max_accel_mps2 > 0);
   assert(params.comfort_decel_mps2 > 0 && params.max_jerk_mps3 > 0);
@@ -157,11 +113,7 @@ speed_envelope::speed_envelope(const world::route& way,
   const auto decel = params.comfort_decel_mps2;
   const auto jerk = table_share_of_jerk * params.max_jerk_mps3;
 
-  auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params);
-  if (sight)
-    see_ahead(u, step_m, params, *sight);
-  if (sight && lanes)
-    see_round(u, step_m, params, sight->corners(*lanes));
+  auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params, most_mps);
   ramp_from_slow(u, 1, step_m, params.max_accel_mps2, jerk);
   ramp_from_slow(u, -1, step_m, decel, jerk);
   assert(u.size() == (closed_ ? steps : steps + 1));

@@ -1,10 +1,11 @@
 // How fast a route may be driven where.
 #pragma once
 
-#include "planners/scene/route_sight.hpp"
+#include "planners/scene/reference_line.hpp"
 #include "planners/speed/comfort_limits.hpp"
 #include "world/roads/route.hpp"
 
+#include <span>
 #include <vector>
 
 namespace sofof::planners {
@@ -20,13 +21,10 @@ public:
     double accel_mps2 = 0;
   };
 
-  /// @param way    Its limits must be positive.
-  /// @param sight  What is seen from it; null: enough.
-  /// @param lanes  Where crossings are judged, else null: at blind corners a
-  ///               car can stop, and feels its way where it never sees.
+  /// @param way       Its limits must be positive.
+  /// @param most_mps  As in `reference_line`.
   speed_envelope(const world::route& way, const comfort_limits& params,
-                 const route_sight* sight = nullptr,
-                 const lane_network* lanes = nullptr);
+                 std::span<const double> most_mps = {});
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.

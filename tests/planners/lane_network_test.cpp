@@ -111,6 +111,24 @@ TEST_CASE("who drives towards a junction meets conflicts on all its ways") {
   CHECK(sides.size() == found.size());
 }
 
+TEST_CASE("who is too fast for a bend does not take it") {
+  const auto sides_of = [](double x_m, double speed_mps) {
+    std::set<std::string> lanes_taken;
+    for (const auto& a : foresee(make_track({x_m, -1.75}, 0, speed_mps), 60))
+      for (const auto* turn : {"3>0>1", "3>0>2", "3>0>4"})
+        for (const auto& e : lanes().meetings()[static_cast<std::size_t>(
+                 std::ranges::find(cross_roads().lanes(), turn, &lane::name)
+                 - cross_roads().lanes().begin())])
+          if (e.side == a.side)
+            lanes_taken.insert(turn);
+    return lanes_taken;
+  };
+  CHECK(sides_of(-40, 10).contains("3>0>2"));
+  CHECK_FALSE(sides_of(-14, 13).contains("3>0>2"));
+  CHECK(sides_of(-14, 13).contains("3>0>1"));
+  CHECK(sides_of(-14, 6).contains("3>0>2"));
+}
+
 TEST_CASE("nobody looks farther than asked") {
   CHECK(foresee(make_track({-50, -1.75}, 0, 10), 35).empty());
   CHECK_FALSE(foresee(make_track({-50, -1.75}, 0, 10), 45).empty());

@@ -1,6 +1,8 @@
 // What all planners of a run share of the map.
 #include "actors/services/planning/known_roads.hpp"
 
+#include "planners/speed/sight_limit.hpp"
+
 namespace sofof::actors {
 
 known_roads::known_roads(const world::road_map& map,
@@ -18,8 +20,10 @@ planners::route_profile_ptr known_roads::profile(const world::route_ptr& way,
     if (!at_provider)
       eyes.roadside.clear();
     const planners::route_sight sight{way, houses_, eyes};
-    profile = std::make_shared<const planners::route_profile>(
-        way, style_, &sight, judges_ ? lanes_.get() : nullptr);
+    const auto most_mps = planners::sight_limits_mps(
+        *way, style_, sight, judges_ ? lanes_.get() : nullptr);
+    profile =
+        std::make_shared<const planners::route_profile>(way, style_, most_mps);
   }
   return profile;
 }
