@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace sofof::planners {
 
@@ -68,7 +69,8 @@ void crossing_predictor::judge(const crossing_viewer& me, double to_m,
     for (const auto& [who, when] : foreseen_) {
       auto& [x, is_crossing] = others[who];
       if (when.side != own.on.other_side() || !std::isfinite(when.leave_s)
-          || (when.way_m == 0 && drives_along(x, own.on)))
+          || (when.way_m == 0 && drives_along(x, own.on))
+          || (when.is_past && gap_m(x, own.on) > 0))
         continue;
       found.push_back({own.on.from_m, own.on.to_m, when.enter_s, when.leave_s,
                        !gives_way(me, x, when, own), x.id});
@@ -94,7 +96,9 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
                                    const conflict_visit& when,
                                    const own_zone& own) const {
   const auto v = forward_mps(x);
-  if (when.way_m == 0 || v * v > 2 * yielding_decel_mps2 * when.way_m)
+  // A zone begins before bodies touch.
+  const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
+  if (way_m <= 0 || v * v > 2 * yielding_decel_mps2 * way_m)
     return false; // it is there, or will be
   if (when.sets_off && x.at - x.moved > patience_of(me.station))
     return true;
@@ -149,6 +153,28 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
       foreseen_.push_back({who, when});
     }
   }
+}
+
+/// @returns how far a body's outline is from the way of the own body at a zone;
+/// not above 0 where it reaches into it.
+double crossing_predictor::gap_m(const track& x, const world::zone& z) const {
+  const auto& line = way_.on()->path();
+  const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
+  const point left{-ahead.y_m, ahead.x_m};
+  auto nearest_m = std::numeric_limits<double>::infinity();
+  auto is_left = false, is_right = false;
+  for (const auto along : {-0.5, 0.0, 0.5})
+    for (const auto across : {-0.5, 0.5}) {
+      const auto p =
+          x.centre() + along * x.length_m * ahead + across * x.width_m * left;
+      const auto d_m = line.project(p, (z.from_m + z.to_m) / 2,
+                                    (z.to_m - z.from_m) / 2 + x.length_m)
+                           .d_m;
+      nearest_m = std::min(nearest_m, std::abs(d_m));
+      (d_m > 0 ? is_left : is_right) = true;
+    }
+  assert(std::isfinite(nearest_m));
+  return is_left && is_right ? 0 : nearest_m - corridor_m_;
 }
 
 /// @returns whether a body at a zone drives on the own way already.

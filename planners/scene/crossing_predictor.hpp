@@ -78,6 +78,7 @@ private:
   bool gives_way(const crossing_viewer& me, const track& x,
                  const conflict_visit& when, const own_zone& own) const;
   bool drives_along(const track& x, const world::zone& z) const;
+  double gap_m(const track& x, const world::zone& z) const;
 
   std::shared_ptr<const lane_network> lanes_;
   world::unrolled_route way_;

@@ -219,6 +219,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
       continue;
     conflict_visit here{e.side, e.rank, way_m};
     here.sets_off = stands && way_m > 0;
+    here.is_past = left_m < who.half_length_m;
     if (here.sets_off) {
       here.enter_s = standing_start_s(way_m);
       here.leave_s = standing_start_s(left_m);
@@ -236,6 +237,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
       who.out.push_back(here);
     } else {
       known->way_m = std::min(known->way_m, here.way_m);
+      known->is_past = known->is_past && here.is_past;
       known->enter_s = std::min(known->enter_s, here.enter_s);
       known->leave_s = std::max(known->leave_s, here.leave_s);
     }

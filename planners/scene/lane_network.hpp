@@ -24,6 +24,7 @@ struct conflict_visit {
   double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
   double leave_s = 0;     ///< Its rear leaves; infinite: it stands there.
   bool sets_off = false;  ///< If it does: it stands before the stretch.
+  bool is_past = false;   ///< Its middle has left the stretch.
 };
 
 /// Lanes, how they follow each other, and their conflicts; immutable, one for
