@@ -26,6 +26,8 @@ constexpr std::array<part, ocp::path_rows::most_discs> parts{
 constexpr double same_knot = 1e-6;
 /// The car on the line itself fits by this, whatever the discs say.
 constexpr double least_room_m = 0.12;
+/// At least this is kept.
+constexpr double least_gap_m = 0.05;
 /// Discs are wider than the car by this at their middle.
 constexpr double disc_excess_m = disc_radius_m - 0.945;
 /// Way before and after a body on which the car may leave the centre line.
@@ -102,11 +104,18 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
-      const auto gap = passing_gap_m - body.give_m + p.radius_m - disc_excess_m;
-      if (side == side_of_road::left)
+      // What is lacking is taken from the gap first, then from what discs are
+      // wider than the car at the other side.
+      const auto from_gap = std::min(body.lacks_m, passing_gap_m - least_gap_m);
+      const auto over = body.lacks_m - from_gap;
+      const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
+      if (side == side_of_road::left) {
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
-      else
+        hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
+      } else {
         hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
+        lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
+      }
     }
   }
 }

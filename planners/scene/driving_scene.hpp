@@ -41,8 +41,8 @@ struct lane_obstacle {
   double low_m = 0, high_m = 0; ///< Its lateral extent, left positive, with
                                 ///< what is uncertain of it.
   double speed_mps = 0; ///< Along the own route; negative when it comes.
-  double give_m = 0;    ///< It may be passed with so much less room: that has
-                        ///< begun, or cannot be stopped any more.
+  double lacks_m = 0;   ///< So much room is lacking; it is passed all the same,
+                        ///< as that has begun, or cannot be stopped any more.
 };
 
 /// What a driver has to know about the others.

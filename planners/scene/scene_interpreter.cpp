@@ -22,6 +22,8 @@ constexpr auto outline_m = 2.6;
 /// Curvature changes by no more than this beneath a car, 1/m.
 constexpr auto curvature_change_1pm = 0.05;
 
+/// Of sums of widths.
+constexpr auto rounding_m = 1e-6;
 /// A body that was passable stays so with so much less room.
 constexpr auto hysteresis_m = 0.1;
 /// Where a car cannot stop before a body any more it goes on beside it if so
@@ -221,8 +223,8 @@ scene_interpreter::measure(const near& where) const {
 }
 
 /// @returns how much less room than usual a body may leave.
-double scene_interpreter::give_m(const own_place& me, const track& x,
-                                 double from_m) const {
+double scene_interpreter::may_lack_m(const own_place& me, const track& x,
+                                     double from_m) const {
   if (!std::ranges::binary_search(were_beside_, x.id))
     return 0;
   const auto way_m = from_m - me.s_m - params_.car.front_m;
@@ -256,10 +258,11 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
         b.half_lane_m + std::max(-b.high_m, b.low_m); // on its better side
     const auto is_in_the_way =
         b.low_m < corridor_m() && b.high_m > -corridor_m();
-    const auto give = give_m(me, x, b.from_m);
-    if (!is_in_the_way || room_m >= need_m - give) {
+    const auto lacks_m =
+        is_in_the_way ? std::max(0.0, need_m - room_m + rounding_m) : 0.0;
+    if (lacks_m <= rounding_m || lacks_m <= may_lack_m(me, x, b.from_m)) {
       out.beside.push_back(
-          {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, give});
+          {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, lacks_m});
       beside_.push_back(x.id);
     } else if (b.to_m > front_m
                && (!out.lead || b.from_m < out.lead->rear_s_m)) {

@@ -84,7 +84,7 @@ private:
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
-  double give_m(const own_place& me, const track& x, double from_m) const;
+  double may_lack_m(const own_place& me, const track& x, double from_m) const;
 
   world::route_ptr way_;
   scene_params params_;

@@ -219,7 +219,7 @@ bool leaves_room(const lane_obstacle& body, side_of_road side,
                  double half_width_m) {
   const auto room = side == side_of_road::right ? body.low_m + half_width_m
                                                 : half_width_m - body.high_m;
-  return room >= corridor::room_beside_m - body.give_m;
+  return room >= corridor::room_beside_m - body.lacks_m;
 }
 
 void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,

@@ -232,10 +232,10 @@ TEST_CASE(
     auto x = seen_track({34, 0.7 + 0.945});
     o.look({x});
     REQUIRE(o.seen.beside.size() == 1);
-    CHECK(o.seen.beside[0].give_m == 0);
+    CHECK(o.seen.beside[0].lacks_m < 1e-3);
     x.motion.mean(1, 0) = beside_m + 0.945;
     o.look({x});
-    return !o.seen.beside.empty() && o.seen.beside[0].give_m > 0;
+    return !o.seen.beside.empty() && o.seen.beside[0].lacks_m > 1e-3;
   };
   CHECK(is_beside(5, 0.6));
   CHECK_FALSE(is_beside(5, 0.55));
