@@ -29,6 +29,9 @@ constexpr auto across_sine = 0.5;
 /// Who turns left by more than this crosses who comes towards it.
 constexpr auto turning_rad = 0.5;
 
+/// Who comes later than this to a zone that a car is on already can brake, s.
+constexpr auto soon_s = 2.0;
+
 /// Who stands before a zone for longer than this is not waited for any more.
 constexpr duration patience = std::chrono::seconds{4};
 constexpr duration more_patience = std::chrono::milliseconds{500};
@@ -67,13 +70,16 @@ void crossing_predictor::judge(const crossing_viewer& me, double to_m,
   foresee(others);
   for (const auto& own : zones_)
     for (const auto& [who, when] : foreseen_) {
-      auto& [x, is_crossing] = others[who];
+      auto& [x, is_crossing, cuts_in] = others[who];
       if (when.side != own.on.other_side() || !std::isfinite(when.leave_s)
           || (when.way_m == 0 && drives_along(x, own.on))
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
       found.push_back({own.on.from_m, own.on.to_m, when.enter_s, when.leave_s,
                        !gives_way(me, x, when, own), x.id});
+      cuts_in = cuts_in
+                || (own.on.from_m < me.front_m && found.back().goes_first
+                    && !when.sets_off && when.enter_s < soon_s);
       is_crossing =
           is_crossing || (own.on.from_m >= me.front_m && !when.sets_off);
     }

@@ -19,6 +19,7 @@ namespace sofof::planners {
 struct other_body {
   track x;
   bool is_crossing = false; ///< On or before a zone ahead of the own front.
+  bool cuts_in = false; ///< It comes first to a zone that the own front is on.
 };
 
 /// The vehicle that judges, on its route.

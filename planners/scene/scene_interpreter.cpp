@@ -28,7 +28,7 @@ constexpr auto rounding_m = 1e-6;
 constexpr auto hysteresis_m = 0.1;
 /// Where a car cannot stop before a body any more it goes on beside it if so
 /// much is left on both sides together.
-constexpr auto least_room_m = 0.15;
+constexpr auto least_room_m = 0.23;
 constexpr auto decides_within_s = 0.3;
 constexpr auto stops_mps2 = 4.0;
 
@@ -90,6 +90,7 @@ void scene_interpreter::describe(time_point now, const own_place& me,
     crossings_.judge({me.station, rear_m, front_m}, front_m + params_.horizon_m,
                      others_, out.crossings, out.yields_m, out.keep_free);
   }
+  foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
   assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
@@ -113,8 +114,21 @@ void scene_interpreter::gather(time_point now, const own_place& me,
         && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
       continue;
     assert(x.length_m > 0 && x.width_m > 0);
-    others_.push_back({x, false});
+    others_.push_back({x, false, false});
   }
+}
+
+/// Adds bodies where those who cut in will be soon, straight ahead.
+void scene_interpreter::foresee_cutting_in() {
+  const auto count = others_.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (others_[i].cuts_in)
+      for (const auto in_s : {0.7, 1.4}) {
+        auto x = others_[i].x;
+        x.motion.mean.col(0) += in_s * x.motion.mean.col(1);
+        others_.push_back({x, false, false});
+      }
+  assert(others_.size() >= count);
 }
 
 /// Finds, by the beads, the places on the way ahead where bodies may reach
@@ -249,7 +263,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
         || print->from_m > front_m + params_.horizon_m)
       continue;
     auto b = *print;
-    const auto& [x, is_crossing] = others_[where.who];
+    const auto& [x, is_crossing, cuts_in] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;
     b.low_m -= x.margin_m();

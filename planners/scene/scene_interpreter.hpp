@@ -47,7 +47,9 @@ struct own_place {
 ///   beyond it are not looked for;
 /// * crossing, when crossings are judged and it is on, or drives towards, the
 ///   other side of a zone ahead. Who drives across the own way there is
-///   not a lead besides, and who drives along it is not crossing.
+///   not a lead besides, and who drives along it is not crossing. Whoever
+///   comes first to a zone that the own front is on already counts where it
+///   will be in a moment, too.
 class scene_interpreter {
 public:
   /// @param lanes  Of the map that the route is on; not null.
@@ -78,6 +80,7 @@ private:
   };
   void gather(time_point now, const own_place& me,
               std::span<const track> tracks);
+  void foresee_cutting_in();
   void find_near(const own_place& me);
   std::optional<footprint> measure(const near& where) const;
   void find_bodies(const own_place& me, driving_scene& out);
