@@ -43,6 +43,15 @@ duration patience_of(const std::optional<station_id>& who) {
   return patience + (mixed % different_patiences) * more_patience;
 }
 
+/// @returns the braking that stops a body after so long a way, if it begins as
+/// soon as its driver has seen why; infinite: none does.
+double decel_before(double way_m, double speed_mps) {
+  constexpr auto reaction_s = 1.0;
+  const auto left_m = way_m - reaction_s * speed_mps;
+  return left_m > 0 ? speed_mps * speed_mps / (2 * left_m)
+                    : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
 
 crossing_predictor::crossing_predictor(
@@ -76,7 +85,8 @@ void crossing_predictor::judge(const crossing_viewer& me, double to_m,
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
       found.push_back({own.on.from_m, own.on.to_m, when.enter_s, when.leave_s,
-                       !gives_way(me, x, when, own), x.id});
+                       !gives_way(me, x, when, own),
+                       decel_before(when.way_m, forward_mps(x)), x.id});
       cuts_in = cuts_in
                 || (own.on.from_m < me.front_m && found.back().goes_first
                     && !when.sets_off && when.enter_s < soon_s);

@@ -5,6 +5,7 @@
 #include "base/time.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct crossing_user {
                                ///< there.
   double leave_s = 0;          ///< Its rear has left; infinite: it stands.
   bool goes_first = true;      ///< By right of way; else it gives way.
+  /// It has to brake so hard, from a second on, to stay off the stretch.
+  double brakes_mps2 = std::numeric_limits<double>::infinity();
   std::uint32_t body = 0;      ///< One number for all entries of a road user.
 };
 

@@ -181,16 +181,30 @@ void lane_network::foresee(const track& x, double within_m,
   const driver who{x.length_m / 2, x.speed_mps(), std::max(within_m, at_line_m),
                    out.size(), out};
   const auto on = find(x.body());
-  const auto any = std::ranges::any_of(
-      on, [&](const placement& p) { return takes(who, p.lane, -p.s_m); });
+  const auto is_likely = [&](const placement& p) {
+    return takes(who, p.lane, -p.s_m) && stays_on(x, p);
+  };
+  const auto any = std::ranges::any_of(on, is_likely);
   for (const auto& [lane, s_m] : on) {
-    if (any && !takes(who, lane, -s_m))
+    if (any && !is_likely({lane, s_m}))
       continue;
     drive(who, lane, -s_m);
     if (s_m < who.half_length_m) // its rear is still there
       for (const auto before : previous_[lane])
         meet(who, before, -s_m - paths_[before].length_m());
   }
+}
+
+/// @returns whether a body is on a lane still when it has gone straight on for a
+/// little; else it is leaving it.
+bool lane_network::stays_on(const track& x, const placement& on) const {
+  constexpr auto straight_m = 5.0;
+  const auto lane = paths_[on.lane].at(on.s_m);
+  const auto to = x.centre() - lane.at;
+  const point left{-std::sin(lane.heading_rad), std::cos(lane.heading_rad)};
+  const auto d_m = dot(to, left)
+                   + straight_m * std::sin(x.heading_rad - lane.heading_rad);
+  return std::abs(d_m) <= half_widths_m_[on.lane];
 }
 
 /// @returns whether a body may go along a lane, as fast as it is.

@@ -95,6 +95,7 @@ private:
   struct bend {            // where a lane is sharpest
     double s_m, speed_mps; // and how fast anybody drives there
   };
+  bool stays_on(const track& x, const placement& on) const;
   bool takes(const driver& who, std::size_t lane, double start_m) const;
   void come(std::size_t lane, double s_m, double within_s,
             std::vector<point>& out) const;

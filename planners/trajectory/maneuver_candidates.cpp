@@ -16,6 +16,9 @@ constexpr double gap_after_s = 0.8;
 constexpr double gap_to_begin_s = 1.5;
 constexpr double gap_once_begun_s = 0.8;
 constexpr double gap_at_last_s = 0.5;
+/// Whoever can stay off a place by braking so little may have to, for a car that
+/// cannot stop before it any more.
+constexpr double little_braking_mps2 = 1.5;
 /// It takes so long until a car that decides to stop brakes.
 constexpr double hesitation_s = 0.5;
 
@@ -31,6 +34,7 @@ struct minded_place {
   double line_m, clear_m; // way to before and behind it
   const crossing_user* user;
   std::size_t car; // its bit
+  bool committed;  // the own car goes before it, and cannot stop any more
 };
 
 /// Those who are minded, in the order in which they come.
@@ -91,12 +95,13 @@ minded_cars find_minded(std::span<const crossing_user> users,
       if (x.body != user.body || !is_minded(user, line_m, car)
           || found.count == found.places.size())
         continue;
+      const auto before = last.goes_before(x.body);
+      const auto committed = before && stopping_m(car) > line_m;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
-                                     i};
-      if (last.goes_before(x.body))
-        x.gap_s = stopping_m(car) > line_m
-                      ? gap_at_last_s
-                      : std::min(x.gap_s, gap_once_begun_s);
+                                     i, committed};
+      if (before)
+        x.gap_s =
+            committed ? gap_at_last_s : std::min(x.gap_s, gap_once_begun_s);
     }
   }
   assert(found.car_count == 0 || found.count > 0);
@@ -108,9 +113,12 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
                  crossing_order& order) {
   auto possible = true;
   for (std::size_t i = 0; i < minded.count; ++i) {
-    const auto& [line_m, clear_m, user, bit] = minded.places[i];
+    const auto& [line_m, clear_m, user, bit, committed] = minded.places[i];
+    const auto before = (order.choice >> bit & 1U) != 0;
+    if (before && committed && user->brakes_mps2 < little_braking_mps2)
+      continue; // it lets the car pass
     auto& window = order.windows[order.count++];
-    if ((order.choice >> bit & 1U) != 0) {
+    if (before) {
       window = {clear_m, -speed_constraints::never,
                 user->enter_s - minded.cars[bit].gap_s};
       possible &= soonest_s(clear_m, car) <= window.latest_s;
