@@ -34,10 +34,22 @@ constexpr double disc_excess_m = disc_radius_m - 0.945;
 constexpr double evasion_m = 20;
 /// Way over which the car comes back into the corridor.
 constexpr double return_m = 25;
-/// A heading error carries the car on over this way before it steers back.
-constexpr double overshoot_m = 4;
+/// How fast a car that has to come back turns its curvature, 1/m per m: less
+/// than paths may (path_planner).
+constexpr double steering_1pm2 = 0.05;
 /// Of sums of bounds.
 [[maybe_unused]] constexpr double rounding_m = 1e-9;
+
+/// @returns how far a heading and a curvature carry the car to the left before
+/// it is parallel again: curvature falls evenly, and comes back.
+double drift_m(double heading_rad, double curvature_1pm) {
+  const auto out = std::max(0.0, curvature_1pm);
+  const auto until_straight_m = out / steering_1pm2;
+  const auto heading = std::max(0.0, heading_rad + out * until_straight_m / 2);
+  assert(std::isfinite(heading));
+  return until_straight_m * (std::max(0.0, heading_rad) + heading) / 2
+         + heading * std::sqrt(heading / steering_1pm2);
+}
 
 } // namespace
 
@@ -124,10 +136,11 @@ void corridor::admit(const path_state& start) {
   assert(line_ && steps_ >= 1); // opened
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
-    const auto drift = overshoot_m * std::abs(start.heading_rad);
     const auto y = start.d_m + ahead * std::sin(start.heading_rad);
-    const auto over = std::max(0.0, y + drift - hi_[j][0]);
-    const auto under = std::max(0.0, lo_[j][0] - y + drift);
+    const auto left = y + drift_m(start.heading_rad, start.curvature_1pm);
+    const auto right = y - drift_m(-start.heading_rad, -start.curvature_1pm);
+    const auto over = std::max(0.0, left - hi_[j][0]);
+    const auto under = std::max(0.0, lo_[j][0] - right);
     if (over == 0 && under == 0)
       continue;
     for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {

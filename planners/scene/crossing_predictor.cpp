@@ -65,14 +65,18 @@ crossing_predictor::crossing_predictor(
   foreseen_.reserve(many);
 }
 
-void crossing_predictor::judge(const crossing_viewer& me, double to_m,
+void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,
+                                    std::vector<way_stretch>& keep_free) {
+  assert(rear_m < front_m && front_m < to_m);
+  find_zones(rear_m, to_m);
+  join_zones(front_m - rear_m, keep_free);
+}
+
+void crossing_predictor::judge(const crossing_viewer& me,
                                std::span<other_body> others,
                                std::vector<crossing_user>& found,
-                               std::vector<double>& yields,
-                               std::vector<way_stretch>& keep_free) {
-  assert(me.rear_m < me.front_m && me.front_m < to_m);
-  find_zones(me.rear_m, to_m);
-  join_zones(me.front_m - me.rear_m, keep_free);
+                               std::vector<double>& yields) {
+  assert(me.rear_m < me.front_m);
   for (const auto& own : zones_)
     if (lanes_->rank(own.on.other_side()) < own.on.rank)
       yields.push_back(own.on.from_m);

@@ -46,8 +46,13 @@ public:
                      double foresight_s);
 
   /// Finds the zones of the own way that the vehicle has not left and that
-  /// begin before `to_m`, and for each of them everybody on its other side or
-  /// on the way there. Marks those who cross.
+  /// begin before `to_m`.
+  /// @param keep_free  Them, joined where no car fits between.
+  void look_ahead(double rear_m, double front_m, double to_m,
+                  std::vector<way_stretch>& keep_free);
+
+  /// Finds everybody on the other side of each of these zones, or on the way
+  /// there. Marks those who cross.
   ///
   /// Who goes first: whoever is on the zone, or cannot stop before it any more;
   /// then the lower rank; of equal ones who comes from the right, or goes
@@ -59,10 +64,8 @@ public:
   ///
   /// @param found      In the order of zones.
   /// @param yields     Where zones begin whose other side goes first by rank.
-  /// @param keep_free  The zones, joined where no car fits between.
-  void judge(const crossing_viewer& me, double to_m,
-             std::span<other_body> others, std::vector<crossing_user>& found,
-             std::vector<double>& yields, std::vector<way_stretch>& keep_free);
+  void judge(const crossing_viewer& me, std::span<other_body> others,
+             std::vector<crossing_user>& found, std::vector<double>& yields);
 
 private:
   struct own_zone {

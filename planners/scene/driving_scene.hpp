@@ -30,7 +30,7 @@ struct crossing_user {
   bool goes_first = true;      ///< By right of way; else it gives way.
   /// It has to brake so hard, from a second on, to stay off the stretch.
   double brakes_mps2 = std::numeric_limits<double>::infinity();
-  std::uint32_t body = 0;      ///< One number for all entries of a road user.
+  std::uint32_t body = 0; ///< One number for all entries of a road user.
 };
 
 /// A part of the own way, arc length on the own route.

@@ -195,15 +195,15 @@ void lane_network::foresee(const track& x, double within_m,
   }
 }
 
-/// @returns whether a body is on a lane still when it has gone straight on for a
-/// little; else it is leaving it.
+/// @returns whether a body is on a lane still when it has gone straight on for
+/// a little; else it is leaving it.
 bool lane_network::stays_on(const track& x, const placement& on) const {
   constexpr auto straight_m = 5.0;
   const auto lane = paths_[on.lane].at(on.s_m);
   const auto to = x.centre() - lane.at;
   const point left{-std::sin(lane.heading_rad), std::cos(lane.heading_rad)};
-  const auto d_m = dot(to, left)
-                   + straight_m * std::sin(x.heading_rad - lane.heading_rad);
+  const auto d_m =
+      dot(to, left) + straight_m * std::sin(x.heading_rad - lane.heading_rad);
   return std::abs(d_m) <= half_widths_m_[on.lane];
 }
 

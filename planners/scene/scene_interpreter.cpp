@@ -84,12 +84,13 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   out.yields_m.clear();
   out.keep_free.clear();
   gather(now, me, tracks);
-  if (params_.judges_crossings) {
-    const auto rear_m = me.s_m - params_.car.rear_m;
-    const auto front_m = me.s_m + params_.car.front_m;
-    crossings_.judge({me.station, rear_m, front_m}, front_m + params_.horizon_m,
-                     others_, out.crossings, out.yields_m, out.keep_free);
-  }
+  const auto rear_m = me.s_m - params_.car.rear_m;
+  const auto front_m = me.s_m + params_.car.front_m;
+  crossings_.look_ahead(rear_m, front_m, front_m + params_.horizon_m,
+                        out.keep_free);
+  if (params_.judges_crossings)
+    crossings_.judge({me.station, rear_m, front_m}, others_, out.crossings,
+                     out.yields_m);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);

@@ -120,6 +120,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
     out = safe_stop(lane(), now, at.start);
   }
   assert(out.start == now && out.is_sound());
+  tell_extremes(out, style_, report);
   return report;
 }
 

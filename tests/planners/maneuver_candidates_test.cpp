@@ -24,7 +24,9 @@ double straight_on(double s_m) {
 crossing_user user(double from_m, double to_m, double enter_s, double leave_s,
                    bool goes_first, std::uint32_t body = 0) {
   static std::uint32_t last = 1000;
-  return {from_m, to_m, enter_s, leave_s, goes_first, body > 0 ? body : ++last};
+  crossing_user x{from_m, to_m, enter_s, leave_s, goes_first};
+  x.body = body > 0 ? body : ++last;
+  return x;
 }
 
 std::vector<crossing_order> orders(std::vector<crossing_user> users,
@@ -161,6 +163,21 @@ TEST_CASE("who has begun to go before another leaves it less time, and least "
   // At 4 m/s it stops within 5.2 m.
   CHECK(latest_s(9, {.before = {1}}, slow) == Approx(19.5));
   CHECK(latest_s(9, {}, slow) == Approx(18.5));
+}
+
+TEST_CASE("who can stay off by braking little lets a car pass that cannot stop "
+          "any more") {
+  const crossing_car fast{4, 1, 10, 14, 1.5};
+  auto other = user(12, 17, 0.5, 3, true, 1);
+  const auto goes = [&](const crossing_choice& last) {
+    return lists(orders({other}, last, 16, fast), 1);
+  };
+  CHECK_FALSE(goes({.before = {1}}));
+  other.brakes_mps2 = 1.4;
+  CHECK(goes({.before = {1}}));
+  CHECK_FALSE(goes({}));
+  other.brakes_mps2 = 1.6;
+  CHECK_FALSE(goes({.before = {1}}));
 }
 
 TEST_CASE("waiting is always possible, among however few; what was decided "

@@ -39,6 +39,9 @@ constexpr auto start_accel_mps2 = 1.2;
 constexpr auto patience = 20s;
 constexpr auto rank_of_the_impatient = -1;
 
+/// Who stands for so long before what it was granted does not need it now.
+constexpr auto longest_unused = 5s;
+
 /// A request looks at no more road users than this.
 constexpr auto max_looks = 200;
 
@@ -123,6 +126,7 @@ void right_of_way::enter(std::uint32_t who) {
                      return true;
                    });
   find_line(d);
+  give_back(who);
   const auto way_m = d.line_m - stop_margin_m - d.front_m();
   if (way_m > asking_distance_m(d.known.speed_mps)) {
     d.asks_since.reset();
@@ -132,6 +136,29 @@ void right_of_way::enter(std::uint32_t who) {
   if (!d.asks_since)
     d.asks_since = now_;
   asking_.push_back(who);
+}
+
+/// Somebody may see what is in its way behind the crossing, as nobody does
+/// here.
+void right_of_way::give_back(std::uint32_t who) {
+  auto& d = drivers_[who];
+  if (d.known.speed_mps > standing_mps)
+    d.stands_since.reset();
+  else if (!d.stands_since)
+    d.stands_since = now_;
+  if (!d.stands_since || now_ - *d.stands_since < longest_unused
+      || !is_idle(who))
+    return;
+  auto is_on_a_zone = false;
+  d.way->for_zones(d.rear_m() - d.way->longest_zone_m(), d.front_m(),
+                   [&](const zone& z) {
+                     is_on_a_zone = is_on_a_zone || z.to_m > d.rear_m();
+                     return !is_on_a_zone;
+                   });
+  if (is_on_a_zone)
+    return;
+  d.granted_to_m = d.front_m();
+  find_line(d);
 }
 
 /// Finds the first zone that has not been granted.
@@ -176,6 +203,7 @@ road_user_state::answer right_of_way::ask(std::uint32_t who) {
     auto& d = drivers_[r.who];
     d.granted_to_m = r.clear_m;
     d.asks_since.reset();
+    d.stands_since.reset();
     d.last = road_user_state::answer::go;
     find_line(d);
   }

@@ -2,7 +2,8 @@
 //
 // A zone is closed to everybody until granted. The grants keep two promises:
 // 1. Whoever has a zone keeps it until its rear has left, and meanwhile
-//    nobody on the conflict's other side gets it. So bodies never meet.
+//    nobody on the conflict's other side gets it. So bodies never meet. Who
+//    stands before it for long, as its way out is not free, gives it back.
 // 2. Whoever gets a zone can leave it, and everything before the next stop
 //    line, without any further grant: all zones that follow too closely to
 //    stop in between are granted together, and behind the last one there is
@@ -53,6 +54,7 @@ private:
   };
 
   void enter(std::uint32_t who);
+  void give_back(std::uint32_t who);
   void find_line(road_user_state& d) const;
   bool is_impatient(const road_user_state& d) const;
   bool goes_before(const road_user_state& a, int rank_a,

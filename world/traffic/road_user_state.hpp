@@ -41,6 +41,7 @@ struct road_user_state {
   double line_m = std::numeric_limits<double>::infinity();
   int rank = 0;                         ///< Right of way at that zone.
   std::optional<time_point> asks_since; ///< To cross it.
+  std::optional<time_point> stands_since; ///< Since the last grant, too.
   answer last = answer::none;
 
   perception seen;

@@ -35,7 +35,6 @@ planners::plan_report plan_cycle::run(time_point now,
   auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
                                next_, planners::ocp::budget{in_time});
   std::swap(plan_, next_);
-  report.extremes = world::extremes_of(plan_);
   return report;
 }
 
