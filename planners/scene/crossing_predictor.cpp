@@ -124,6 +124,9 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
     return true;
   if (when.rank != own.on.rank)
     return when.rank > own.on.rank;
+  if (lanes_->is_on_roundabout(when.side)
+      != lanes_->is_on_roundabout(own.on.side))
+    return lanes_->is_on_roundabout(own.on.side);
   const auto theirs = lanes_->course_of(when.side);
   const auto ours = lanes_->course_of(own.on.side);
   const auto sine = std::sin(theirs.from_rad - ours.from_rad);

@@ -55,7 +55,8 @@ public:
   /// there. Marks those who cross.
   ///
   /// Who goes first: whoever is on the zone, or cannot stop before it any more;
-  /// then the lower rank; of equal ones who comes from the right, or goes
+  /// then the lower rank; of equal ones who is on a roundabout; who comes from
+  /// the right, or goes
   /// straight on where the other turns left; else the lower station; else the
   /// other. Who stands before a zone may set off as
   /// long as it has not stood there for too long, each vehicle waits for

@@ -1,6 +1,8 @@
 // The lanes of a map as bodies drive on them.
 #include "planners/scene/lane_network.hpp"
 
+#include "world/roads/roundabouts.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -50,14 +52,16 @@ struct lane_network::driver {
 
 lane_network::lane_network(const world::road_map& map)
     : meetings_{world::list_encounters(map)},
-      ranks_(2 * map.conflicts().size()), begins_(ranks_.size()),
-      courses_(ranks_.size()), next_(map.lanes().size()),
-      previous_(map.lanes().size()) {
+      ranks_(2 * map.conflicts().size()), rounds_(ranks_.size()),
+      begins_(ranks_.size()), courses_(ranks_.size()),
+      next_(map.lanes().size()), previous_(map.lanes().size()) {
   assert(meetings_.size() == map.lanes().size());
+  const world::roundabouts rings{map};
   for (std::size_t lane = 0; lane < meetings_.size(); ++lane)
     for (const auto& e : meetings_[lane]) {
       assert(e.side < ranks_.size() && e.from_m <= e.to_m);
       ranks_[e.side] = e.rank;
+      rounds_[e.side] = rings.of(lane) < rings.count();
       begins_[e.side] = {lane, e.from_m};
     }
   std::unordered_map<std::string_view, std::size_t> index;

@@ -42,6 +42,9 @@ public:
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
 
+  /// @returns whether the lane of a conflict's side is one of a roundabout.
+  bool is_on_roundabout(std::uint32_t side) const { return rounds_[side]; }
+
   /// How a lane comes to a conflict and goes through it.
   struct course {
     double from_rad = 0; ///< Its direction shortly before.
@@ -104,6 +107,7 @@ private:
 
   world::conflict_sides meetings_;
   std::vector<int> ranks_;        // of all sides
+  std::vector<bool> rounds_;      // likewise, whether on a roundabout
   std::vector<placement> begins_; // likewise, where they begin
   std::vector<bend> bends_;       // of each lane
   std::vector<course> courses_;   // likewise

@@ -104,6 +104,7 @@ void right_of_way::decide(std::span<road_user_state> drivers,
   asking_.clear();
   for (auto& users : users_)
     users.clear();
+  std::ranges::fill(on_roundabout_, 0);
   for (std::uint32_t who = 0; who < drivers_.size(); ++who)
     enter(who);
   std::ranges::sort(asking_, [&](auto a, auto b) {
@@ -127,6 +128,9 @@ void right_of_way::enter(std::uint32_t who) {
                    });
   find_line(d);
   give_back(who);
+  const auto ring = roundabout_between(d, d.rear_m(), d.granted_to_m);
+  if (ring < on_roundabout_.size())
+    ++on_roundabout_[ring];
   const auto way_m = d.line_m - stop_margin_m - d.front_m();
   if (way_m > asking_distance_m(d.known.speed_mps)) {
     d.asks_since.reset();
@@ -199,8 +203,15 @@ road_user_state::answer right_of_way::ask(std::uint32_t who) {
     return road_user_state::answer::held;
   if (gives_way(party_.front()))
     return road_user_state::answer::wait;
+  if (!std::ranges::all_of(
+          party_, [this](const request& r) { return may_be_let_on(r); }))
+    return road_user_state::answer::full;
   for (const auto& r : party_) {
     auto& d = drivers_[r.who];
+    const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
+    if (ring < on_roundabout_.size()
+        && ring != roundabout_between(d, d.rear_m(), d.granted_to_m))
+      ++on_roundabout_[ring];
     d.granted_to_m = r.clear_m;
     d.asks_since.reset();
     d.stands_since.reset();
@@ -232,6 +243,27 @@ bool right_of_way::join(std::uint32_t who) {
     return false;
   party_.push_back(r);
   return finds_room(who, std::min(r.clear_m + d.length_m(), d.way->end_m()));
+}
+
+/// @returns the first roundabout on a driver's way; their count for none.
+std::size_t right_of_way::roundabout_between(const road_user_state& d,
+                                             double from_m, double to_m) const {
+  const auto last = d.way->leg_at(to_m);
+  for (auto i = d.way->leg_at(from_m); i <= last; ++i)
+    if (const auto ring = roundabouts_.of(d.way->lane(i));
+        ring < roundabouts_.count())
+      return ring;
+  return roundabouts_.count();
+}
+
+/// @returns whether the roundabout that a driver comes to, if any, has room for
+/// one more.
+bool right_of_way::may_be_let_on(const request& r) const {
+  const auto& d = drivers_[r.who];
+  const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
+  return ring == roundabouts_.count()
+         || ring == roundabout_between(d, d.rear_m(), d.granted_to_m)
+         || on_roundabout_[ring] < roundabouts_.most(ring);
 }
 
 /// @returns whether a driver's front could get there if nobody but the party

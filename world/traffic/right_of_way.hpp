@@ -9,6 +9,8 @@
 //    stop in between are granted together, and behind the last one there is
 //    room, even if nobody else is ever granted anything again. So every zone
 //    comes free in the end, and waiting for one never goes in circles.
+// 3. No roundabout is more than half full, so that somebody on it always finds
+//    room to go on.
 // What is left is waiting for room, which can go in circles (a block of
 // streets, each full, each leading into the next). Who has waited for long
 // therefore asks together with those that stand in its way: all of them go,
@@ -17,6 +19,7 @@
 #pragma once
 
 #include "base/time.hpp"
+#include "world/roads/roundabouts.hpp"
 #include "world/traffic/lane_order.hpp"
 #include "world/traffic/road_user_state.hpp"
 
@@ -30,7 +33,8 @@ namespace sofof::world {
 class right_of_way {
 public:
   explicit right_of_way(const road_map& map)
-      : users_(2 * map.conflicts().size()) {}
+      : roundabouts_{map}, users_(2 * map.conflicts().size()),
+        on_roundabout_(roundabouts_.count()) {}
 
   /// Decides on every request anew. Who comes near a zone without the right
   /// to it asks. Order: lower rank, then who asked first, then lower station
@@ -61,6 +65,9 @@ private:
                    const road_user_state& b, int rank_b) const;
   road_user_state::answer ask(std::uint32_t who);
   bool join(std::uint32_t who);
+  std::size_t roundabout_between(const road_user_state& d, double from_m,
+                                 double to_m) const;
+  bool may_be_let_on(const request& r) const;
   bool can_reach(std::uint32_t who, double front_m);
   bool finds_room(std::uint32_t who, double front_m);
   bool is_idle(std::uint32_t who) const;
@@ -75,7 +82,9 @@ private:
   std::span<road_user_state> drivers_;
   const lane_order* order_ = nullptr;
   time_point now_;
-  std::vector<std::vector<user>> users_; // of each side, near or on it
+  roundabouts roundabouts_;
+  std::vector<std::vector<user>> users_;   // of each side, near or on it
+  std::vector<std::size_t> on_roundabout_; // or let on to it
   std::vector<std::uint32_t> asking_;
   std::vector<request> party_; // who asks together
   std::vector<zone> wanted_;   // all zones of the party
