@@ -28,6 +28,7 @@ constexpr double same_knot = 1e-6;
 constexpr double least_room_m = 0.12;
 /// At least this is kept.
 constexpr double least_gap_m = 0.05;
+constexpr double touching_m = 0.02;
 /// Discs are wider than the car by this at their middle.
 constexpr double disc_excess_m = disc_radius_m - 0.945;
 /// Way before and after a body on which the car may leave the centre line.
@@ -37,8 +38,6 @@ constexpr double return_m = 25;
 /// How fast a car that has to come back turns its curvature, 1/m per m: less
 /// than paths may (path_planner).
 constexpr double steering_1pm2 = 0.05;
-/// Of sums of bounds.
-[[maybe_unused]] constexpr double rounding_m = 1e-9;
 
 /// @returns how far a heading and a curvature carry the car to the left before
 /// it is parallel again: curvature falls evenly, and comes back.
@@ -69,6 +68,7 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
   s_m_ = s_m;
   ds_m_ = ds_m;
   steps_ = steps;
+  kept_gap_m_ = passing_gap_m;
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (std::size_t j = 0; j < rows; ++j) {
     if (by <= steps)
@@ -101,6 +101,11 @@ void corridor::measure_lane(std::size_t part, int from, int to) {
 void corridor::pass(const lane_obstacle& body, side_of_road side) {
   assert(line_ && steps_ >= 1); // opened
   assert(!(body.from_m > body.to_m));
+  // What is lacking is taken from the gap first, then from what discs are
+  // wider than the car at the other side.
+  const auto from_gap = std::min(body.lacks_m, passing_gap_m - least_gap_m);
+  const auto over = body.lacks_m - from_gap;
+  kept_gap_m_ = std::min(kept_gap_m_, passing_gap_m - from_gap);
   for (int k = 0; k <= steps_; ++k) {
     const auto s = s_m_ + k * ds_m_;
     if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
@@ -116,10 +121,6 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
-      // What is lacking is taken from the gap first, then from what discs are
-      // wider than the car at the other side.
-      const auto from_gap = std::min(body.lacks_m, passing_gap_m - least_gap_m);
-      const auto over = body.lacks_m - from_gap;
       const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
       if (side == side_of_road::left) {
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
@@ -132,23 +133,29 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
   }
 }
 
-void corridor::admit(const path_state& start) {
-  assert(line_ && steps_ >= 1); // opened
+void corridor::admit(const path_state& start, steering steers) {
+  assert(line_ && steps_ >= 1);              // opened
+  const auto gap = kept_gap_m_ - touching_m; // who stands too near stays there
+  assert(gap > 0);
+  const auto drifts = steers == steering::drifts;
+  const auto [heading_rad, curvature_1pm] =
+      std::pair{start.heading_rad, start.curvature_1pm};
+  const auto to_left_m = drifts ? drift_m(heading_rad, curvature_1pm) : 0;
+  const auto to_right_m = drifts ? drift_m(-heading_rad, -curvature_1pm) : 0;
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
     const auto y = start.d_m + ahead * std::sin(start.heading_rad);
-    const auto left = y + drift_m(start.heading_rad, start.curvature_1pm);
-    const auto right = y - drift_m(-start.heading_rad, -start.curvature_1pm);
-    const auto over = std::max(0.0, left - hi_[j][0]);
-    const auto under = std::max(0.0, lo_[j][0] - right);
+    const auto over = std::max(0.0, y + to_left_m - hi_[j][0]);
+    const auto under = std::max(0.0, lo_[j][0] - (y - to_right_m));
     if (over == 0 && under == 0)
       continue;
     for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
       const auto fading = 1 - k * ds_m_ / return_m;
-      hi_[j][k] += over * fading;
-      lo_[j][k] -= under * fading;
+      const auto beside_left = hi_[j][k] < lane_hi_[j][k];
+      const auto beside_right = lo_[j][k] > lane_lo_[j][k];
+      hi_[j][k] += (beside_left ? std::min(over, gap) : over) * fading;
+      lo_[j][k] -= (beside_right ? std::min(under, gap) : under) * fading;
     }
-    assert(!(y > hi_[j][0] + rounding_m || y < lo_[j][0] - rounding_m));
   }
 }
 

@@ -28,9 +28,9 @@ constexpr auto rounding_m = 1e-6;
 constexpr auto hysteresis_m = 0.1;
 /// Where a car cannot stop before a body any more it goes on beside it if so
 /// much is left on both sides together.
-constexpr auto least_room_m = 0.23;
-constexpr auto decides_within_s = 0.3;
-constexpr auto stops_mps2 = 4.0;
+constexpr auto least_room_m = 0.3;
+constexpr auto decides_within_s = 0.7; // with what it keeps before the body
+constexpr auto stops_mps2 = 2.5;
 
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
@@ -121,7 +121,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
 
 /// Adds bodies where those who cut in will be soon, straight ahead.
 void scene_interpreter::foresee_cutting_in() {
-  const auto count = others_.size();
+  const auto count = seen_ = others_.size();
   for (std::size_t i = 0; i < count; ++i)
     if (others_[i].cuts_in)
       for (const auto in_s : {0.7, 1.4}) {
@@ -264,6 +264,8 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
         || print->from_m > front_m + params_.horizon_m)
       continue;
     auto b = *print;
+    if (where.who >= seen_ && b.from_m < front_m)
+      continue; // it would come into the side: braking does not help
     const auto& [x, is_crossing, cuts_in] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;

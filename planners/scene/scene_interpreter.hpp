@@ -96,6 +96,7 @@ private:
   double bead_m_ = 0;
   double half_lane_m_ = 0; // at its widest
   std::vector<other_body> others_;
+  std::size_t seen_ = 0; // of them; the rest is where those who cut in will be
   std::vector<near> near_;
   std::vector<std::uint32_t> beside_, were_beside_; // their tracks, sorted
 };

@@ -123,7 +123,7 @@ TEST_CASE("a corridor that moved on is the one of the new place") {
     CAPTURE(by);
     check_same(moving, fresh);
     moving.pass({s + 20, s + 25, -1.7, -1.0, 0}, side_of_road::left);
-    moving.admit({0.9, 0.1, 0});
+    moving.admit({0.9, 0.1, 0}, corridor::steering::drifts);
   }
   moving.open(line, s + 0.4, 1, steps); // between the old knots
   corridor fresh;
@@ -181,7 +181,7 @@ TEST_CASE("a car outside is let in, and 25 m on all is as before") {
     corridor room, free;
     room.open(line, 20, 1, steps);
     free.open(line, 20, 1, steps);
-    room.admit(car);
+    room.admit(car, corridor::steering::drifts);
     for (std::size_t j = 0; j < room.discs().size(); ++j) {
       const auto &disc = room.discs()[j], &was = free.discs()[j];
       const auto y = car.d_m + disc.ahead_m * std::sin(car.heading_rad);

@@ -239,7 +239,7 @@ TEST_CASE(
   };
   CHECK(is_beside(5, 0.6));
   CHECK_FALSE(is_beside(5, 0.55));
-  CHECK(is_beside(13.9, 0.42));
+  CHECK(is_beside(13.9, 0.45));
   CHECK_FALSE(is_beside(13.9, 0.25));
 }
 
