@@ -65,8 +65,9 @@ bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
                          std::span<const passing> others,
                          const ocp::budget& go_on) {
   return attempt(s_m, from, how, others, corridor::steering::as_planned, go_on)
-         || attempt(s_m, from, ocp::start::cold, others,
-                    corridor::steering::drifts, go_on);
+         || (report_.status != ocp::solve_status::budget
+             && attempt(s_m, from, ocp::start::cold, others,
+                        corridor::steering::drifts, go_on));
 }
 
 bool path_planner::attempt(double s_m, const path_state& from, ocp::start how,

@@ -29,6 +29,11 @@ constexpr double least_room_m = 0.12;
 /// At least this is kept.
 constexpr double least_gap_m = 0.05;
 constexpr double touching_m = 0.02;
+/// So far discs may leave the lane while the car inside them does not, at
+/// headings of up to 0.24 rad.
+constexpr double spare_m = 0.15;
+/// Parts farther ahead than this are turned more than they are carried.
+constexpr double least_lever_m = 0.5;
 /// Discs are wider than the car by this at their middle.
 constexpr double disc_excess_m = disc_radius_m - 0.945;
 /// Way before and after a body on which the car may leave the centre line.
@@ -39,15 +44,21 @@ constexpr double return_m = 25;
 /// than paths may (path_planner).
 constexpr double steering_1pm2 = 0.05;
 
-/// @returns how far a heading and a curvature carry the car to the left before
-/// it is parallel again: curvature falls evenly, and comes back.
-double drift_m(double heading_rad, double curvature_1pm) {
+/// @returns how far a heading and a curvature to the left carry a part of the
+/// car beyond, until it is parallel again, m: the curvature falls evenly, and
+/// comes back; what is before the axle turns in long before.
+double drift_m(double ahead_m, double heading_rad, double curvature_1pm) {
   const auto out = std::max(0.0, curvature_1pm);
   const auto until_straight_m = out / steering_1pm2;
   const auto heading = std::max(0.0, heading_rad + out * until_straight_m / 2);
-  assert(std::isfinite(heading));
-  return until_straight_m * (std::max(0.0, heading_rad) + heading) / 2
-         + heading * std::sqrt(heading / steering_1pm2);
+  const auto of_axle_m =
+      until_straight_m * (std::max(0.0, heading_rad) + heading) / 2
+      + heading * std::sqrt(heading / steering_1pm2);
+  assert(std::isfinite(of_axle_m) && of_axle_m >= 0);
+  if (ahead_m < least_lever_m)
+    return of_axle_m;
+  const auto slope = std::max(0.0, heading_rad + ahead_m * curvature_1pm);
+  return std::min(of_axle_m, slope * slope / (2 * ahead_m * steering_1pm2));
 }
 
 } // namespace
@@ -137,26 +148,39 @@ void corridor::admit(const path_state& start, steering steers) {
   assert(line_ && steps_ >= 1);              // opened
   const auto gap = kept_gap_m_ - touching_m; // who stands too near stays there
   assert(gap > 0);
-  const auto drifts = steers == steering::drifts;
-  const auto [heading_rad, curvature_1pm] =
-      std::pair{start.heading_rad, start.curvature_1pm};
-  const auto to_left_m = drifts ? drift_m(heading_rad, curvature_1pm) : 0;
-  const auto to_right_m = drifts ? drift_m(-heading_rad, -curvature_1pm) : 0;
+  auto used = 0.0;
+  // Both sides alike, measured outwards.
+  const auto widened = [&](double room, double lane, double over, double off,
+                           double fading) {
+    if (room < lane) { // beside a body
+      used = std::max(used, std::min(over, gap));
+      return room + std::min(over, gap) * fading;
+    }
+    const auto drifting = std::min(room + over * fading, lane + spare_m);
+    return std::max({room, room + off * fading, drifting});
+  };
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
     const auto y = start.d_m + ahead * std::sin(start.heading_rad);
-    const auto over = std::max(0.0, y + to_left_m - hi_[j][0]);
-    const auto under = std::max(0.0, lo_[j][0] - (y - to_right_m));
+    auto left = y, right = y;
+    if (steers == steering::drifts) {
+      left += drift_m(ahead, start.heading_rad, start.curvature_1pm);
+      right -= drift_m(ahead, -start.heading_rad, -start.curvature_1pm);
+    }
+    const auto over = std::max(0.0, left - hi_[j][0]);
+    const auto under = std::max(0.0, lo_[j][0] - right);
     if (over == 0 && under == 0)
       continue;
+    const auto off_left = std::max(0.0, y - lane_hi_[j][0]);
+    const auto off_right = std::max(0.0, lane_lo_[j][0] - y);
     for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
       const auto fading = 1 - k * ds_m_ / return_m;
-      const auto beside_left = hi_[j][k] < lane_hi_[j][k];
-      const auto beside_right = lo_[j][k] > lane_lo_[j][k];
-      hi_[j][k] += (beside_left ? std::min(over, gap) : over) * fading;
-      lo_[j][k] -= (beside_right ? std::min(under, gap) : under) * fading;
+      hi_[j][k] = widened(hi_[j][k], lane_hi_[j][k], over, off_left, fading);
+      lo_[j][k] =
+          -widened(-lo_[j][k], -lane_lo_[j][k], under, off_right, fading);
     }
   }
+  kept_gap_m_ -= used;
 }
 
 bool corridor::contains(std::span<const double> d_m,

@@ -33,6 +33,9 @@ constexpr std::size_t usual_tracks = 128;
 constexpr auto least_share = 0.5;
 constexpr auto whole_after_s = 0.2;
 
+/// How much what stands may turn meanwhile, rad²/s.
+constexpr auto standing_rad2ps = 4e-6;
+
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;
 
@@ -203,6 +206,17 @@ void object_tracker::pair_up(time_point at) {
   }
 }
 
+/// What stands goes on standing as it does, so that all sightings count.
+void object_tracker::turn(track& x, double heading_rad, double dt_s,
+                          double share_of_new) const {
+  const auto noise2 = noise_.heading_rad * noise_.heading_rad;
+  const auto before2 = x.heading_variance + standing_rad2ps * dt_s;
+  assert(noise2 > 0 && dt_s >= 0);
+  const auto share = x.stands() ? before2 / (before2 + noise2) : share_of_new;
+  x.heading_rad += share * wrap_angle(heading_rad - x.heading_rad);
+  x.heading_variance = x.stands() ? (1 - share) * before2 : share * noise2;
+}
+
 /// @param fits  Else the track begins anew, unless the sighting is old.
 void object_tracker::correct(track& x, time_point at, const observation& s,
                              bool fits) {
@@ -216,10 +230,10 @@ void object_tracker::correct(track& x, time_point at, const observation& s,
   const auto& o = s.object;
   const auto share_of_new =
       std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
+  turn(x, o.heading_rad, to_seconds(at - x.seen), share_of_new);
   x.seen = at;
   if (!x.stands())
     x.moved = at;
-  x.heading_rad += share_of_new * wrap_angle(o.heading_rad - x.heading_rad);
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
   x.length_m += share_of_new * (o.length_m - x.length_m);
   x.width_m += share_of_new * (o.width_m - x.width_m);
@@ -241,7 +255,8 @@ void object_tracker::give_birth(time_point at, const observation& s) {
                      o.heading_rad,
                      o.accel_mps2,
                      o.length_m,
-                     o.width_m});
+                     o.width_m,
+                     noise_.heading_rad * noise_.heading_rad});
 }
 
 } // namespace sofof::planners

@@ -93,6 +93,8 @@ private:
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
   void correct(track& x, time_point at, const observation& s, bool fits);
+  void turn(track& x, double heading_rad, double dt_s,
+            double share_of_new) const;
   void give_birth(time_point at, const observation& s);
 
   sighting_noise noise_;

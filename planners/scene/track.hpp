@@ -57,10 +57,11 @@ struct track {
   time_point seen;                   ///< When it was last seen or heard.
   time_point moved; ///< When it last moved; its first sighting if never.
   motion_estimate motion;
-  double heading_rad = 0; ///< Where its front is, known at rest as well.
-  double accel_mps2 = 0;  ///< Along its heading.
-  double length_m = 0;    ///< Along its heading.
-  double width_m = 0;     ///< Across it.
+  double heading_rad = 0;      ///< Where its front is, known at rest as well.
+  double accel_mps2 = 0;       ///< Along its heading.
+  double length_m = 0;         ///< Along its heading.
+  double width_m = 0;          ///< Across it.
+  double heading_variance = 0; ///< rad².
 
   point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
 
@@ -75,11 +76,15 @@ struct track {
   bool stands() const { return std::abs(speed_mps()) < stands_below_mps; }
 
   /// @returns how far its side may be from where it is thought to be, m: three
-  /// standard deviations. Who drives may speed up and slow down, which makes
-  /// its place uncertain, but keeps to its lane.
+  /// standard deviations, at the ends of what may be turned. Who drives may
+  /// speed up and slow down, which makes its place uncertain, but keeps to its
+  /// lane.
   double margin_m() const {
     constexpr auto most_of_driven_m = 0.2;
-    const auto margin = 3 * std::sqrt(motion.covariance(0, 0));
+    const auto half_m = std::max(length_m, width_m) / 2;
+    const auto margin = 3
+                        * std::sqrt(motion.covariance(0, 0)
+                                    + half_m * half_m * heading_variance);
     return stands() ? margin : std::min(margin, most_of_driven_m);
   }
 

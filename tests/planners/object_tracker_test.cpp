@@ -554,3 +554,39 @@ TEST_CASE("the order in which an observer lists bodies does not matter") {
   for (std::size_t i = 0; i < 8; ++i)
     CHECK(a.tracks()[i].motion.mean == b.tracks()[i].motion.mean);
 }
+
+TEST_CASE("the true sides of what stands lie within its margin") {
+  for (const auto noise_m : {0.1, 0.2, 0.3}) {
+    CAPTURE(noise_m);
+    const sighting_noise noise{noise_m, 0.1, 0.03};
+    const random_stream eyes{7, "standing bodies"};
+    auto seen = 0, outside = 0;
+    for (std::uint64_t body = 0; body < 100; ++body) {
+      object_tracker tracker{noise, rhythm};
+      const auto draws = eyes.part(body);
+      const auto length_m = 0.1 + 49.9 * draws.uniform(0, 9);
+      const auto width_m = 0.1 + 3 * draws.uniform(1, 9);
+      for (std::uint64_t k = 0; k < 100; ++k) {
+        const point centre{draws.normal(0, noise_m, k, 0),
+                           draws.normal(0, noise_m, k, 1)};
+        const perceived_object o{centre,
+                                 draws.normal(0, 0.03, k, 2),
+                                 draws.normal(0, 0.1, k, 3),
+                                 0,
+                                 length_m,
+                                 width_m};
+        tracker.update(first_sight + k * 50ms, {&o, 1});
+        for (const auto& x : tracker.tracks())
+          for (const auto end : {-0.5, 0.5}) {
+            const auto side_m = x.centre().y_m
+                                + end * length_m * std::sin(x.heading_rad)
+                                + width_m / 2 * std::cos(x.heading_rad);
+            ++seen;
+            outside += std::abs(side_m - width_m / 2) > x.margin_m();
+          }
+      }
+    }
+    CHECK(seen >= 19000);
+    CHECK(outside <= 0.005 * seen);
+  }
+}
