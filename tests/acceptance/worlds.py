@@ -432,3 +432,37 @@ cycles = false
 tracks_period = "200ms"
 """
     return streets, "".join([head, *fleets, noise, *obstacles, server, tail])
+
+
+def narrow(room_m, noise_m, at_server, seed):
+    """One car on a straight street, past a parked one that leaves so much of
+    the lane of 3.5 m: map and scenario."""
+    streets = Streets("narrow", 1.75, 13.89)
+    streets.add("e", along((0, 0), (400, 0)))
+    streets.routes["e"] = (["e"], False)
+    parked = body((200, 1.75 - room_m - 0.9), 0, 4.5, 1.8)
+    server = """[[provider]]
+name = "mec"
+position_m = [200.0, 20.0]
+area_radius_m = 1500.0
+services = ["trajectory_planning"]
+[[provider.sensor]]
+position_m = [190.0, 6.0]
+[network]
+profile = "paper_5g"
+[policies]
+lodm = "always"
+codm = "always"
+""" if at_server else ""
+    return streets, f"""name = "narrow {room_m:.2f}"
+duration = "45s"
+seed = {seed}
+map = "map.toml"
+{fleet(101, 1, "e", 10, speed_mps=8)}[sensors]
+position_noise_m = {noise_m}
+{parked}{server}[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
