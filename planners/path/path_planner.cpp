@@ -106,7 +106,8 @@ bool path_planner::attempt(double s_m, const path_state& from, ocp::start how,
                  && report_.iterations > 0
                  && corridor_.contains(
                      solver_.offset_m(), solver_.heading_rad(),
-                     std::min(reduced_margin_m, corridor_.gap_m() / 2)));
+                     std::min(reduced_margin_m,
+                              std::max(0.0, corridor_.gap_m() / 2))));
   assert(!settled_ || solver_.steps() == grid_.steps);
   assert(!settled_ || !std::isnan(report_.cost));
   return settled_;

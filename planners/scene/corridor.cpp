@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace sofof::planners {
 namespace {
@@ -89,6 +90,9 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
     measure_lane(j, std::max(0, steps + 1 - by), steps);
     std::copy_n(lane_lo_[j].begin(), knots, lo_[j].begin());
     std::copy_n(lane_hi_[j].begin(), knots, hi_[j].begin());
+    constexpr auto far_m = std::numeric_limits<double>::infinity();
+    std::fill_n(near_left_[j].begin(), knots, far_m);
+    std::fill_n(near_right_[j].begin(), knots, -far_m);
     discs_[j] = {parts[j].ahead_m, std::span{lo_[j]}.first(knots),
                  std::span{hi_[j]}.first(knots)};
   }
@@ -133,10 +137,14 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
       const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
+      const auto near = touching_m + p.radius_m - disc_excess_m;
       if (side == side_of_road::left) {
+        near_right_[j][k] =
+            std::max(near_right_[j][k], body.high_m + near + bow);
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
         hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
       } else {
+        near_left_[j][k] = std::min(near_left_[j][k], body.low_m - near + bow);
         hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
         lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
       }
@@ -145,19 +153,12 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
 }
 
 void corridor::admit(const path_state& start, steering steers) {
-  assert(line_ && steps_ >= 1);              // opened
-  const auto gap = kept_gap_m_ - touching_m; // who stands too near stays there
-  assert(gap > 0);
-  auto used = 0.0;
+  assert(line_ && steps_ >= 1); // opened
   // Both sides alike, measured outwards.
-  const auto widened = [&](double room, double lane, double over, double off,
-                           double fading) {
-    if (room < lane) { // beside a body
-      used = std::max(used, std::min(over, gap));
-      return room + std::min(over, gap) * fading;
-    }
-    const auto drifting = std::min(room + over * fading, lane + spare_m);
-    return std::max({room, room + off * fading, drifting});
+  const auto widened = [](double room, double lane, double over, double off,
+                          double fading) {
+    return std::max(
+        room, std::min(room + over * fading, lane + spare_m + off * fading));
   };
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
@@ -175,12 +176,18 @@ void corridor::admit(const path_state& start, steering steers) {
     const auto off_right = std::max(0.0, lane_lo_[j][0] - y);
     for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
       const auto fading = 1 - k * ds_m_ / return_m;
-      hi_[j][k] = widened(hi_[j][k], lane_hi_[j][k], over, off_left, fading);
-      lo_[j][k] =
-          -widened(-lo_[j][k], -lane_lo_[j][k], under, off_right, fading);
+      // Who is nearer to a body than that stands.
+      const auto most = near_left_[j][k], least = near_right_[j][k];
+      hi_[j][k] =
+          std::min(widened(hi_[j][k], lane_hi_[j][k], over, off_left, fading),
+                   std::max(hi_[j][k], most));
+      lo_[j][k] = std::max(
+          -widened(-lo_[j][k], -lane_lo_[j][k], under, off_right, fading),
+          std::min(lo_[j][k], least));
+      kept_gap_m_ = std::min({kept_gap_m_, most - hi_[j][k] + touching_m,
+                              lo_[j][k] - least + touching_m});
     }
   }
-  kept_gap_m_ -= used;
 }
 
 bool corridor::contains(std::span<const double> d_m,

@@ -66,6 +66,7 @@ private:
   double kept_gap_m_ = passing_gap_m;
   std::array<ocp::column, rows> lane_lo_, lane_hi_; // with nothing in it
   std::array<ocp::column, rows> lo_, hi_;
+  std::array<ocp::column, rows> near_right_, near_left_; // bodies, to a touch
   std::array<disc_corridor, rows> discs_;
 };
 

@@ -199,6 +199,36 @@ void lane_network::foresee(const track& x, double within_m,
   }
 }
 
+track lane_network::moved_along(track x, double way_m) const {
+  assert(way_m >= 0 && std::isfinite(x.heading_rad));
+  const auto turned = [&](const placement& on) {
+    return std::abs(
+        wrap_angle(x.heading_rad - paths_[on.lane].at(on.s_m).heading_rad));
+  };
+  const auto ahead = [](double heading_rad) {
+    return point{std::cos(heading_rad), std::sin(heading_rad)};
+  };
+  const auto lanes = find(x.body());
+  const auto on = std::ranges::min_element(lanes, {}, turned);
+  auto straight_m = way_m;
+  auto at = x.centre();
+  if (on != lanes.end()) {
+    const auto& path = paths_[on->lane];
+    const auto along_m = std::min(way_m, path.length_m() - on->s_m);
+    const auto here = path.at(on->s_m), there = path.at(on->s_m + along_m);
+    const auto d_m = cross(ahead(here.heading_rad), at - here.at);
+    straight_m -= along_m;
+    x.heading_rad = there.heading_rad;
+    const auto along = ahead(there.heading_rad);
+    at = there.at + d_m * point{-along.y_m, along.x_m};
+  }
+  at = at + straight_m * ahead(x.heading_rad);
+  const auto speed_mps = std::hypot(x.motion.mean(0, 1), x.motion.mean(1, 1));
+  const auto along = ahead(x.heading_rad);
+  x.motion.mean << at.x_m, speed_mps * along.x_m, at.y_m, speed_mps * along.y_m;
+  return x;
+}
+
 /// @returns whether a body is on a lane still when it has gone straight on for
 /// a little; else it is leaving it.
 bool lane_network::stays_on(const track& x, const placement& on) const {

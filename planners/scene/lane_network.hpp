@@ -87,6 +87,11 @@ public:
   void foresee(const track& x, double within_m,
                std::vector<conflict_visit>& out) const;
 
+  /// @returns a body as it will be after so long a way: along the lane that it
+  /// keeps to best, at its distance from that; straight on where it is on none,
+  /// and behind the lane's end.
+  track moved_along(track x, double way_m) const;
+
 private:
   struct piece {
     std::size_t lane;

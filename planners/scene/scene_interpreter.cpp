@@ -52,10 +52,9 @@ point offset(const world::path_point& p, double along_m, double left_m) {
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
                                      const world::route_ptr& way,
                                      scene_params params)
-    : way_{way}, params_{params}, crossings_{std::move(lanes), way,
-                                             params.car.width_m / 2
-                                                 + params.margin_m,
-                                             params.foresight_s} {
+    : lanes_{lanes}, way_{way}, params_{params},
+      crossings_{std::move(lanes), way,
+                 params.car.width_m / 2 + params.margin_m, params.foresight_s} {
   assert(params_.horizon_m > 0 && params_.margin_m >= 0);
   const auto& line = way->path();
   const auto count = std::ceil(line.length_m() / coarse_m);
@@ -119,15 +118,15 @@ void scene_interpreter::gather(time_point now, const own_place& me,
   }
 }
 
-/// Adds bodies where those who cut in will be soon, straight ahead.
+/// Adds bodies where those who cut in will be soon.
 void scene_interpreter::foresee_cutting_in() {
   const auto count = seen_ = others_.size();
   for (std::size_t i = 0; i < count; ++i)
     if (others_[i].cuts_in)
       for (const auto in_s : {0.7, 1.4}) {
-        auto x = others_[i].x;
-        x.motion.mean.col(0) += in_s * x.motion.mean.col(1);
-        others_.push_back({x, false, false});
+        const auto& x = others_[i].x;
+        const auto way_m = in_s * std::max(0.0, x.speed_mps());
+        others_.push_back({lanes_->moved_along(x, way_m), false, false});
       }
   assert(others_.size() >= count);
 }

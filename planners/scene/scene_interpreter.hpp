@@ -89,6 +89,7 @@ private:
   }
   double may_lack_m(const own_place& me, const track& x, double from_m) const;
 
+  std::shared_ptr<const lane_network> lanes_;
   world::route_ptr way_;
   scene_params params_;
   crossing_predictor crossings_;

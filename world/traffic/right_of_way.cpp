@@ -128,7 +128,7 @@ void right_of_way::enter(std::uint32_t who) {
                    });
   find_line(d);
   give_back(who);
-  const auto ring = roundabout_between(d, d.rear_m(), d.granted_to_m);
+  const auto ring = roundabout_of(d);
   if (ring < on_roundabout_.size())
     ++on_roundabout_[ring];
   const auto way_m = d.line_m - stop_margin_m - d.front_m();
@@ -209,8 +209,7 @@ road_user_state::answer right_of_way::ask(std::uint32_t who) {
   for (const auto& r : party_) {
     auto& d = drivers_[r.who];
     const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
-    if (ring < on_roundabout_.size()
-        && ring != roundabout_between(d, d.rear_m(), d.granted_to_m))
+    if (ring < on_roundabout_.size() && ring != roundabout_of(d))
       ++on_roundabout_[ring];
     d.granted_to_m = r.clear_m;
     d.asks_since.reset();
@@ -256,13 +255,19 @@ std::size_t right_of_way::roundabout_between(const road_user_state& d,
   return roundabouts_.count();
 }
 
+/// @returns the roundabout that a driver is on, or has been let on to.
+std::size_t right_of_way::roundabout_of(const road_user_state& d) const {
+  const auto is_let_on = d.granted_to_m > d.front_m();
+  return roundabout_between(
+      d, d.rear_m(), is_let_on ? d.granted_to_m + d.length_m() : d.front_m());
+}
+
 /// @returns whether the roundabout that a driver comes to, if any, has room for
 /// one more.
 bool right_of_way::may_be_let_on(const request& r) const {
   const auto& d = drivers_[r.who];
   const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
-  return ring == roundabouts_.count()
-         || ring == roundabout_between(d, d.rear_m(), d.granted_to_m)
+  return ring == roundabouts_.count() || ring == roundabout_of(d)
          || on_roundabout_[ring] < roundabouts_.most(ring);
 }
 

@@ -67,6 +67,7 @@ private:
   bool join(std::uint32_t who);
   std::size_t roundabout_between(const road_user_state& d, double from_m,
                                  double to_m) const;
+  std::size_t roundabout_of(const road_user_state& d) const;
   bool may_be_let_on(const request& r) const;
   bool can_reach(std::uint32_t who, double front_m);
   bool finds_room(std::uint32_t who, double front_m);
