@@ -34,7 +34,7 @@ constexpr auto least_share = 0.5;
 constexpr auto whole_after_s = 0.2;
 
 /// How much what stands may turn meanwhile, rad²/s.
-constexpr auto standing_rad2ps = 4e-6;
+constexpr auto standing_rad2ps = 1e-7;
 
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;

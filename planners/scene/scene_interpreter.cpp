@@ -31,6 +31,8 @@ constexpr auto hysteresis_m = 0.1;
 constexpr auto least_room_m = 0.3;
 constexpr auto decides_within_s = 0.7; // with what it keeps before the body
 constexpr auto stops_mps2 = 2.5;
+/// So far beside its line a car steers round something.
+constexpr auto steers_round_m = 0.1;
 
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
@@ -108,7 +110,8 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     assert(std::isfinite(known.heading_rad));
     if (me.station && known.station == me.station)
       continue;
-    const auto x = predict(known, now);
+    auto x = predict(known, now);
+    keep_to_lane(known, now, x);
     const auto apart = x.centre() - own_centre;
     if (!known.station
         && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
@@ -116,6 +119,23 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     assert(x.length_m > 0 && x.width_m > 0);
     others_.push_back({x, false, false});
   }
+}
+
+/// Who has not been seen for a moment is thought to follow its lane's bend.
+void scene_interpreter::keep_to_lane(const track& known, time_point now,
+                                     track& x) const {
+  constexpr auto moment_s = 0.15;
+  const auto unseen_s = to_seconds(now - known.seen);
+  const auto speed_mps = known.speed_mps();
+  if (unseen_s < moment_s || speed_mps < stands_below_mps)
+    return;
+  auto then = known; // straight on since it was seen
+  then.motion.mean.col(0) -=
+      to_seconds(known.at - known.seen) * then.motion.mean.col(1);
+  const auto bent = lanes_->moved_along(then, speed_mps * unseen_s);
+  x.motion.mean = bent.motion.mean;
+  x.heading_rad = bent.heading_rad;
+  assert(x.motion.mean.allFinite());
 }
 
 /// Adds bodies where those who cut in will be soon.
@@ -236,17 +256,17 @@ scene_interpreter::measure(const near& where) const {
   return print;
 }
 
-/// @returns how much less room than usual a body may leave.
-double scene_interpreter::may_lack_m(const own_place& me, const track& x,
-                                     double from_m) const {
-  if (!std::ranges::binary_search(were_beside_, x.id))
-    return 0;
-  const auto way_m = from_m - me.s_m - params_.car.front_m;
-  const auto stopping_m =
-      me.speed_mps * (decides_within_s + me.speed_mps / (2 * stops_mps2));
-  assert(params_.margin_m >= 0);
-  return way_m < stopping_m ? 2 * params_.margin_m - least_room_m
-                            : hysteresis_m;
+/// @returns whether a body can only be passed: that has begun, whoever planned
+/// it, and there is no way left to stop before it.
+bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
+                                    const footprint& b) const {
+  const auto way_m = b.from_m - me.s_m - params_.car.front_m;
+  const auto to_left_m = -b.high_m > b.low_m ? me.d_m : -me.d_m;
+  const auto has_begun = std::ranges::binary_search(were_beside_, x.id)
+                         || to_left_m > steers_round_m;
+  return has_begun
+         && way_m < me.speed_mps
+                        * (decides_within_s + me.speed_mps / (2 * stops_mps2));
 }
 
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
@@ -268,15 +288,29 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     const auto& [x, is_crossing, cuts_in] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;
-    b.low_m -= x.margin_m();
-    b.high_m += x.margin_m();
+    const auto is_in_the_way = [&](double margin_m) {
+      return b.low_m - margin_m < corridor_m()
+             && b.high_m + margin_m > -corridor_m();
+    };
     const auto room_m =
         b.half_lane_m + std::max(-b.high_m, b.low_m); // on its better side
-    const auto is_in_the_way =
-        b.low_m < corridor_m() && b.high_m > -corridor_m();
-    const auto lacks_m =
-        is_in_the_way ? std::max(0.0, need_m - room_m + rounding_m) : 0.0;
-    if (lacks_m <= rounding_m || lacks_m <= may_lack_m(me, x, b.from_m)) {
+    const auto lacking_m = [&](double margin_m) {
+      return is_in_the_way(margin_m)
+                 ? std::max(0.0, need_m + margin_m - room_m + rounding_m)
+                 : 0.0;
+    };
+    const auto passes = has_to_pass(me, x, b);
+    auto margin_m = x.margin_m();
+    const auto may_lack_m = passes ? 2 * params_.margin_m - least_room_m
+                            : std::ranges::binary_search(were_beside_, x.id)
+                                ? hysteresis_m
+                                : 0.0;
+    if (passes) // what is uncertain is no reason to turn back now
+      margin_m -= std::clamp(lacking_m(margin_m) - may_lack_m, 0.0, margin_m);
+    const auto lacks_m = lacking_m(margin_m);
+    b.low_m -= margin_m;
+    b.high_m += margin_m;
+    if (lacks_m <= may_lack_m + 2 * rounding_m) {
       out.beside.push_back(
           {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, lacks_m});
       beside_.push_back(x.id);

@@ -80,6 +80,7 @@ private:
   };
   void gather(time_point now, const own_place& me,
               std::span<const track> tracks);
+  void keep_to_lane(const track& known, time_point now, track& x) const;
   void foresee_cutting_in();
   void find_near(const own_place& me);
   std::optional<footprint> measure(const near& where) const;
@@ -87,7 +88,8 @@ private:
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
-  double may_lack_m(const own_place& me, const track& x, double from_m) const;
+  bool has_to_pass(const own_place& me, const track& x,
+                   const footprint& b) const;
 
   std::shared_ptr<const lane_network> lanes_;
   world::route_ptr way_;
