@@ -137,7 +137,11 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
       const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
-      const auto near = touching_m + p.radius_m - disc_excess_m;
+      // Who moves may be in its own lane by then.
+      constexpr auto stands_mps = 0.3, far_m = 1e3;
+      const auto stands = std::abs(body.speed_mps) < stands_mps;
+      const auto near =
+          stands ? touching_m + p.radius_m - disc_excess_m : -far_m;
       if (side == side_of_road::left) {
         near_right_[j][k] =
             std::max(near_right_[j][k], body.high_m + near + bow);
