@@ -232,6 +232,7 @@ void object_tracker::correct(track& x, time_point at, const observation& s,
       std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
   turn(x, o.heading_rad, to_seconds(at - x.seen), share_of_new);
   x.seen = at;
+  x.seen_variance_m2 = x.motion.covariance(0, 0);
   if (!x.stands())
     x.moved = at;
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
@@ -256,7 +257,8 @@ void object_tracker::give_birth(time_point at, const observation& s) {
                      o.accel_mps2,
                      o.length_m,
                      o.width_m,
-                     noise_.heading_rad * noise_.heading_rad});
+                     noise_.heading_rad * noise_.heading_rad,
+                     s.motion.covariance(0, 0)});
 }
 
 } // namespace sofof::planners

@@ -204,11 +204,9 @@ void scene_interpreter::find_near(const own_place& me) {
 /// Measures a body from the way.
 /// @returns nothing when it stays out of the lane and the way of the car.
 std::optional<scene_interpreter::footprint>
-scene_interpreter::measure(const near& where) const {
-  assert(where.who < others_.size());
-  const auto& x = others_[where.who].x;
+scene_interpreter::measure(const track& x, double guess_m) const {
   const auto& line = way_->path();
-  const auto on = line.project(x.centre(), where.guess_m, bead_m_);
+  const auto on = line.project(x.centre(), guess_m, bead_m_);
   const auto here = line.at(on.s_m);
   const auto turned_rad = x.heading_rad - here.heading_rad;
   const auto c = std::cos(turned_rad), s = std::sin(turned_rad);
@@ -256,6 +254,24 @@ scene_interpreter::measure(const near& where) const {
   return print;
 }
 
+/// Measures a body that comes towards the car as it will be where they meet:
+/// by then it has followed its lane, and turned with it.
+/// @param b  As it is now.
+std::optional<scene_interpreter::footprint>
+scene_interpreter::measure_met(const own_place& me, const near& where,
+                               const footprint& b) const {
+  assert(b.speed_mps < 0);
+  const auto& x = others_[where.who].x;
+  const auto way_m = b.from_m - me.s_m - params_.car.front_m;
+  const auto in_s = std::max(0.0, way_m) / (me.speed_mps - b.speed_mps);
+  const auto way_to_it_m = std::max(0.0, x.speed_mps()) * in_s;
+  auto met = measure(lanes_->moved_along(x, way_to_it_m),
+                     where.guess_m + b.speed_mps * in_s);
+  if (met)
+    met->from_m = b.from_m, met->to_m = b.to_m;
+  return met;
+}
+
 /// @returns whether a body can only be passed: that has begun, whoever planned
 /// it, and there is no way left to stop before it.
 bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
@@ -278,10 +294,14 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   for (const auto& where : near_) {
     if (out.lead && where.low_m > out.lead->rear_s_m)
       break;
-    const auto print = measure(where);
+    auto print = measure(others_[where.who].x, where.guess_m);
     if (!print || print->to_m <= rear_m
         || print->from_m > front_m + params_.horizon_m)
       continue;
+    if (print->speed_mps < -stands_below_mps)
+      print = measure_met(me, where, *print);
+    if (!print)
+      continue; // it will have left the lane
     auto b = *print;
     if (where.who >= seen_ && b.from_m < front_m)
       continue; // it would come into the side: braking does not help

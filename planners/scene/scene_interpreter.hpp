@@ -83,7 +83,9 @@ private:
   void keep_to_lane(const track& known, time_point now, track& x) const;
   void foresee_cutting_in();
   void find_near(const own_place& me);
-  std::optional<footprint> measure(const near& where) const;
+  std::optional<footprint> measure(const track& x, double guess_m) const;
+  std::optional<footprint> measure_met(const own_place& me, const near& where,
+                                       const footprint& b) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;

@@ -62,6 +62,7 @@ struct track {
   double length_m = 0;         ///< Along its heading.
   double width_m = 0;          ///< Across it.
   double heading_variance = 0; ///< rad².
+  double seen_variance_m2 = 0; ///< Of its place along any axis, as last seen.
 
   point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
 
@@ -78,14 +79,17 @@ struct track {
   /// @returns how far its side may be from where it is thought to be, m: three
   /// standard deviations, at the ends of what may be turned. Who drives may
   /// speed up and slow down, which makes its place uncertain, but keeps to its
-  /// lane.
+  /// lane; what stands moves along its heading, if at all, so that its sides
+  /// stay as they were seen.
   double margin_m() const {
     constexpr auto most_of_driven_m = 0.2;
     const auto half_m = std::max(length_m, width_m) / 2;
-    const auto margin = 3
-                        * std::sqrt(motion.covariance(0, 0)
-                                    + half_m * half_m * heading_variance);
-    return stands() ? margin : std::min(margin, most_of_driven_m);
+    const auto margin = [&](double of_place_m2) {
+      return 3 * std::sqrt(of_place_m2 + half_m * half_m * heading_variance);
+    };
+    return stands()
+               ? margin(seen_variance_m2)
+               : std::min(margin(motion.covariance(0, 0)), most_of_driven_m);
   }
 
   /// @returns the smaller of length and width: it may be wider than long.

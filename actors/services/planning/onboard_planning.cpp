@@ -43,6 +43,11 @@ public:
             messages::payload::of(report)};
   }
 
+  void observe(time_point now, const messages::service_input& input) override {
+    if (const auto request = input.what.as<plan_request>())
+      take_in(now, request->seen);
+  }
+
 private:
   const planners::comfort_limits& style() const {
     return world_->options.style;
