@@ -12,8 +12,9 @@ namespace sofof::planners {
 
 namespace {
 
-/// Who would have to brake harder than this to give way does not, m/s².
-constexpr auto yielding_decel_mps2 = 6.0;
+/// Who would have to brake harder than this to give way does not, m/s²; nor who
+/// would have to brake so hard and has not begun to.
+constexpr auto yielding_decel_mps2 = 6.0, begins_by_mps2 = 3.0;
 
 /// To be expected at once; more take more memory, once.
 constexpr std::size_t many = 128;
@@ -26,8 +27,15 @@ double forward_mps(const track& x) {
 /// neither side.
 constexpr auto across_sine = 0.5;
 
+/// Ways at a smaller angle than 30° against each other come towards each other.
+constexpr auto towards_cosine = 0.866;
+
 /// Who turns left by more than this crosses who comes towards it.
 constexpr auto turning_rad = 0.5;
+
+/// Nobody turns before another who comes to the place sooner after it than
+/// this, s; who would have to give way brakes at least so.
+constexpr auto close_s = 1.0, slows_down_mps2 = 1.0;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
@@ -118,10 +126,36 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
   const auto v = forward_mps(x);
   // A zone begins before bodies touch.
   const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
-  if (way_m <= 0 || v * v > 2 * yielding_decel_mps2 * way_m)
-    return false; // it is there, or will be
+  if (way_m <= 0)
+    return false; // it is there
+  const auto brakes = x.accel_mps2 < -slows_down_mps2;
+  if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
+    // It will be there, unless it comes towards the car and does not turn.
+    const auto own_way_m = std::max(0.0, own.on.from_m - me.front_m);
+    return when.may_turn_off && !brakes && would_turn_across(when, own)
+           && own_way_m < me.speed_mps * (when.enter_s + close_s)
+           && has_to_give_way(me, x, when, own);
+  }
   if (when.sets_off && x.at - x.moved > patience_of(me.station))
     return true;
+  return has_to_give_way(me, x, when, own);
+}
+
+/// @returns whether it comes towards the car and only meets it if it turns
+/// left.
+bool crossing_predictor::would_turn_across(const conflict_visit& when,
+                                           const own_zone& own) const {
+  const auto theirs = lanes_->course_of(when.side);
+  const auto ours = lanes_->course_of(own.on.side);
+  return std::cos(theirs.from_rad - ours.from_rad) < -towards_cosine
+         && theirs.turn_rad > turning_rad && ours.turn_rad <= turning_rad;
+}
+
+/// @returns whether it has to by right of way.
+bool crossing_predictor::has_to_give_way(const crossing_viewer& me,
+                                         const track& x,
+                                         const conflict_visit& when,
+                                         const own_zone& own) const {
   if (when.rank != own.on.rank)
     return when.rank > own.on.rank;
   if (lanes_->is_on_roundabout(when.side)

@@ -26,6 +26,7 @@ struct other_body {
 struct crossing_viewer {
   std::optional<station_id> station; ///< If it is heard by that name.
   double rear_m = 0, front_m = 0;    ///< Its bumpers, arc length.
+  double speed_mps = 0;
 };
 
 /// @param cosine  Of the angle between a body and a way.
@@ -82,6 +83,9 @@ private:
   void join_zones(double car_m, std::vector<way_stretch>& keep_free) const;
   bool gives_way(const crossing_viewer& me, const track& x,
                  const conflict_visit& when, const own_zone& own) const;
+  bool would_turn_across(const conflict_visit& when, const own_zone& own) const;
+  bool has_to_give_way(const crossing_viewer& me, const track& x,
+                       const conflict_visit& when, const own_zone& own) const;
   bool drives_along(const track& x, const world::zone& z) const;
   double gap_m(const track& x, const world::zone& z) const;
 

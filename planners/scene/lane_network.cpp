@@ -188,14 +188,15 @@ void lane_network::foresee(const track& x, double within_m,
   const auto is_likely = [&](const placement& p) {
     return takes(who, p.lane, -p.s_m) && stays_on(x, p);
   };
-  const auto any = std::ranges::any_of(on, is_likely);
+  const auto likely = std::ranges::count_if(on, is_likely);
+  const auto several = likely > 1 || (likely == 0 && on.count > 1);
   for (const auto& [lane, s_m] : on) {
-    if (any && !is_likely({lane, s_m}))
+    if (likely > 0 && !is_likely({lane, s_m}))
       continue;
-    drive(who, lane, -s_m);
+    drive(who, {lane, -s_m, several});
     if (s_m < who.half_length_m) // its rear is still there
       for (const auto before : previous_[lane])
-        meet(who, before, -s_m - paths_[before].length_m());
+        meet(who, {before, -s_m - paths_[before].length_m(), several});
   }
 }
 
@@ -253,9 +254,8 @@ bool lane_network::takes(const driver& who, std::size_t lane,
          || way_m < -who.half_length_m; // it has gone through
 }
 
-/// @param start_m  Where the lane begins, from the body's centre on.
-void lane_network::meet(const driver& who, std::size_t lane,
-                        double start_m) const {
+void lane_network::meet(const driver& who, const lane_ahead& on) const {
+  const auto& [lane, start_m, may_turn_off] = on;
   assert(lane < meetings_.size());
   assert(who.half_length_m > 0 && who.first <= who.out.size());
   for (const auto& e : meetings_[lane]) {
@@ -268,6 +268,7 @@ void lane_network::meet(const driver& who, std::size_t lane,
     conflict_visit here{e.side, e.rank, way_m};
     here.sets_off = stands && way_m > 0;
     here.is_past = left_m < who.half_length_m;
+    here.may_turn_off = may_turn_off;
     if (here.sets_off) {
       here.enter_s = standing_start_s(way_m);
       here.leave_s = standing_start_s(left_m);
@@ -286,24 +287,28 @@ void lane_network::meet(const driver& who, std::size_t lane,
     } else {
       known->way_m = std::min(known->way_m, here.way_m);
       known->is_past = known->is_past && here.is_past;
+      known->may_turn_off = known->may_turn_off && may_turn_off;
       known->enter_s = std::min(known->enter_s, here.enter_s);
       known->leave_s = std::max(known->leave_s, here.leave_s);
     }
   }
 }
 
-void lane_network::drive(const driver& who, std::size_t lane,
-                         double start_m) const {
-  meet(who, lane, start_m);
-  const auto end_m = start_m + paths_[lane].length_m();
-  assert(end_m > start_m); // or lanes that end in each other had no end
+void lane_network::drive(const driver& who, const lane_ahead& on) const {
+  meet(who, on);
+  const auto end_m = on.start_m + paths_[on.lane].length_m();
+  assert(end_m > on.start_m); // or lanes that end in each other had no end
   if (end_m - who.half_length_m > who.within_m)
     return;
-  const auto any = std::ranges::any_of(
-      next_[lane], [&](std::size_t next) { return takes(who, next, end_m); });
-  for (const auto following : next_[lane])
-    if (!any || takes(who, following, end_m))
-      drive(who, following, end_m);
+  const auto& all = next_[on.lane];
+  const auto is_taken = [&](std::size_t next) {
+    return takes(who, next, end_m);
+  };
+  const auto taken = std::ranges::count_if(all, is_taken);
+  const auto several = taken > 1 || (taken == 0 && all.size() > 1);
+  for (const auto following : all)
+    if (taken == 0 || is_taken(following))
+      drive(who, {following, end_m, on.may_turn_off || several});
 }
 
 } // namespace sofof::planners

@@ -18,13 +18,14 @@ namespace sofof::planners {
 
 /// When a body is on one side of a conflict, if its speed stays as it is.
 struct conflict_visit {
-  std::uint32_t side = 0; ///< As in `conflict_side`.
-  int rank = 0;           ///< Of its lane.
-  double way_m = 0;       ///< From its front to the stretch; 0: on it.
-  double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
-  double leave_s = 0;     ///< Its rear leaves; infinite: it stands there.
-  bool sets_off = false;  ///< If it does: it stands before the stretch.
-  bool is_past = false;   ///< Its middle has left the stretch.
+  std::uint32_t side = 0;    ///< As in `conflict_side`.
+  int rank = 0;              ///< Of its lane.
+  double way_m = 0;          ///< From its front to the stretch; 0: on it.
+  double enter_s = 0;        ///< Its front comes onto the stretch; 0: on it.
+  double leave_s = 0;        ///< Its rear leaves; infinite: it stands there.
+  bool sets_off = false;     ///< If it does: it stands before the stretch.
+  bool is_past = false;      ///< Its middle has left the stretch.
+  bool may_turn_off = false; ///< There is another way for it before that.
 };
 
 /// Lanes, how they follow each other, and their conflicts; immutable, one for
@@ -107,8 +108,14 @@ private:
   bool takes(const driver& who, std::size_t lane, double start_m) const;
   void come(std::size_t lane, double s_m, double within_s,
             std::vector<point>& out) const;
-  void meet(const driver& who, std::size_t lane, double start_m) const;
-  void drive(const driver& who, std::size_t lane, double start_m) const;
+  /// A lane on a body's way.
+  struct lane_ahead {
+    std::size_t lane;
+    double start_m;    ///< From the body's centre on.
+    bool may_turn_off; ///< There was another one to choose.
+  };
+  void meet(const driver& who, const lane_ahead& on) const;
+  void drive(const driver& who, const lane_ahead& on) const;
 
   world::conflict_sides meetings_;
   std::vector<int> ranks_;        // of all sides

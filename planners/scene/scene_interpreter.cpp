@@ -90,8 +90,8 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   crossings_.look_ahead(rear_m, front_m, front_m + params_.horizon_m,
                         out.keep_free);
   if (params_.judges_crossings)
-    crossings_.judge({me.station, rear_m, front_m}, others_, out.crossings,
-                     out.yields_m);
+    crossings_.judge({me.station, rear_m, front_m, me.speed_mps}, others_,
+                     out.crossings, out.yields_m);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
@@ -157,19 +157,22 @@ void scene_interpreter::find_near(const own_place& me) {
   const auto count = static_cast<std::int64_t>(beads_.size());
   assert(count > 0 && bead_m_ > 0);
   const auto front_m = me.s_m + params_.car.front_m;
-  auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
+  const auto at_front =
+      static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
   auto last = static_cast<std::int64_t>(
                   std::ceil((front_m + params_.horizon_m) / bead_m_))
               + 1;
-  if (!way_->closed()) {
-    first = std::clamp<std::int64_t>(first, 0, count - 1);
+  if (!way_->closed())
     last = std::clamp<std::int64_t>(last, 0, count - 1);
-  }
-  const auto start = (first % count + count) % count; // on the lap
-  assert(first <= last && start >= 0 && start < count);
   near_.clear();
   for (std::size_t who = 0; who < others_.size(); ++who) {
     const auto& x = others_[who].x;
+    // The middle of a long one may be far behind.
+    auto first = at_front - static_cast<std::int64_t>(radius_m(x) / bead_m_);
+    if (!way_->closed())
+      first = std::clamp<std::int64_t>(first, 0, count - 1);
+    const auto start = (first % count + count) % count; // on the lap
+    assert(first <= last && start >= 0 && start < count);
     const auto reach_m =
         radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
     auto away_m = [&](std::int64_t i) {

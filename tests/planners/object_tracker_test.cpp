@@ -590,3 +590,14 @@ TEST_CASE("the true sides of what stands lie within its margin") {
     CHECK(outside <= 0.005 * seen);
   }
 }
+
+TEST_CASE("what stands keeps its sides while it is not seen") {
+  object_tracker tracker{{0.2, 0.1, 0.03}, rhythm};
+  const perceived_object o{{20, 1}, 0, 0, 0, 4, 2};
+  for (auto k = 0; k < 40; ++k)
+    tracker.update(first_sight + k * 50ms, {&o, 1});
+  const auto seen = tracker.tracks()[0];
+  const auto later = predict(seen, seen.at + 900ms);
+  CHECK(later.motion.covariance(0, 0) > 2 * seen.motion.covariance(0, 0));
+  CHECK(later.margin_m() == seen.margin_m());
+}

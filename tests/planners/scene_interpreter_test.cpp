@@ -439,6 +439,37 @@ TEST_CASE("who has to give way does so, unless it cannot stop any more") {
   CHECK(c->goes_first);
 }
 
+TEST_CASE("who comes towards one, would have to give way to turn, and does "
+          "not slow down, goes straight on") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.me.s_m = o.way->path().project({0, -1.75}).s_m - 14;
+  o.me.speed_mps = 7;
+  auto oncoming = seen_track({12.5, 1.75}, pi, 5.4); // it may turn across
+  REQUIRE_FALSE(o.look({oncoming}).crossings.empty());
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
+  // From the south each way meets the own one.
+  const auto comes = seen_track({1.75, -8}, pi / 2, 5.4);
+  o.look({comes});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("who rolls on where it would have to brake by now goes first") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  auto x = seen_track({1.75, -6.1}, pi / 2, 2); // 0.6 m to go
+  o.look({x});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+  x.accel_mps2 = -2;
+  o.look({x});
+  c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+}
+
 TEST_CASE("of equals who comes from the right goes first") {
   auto o = at_cross_roads({3, 0, 1}, 100, true);
   o.look({seen_track({1.75, -60}, pi / 2, 10)});
@@ -603,4 +634,29 @@ TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
   const auto through = lehr().route("east_to_west");
   const auto& seen = o.look({on_way(*through, 270, 8)});
   CHECK(std::ranges::any_of(seen.crossings, &crossing_user::goes_first));
+}
+
+TEST_CASE("Lehr: a long body beside a bend is as wide all the way past it") {
+  constexpr auto length_m = 26.0, width_m = 2.0;
+  onlooker o{lehr().map, lehr().route(round_trips[0])};
+  const auto& line = o.way->path();
+  auto looks = 0;
+  for (auto s_m = 60.0; s_m < line.length_m() - 60; s_m += 35) {
+    CAPTURE(s_m);
+    const auto here = line.at(s_m);
+    const point left{-std::sin(here.heading_rad), std::cos(here.heading_rad)};
+    auto x = seen_track(here.at + -2.3 * left, here.heading_rad);
+    x.length_m = length_m;
+    x.width_m = width_m;
+    std::optional<double> high_m;
+    for (o.me.s_m = s_m - 25; o.me.s_m < s_m + 8; o.me.s_m += 0.9) {
+      o.look({x});
+      if (o.seen.lead || o.seen.beside.size() != 1)
+        continue; // the bend leaves no room
+      ++looks;
+      high_m = high_m.value_or(o.seen.beside[0].high_m);
+      REQUIRE(std::abs(o.seen.beside[0].high_m - *high_m) < 0.02);
+    }
+  }
+  CHECK(looks > 300);
 }
