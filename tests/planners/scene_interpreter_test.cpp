@@ -649,7 +649,7 @@ TEST_CASE("Lehr: a long body beside a bend is as wide all the way past it") {
     x.length_m = length_m;
     x.width_m = width_m;
     std::optional<double> high_m;
-    for (o.me.s_m = s_m - 25; o.me.s_m < s_m + 8; o.me.s_m += 0.9) {
+    for (o.me.s_m = s_m - 25; o.me.s_m < s_m + 13; o.me.s_m += 0.9) {
       o.look({x});
       if (o.seen.lead || o.seen.beside.size() != 1)
         continue; // the bend leaves no room
