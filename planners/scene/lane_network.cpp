@@ -227,6 +227,7 @@ track lane_network::moved_along(track x, double way_m) const {
   const auto speed_mps = std::hypot(x.motion.mean(0, 1), x.motion.mean(1, 1));
   const auto along = ahead(x.heading_rad);
   x.motion.mean << at.x_m, speed_mps * along.x_m, at.y_m, speed_mps * along.y_m;
+  x.rest.reset();
   return x;
 }
 

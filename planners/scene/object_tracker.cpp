@@ -33,8 +33,11 @@ constexpr std::size_t usual_tracks = 128;
 constexpr auto least_share = 0.5;
 constexpr auto whole_after_s = 0.2;
 
-/// How much what stands may turn meanwhile, rad²/s.
-constexpr auto standing_rad2ps = 1e-7;
+/// How much what stands may turn and shift meanwhile, rad²/s and m²/s.
+constexpr auto standing_rad2ps = 1e-7, standing_m2ps = 1e-4;
+
+/// Of standard deviations: more is no chance.
+constexpr auto no_chance = 4.5;
 
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;
@@ -45,6 +48,13 @@ constexpr auto max_speed_mps = 100.0;
 constexpr auto max_size_m = 60.0;
 constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
+
+/// @returns whether its speed may be that of a body that stands.
+bool may_stand(const track& x) {
+  const auto deviation_mps = std::sqrt(x.motion.covariance(1, 1));
+  return std::abs(x.speed_mps())
+         <= stands_below_mps + no_chance * deviation_mps;
+}
 
 bool is_sound(const world::perceived_object& o) {
   // Comparisons with NaN are false.
@@ -217,14 +227,34 @@ void object_tracker::turn(track& x, double heading_rad, double dt_s,
   x.heading_variance = x.stands() ? (1 - share) * before2 : share * noise2;
 }
 
+/// All sightings count since it moved.
+/// @param stood  Whether it may have, before this sighting.
+void object_tracker::settle(track& x, const motion_estimate& seen, double dt_s,
+                            bool stood) const {
+  assert(x.rest && seen.covariance(0, 0) > 0 && dt_s >= 0);
+  auto& [centre, variance_m2] = *x.rest;
+  variance_m2 += standing_m2ps * dt_s;
+  const auto share = variance_m2 / (variance_m2 + seen.covariance(0, 0));
+  centre = centre + share * (seen.centre() - centre);
+  variance_m2 *= 1 - share;
+  const auto now2_m2 = x.motion.covariance(0, 0);
+  const auto has_moved = distance_m(centre, x.motion.centre())
+                         > no_chance * std::sqrt(variance_m2 + now2_m2);
+  if (!stood || !may_stand(x) || has_moved)
+    *x.rest = {x.motion.centre(), now2_m2};
+  assert(x.rest->variance_m2 > 0);
+}
+
 /// @param fits  Else the track begins anew, unless the sighting is old.
 void object_tracker::correct(track& x, time_point at, const observation& s,
                              bool fits) {
   assert(x.at == newest_ && at <= newest_);
+  const auto stood = may_stand(x);
   if (fits)
     x.motion.fuse(s.motion);
   else if (at == newest_)
     x.motion = s.motion;
+  settle(x, s.motion, std::max(0.0, to_seconds(at - x.seen)), stood);
   if (at < x.seen)
     return;
   const auto& o = s.object;
@@ -232,7 +262,6 @@ void object_tracker::correct(track& x, time_point at, const observation& s,
       std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
   turn(x, o.heading_rad, to_seconds(at - x.seen), share_of_new);
   x.seen = at;
-  x.seen_variance_m2 = x.motion.covariance(0, 0);
   if (!x.stands())
     x.moved = at;
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
@@ -258,7 +287,7 @@ void object_tracker::give_birth(time_point at, const observation& s) {
                      o.length_m,
                      o.width_m,
                      noise_.heading_rad * noise_.heading_rad,
-                     s.motion.covariance(0, 0)});
+                     resting_place{o.centre, s.motion.covariance(0, 0)}});
 }
 
 } // namespace sofof::planners

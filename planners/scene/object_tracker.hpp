@@ -92,6 +92,8 @@ private:
                             const world::perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
+  void settle(track& x, const motion_estimate& seen, double dt_s,
+              bool stood) const;
   void correct(track& x, time_point at, const observation& s, bool fits);
   void turn(track& x, double heading_rad, double dt_s,
             double share_of_new) const;

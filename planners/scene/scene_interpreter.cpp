@@ -31,6 +31,9 @@ constexpr auto hysteresis_m = 0.1;
 constexpr auto least_room_m = 0.3;
 constexpr auto decides_within_s = 0.7; // with what it keeps before the body
 constexpr auto stops_mps2 = 2.5;
+/// So much way a car needs to steer round a body from rest, besides what it
+/// keeps to one ahead; and how it brakes if it is to stand there.
+constexpr auto pulls_out_m = 5.0, calmly_mps2 = 1.5;
 /// So far beside its line a car steers round something.
 constexpr auto steers_round_m = 0.1;
 
@@ -331,6 +334,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (passes) // what is uncertain is no reason to turn back now
       margin_m -= std::clamp(lacking_m(margin_m) - may_lack_m, 0.0, margin_m);
     const auto lacks_m = lacking_m(margin_m);
+    const auto certainly_lacks_m = lacking_m(0);
     b.low_m -= margin_m;
     b.high_m += margin_m;
     if (lacks_m <= may_lack_m + 2 * rounding_m) {
@@ -339,7 +343,14 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
       beside_.push_back(x.id);
     } else if (b.to_m > front_m
                && (!out.lead || b.from_m < out.lead->rear_s_m)) {
-      out.lead = {x.station, b.from_m, std::max(b.speed_mps, 0.0),
+      // What is certain leaves room: it may turn out to be passable, and then
+      // there must be way to steer round it.
+      const auto may_pass = x.stands() && certainly_lacks_m <= 0;
+      const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
+      const auto back_m =
+          may_pass ? std::clamp(b.from_m - front_m - stop_m, 0.0, pulls_out_m)
+                   : 0.0;
+      out.lead = {x.station, b.from_m - back_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
     }
   }

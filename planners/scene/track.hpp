@@ -44,10 +44,18 @@ struct motion_estimate {
     double cost;      ///< Minus twice the log-likelihood, up to a constant.
   };
   mismatch compare(const motion_estimate& other) const;
+
+  point centre() const { return {mean(0, 0), mean(1, 0)}; }
 };
 
 /// Slower than this, a body stands: sensors are not better.
 inline constexpr double stands_below_mps = 0.3;
+
+/// Where a body stands, from all sightings since it moved.
+struct resting_place {
+  point centre;
+  double variance_m2 = 0; ///< Along any axis.
+};
 
 /// A body that has been seen on the road.
 struct track {
@@ -62,9 +70,12 @@ struct track {
   double length_m = 0;         ///< Along its heading.
   double width_m = 0;          ///< Across it.
   double heading_variance = 0; ///< rad².
-  double seen_variance_m2 = 0; ///< Of its place along any axis, as last seen.
+  std::optional<resting_place> rest; ///< Holds while it stands.
 
-  point centre() const { return {motion.mean(0, 0), motion.mean(1, 0)}; }
+  /// @returns the middle of the body.
+  point centre() const {
+    return rest && stands() ? rest->centre : motion.centre();
+  }
 
   /// @returns the velocity along an axis.
   double speed_along_mps(double axis_rad) const {
@@ -87,8 +98,8 @@ struct track {
     const auto margin = [&](double of_place_m2) {
       return 3 * std::sqrt(of_place_m2 + half_m * half_m * heading_variance);
     };
-    return stands()
-               ? margin(seen_variance_m2)
+    return stands() && rest
+               ? margin(rest->variance_m2)
                : std::min(margin(motion.covariance(0, 0)), most_of_driven_m);
   }
 

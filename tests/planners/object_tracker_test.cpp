@@ -591,6 +591,48 @@ TEST_CASE("the true sides of what stands lie within its margin") {
   }
 }
 
+TEST_CASE("where a body stands is known the better the longer it does") {
+  object_tracker tracker{{0.2, 0.3, 0.03}, {4, 1s}};
+  const random_stream eyes{11, "a parked car"};
+  for (std::uint64_t k = 0; k < 30; ++k) { // told once a second, as CPMs do
+    const perceived_object o{
+        {20 + eyes.normal(0, 0.2, k, 0), 1 + eyes.normal(0, 0.2, k, 1)},
+        0.03 * eyes.normal(0, 1, k, 2),
+        eyes.normal(0, 0.3, k, 3),
+        0,
+        1.6,
+        1.9};
+    tracker.update(first_sight + k * 1s, {&o, 1});
+  }
+  REQUIRE(tracker.tracks().size() == 1);
+  const auto& parked = tracker.tracks()[0];
+  CHECK(parked.rest->variance_m2 < 0.05 * 0.05);
+  CHECK(distance_m(parked.rest->centre, {20, 1}) < 0.15);
+}
+
+TEST_CASE("a body that sets off is where it is seen, not where it stood") {
+  object_tracker tracker{{0.2, 0.3, 0.03}, rhythm};
+  const random_stream eyes{12, "a car that sets off"};
+  auto most_behind_m = 0.0;
+  for (std::uint64_t k = 0; k < 600; ++k) { // stands for 20 s, then 1 m/s2
+    const auto since_s = std::max(0.0, 0.05 * static_cast<double>(k) - 20);
+    const auto x_m = 0.5 * since_s * since_s;
+    const perceived_object o{
+        {x_m + eyes.normal(0, 0.2, k, 0), eyes.normal(0, 0.2, k, 1)},
+        0.03 * eyes.normal(0, 1, k, 2),
+        since_s + eyes.normal(0, 0.3, k, 3),
+        1,
+        4,
+        2};
+    tracker.update(first_sight + k * 50ms, {&o, 1});
+    REQUIRE(tracker.tracks().size() == 1);
+    if (since_s > 0)
+      most_behind_m = std::max(
+          most_behind_m, std::abs(tracker.tracks()[0].centre().x_m - x_m));
+  }
+  CHECK(most_behind_m < 0.5);
+}
+
 TEST_CASE("what stands keeps its sides while it is not seen") {
   object_tracker tracker{{0.2, 0.1, 0.03}, rhythm};
   const perceived_object o{{20, 1}, 0, 0, 0, 4, 2};
