@@ -16,9 +16,12 @@ constexpr double gap_after_s = 0.8;
 constexpr double gap_to_begin_s = 1.5;
 constexpr double gap_once_begun_s = 0.8;
 constexpr double gap_at_last_s = 0.5;
-/// Whoever can stay off a place by braking so little may have to, for a car that
-/// cannot stop before it any more.
+/// Whoever can stay off a place by braking so little may have to, for a car
+/// that cannot stop before it any more.
 constexpr double little_braking_mps2 = 1.5;
+/// Who waits at a line and has come so far beyond it goes on waiting: a place
+/// begins before bodies touch.
+constexpr double waits_within_m = 0.5;
 /// It takes so long until a car that decides to stop brakes.
 constexpr double hesitation_s = 0.5;
 
@@ -60,11 +63,11 @@ bool is_minded(const crossing_user& user, double line_m,
 
 /// The first cars to come; of more there is no telling anyway.
 void find_cars(std::span<const crossing_user> users, const crossing_car& car,
-               const std::function<double(double)>& way, minded_cars& found) {
+               const auto& line_of, minded_cars& found) {
   std::array<minded_cars::car, 4 * crossing_order::most_cars> all;
   std::size_t count = 0;
   for (const auto& user : users) {
-    if (!is_minded(user, way(user.from_m - car.front_m), car))
+    if (!is_minded(user, line_of(user), car))
       continue;
     const auto known =
         std::find_if(all.begin(), all.begin() + count,
@@ -87,9 +90,14 @@ minded_cars find_minded(std::span<const crossing_user> users,
                         const std::function<double(double)>& way,
                         const crossing_choice& last) {
   minded_cars found;
-  find_cars(users, car, way, found);
-  for (const auto& user : users) {
+  const auto line_of = [&](const crossing_user& user) {
     const auto line_m = way(user.from_m - car.front_m);
+    return last.waits && line_m > -waits_within_m ? std::max(line_m, 0.0)
+                                                  : line_m;
+  };
+  find_cars(users, car, line_of, found);
+  for (const auto& user : users) {
+    const auto line_m = line_of(user);
     for (std::size_t i = 0; i < found.car_count; ++i) {
       auto& x = found.cars[i];
       if (x.body != user.body || !is_minded(user, line_m, car)
@@ -182,6 +190,29 @@ crossing_choice choice_of(const crossing_order& order) {
     if (!choice.waits && (order.choice >> i & 1U) != 0)
       choice.before[i] = order.cars[i];
   return choice;
+}
+
+crossing_choice going_on(crossing_choice last,
+                         std::span<const crossing_user> users,
+                         const crossing_car& car,
+                         const std::function<double(double)>& way,
+                         const std::function<double(double)>& when_s) {
+  assert(way && when_s);
+  for (const auto& user : users) {
+    const auto line_m = way(user.from_m - car.front_m);
+    const auto free = std::ranges::find(last.before, 0U);
+    if (last.waits || free == last.before.end() || !user.goes_first
+        || line_m < 0 || line_m > stopping_m(car)
+        || last.goes_before(user.body))
+      continue;
+    const auto goes_before = [&](const crossing_user& x) {
+      return x.body != user.body
+             || when_s(way(x.to_m + car.rear_m)) < x.enter_s;
+    };
+    if (std::ranges::all_of(users, goes_before))
+      *free = user.body;
+  }
+  return last;
 }
 
 bool list_orders(std::span<const crossing_user> users, const crossing_car& car,

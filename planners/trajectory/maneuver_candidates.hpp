@@ -62,6 +62,17 @@ double soonest_s(double way_m, const crossing_car& car);
 /// @returns the way on which it can come to rest, braking firmly, m.
 double stopping_m(const crossing_car& car);
 
+/// @returns what was decided last, and that the car goes on before those before
+///          whom it does by the plan in use and cannot stop any more: they have
+///          just come in sight, or the plan was made elsewhere.
+/// @param when_s  When the plan has made a way from the car on; infinite: it
+///                does not.
+crossing_choice going_on(crossing_choice last,
+                         std::span<const crossing_user> users,
+                         const crossing_car& car,
+                         const std::function<double(double)>& way,
+                         const std::function<double(double)>& when_s);
+
 /// Lists the orders that are possible at all, and to wait, which always is.
 /// First comes what was decided last, if it still is possible; then after all,
 /// before all, and others, at most `most`, but those three in any case.

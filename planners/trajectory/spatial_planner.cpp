@@ -82,7 +82,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   plan_report report;
   report.input = input.at;
   const scene at{now, joined(lane(), now, input, previous), input.others,
-                 to_seconds(now - input.others.at)};
+                 to_seconds(now - input.others.at), previous};
   s_m_ = at.start.s_m;
   assert(std::isfinite(s_m_) && at.start.speed_mps >= 0);
   auto done = false;
@@ -319,9 +319,18 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
+  const auto car = crossing(at);
+  const auto way = [this](double s) { return way_from_car(s); };
+  const auto when_s = [&](double way_m) {
+    if (at.in_use)
+      for (const auto& p : at.in_use->points)
+        if (way(p.s_m) >= way_m)
+          return p.t_s - to_seconds(at.now - at.in_use->start);
+    return speed_constraints::never;
+  };
   const auto is_as_before = list_orders(
-      users_, crossing(at), [this](double s) { return way_from_car(s); },
-      crossed_, most(), all_orders_);
+      users_, car, way, going_on(crossed_, users_, car, way, when_s), most(),
+      all_orders_);
   const auto free = task(at);
   assert(!all_orders_.empty() && speed_ != other_speed_);
   auto found = false, calm = false;

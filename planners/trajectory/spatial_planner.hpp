@@ -48,7 +48,8 @@ private:
     time_point now;
     planning_input start;
     const driving_scene& others;
-    double age_s; ///< Of what is known of them.
+    double age_s;                    ///< Of what is known of them.
+    const world::trajectory* in_use; ///< If there is a plan.
   };
 
   void forget();
