@@ -40,6 +40,9 @@ constexpr auto close_s = 1.0, slows_down_mps2 = 1.0;
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
 
+/// Who is slower among crossings may come to rest there, m/s.
+constexpr auto hesitant_mps = 3.0;
+
 /// Who stands before a zone for longer than this is not waited for any more.
 constexpr duration patience = std::chrono::seconds{4};
 constexpr duration more_patience = std::chrono::milliseconds{500};
@@ -82,6 +85,7 @@ void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,
 
 void crossing_predictor::judge(const crossing_viewer& me,
                                std::span<other_body> others,
+                               std::span<const way_stretch> keep_free,
                                std::vector<crossing_user>& found,
                                std::vector<double>& yields) {
   assert(me.rear_m < me.front_m);
@@ -96,17 +100,31 @@ void crossing_predictor::judge(const crossing_viewer& me,
           || (when.way_m == 0 && drives_along(x, own.on))
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
-      found.push_back({own.on.from_m, own.on.to_m, when.enter_s, when.leave_s,
-                       !gives_way(me, x, when, own),
-                       decel_before(when.way_m, forward_mps(x)), x.id});
+      const auto first = !gives_way(me, x, when, own);
+      const auto hesitates = first && forward_mps(x) < hesitant_mps;
+      found.push_back(
+          {hesitates ? line_before(me, own, keep_free) : own.on.from_m,
+           own.on.to_m, when.enter_s, when.leave_s, first,
+           decel_before(when.way_m, forward_mps(x)), x.id});
       cuts_in = cuts_in
                 || (own.on.from_m < me.front_m && found.back().goes_first
                     && !when.sets_off && when.enter_s < soon_s);
       is_crossing =
           is_crossing || (own.on.from_m >= me.front_m && !when.sets_off);
     }
-  assert(std::ranges::is_sorted(found, {}, &crossing_user::from_m));
+  std::ranges::stable_sort(found, {}, &crossing_user::from_m);
   assert(std::ranges::is_sorted(yields));
+}
+
+/// @returns where the crossings begin that a zone is one of, if the front has
+/// not come so far; else where the zone begins.
+double crossing_predictor::line_before(const crossing_viewer& me,
+                                       const own_zone& own,
+                                       std::span<const way_stretch> keep_free) {
+  for (const auto& all : keep_free)
+    if (all.from_m <= own.on.from_m && own.on.from_m <= all.to_m)
+      return me.front_m <= all.from_m ? all.from_m : own.on.from_m;
+  return own.on.from_m;
 }
 
 /// Zones between which no car fits are one.

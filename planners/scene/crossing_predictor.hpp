@@ -64,9 +64,14 @@ public:
   /// another time, so that not all set off at once. Who stands on a zone is not
   /// crossing: it is in the way, or it is not.
   ///
-  /// @param found      In the order of zones.
+  /// Who goes first and is slow may come to rest among crossings that belong
+  /// together: a car that is not among them yet waits before all of them.
+  ///
+  /// @param keep_free  From `look_ahead`.
+  /// @param found      In the order of `from_m`.
   /// @param yields     Where zones begin whose other side goes first by rank.
   void judge(const crossing_viewer& me, std::span<other_body> others,
+             std::span<const way_stretch> keep_free,
              std::vector<crossing_user>& found, std::vector<double>& yields);
 
 private:
@@ -80,6 +85,8 @@ private:
   };
   void find_zones(double from_m, double to_m);
   void foresee(std::span<const other_body> others);
+  static double line_before(const crossing_viewer& me, const own_zone& own,
+                            std::span<const way_stretch> keep_free);
   void join_zones(double car_m, std::vector<way_stretch>& keep_free) const;
   bool gives_way(const crossing_viewer& me, const track& x,
                  const conflict_visit& when, const own_zone& own) const;

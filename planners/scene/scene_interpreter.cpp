@@ -94,7 +94,7 @@ void scene_interpreter::describe(time_point now, const own_place& me,
                         out.keep_free);
   if (params_.judges_crossings)
     crossings_.judge({me.station, rear_m, front_m, me.speed_mps}, others_,
-                     out.crossings, out.yields_m);
+                     out.keep_free, out.crossings, out.yields_m);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
