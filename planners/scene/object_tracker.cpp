@@ -19,8 +19,9 @@ constexpr duration memory = 1s;
 constexpr duration max_delay = 500ms;
 
 /// Of the chi-square distribution with 4 degrees of freedom (two of position,
-/// two of velocity), the quantile 0.999.
-constexpr auto gate = 18.47;
+/// two of velocity), the quantile 0.999 999: what a sensor tells of a body for
+/// hours shall not make two of it.
+constexpr auto gate = 33.38;
 
 /// Bodies at one time; who was not seen for longest makes room for more. A
 /// provider hears far more than a vehicle sees.

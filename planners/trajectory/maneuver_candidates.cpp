@@ -123,8 +123,7 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
   for (std::size_t i = 0; i < minded.count; ++i) {
     const auto& [line_m, clear_m, user, bit, committed] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
-    if (before && (committed || car.has_waited)
-        && user->brakes_mps2 < little_braking_mps2)
+    if (before && committed && user->brakes_mps2 < little_braking_mps2)
       continue; // it lets the car pass
     auto& window = order.windows[order.count++];
     if (before) {

@@ -54,7 +54,6 @@ struct crossing_car {
   double top_mps = 0; ///< It will not drive faster.
   double max_accel_mps2 = 0;
   double firm_decel_mps2 = 2.5;
-  bool has_waited = false; ///< For so long that others may have to let it pass.
 };
 
 /// @returns when the car has come so far, at the soonest, s.
@@ -79,8 +78,7 @@ crossing_choice going_on(crossing_choice last,
 /// before all, and others, at most `most`, but those three in any case.
 /// Without anybody to mind there is one, free of windows. Who goes before
 /// another leaves it 1.5 s; 0.8 s once it has begun to, and 0.5 s where it
-/// could not stop any more. To who could not, and to who has waited for long,
-/// it is the same whether another has to brake a little.
+/// could not stop any more.
 /// @param users  Times from now on.
 /// @param way    From arc length on the route to way from the car on.
 /// @param out    Reused.

@@ -32,11 +32,6 @@ constexpr typename Planner::grid grid_of(const spatial_params& p) {
   return {p.step_m, static_cast<int>(p.horizon_m / p.step_m)};
 }
 
-/// A car has waited at crossings when it has stood so long ago and has not been
-/// faster since.
-constexpr duration long_wait = std::chrono::seconds{20};
-constexpr double stands_mps = 0.1, drives_on_mps = 2.0;
-
 /// Slower bodies stand: sensors are not that good.
 constexpr double moving_mps = 0.3;
 
@@ -90,7 +85,6 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
                  to_seconds(now - input.others.at), previous};
   s_m_ = at.start.s_m;
   assert(std::isfinite(s_m_) && at.start.speed_mps >= 0);
-  remember_standing(now, at.start.speed_mps);
   auto done = false;
   for (auto round = 0; round < params_.alternations; ++round) {
     auto better = report;
@@ -128,15 +122,6 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   assert(out.start == now && out.is_sound());
   tell_extremes(out, style_, report);
   return report;
-}
-
-// Whether it has stood, and not driven on since.
-void spatial_planner::remember_standing(time_point now, double speed_mps) {
-  assert(speed_mps >= 0);
-  if (speed_mps > drives_on_mps)
-    stood_at_.reset();
-  else if (speed_mps < stands_mps && !stood_at_)
-    stood_at_ = now;
 }
 
 // What was planned here belongs to a plan that nobody drives any more.
@@ -297,13 +282,9 @@ speed_constraints spatial_planner::task(const scene& at) const {
 }
 
 crossing_car spatial_planner::crossing(const scene& at) const {
-  return {style_.front_m,
-          car_.rear_m,
-          at.start.speed_mps,
-          way_->line.limit_mps(at.start.s_m),
-          style_.max_accel_mps2,
-          style_.firm_decel_mps2(),
-          stood_at_ && at.now - *stood_at_ > long_wait};
+  return {style_.front_m,        car_.rear_m,
+          at.start.speed_mps,    way_->line.limit_mps(at.start.s_m),
+          style_.max_accel_mps2, style_.firm_decel_mps2()};
 }
 
 // Before a place where others cross, rather than on it, where the way out is
@@ -358,7 +339,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       static_cast<std::int32_t>(all_sides_.size() * all_orders_.size());
   for (const auto& order : all_orders_) {
     const auto first = &order == &all_orders_.front();
-    if (order.choice == crossing_order::waits && calm)
+    const auto waits = order.choice == crossing_order::waits;
+    if (waits && calm)
       continue; // only when nothing else is left
     auto& trial = first ? speed_ : other_speed_;
     if (!first)
@@ -370,11 +352,10 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     const auto result = trial->plan(path_->path(), way_m_, t, go_on);
     report.iterations += result.report.iterations;
     const auto good = !trial->motion().empty();
-    const auto waits = order.choice == crossing_order::waits;
-    const auto price =
-        waits && !result.emergency ? std::numeric_limits<double>::max()
-        : first && is_as_before    ? (1 - hysteresis) * result.price
-                                   : result.price;
+    const auto price = waits && !result.emergency
+                           ? std::numeric_limits<double>::max()
+                       : first && is_as_before ? (1 - hysteresis) * result.price
+                                               : result.price;
     // A plan in comfort is better than any other.
     const auto better = !found || (!calm && !result.emergency)
                         || (calm != result.emergency && price < cheapest);

@@ -53,7 +53,6 @@ private:
   };
 
   void forget();
-  void remember_standing(time_point now, double speed_mps);
   bool plan_path(const scene& at, plan_report& report,
                  const ocp::budget& go_on);
   bool plan_speed(const scene& at, plan_report& report,
@@ -97,7 +96,6 @@ private:
   speed_profile kept_;
   std::optional<time_point> made_;      // start of the last plan
   std::optional<time_point> kept_from_; // start of the plan that is kept
-  std::optional<time_point> stood_at_;  // first, if it has hardly moved since
 };
 
 } // namespace sofof::planners

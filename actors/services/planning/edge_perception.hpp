@@ -39,6 +39,11 @@ public:
   /// protocol::cam_timeout.
   std::optional<messages::cam> told_by(station_id who) const;
 
+  /// @returns whether a vehicle has been heard for long enough, without a gap,
+  ///          to know what is round it: bodies that stand are told of once a
+  ///          second, and what nothing is known of yet has no sides to pass by.
+  bool knows_surroundings_of(station_id who) const;
+
   /// Copies what is known now and believed by who plans for `station`.
   void tracks(std::vector<planners::track>& out, station_id station);
 
@@ -51,7 +56,11 @@ private:
   // Told by CAMs and CPMs, which come when there is news.
   planners::object_tracker model_;
   planners::plausibility doubts_;
-  std::map<station_id, messages::cam> told_; // the newest CAM of each
+  struct voice {
+    messages::cam newest;
+    time_point since; ///< It has been heard without a gap.
+  };
+  std::map<station_id, voice> told_; // by CAMs
   time_point tidied_;
 };
 
