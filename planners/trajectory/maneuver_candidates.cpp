@@ -57,7 +57,7 @@ struct minded_cars {
 /// and will not have left before the car can be there.
 bool is_minded(const crossing_user& user, double line_m,
                const crossing_car& car) {
-  return line_m >= 0 && (user.goes_first || user.enter_s <= 0)
+  return line_m >= 0 && user.goes_first
          && user.leave_s + gap_after_s > soonest_s(line_m, car);
 }
 
