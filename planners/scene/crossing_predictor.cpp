@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
 namespace sofof::planners {
 
@@ -101,7 +102,8 @@ void crossing_predictor::judge(const crossing_viewer& me,
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
       const auto first = !gives_way(me, x, when, own);
-      const auto hesitates = first && forward_mps(x) < hesitant_mps;
+      const auto hesitates =
+          first && forward_mps(x) < hesitant_mps && when.enter_s < soon_s;
       found.push_back(
           {hesitates ? line_before(me, own, keep_free) : own.on.from_m,
            own.on.to_m, when.enter_s, when.leave_s, first,
@@ -112,7 +114,9 @@ void crossing_predictor::judge(const crossing_viewer& me,
       is_crossing =
           is_crossing || (own.on.from_m >= me.front_m && !when.sets_off);
     }
-  std::ranges::stable_sort(found, {}, &crossing_user::from_m);
+  std::ranges::sort(found, {}, [](const crossing_user& x) {
+    return std::tuple{x.from_m, x.to_m, x.body};
+  });
   assert(std::ranges::is_sorted(yields));
 }
 

@@ -86,8 +86,31 @@ route_sight::corners(const lane_network& lanes) const {
       found.push_back(corner);
     return true;
   });
+  add_long_ones(zones, found);
   std::ranges::sort(found, {}, &blind_corner::line_m);
   return found;
+}
+
+/// Adds where crossings begin that belong together and end out of reach.
+void route_sight::add_long_ones(const world::unrolled_route& zones,
+                                std::vector<blind_corner>& found) const {
+  const auto reach_m = eyes_.range_m + (car_.front_m - car_.rear_m) / 2;
+  auto from_m = 0.0, to_m = 0.0;
+  const auto add = [&] {
+    const blind_corner corner{from_m - car_.front_m, to_m - reach_m};
+    if (to_m > from_m && corner.seen_from_m > corner.line_m - approach_m)
+      found.push_back(
+          {corner.line_m, std::min(corner.seen_from_m, corner.line_m)});
+  };
+  zones.for_zones(0, way_->length_m(), [&](const world::zone& z) {
+    if (z.from_m >= to_m + car_.front_m + car_.rear_m) {
+      add();
+      from_m = z.from_m;
+    }
+    to_m = std::max(to_m, z.to_m);
+    return true;
+  });
+  add();
 }
 
 /// @param those  Places of who comes, from the crossing back.

@@ -44,7 +44,8 @@ public:
 
   /// @param lanes  Of the route's map.
   /// @returns all corners at which somebody who comes first by rank, or from
-  /// the right at equal ranks, is not seen from everywhere, in order.
+  /// the right at equal ranks, is not seen from everywhere, or the end of the
+  /// crossings, where somebody may stand, is not; in order.
   std::vector<blind_corner> corners(const lane_network& lanes) const;
 
   /// @returns whether a body's middle at `p` is seen when the own rear axle is
@@ -53,6 +54,8 @@ public:
 
 private:
   bool is_seen_from(const world::viewpoint& eye, point p) const;
+  void add_long_ones(const world::unrolled_route& zones,
+                     std::vector<blind_corner>& found) const;
   blind_corner look_at(double line_m, std::span<const point> those) const;
 
   world::route_ptr way_;

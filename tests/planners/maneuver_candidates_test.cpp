@@ -64,15 +64,8 @@ TEST_CASE("without anybody to mind there is one order, free of windows") {
   check_free(orders({}, {.waits = true, .before = {7}}));
   // Who gives way is not minded, nor who crosses where the car has been.
   check_free(orders({user(50, 55, 3, 5, false)}));
+  check_free(orders({user(50, 55, 0, 4, false)})); // it waits there
   check_free(orders({user(2, 5, 0, 5, true)}));
-}
-
-TEST_CASE("who gives way but is already there is minded") {
-  const auto all = orders({user(50, 55, 0, 4, false)});
-  REQUIRE(!all.empty());
-  CHECK(lists(all, 0));
-  CHECK(lists(all, crossing_order::waits));
-  CHECK(!lists(all, 1));
 }
 
 TEST_CASE("one who goes first can be passed after, or before when there is "
