@@ -282,9 +282,13 @@ speed_constraints spatial_planner::task(const scene& at) const {
 }
 
 crossing_car spatial_planner::crossing(const scene& at) const {
-  return {style_.front_m,        car_.rear_m,
-          at.start.speed_mps,    way_->line.limit_mps(at.start.s_m),
-          style_.max_accel_mps2, style_.firm_decel_mps2()};
+  constexpr auto look_m = 5.0;
+  const auto& line = way_->line;
+  auto top_mps = 0.0; // where it is, a corner may slow it down
+  for (auto ahead_m = 0.0; ahead_m < params_.horizon_m; ahead_m += look_m)
+    top_mps = std::max(top_mps, line.limit_mps(at.start.s_m + ahead_m));
+  return {style_.front_m, car_.rear_m,           at.start.speed_mps,
+          top_mps,        style_.max_accel_mps2, style_.firm_decel_mps2()};
 }
 
 // Before a place where others cross, rather than on it, where the way out is
