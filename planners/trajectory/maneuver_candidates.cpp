@@ -19,9 +19,10 @@ constexpr double gap_at_last_s = 0.5;
 /// Whoever can stay off a place by braking so little may have to, for a car
 /// that cannot stop before it any more.
 constexpr double little_braking_mps2 = 1.5;
-/// Who waits at a line and has come so far beyond it goes on waiting: a place
-/// begins before bodies touch.
-constexpr double waits_within_m = 0.5;
+/// Who waits at a line, or hardly moves, may have come so far beyond it: a
+/// place begins before bodies touch.
+constexpr double waits_within_m = 0.5, stands_within_m = 1.5;
+constexpr double hardly_mps = 0.3;
 /// It takes so long until a car that decides to stop brakes.
 constexpr double hesitation_s = 0.5;
 
@@ -92,8 +93,10 @@ minded_cars find_minded(std::span<const crossing_user> users,
   minded_cars found;
   const auto line_of = [&](const crossing_user& user) {
     const auto line_m = way(user.from_m - car.front_m);
-    return last.waits && line_m > -waits_within_m ? std::max(line_m, 0.0)
-                                                  : line_m;
+    const auto within_m = car.speed_mps < hardly_mps ? stands_within_m
+                          : last.waits               ? waits_within_m
+                                                     : 0.0;
+    return line_m > -within_m ? std::max(line_m, 0.0) : line_m;
   };
   find_cars(users, car, line_of, found);
   for (const auto& user : users) {
