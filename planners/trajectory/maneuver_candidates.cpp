@@ -38,7 +38,6 @@ struct minded_place {
   double line_m, clear_m; // way to before and behind it
   const crossing_user* user;
   std::size_t car; // its bit
-  bool committed;  // the own car goes before it, and cannot stop any more
 };
 
 /// Those who are minded, in the order in which they come.
@@ -46,7 +45,8 @@ struct minded_cars {
   struct car {
     std::uint32_t body;
     double enter_s;
-    double gap_s; // to leave it when the own car goes before it
+    double gap_s;   // to leave it when the own car goes before it, ...
+    bool committed; // ... and cannot wait for it any more
   };
   std::array<minded_place, crossing_order::most_windows> places;
   std::size_t count = 0;
@@ -76,7 +76,7 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
     if (known != all.begin() + count)
       known->enter_s = std::min(known->enter_s, user.enter_s);
     else if (count < all.size())
-      all[count++] = {user.body, user.enter_s, gap_to_begin_s};
+      all[count++] = {user.body, user.enter_s, gap_to_begin_s, false};
   }
   std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
     return std::pair{x.enter_s, x.body};
@@ -106,13 +106,12 @@ minded_cars find_minded(std::span<const crossing_user> users,
       if (x.body != user.body || !is_minded(user, line_m, car)
           || found.count == found.places.size())
         continue;
-      const auto before = last.goes_before(x.body);
-      const auto committed = before && stopping_m(car) > line_m;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
-                                     i, committed};
+                                     i};
+      const auto before = last.goes_before(x.body);
+      x.committed = x.committed || (before && stopping_m(car) > line_m);
       if (before)
-        x.gap_s =
-            committed ? gap_at_last_s : std::min(x.gap_s, gap_once_begun_s);
+        x.gap_s = x.committed ? gap_at_last_s : gap_once_begun_s;
     }
   }
   assert(found.car_count == 0 || found.count > 0);
@@ -124,9 +123,10 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
                  crossing_order& order) {
   auto possible = true;
   for (std::size_t i = 0; i < minded.count; ++i) {
-    const auto& [line_m, clear_m, user, bit, committed] = minded.places[i];
+    const auto& [line_m, clear_m, user, bit] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
-    if (before && committed && user->brakes_mps2 < little_braking_mps2)
+    if (before && minded.cars[bit].committed
+        && user->brakes_mps2 < little_braking_mps2)
       continue; // it lets the car pass
     auto& window = order.windows[order.count++];
     if (before) {
