@@ -31,6 +31,9 @@ constexpr auto hysteresis_m = 0.1;
 constexpr auto least_room_m = 0.3;
 constexpr auto decides_within_s = 0.7; // with what it keeps before the body
 constexpr auto stops_mps2 = 2.5;
+/// Longer than any conflict of two ways and the car, and what bodies move until
+/// their sightings are used.
+constexpr auto ample_m = 60.0;
 /// So much way a car needs to steer round a body from rest, besides what it
 /// keeps to one ahead; and how it brakes if it is to stand there.
 constexpr auto pulls_out_m = 5.0, calmly_mps2 = 1.5;
@@ -102,6 +105,14 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
 }
 
+/// @returns how far off a body may come to matter, m.
+double scene_interpreter::reach_of(const track& x) const {
+  const auto comes_m =
+      std::clamp(params_.foresight_s * std::abs(x.speed_mps()),
+                 lane_network::at_line_m, lane_network::farthest_m);
+  return comes_m + 2 * x.length_m + ample_m;
+}
+
 /// Brings the others, without the own vehicle, to the present.
 void scene_interpreter::gather(time_point now, const own_place& me,
                                std::span<const track> tracks) {
@@ -113,6 +124,10 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     assert(std::isfinite(known.heading_rad));
     if (me.station && known.station == me.station)
       continue;
+    const auto far = known.centre() - own_centre;
+    if (const auto least_m = params_.horizon_m + reach_of(known);
+        dot(far, far) > least_m * least_m)
+      continue; // neither on the way nor soon at a crossing of it
     auto x = predict(known, now);
     keep_to_lane(known, now, x);
     const auto apart = x.centre() - own_centre;

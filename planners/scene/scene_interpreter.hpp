@@ -78,6 +78,7 @@ private:
     double cosine; // of the angle to the way
     double speed_mps, half_lane_m;
   };
+  double reach_of(const track& x) const;
   void gather(time_point now, const own_place& me,
               std::span<const track> tracks);
   void keep_to_lane(const track& known, time_point now, track& x) const;
