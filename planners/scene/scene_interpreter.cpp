@@ -108,8 +108,10 @@ void scene_interpreter::describe(time_point now, const own_place& me,
 /// @returns how far off a body may come to matter, m.
 double scene_interpreter::reach_of(const track& x) const {
   const auto comes_m =
-      std::clamp(params_.foresight_s * std::abs(x.speed_mps()),
-                 lane_network::at_line_m, lane_network::farthest_m);
+      params_.judges_crossings
+          ? std::clamp(params_.foresight_s * std::abs(x.speed_mps()),
+                       lane_network::at_line_m, lane_network::farthest_m)
+          : 0.0;
   return comes_m + 2 * x.length_m + ample_m;
 }
 
@@ -319,7 +321,8 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!print || print->to_m <= rear_m
         || print->from_m > front_m + params_.horizon_m)
       continue;
-    if (print->speed_mps < -stands_below_mps)
+    if (print->speed_mps < -stands_below_mps && print->low_m < half_lane_m_
+        && print->high_m > -half_lane_m_)
       print = measure_met(me, where, *print);
     if (!print)
       continue; // it will have left the lane
