@@ -186,10 +186,10 @@ speed_planner::result speed_planner::plan(const planned_path& path,
   if (needed_decel(task) > style_.firm_decel_mps2()
       || comes_too_late(task, end)) {
     r = brake_only(task);
-  } else if (setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
+  } else if (const auto up_m = free_m(task, end);
+             setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
                                     grid_.ds_m)
-             && end.wanted_m < moving_up_m) {
-    const auto up_m = free_m(task, end);
+             && up_m < moving_up_m) {
     if (is_to_be_passed(task, up_m)) {
       motion_.clear(); // in time, where it would come to rest before that
       return r;
