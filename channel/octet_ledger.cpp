@@ -71,6 +71,11 @@ std::vector<octet_line> octet_ledger::read(time_point now) {
   const std::lock_guard lock{mutex_};
   deliver(now);
   auto lines = lines_;
+  auto row = length_of_rows(now - start_);
+  for (const auto& line : lines)
+    row = std::max(row, line.rows.length());
+  for (auto& line : lines)
+    line.rows.join_to(row);
   for (auto left = under_way_; !left.empty(); left.pop()) {
     const auto& x = left.top();
     lines[x.line].rows.at(x.sent).under_way.add(x.octets);

@@ -96,7 +96,8 @@ public:
   void lose(const sending& x);
 
   /// @returns a line for all that was sent for one thing, in the order of the
-  /// first of each; what arrives after `now` is under way.
+  /// first of each, with rows of one length; what arrives after `now` is under
+  /// way.
   /// @param now  Not earlier than in calls before.
   std::vector<octet_line> read(time_point now);
 

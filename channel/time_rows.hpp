@@ -10,13 +10,13 @@
 
 namespace sofof::channel {
 
-/// In rows of a second, and of 2, 4, 8 … s where that were more than 1800: the
-/// first half hour is told by the second, and a day by the minute.
+/// In rows of a second, and of 2, 4, 8 … s where that were more than 1801: half
+/// an hour is told by the second, its last moment too, and a day by the minute.
 /// @returns how long a row is, for a time since the start >= 0.
 constexpr duration length_of_rows(duration until) {
   constexpr std::size_t most = 1800;
   auto length = duration{std::chrono::seconds{1}};
-  while (until / length >= static_cast<duration::rep>(most))
+  while (until / length > static_cast<duration::rep>(most))
     length *= 2;
   return length;
 }
@@ -29,8 +29,7 @@ public:
   /// @returns the sum of the row that this is in.
   Sum& at(duration t) {
     assert(t >= duration{0});
-    while (length_ < length_of_rows(t))
-      join();
+    join_to(length_of_rows(t));
     const auto k = static_cast<std::size_t>(t / length_);
     if (k >= sums_.size())
       sums_.resize(k + 1);
@@ -42,8 +41,14 @@ public:
 
   const std::vector<Sum>& sums() const { return sums_; }
 
-  /// Makes rows twice as long.
-  void join() {
+  /// Makes rows at least so long.
+  void join_to(duration length) {
+    while (length_ < length)
+      join();
+  }
+
+private:
+  void join() { // rows twice as long
     for (std::size_t k = 0; k < sums_.size(); ++k)
       if (k % 2 == 0)
         sums_[k / 2] = sums_[k];
@@ -53,7 +58,6 @@ public:
     length_ *= 2;
   }
 
-private:
   duration length_ = std::chrono::seconds{1};
   std::vector<Sum> sums_;
 };

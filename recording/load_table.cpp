@@ -154,15 +154,18 @@ std::vector<full_servers> full_ones(const load_table& table, duration length) {
   return all;
 }
 
+double seconds_of_line(double length_s) {
+  return to_seconds(channel::length_of_rows(from_seconds(length_s)));
+}
+
 std::string load_csv(const load_table& table, duration length) {
   std::string text;
   append_names<load_row>(text, of_load);
   text += '\n';
   length = whole_bins(length);
-  const auto until = std::max(duration{0}, length - duration{1});
   for (const auto& x : table.servers) {
     const auto row =
-        std::max(x.of.rows.length(), channel::length_of_rows(until));
+        std::max(x.of.rows.length(), channel::length_of_rows(length));
     for (duration t{}; t < length; t += row) {
       const auto end = std::min(t + row, length);
       append_line<load_row>(text, of_load,

@@ -73,12 +73,16 @@ struct full_servers {
 /// @returns them all, the one of the highest peak first.
 std::vector<full_servers> full_ones(const load_table& table, duration length);
 
+/// @returns for how many seconds of a run of that length a line of load.csv and
+/// octets.csv stands.
+double seconds_of_line(double length_s);
+
 /// @returns load.csv: a line for each second and server; for each 2, 4, 8 … s
 /// of a run of more than half an hour.
 std::string load_csv(const load_table& table, duration length);
 
 /// @returns octets.csv: a line for each second, cell, direction and purpose;
-/// for each 2, 4, 8 … s where something was sent after half an hour.
+/// for each 2, 4, 8 … s of a run of more than half an hour.
 std::string octets_csv(const load_table& table);
 
 /// @returns disturbed.csv: a line for each moment at which messages of or to a

@@ -2,6 +2,7 @@
 #include "experiments/report/load_section.hpp"
 
 #include "experiments/report/documented.hpp"
+#include "recording/load_table.hpp"
 
 #include <fmt/format.h>
 
@@ -148,11 +149,11 @@ std::map<std::string, octets_of_cell> octets_by_cell(const recorded_run& run) {
   return all;
 }
 
-/// Seconds without a line are seconds in which nothing was sent.
-void add_silence(curve& to, double next_s) {
-  if (to.x.empty() || to.x.back() + 1 >= next_s)
+/// Where there is no line of `each_s`, nothing was sent.
+void add_silence(curve& to, double next_s, double each_s) {
+  if (to.x.empty() || to.x.back() + each_s >= next_s)
     return;
-  for (const auto t_s : {to.x.back() + 1, next_s - 1})
+  for (const auto t_s : {to.x.back() + each_s, next_s - each_s})
     if (t_s > to.x.back()) {
       to.x.push_back(t_s);
       to.y.push_back(0);
@@ -162,6 +163,8 @@ void add_silence(curve& to, double next_s) {
 /// One figure for each provider, of all that was sent to it and by it.
 void add_octets_by_time(section& to, const recorded_run& run) {
   constexpr double kilobits = 8e-3;
+  const auto each_s =
+      recording::seconds_of_line(run.figure("virtual_s").value_or(0));
   for (const auto& [provider, cell] : octets_by_cell(run)) {
     figure shown;
     shown.title = fmt::format("On the air of {} by time", provider);
@@ -174,9 +177,9 @@ void add_octets_by_time(section& to, const recorded_run& run) {
       for (const auto& x : lines) {
         if (!x.t_s)
           continue;
-        add_silence(curve, *x.t_s);
+        add_silence(curve, *x.t_s, each_s);
         curve.x.push_back(*x.t_s);
-        curve.y.push_back(kilobits * static_cast<double>(x.sent));
+        curve.y.push_back(kilobits * static_cast<double>(x.sent) / each_s);
       }
     }
     if (std::ranges::any_of(shown.curves,
