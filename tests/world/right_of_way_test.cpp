@@ -244,6 +244,29 @@ TEST_CASE("what has been granted is not taken away") {
   CHECK(t.collisions == 0);
 }
 
+TEST_CASE("who stands for long before what was granted gives it back") {
+  town t{cross_roads()};
+  add(t, 2, {4, 0, 2}, 2, 0);
+  t.step();
+  REQUIRE(may_cross(t, t.at(2)));
+  t.at(2).top_mps = 0; // it sees something behind the junction
+  add(t, 1, {3, 0, 1}, 30, limit_mps);
+  constexpr auto steps_in_4_s = 80;
+  for (int i = 0; i < steps_in_4_s; ++i) {
+    t.step();
+    REQUIRE(may_cross(t, t.at(2)));
+    REQUIRE_FALSE(may_cross(t, t.at(1)));
+  }
+  for (int i = 0; i < minute && !has_crossed(t.at(1)); ++i)
+    t.step();
+  CHECK(has_crossed(t.at(1)));
+  t.at(2).top_mps = limit_mps;
+  for (int i = 0; i < minute && !has_crossed(t.at(2)); ++i)
+    t.step();
+  CHECK(has_crossed(t.at(2)));
+  CHECK(t.collisions == 0);
+}
+
 TEST_CASE("nobody enters a junction without room behind it, and nobody waits "
           "for one who cannot enter") {
   town t{cross_roads()};

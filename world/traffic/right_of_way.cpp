@@ -39,6 +39,9 @@ constexpr auto start_accel_mps2 = 1.2;
 constexpr auto patience = 20s;
 constexpr auto rank_of_the_impatient = -1;
 
+/// Who stands for so long before what it was granted does not need it now.
+constexpr auto longest_unused = 5s;
+
 /// A request looks at no more road users than this.
 constexpr auto max_looks = 200;
 
@@ -101,6 +104,7 @@ void right_of_way::decide(std::span<road_user_state> drivers,
   asking_.clear();
   for (auto& users : users_)
     users.clear();
+  std::ranges::fill(on_roundabout_, 0);
   for (std::uint32_t who = 0; who < drivers_.size(); ++who)
     enter(who);
   std::ranges::sort(asking_, [&](auto a, auto b) {
@@ -123,6 +127,10 @@ void right_of_way::enter(std::uint32_t who) {
                      return true;
                    });
   find_line(d);
+  give_back(who);
+  const auto ring = roundabout_of(d);
+  if (ring < on_roundabout_.size())
+    ++on_roundabout_[ring];
   const auto way_m = d.line_m - stop_margin_m - d.front_m();
   if (way_m > asking_distance_m(d.known.speed_mps)) {
     d.asks_since.reset();
@@ -132,6 +140,29 @@ void right_of_way::enter(std::uint32_t who) {
   if (!d.asks_since)
     d.asks_since = now_;
   asking_.push_back(who);
+}
+
+/// Somebody may see what is in its way behind the crossing, as nobody does
+/// here.
+void right_of_way::give_back(std::uint32_t who) {
+  auto& d = drivers_[who];
+  if (d.known.speed_mps > standing_mps)
+    d.stands_since.reset();
+  else if (!d.stands_since)
+    d.stands_since = now_;
+  if (!d.stands_since || now_ - *d.stands_since < longest_unused
+      || !is_idle(who))
+    return;
+  auto is_on_a_zone = false;
+  d.way->for_zones(d.rear_m() - d.way->longest_zone_m(), d.front_m(),
+                   [&](const zone& z) {
+                     is_on_a_zone = is_on_a_zone || z.to_m > d.rear_m();
+                     return !is_on_a_zone;
+                   });
+  if (is_on_a_zone)
+    return;
+  d.granted_to_m = d.front_m();
+  find_line(d);
 }
 
 /// Finds the first zone that has not been granted.
@@ -172,10 +203,17 @@ road_user_state::answer right_of_way::ask(std::uint32_t who) {
     return road_user_state::answer::held;
   if (gives_way(party_.front()))
     return road_user_state::answer::wait;
+  if (!std::ranges::all_of(
+          party_, [this](const request& r) { return may_be_let_on(r); }))
+    return road_user_state::answer::full;
   for (const auto& r : party_) {
     auto& d = drivers_[r.who];
+    const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
+    if (ring < on_roundabout_.size() && ring != roundabout_of(d))
+      ++on_roundabout_[ring];
     d.granted_to_m = r.clear_m;
     d.asks_since.reset();
+    d.stands_since.reset();
     d.last = road_user_state::answer::go;
     find_line(d);
   }
@@ -204,6 +242,33 @@ bool right_of_way::join(std::uint32_t who) {
     return false;
   party_.push_back(r);
   return finds_room(who, std::min(r.clear_m + d.length_m(), d.way->end_m()));
+}
+
+/// @returns the first roundabout on a driver's way; their count for none.
+std::size_t right_of_way::roundabout_between(const road_user_state& d,
+                                             double from_m, double to_m) const {
+  const auto last = d.way->leg_at(to_m);
+  for (auto i = d.way->leg_at(from_m); i <= last; ++i)
+    if (const auto ring = roundabouts_.of(d.way->lane(i));
+        ring < roundabouts_.count())
+      return ring;
+  return roundabouts_.count();
+}
+
+/// @returns the roundabout that a driver is on, or has been let on to.
+std::size_t right_of_way::roundabout_of(const road_user_state& d) const {
+  const auto is_let_on = d.granted_to_m > d.front_m();
+  return roundabout_between(
+      d, d.rear_m(), is_let_on ? d.granted_to_m + d.length_m() : d.front_m());
+}
+
+/// @returns whether the roundabout that a driver comes to, if any, has room for
+/// one more.
+bool right_of_way::may_be_let_on(const request& r) const {
+  const auto& d = drivers_[r.who];
+  const auto ring = roundabout_between(d, d.line_m, r.clear_m + d.length_m());
+  return ring == roundabouts_.count() || ring == roundabout_of(d)
+         || on_roundabout_[ring] < roundabouts_.most(ring);
 }
 
 /// @returns whether a driver's front could get there if nobody but the party

@@ -2,12 +2,15 @@
 //
 // A zone is closed to everybody until granted. The grants keep two promises:
 // 1. Whoever has a zone keeps it until its rear has left, and meanwhile
-//    nobody on the conflict's other side gets it. So bodies never meet.
+//    nobody on the conflict's other side gets it. So bodies never meet. Who
+//    stands before it for long, as its way out is not free, gives it back.
 // 2. Whoever gets a zone can leave it, and everything before the next stop
 //    line, without any further grant: all zones that follow too closely to
 //    stop in between are granted together, and behind the last one there is
 //    room, even if nobody else is ever granted anything again. So every zone
 //    comes free in the end, and waiting for one never goes in circles.
+// 3. No roundabout is more than half full, so that somebody on it always finds
+//    room to go on.
 // What is left is waiting for room, which can go in circles (a block of
 // streets, each full, each leading into the next). Who has waited for long
 // therefore asks together with those that stand in its way: all of them go,
@@ -16,6 +19,7 @@
 #pragma once
 
 #include "base/time.hpp"
+#include "world/roads/roundabouts.hpp"
 #include "world/traffic/lane_order.hpp"
 #include "world/traffic/road_user_state.hpp"
 
@@ -29,7 +33,8 @@ namespace sofof::world {
 class right_of_way {
 public:
   explicit right_of_way(const road_map& map)
-      : users_(2 * map.conflicts().size()) {}
+      : roundabouts_{map}, users_(2 * map.conflicts().size()),
+        on_roundabout_(roundabouts_.count()) {}
 
   /// Decides on every request anew. Who comes near a zone without the right
   /// to it asks. Order: lower rank, then who asked first, then lower station
@@ -53,12 +58,17 @@ private:
   };
 
   void enter(std::uint32_t who);
+  void give_back(std::uint32_t who);
   void find_line(road_user_state& d) const;
   bool is_impatient(const road_user_state& d) const;
   bool goes_before(const road_user_state& a, int rank_a,
                    const road_user_state& b, int rank_b) const;
   road_user_state::answer ask(std::uint32_t who);
   bool join(std::uint32_t who);
+  std::size_t roundabout_between(const road_user_state& d, double from_m,
+                                 double to_m) const;
+  std::size_t roundabout_of(const road_user_state& d) const;
+  bool may_be_let_on(const request& r) const;
   bool can_reach(std::uint32_t who, double front_m);
   bool finds_room(std::uint32_t who, double front_m);
   bool is_idle(std::uint32_t who) const;
@@ -73,7 +83,9 @@ private:
   std::span<road_user_state> drivers_;
   const lane_order* order_ = nullptr;
   time_point now_;
-  std::vector<std::vector<user>> users_; // of each side, near or on it
+  roundabouts roundabouts_;
+  std::vector<std::vector<user>> users_;   // of each side, near or on it
+  std::vector<std::size_t> on_roundabout_; // or let on to it
   std::vector<std::uint32_t> asking_;
   std::vector<request> party_; // who asks together
   std::vector<zone> wanted_;   // all zones of the party

@@ -39,8 +39,9 @@ struct road_user_state {
   double granted_to_m;
   /// Where the first zone without that right begins, if near.
   double line_m = std::numeric_limits<double>::infinity();
-  int rank = 0;                         ///< Right of way at that zone.
-  std::optional<time_point> asks_since; ///< To cross it.
+  int rank = 0;                           ///< Right of way at that zone.
+  std::optional<time_point> asks_since;   ///< To cross it.
+  std::optional<time_point> stands_since; ///< Since the last grant, too.
   answer last = answer::none;
 
   perception seen;
