@@ -88,12 +88,22 @@ TEST_CASE("the field of view lies round the heading") {
   s.can.field_of_view_deg = 90;
   CHECK(sees(s, {small_car(1, {20, 19})}));
   CHECK(sees(s, {small_car(1, {20, -19})}));
-  CHECK_FALSE(sees(s, {small_car(1, {20, 21})}));
+  CHECK_FALSE(sees(s, {small_car(1, {20, 24})}));
   CHECK_FALSE(sees(s, {small_car(1, {-20, 0})}));
   s.heading_rad = pi; // over the seam of the angles
   CHECK(sees(s, {small_car(1, {-20, 19})}));
   CHECK(sees(s, {small_car(1, {-20, -19})}));
   CHECK_FALSE(sees(s, {small_car(1, {20, 0})}));
+}
+
+TEST_CASE("what reaches into the field of view is seen, wherever its middle") {
+  auto s = exact();
+  s.can.field_of_view_deg = 180;
+  const road_body fence{1, {{-10, 2}, 0, 28.9, 0.6}, 0, 0};
+  const road_body farther_back{1, {{-15, 2}, 0, 28.9, 0.6}, 0, 0};
+  CHECK(sees(s, {fence}));
+  CHECK_FALSE(sees(s, {farther_back}));
+  CHECK_FALSE(sees(s, {fence, small_car(2, {2.3, 1})})); // hides that end
 }
 
 TEST_CASE("a building hides what is behind it, and nothing else") {

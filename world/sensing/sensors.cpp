@@ -127,28 +127,29 @@ struct scene::outlook {
     std::span<const point> rim;
   };
 
-  point eye;
+  const sensor* from;
   std::vector<neighbour> in_range; // the nearest first
   std::vector<screen> screens;
 
   bool is_clear(point p, const solid& target) const {
     return std::ranges::none_of(screens, [&](const screen& s) {
       return s.what != &target
-             && distance_to_segment_m(s.what->middle, eye, p)
+             && distance_to_segment_m(s.what->middle, from->at, p)
                     <= s.what->radius_m
-             && meets(s.rim, eye, p);
+             && meets(s.rim, from->at, p);
     });
   }
 
   bool is_visible(const vehicle& v) const {
-    return is_clear(v.middle, v)
-           || std::ranges::any_of(v.corners,
-                                  [&](point p) { return is_clear(p, v); });
+    const auto shows = [&](point p) {
+      return is_in_field(*from, p) && is_clear(p, v);
+    };
+    return shows(v.middle) || std::ranges::any_of(v.corners, shows);
   }
 };
 
 scene::outlook scene::look_round(const sensor& s) const {
-  outlook all{s.at, {}, {}};
+  outlook all{&s, {}, {}};
   // A line to the far corner of a body at the rim of the range may pass
   // somebody whose middle is still farther away.
   const auto reach_m = s.can.range_m + largest_body_m_;
@@ -158,7 +159,7 @@ scene::outlook scene::look_round(const sensor& s) const {
         if (s.carrier == v.is.id)
           return;
         const auto far_m = distance_m(s.at, v.middle);
-        if (far_m <= s.can.range_m && is_in_field(s, v.middle))
+        if (far_m <= s.can.range_m)
           all.in_range.push_back({&v, far_m});
         if (s.can.occlusion && far_m - v.radius_m <= reach_m
             && !(far_m <= v.radius_m && covers(v.is.box, s.at)))

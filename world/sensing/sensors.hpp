@@ -23,7 +23,7 @@ namespace sofof::world {
 /// of what it saw before, and of what others see.
 struct sensor_params {
   double range_m = 100;            ///< To the middle of a body.
-  double field_of_view_deg = 360;  ///< Round its heading; the middle counts.
+  double field_of_view_deg = 360;  ///< Round its heading.
   double position_noise_m = 0.1;   ///< Standard deviation, east and north each.
   double speed_noise_mps = 0.1;    ///< Standard deviation.
   double heading_noise_rad = 0.01; ///< Standard deviation.
@@ -61,10 +61,10 @@ public:
   /// Replaces all bodies; costs as much as there are, whatever the map.
   void place(std::span<const road_body> bodies);
 
-  /// A body is seen when its middle is within range and field of view, and
-  /// when the straight line from the sensor to its middle or to one of its
-  /// corners meets no building and no third body. What the sensor itself
-  /// stands in, or under, hides nothing.
+  /// A body is seen when its middle is within range, and when its middle or one
+  /// of its corners is within the field of view and the straight line from the
+  /// sensor to there meets no building and no third body. What the sensor
+  /// itself stands in, or under, hides nothing.
   /// @param now  Noise is drawn anew for every moment; it does not depend on
   ///             who else is there.
   /// @returns what is seen, without the sensor's carrier, in order of the true
