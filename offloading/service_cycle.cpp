@@ -64,7 +64,9 @@ void service_cycle::on_input(const messages::service_input& input,
   newest_ = input;
   if (waits_for_input())
     stop_timer();
-  if (state_ == messages::lifecycle_state::active && !has_timer_)
+  if (state_ != messages::lifecycle_state::active)
+    setup_.function->observe(now, newest_);
+  else if (!has_timer_)
     begin(now);
   assert(is_consistent());
 }

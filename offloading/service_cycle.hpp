@@ -68,7 +68,8 @@ public:
   /// The life cycle takes this step; one that is not possible is ignored.
   void on_step(messages::lifecycle_step step, time_point now);
 
-  /// The next cycles start from this, unless they have a newer one.
+  /// The next cycles start from this, unless they have a newer one; a function
+  /// that does not run observes it.
   void on_input(const messages::service_input& input, time_point now);
 
   /// The time that `wake_at` was given with this number has come.

@@ -29,6 +29,11 @@ public:
   /// @param input  The newest input; its `what` is not empty.
   virtual service_output run(time_point now,
                              const messages::service_input& input) = 0;
+
+  /// An input comes while the function does not run. What it knows of the world
+  /// should be as good when it has to take over at once; it computes no result.
+  virtual void observe(time_point /*now*/,
+                       const messages::service_input& /*input*/) {}
 };
 
 } // namespace sofof::offloading

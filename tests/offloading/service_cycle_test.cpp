@@ -22,14 +22,19 @@ struct cycle_world : offloading::cycle_port {
                                    const service_input& input) override {
       return input.what;
     }
+    void observe(time_point at, const service_input& input) override {
+      observed.emplace_back(at, input.what.as<echo>()->number);
+    }
+    std::vector<std::pair<time_point, std::uint64_t>> observed;
   };
 
   time_point now{1s};
+  std::shared_ptr<copier> function = std::make_shared<copier>();
   std::multimap<time_point, std::uint64_t> timers;
   std::vector<std::pair<time_point, service_result>> results;
   offloading::service_cycle cycle{
       {{1, 101, "echo", 7},
-       std::make_shared<copier>(),
+       function,
        50ms,
        20ms,
        [](time_point start, std::uint64_t) {
@@ -92,6 +97,19 @@ TEST_CASE_FIXTURE(cycle_world, "a cycle without input, or not active, runs "
   feed(1);
   run_for(1s);
   CHECK(results.empty());
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a function that does not run observes each "
+                               "input, one that runs none") {
+  feed(1);
+  activate();
+  feed(2);
+  run_for(60ms);
+  cycle.on_step(lifecycle_step::deactivate, now);
+  feed(3);
+  CHECK(function->observed
+        == std::vector{std::pair{time_point{1s}, std::uint64_t{1}},
+                       std::pair{time_point{1060ms}, std::uint64_t{3}}});
 }
 
 TEST_CASE_FIXTURE(cycle_world, "a cycle that is activated again forgets the "
