@@ -4,12 +4,12 @@
 
 #include "base/ids.hpp"
 #include "base/time.hpp"
-#include "planners/plausibility/line_of_sight.hpp"
 #include "planners/plausibility/motion_check.hpp"
 #include "planners/plausibility/reputation.hpp"
 #include "planners/plausibility/station_doubt.hpp"
 #include "planners/plausibility/testimony.hpp"
 #include "planners/plausibility/witness.hpp"
+#include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/track.hpp"
 #include "world/roads/road_map.hpp"
 

@@ -142,6 +142,7 @@ bool witness::overlooked(const track& x, const line_of_sight& houses) const {
   const Eigen::Vector2d ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   return std::ranges::all_of(std::array{-off_m, 0.0, off_m}, [&](double by_m) {
     auto moved = x;
+    moved.rest.reset();
     moved.motion.mean.col(0) += by_m * ahead;
     return overlooks(moved, houses);
   });

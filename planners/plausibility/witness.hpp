@@ -2,8 +2,8 @@
 // told, had it been there.
 #pragma once
 
-#include "planners/plausibility/line_of_sight.hpp"
 #include "planners/plausibility/motion_check.hpp"
+#include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/track.hpp"
 #include "world/sensing/viewpoint.hpp"
 

@@ -1,5 +1,5 @@
 // Buildings hide what is behind them, here as for the sensors of the road.
-#include "planners/plausibility/line_of_sight.hpp"
+#include "planners/scene/line_of_sight.hpp"
 
 #include "base/random.hpp"
 #include "world/sensing/sensors.hpp"

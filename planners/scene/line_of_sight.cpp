@@ -1,5 +1,5 @@
 // Which lines of sight the buildings of a map leave free.
-#include "planners/plausibility/line_of_sight.hpp"
+#include "planners/scene/line_of_sight.hpp"
 
 #include <algorithm>
 #include <array>
