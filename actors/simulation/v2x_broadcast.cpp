@@ -29,7 +29,8 @@ v2x_broadcast::v2x_broadcast(const messages::v2x_options& options,
                              const world::sensor_params& sensor,
                              messages::georeference_ptr where)
     : options_{options}, car_{car}, sensor_{sensor}, where_{std::move(where)},
-      cam_due_{options.cam_rule()}, cpm_due_{options.cpm_rule()} {}
+      cam_due_{options.cam_rule()}, cpm_due_{options.cpm_rule()},
+      model_{planners::noise_of(sensor)} {}
 
 std::optional<messages::its_pdu>
 v2x_broadcast::awareness(const messages::cam& own) {

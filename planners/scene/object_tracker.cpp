@@ -19,8 +19,9 @@ constexpr duration memory = 1s;
 constexpr duration max_delay = 500ms;
 
 /// Of the chi-square distribution with 4 degrees of freedom (two of position,
-/// two of velocity), the quantile 0.999.
-constexpr auto gate = 18.47;
+/// two of velocity), the quantile 0.999 999: what a sensor tells of a body for
+/// hours shall not make two of it.
+constexpr auto gate = 33.38;
 
 /// Bodies at one time; who was not seen for longest makes room for more. A
 /// provider hears far more than a vehicle sees.
@@ -33,14 +34,28 @@ constexpr std::size_t usual_tracks = 128;
 constexpr auto least_share = 0.5;
 constexpr auto whole_after_s = 0.2;
 
+/// How much what stands may turn and shift meanwhile, rad²/s and m²/s.
+constexpr auto standing_rad2ps = 1e-7, standing_m2ps = 1e-4;
+
+/// Of standard deviations: more is no chance.
+constexpr auto no_chance = 4.5;
+
 /// Of one update, the first bodies count; no road shows more at once.
 constexpr std::size_t max_seen = 256;
 
-/// Nothing on a road is faster or longer, or farther away.
+/// Nothing on a road is faster, larger or farther away: no load that is carried
+/// on one is 60 m long, nor what is left standing on one.
 constexpr auto max_speed_mps = 100.0;
-constexpr auto max_length_m = 30.0;
+constexpr auto max_size_m = 60.0;
 constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
+
+/// @returns whether its speed may be that of a body that stands.
+bool may_stand(const track& x) {
+  const auto deviation_mps = std::sqrt(x.motion.covariance(1, 1));
+  return std::abs(x.speed_mps())
+         <= stands_below_mps + no_chance * deviation_mps;
+}
 
 bool is_sound(const world::perceived_object& o) {
   // Comparisons with NaN are false.
@@ -49,10 +64,18 @@ bool is_sound(const world::perceived_object& o) {
          && std::abs(o.heading_rad) <= max_heading_rad
          && std::isfinite(o.accel_mps2)
          && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0
-         && o.length_m >= o.width_m && o.length_m <= max_length_m;
+         && o.width_m <= max_size_m && o.length_m > 0
+         && o.length_m <= max_size_m;
 }
 
 } // namespace
+
+sighting_noise noise_of(const world::sensor_params& sensor) {
+  constexpr sighting_noise least{0.02, 0.02, 0.002};
+  return {std::max(sensor.position_noise_m, least.position_m),
+          std::max(sensor.speed_noise_mps, least.speed_mps),
+          std::max(sensor.heading_noise_rad, least.heading_rad)};
+}
 
 duration sighting_rhythm::silence(double speed_mps) const {
   // Of numbers from outside: the comparison with NaN is false.
@@ -165,7 +188,8 @@ void object_tracker::match(std::uint32_t t, std::uint32_t s) {
       x.motion.covariance(0, 0) + other.motion.covariance(0, 0);
   assert(variance_m2 > 0);
   const auto is_same =
-      in_one_place(distance2_m2, x.width_m, other.object.width_m);
+      in_one_place(distance2_m2, x.narrow_m(),
+                   std::min(other.object.length_m, other.object.width_m));
   if (distance2_m2 > gate * variance_m2 && !is_same)
     return; // as far apart, they are outside the gate whatever their speeds
   const auto [distance2, cost] = x.motion.compare(other.motion);
@@ -193,21 +217,54 @@ void object_tracker::pair_up(time_point at) {
   }
 }
 
+/// What stands goes on standing as it does, so that all sightings count.
+void object_tracker::turn(track& x, double heading_rad, double dt_s,
+                          double share_of_new) const {
+  const auto noise2 = noise_.heading_rad * noise_.heading_rad;
+  const auto before2 = x.heading_variance + standing_rad2ps * dt_s;
+  assert(noise2 > 0 && dt_s >= 0);
+  const auto share = x.stands() ? before2 / (before2 + noise2) : share_of_new;
+  x.heading_rad += share * wrap_angle(heading_rad - x.heading_rad);
+  x.heading_variance = x.stands() ? (1 - share) * before2 : share * noise2;
+}
+
+/// All sightings count since it moved.
+/// @param stood  Whether it may have, before this sighting.
+void object_tracker::settle(track& x, const motion_estimate& seen, double dt_s,
+                            bool stood) const {
+  assert(x.rest && seen.covariance(0, 0) > 0 && dt_s >= 0);
+  auto& [centre, variance_m2] = *x.rest;
+  variance_m2 += standing_m2ps * dt_s;
+  const auto share = variance_m2 / (variance_m2 + seen.covariance(0, 0));
+  centre = centre + share * (seen.centre() - centre);
+  variance_m2 *= 1 - share;
+  const auto now2_m2 = x.motion.covariance(0, 0);
+  const auto has_moved = distance_m(centre, x.motion.centre())
+                         > no_chance * std::sqrt(variance_m2 + now2_m2);
+  if (!stood || !may_stand(x) || has_moved)
+    *x.rest = {x.motion.centre(), now2_m2};
+  assert(x.rest->variance_m2 > 0);
+}
+
 /// @param fits  Else the track begins anew, unless the sighting is old.
 void object_tracker::correct(track& x, time_point at, const observation& s,
                              bool fits) {
   assert(x.at == newest_ && at <= newest_);
+  const auto stood = may_stand(x);
   if (fits)
     x.motion.fuse(s.motion);
   else if (at == newest_)
     x.motion = s.motion;
+  settle(x, s.motion, std::max(0.0, to_seconds(at - x.seen)), stood);
   if (at < x.seen)
     return;
   const auto& o = s.object;
   const auto share_of_new =
       std::clamp(to_seconds(at - x.seen) / whole_after_s, least_share, 1.0);
+  turn(x, o.heading_rad, to_seconds(at - x.seen), share_of_new);
   x.seen = at;
-  x.heading_rad += share_of_new * wrap_angle(o.heading_rad - x.heading_rad);
+  if (!x.stands())
+    x.moved = at;
   x.accel_mps2 += share_of_new * (o.accel_mps2 - x.accel_mps2);
   x.length_m += share_of_new * (o.length_m - x.length_m);
   x.width_m += share_of_new * (o.width_m - x.width_m);
@@ -224,11 +281,14 @@ void object_tracker::give_birth(time_point at, const observation& s) {
                      {},
                      newest_,
                      at,
+                     at,
                      s.motion,
                      o.heading_rad,
                      o.accel_mps2,
                      o.length_m,
-                     o.width_m});
+                     o.width_m,
+                     noise_.heading_rad * noise_.heading_rad,
+                     resting_place{o.centre, s.motion.covariance(0, 0)}});
 }
 
 } // namespace sofof::planners

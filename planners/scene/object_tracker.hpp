@@ -4,6 +4,7 @@
 
 #include "planners/scene/track.hpp"
 #include "world/sensing/perception.hpp"
+#include "world/sensing/sensors.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,6 +18,10 @@ struct sighting_noise {
   double speed_mps = 0.1;
   double heading_rad = 0.01;
 };
+
+/// @returns that of a sensor, at least of a very good one: what is told has
+/// been rounded.
+sighting_noise noise_of(const world::sensor_params& sensor);
 
 /// When observers tell again of a body that they still see.
 struct sighting_rhythm {
@@ -54,7 +59,7 @@ public:
   /// Tells what one observer sees.
   /// @param at    When it saw this.
   /// @param seen  Each body once, in any order; those that no body on a road
-  ///              can be (not finite, 0 m or 31 m long, 101 m/s, 1e7 m away)
+  ///              can be (not finite, 0 m or 61 m long, 101 m/s, 1e7 m away)
   ///              are left out, and so are all after the first 256. May be
   ///              empty: time passes.
   void update(time_point at, std::span<const world::perceived_object> seen);
@@ -87,7 +92,11 @@ private:
                             const world::perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
   void pair_up(time_point at);
+  void settle(track& x, const motion_estimate& seen, double dt_s,
+              bool stood) const;
   void correct(track& x, time_point at, const observation& s, bool fits);
+  void turn(track& x, double heading_rad, double dt_s,
+            double share_of_new) const;
   void give_birth(time_point at, const observation& s);
 
   sighting_noise noise_;

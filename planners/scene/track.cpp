@@ -8,17 +8,9 @@
 
 namespace sofof::planners {
 
-namespace {
-
-/// Spectral density of the acceleration, m²/s³: drivers change it by 2 m/s²
-/// (standard deviation) about once a second.
-constexpr auto manoeuvre_m2ps3 = 4.0;
-
-} // namespace
-
-void motion_estimate::advance(double dt_s) {
-  assert(dt_s >= 0);
-  constexpr auto q = manoeuvre_m2ps3;
+void motion_estimate::advance(double dt_s, double manoeuvre_m2ps3) {
+  assert(dt_s >= 0 && manoeuvre_m2ps3 >= 0);
+  const auto q = manoeuvre_m2ps3;
   mean.col(0) += dt_s * mean.col(1);
   auto& p = covariance;
   p(0, 0) += dt_s * (2 * p(0, 1) + dt_s * (p(1, 1) + dt_s * q / 3));
@@ -49,7 +41,9 @@ motion_estimate::compare(const motion_estimate& other) const {
 
 track predict(track x, time_point then) {
   if (then > x.at) {
-    x.motion.advance(to_seconds(then - x.at));
+    x.motion.advance(to_seconds(then - x.at),
+                     x.stands() ? motion_estimate::standing_m2ps3
+                                : motion_estimate::driven_m2ps3);
     x.at = then;
   }
   return x;

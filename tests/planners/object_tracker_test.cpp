@@ -482,7 +482,7 @@ TEST_CASE("a name is nobody else's") {
 TEST_CASE("what no body can be is left out") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   object_tracker model;
-  std::vector wrong(10, perceived_car({}));
+  std::vector wrong(12, perceived_car({}));
   wrong[0].centre.x_m = nan;
   wrong[1].heading_rad = std::numeric_limits<double>::infinity();
   wrong[2].speed_mps = nan;
@@ -493,10 +493,30 @@ TEST_CASE("what no body can be is left out") {
   wrong[7].centre.y_m = -2e7;
   wrong[8].heading_rad = 2e6;
   wrong[9].heading_rad = nan;
+  wrong[10].width_m = 61;
+  wrong[11].length_m = 0;
   model.update(first_sight, wrong);
   for (const auto& o : wrong)
     model.on_report(first_sight, 1, o);
   CHECK(model.tracks().empty());
+}
+
+TEST_CASE(
+    "a body of any shape is tracked as one, whatever it is wider or longer "
+    "than") {
+  for (const auto& [length_m, width_m] :
+       {std::pair{0.1, 50.0}, {50.0, 0.1}, {2.0, 8.0}, {0.1, 0.1}}) {
+    CAPTURE(length_m);
+    observer eyes{7};
+    object_tracker model;
+    const perceived_object o{{20, 5}, 0.3, 0, 0, length_m, width_m};
+    for (int k = 0; k < 40; ++k)
+      model.update(first_sight + k * 50ms, std::vector{eyes.look(o)});
+    REQUIRE(model.tracks().size() == 1);
+    CHECK(model.tracks()[0].length_m == test::near(length_m, 1e-9));
+    CHECK(model.tracks()[0].width_m == test::near(width_m, 1e-9));
+    CHECK(distance_m(model.tracks()[0].centre(), o.centre) < 0.2);
+  }
 }
 
 TEST_CASE("nobody can tell of more bodies at once than a road shows") {
@@ -533,4 +553,93 @@ TEST_CASE("the order in which an observer lists bodies does not matter") {
   }
   for (std::size_t i = 0; i < 8; ++i)
     CHECK(a.tracks()[i].motion.mean == b.tracks()[i].motion.mean);
+}
+
+TEST_CASE("the true sides of what stands lie within its margin") {
+  for (const auto noise_m : {0.1, 0.2, 0.3}) {
+    CAPTURE(noise_m);
+    const sighting_noise noise{noise_m, 0.1, 0.03};
+    const random_stream eyes{7, "standing bodies"};
+    auto seen = 0, outside = 0;
+    for (std::uint64_t body = 0; body < 100; ++body) {
+      object_tracker tracker{noise, rhythm};
+      const auto draws = eyes.part(body);
+      const auto length_m = 0.1 + 49.9 * draws.uniform(0, 9);
+      const auto width_m = 0.1 + 3 * draws.uniform(1, 9);
+      for (std::uint64_t k = 0; k < 100; ++k) {
+        const point centre{draws.normal(0, noise_m, k, 0),
+                           draws.normal(0, noise_m, k, 1)};
+        const perceived_object o{centre,
+                                 draws.normal(0, 0.03, k, 2),
+                                 draws.normal(0, 0.1, k, 3),
+                                 0,
+                                 length_m,
+                                 width_m};
+        tracker.update(first_sight + k * 50ms, {&o, 1});
+        for (const auto& x : tracker.tracks())
+          for (const auto end : {-0.5, 0.5}) {
+            const auto side_m = x.centre().y_m
+                                + end * length_m * std::sin(x.heading_rad)
+                                + width_m / 2 * std::cos(x.heading_rad);
+            ++seen;
+            outside += std::abs(side_m - width_m / 2) > x.margin_m();
+          }
+      }
+    }
+    CHECK(seen >= 19000);
+    CHECK(outside <= 0.005 * seen);
+  }
+}
+
+TEST_CASE("where a body stands is known the better the longer it does") {
+  object_tracker tracker{{0.2, 0.3, 0.03}, {4, 1s}};
+  const random_stream eyes{11, "a parked car"};
+  for (std::uint64_t k = 0; k < 30; ++k) { // told once a second, as CPMs do
+    const perceived_object o{
+        {20 + eyes.normal(0, 0.2, k, 0), 1 + eyes.normal(0, 0.2, k, 1)},
+        0.03 * eyes.normal(0, 1, k, 2),
+        eyes.normal(0, 0.3, k, 3),
+        0,
+        1.6,
+        1.9};
+    tracker.update(first_sight + k * 1s, {&o, 1});
+  }
+  REQUIRE(tracker.tracks().size() == 1);
+  const auto& parked = tracker.tracks()[0];
+  CHECK(parked.rest->variance_m2 < 0.05 * 0.05);
+  CHECK(distance_m(parked.rest->centre, {20, 1}) < 0.15);
+}
+
+TEST_CASE("a body that sets off is where it is seen, not where it stood") {
+  object_tracker tracker{{0.2, 0.3, 0.03}, rhythm};
+  const random_stream eyes{12, "a car that sets off"};
+  auto most_behind_m = 0.0;
+  for (std::uint64_t k = 0; k < 600; ++k) { // stands for 20 s, then 1 m/s2
+    const auto since_s = std::max(0.0, 0.05 * static_cast<double>(k) - 20);
+    const auto x_m = 0.5 * since_s * since_s;
+    const perceived_object o{
+        {x_m + eyes.normal(0, 0.2, k, 0), eyes.normal(0, 0.2, k, 1)},
+        0.03 * eyes.normal(0, 1, k, 2),
+        since_s + eyes.normal(0, 0.3, k, 3),
+        1,
+        4,
+        2};
+    tracker.update(first_sight + k * 50ms, {&o, 1});
+    REQUIRE(tracker.tracks().size() == 1);
+    if (since_s > 0)
+      most_behind_m = std::max(
+          most_behind_m, std::abs(tracker.tracks()[0].centre().x_m - x_m));
+  }
+  CHECK(most_behind_m < 0.5);
+}
+
+TEST_CASE("what stands keeps its sides while it is not seen") {
+  object_tracker tracker{{0.2, 0.1, 0.03}, rhythm};
+  const perceived_object o{{20, 1}, 0, 0, 0, 4, 2};
+  for (auto k = 0; k < 40; ++k)
+    tracker.update(first_sight + k * 50ms, {&o, 1});
+  const auto seen = tracker.tracks()[0];
+  const auto later = predict(seen, seen.at + 900ms);
+  CHECK(later.motion.covariance(0, 0) > 2 * seen.motion.covariance(0, 0));
+  CHECK(later.margin_m() == seen.margin_m());
 }
