@@ -194,8 +194,11 @@ private:
   /// @param streets  What is known of them where the services run.
   std::vector<offloading::service>
   services_in(const world::streets_ptr& streets) const {
-    const actors::service_world known{
-        streets, where_, {}, s_.traffic.grants_crossings()};
+    actors::service_world known{
+        streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors, {}};
+    for (const auto& provider : s_.providers)
+      for (const auto& sensor : provider.sensors)
+        known.roadside.push_back(sensor.make({0, ""}).view());
     std::vector<offloading::service> all;
     for (const auto& type : s_.services)
       all.push_back(type->in(known));

@@ -7,6 +7,8 @@
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
 #include "world/roads/streets.hpp"
+#include "world/sensing/sensors.hpp"
+#include "world/sensing/viewpoint.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <memory>
@@ -22,6 +24,8 @@ struct service_world {
   world::vehicle_params car{};      ///< Each vehicle.
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
+  world::sensor_params eyes{};            ///< Of each vehicle.
+  std::vector<world::viewpoint> roadside; ///< Sensors of providers.
 };
 
 // actors/services/service_client.hpp has both.

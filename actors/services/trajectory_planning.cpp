@@ -43,11 +43,14 @@ public:
   }
 
   offloading::service in(const service_world& world) const override {
-    auto roads =
-        std::make_shared<known_roads>(world.streets->map, planner_.style);
+    auto roads = std::make_shared<known_roads>(
+        world.streets->map, planner_.style,
+        planners::eyes_on_road{world.eyes.range_m, world.eyes.field_of_view_deg,
+                               world.eyes.occlusion, world.roadside},
+        !world.crossings_granted);
     auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        planner_, std::move(roads));
+        world.eyes, planner_, std::move(roads));
     return {.name = name(),
             .options = options,
             .in_vehicle =

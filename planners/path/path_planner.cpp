@@ -59,16 +59,28 @@ ocp::solve_report path_planner::plan(const path_start& car,
   return report_;
 }
 
+// A path goes on as it was planned, as a rule; where that leaves the corridor,
+// as others have come, it may drift beyond before it comes back.
 bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
                          std::span<const passing> others,
                          const ocp::budget& go_on) {
+  return attempt(s_m, from, how, others, corridor::steering::as_planned, go_on)
+         || (report_.status != ocp::solve_status::budget
+             && attempt(s_m, from, ocp::start::cold, others,
+                        corridor::steering::drifts, go_on));
+}
+
+bool path_planner::attempt(double s_m, const path_state& from, ocp::start how,
+                           std::span<const passing> others,
+                           corridor::steering steers,
+                           const ocp::budget& go_on) {
   assert(grid_.steps >= 1 && grid_.steps <= ocp::most_steps);
   assert(grid_.ds_m > 0);
   const auto n = static_cast<std::size_t>(grid_.steps);
   corridor_.open(*line_, s_m, grid_.ds_m, grid_.steps);
   for (const auto& other : others)
     corridor_.pass(other.body, other.side);
-  corridor_.admit(from);
+  corridor_.admit(from, steers);
   narrowed_ = !others.empty();
   bends_.resize(2 * n + 1);
   wanted_.assign(n + 1, 0);
@@ -89,12 +101,13 @@ bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
   report_ = solver_.solve(problem, how, {}, go_on);
   if (how == ocp::start::warm && !ocp::publishable(report_.status))
     report_ = solver_.solve(problem, ocp::start::cold, {}, go_on);
-  settled_ =
-      ocp::publishable(report_.status)
-      || (report_.status == ocp::solve_status::soft_infeasible
-          && report_.iterations > 0
-          && corridor_.contains(solver_.offset_m(), solver_.heading_rad(),
-                                reduced_margin_m));
+  settled_ = ocp::publishable(report_.status)
+             || (report_.status == ocp::solve_status::soft_infeasible
+                 && report_.iterations > 0
+                 && corridor_.contains(
+                     solver_.offset_m(), solver_.heading_rad(),
+                     std::min(reduced_margin_m,
+                              std::max(0.0, corridor_.gap_m() / 2))));
   assert(!settled_ || solver_.steps() == grid_.steps);
   assert(!settled_ || !std::isnan(report_.cost));
   return settled_;

@@ -60,6 +60,9 @@ public:
 private:
   bool solve(double s_m, const path_state& from, ocp::start how,
              std::span<const passing> others, const ocp::budget& go_on);
+  bool attempt(double s_m, const path_state& from, ocp::start how,
+               std::span<const passing> others, corridor::steering steers,
+               const ocp::budget& go_on);
   void adopt_solution(double s_m, int first);
 
   const reference_line* line_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace sofof::planners {
 namespace {
@@ -26,18 +27,40 @@ constexpr std::array<part, ocp::path_rows::most_discs> parts{
 constexpr double same_knot = 1e-6;
 /// The car on the line itself fits by this, whatever the discs say.
 constexpr double least_room_m = 0.12;
-/// Kept between the car and a body it passes.
-constexpr double passing_gap_m = 0.3;
+/// At least this is kept.
+constexpr double gap_at_last_m = 0.05;
+constexpr double touching_m = 0.02;
+/// So far discs may leave the lane while the car inside them does not, at
+/// headings of up to 0.24 rad.
+constexpr double spare_m = 0.15;
+/// Parts farther ahead than this are turned more than they are carried.
+constexpr double least_lever_m = 0.5;
 /// Discs are wider than the car by this at their middle.
 constexpr double disc_excess_m = disc_radius_m - 0.945;
 /// Way before and after a body on which the car may leave the centre line.
 constexpr double evasion_m = 20;
 /// Way over which the car comes back into the corridor.
 constexpr double return_m = 25;
-/// A heading error carries the car on over this way before it steers back.
-constexpr double overshoot_m = 4;
-/// Of sums of bounds.
-[[maybe_unused]] constexpr double rounding_m = 1e-9;
+/// How fast a car that has to come back turns its curvature, 1/m per m: less
+/// than paths may (path_planner).
+constexpr double steering_1pm2 = 0.05;
+
+/// @returns how far a heading and a curvature to the left carry a part of the
+/// car beyond, until it is parallel again, m: the curvature falls evenly, and
+/// comes back; what is before the axle turns in long before.
+double drift_m(double ahead_m, double heading_rad, double curvature_1pm) {
+  const auto out = std::max(0.0, curvature_1pm);
+  const auto until_straight_m = out / steering_1pm2;
+  const auto heading = std::max(0.0, heading_rad + out * until_straight_m / 2);
+  const auto of_axle_m =
+      until_straight_m * (std::max(0.0, heading_rad) + heading) / 2
+      + heading * std::sqrt(heading / steering_1pm2);
+  assert(std::isfinite(of_axle_m) && of_axle_m >= 0);
+  if (ahead_m < least_lever_m)
+    return of_axle_m;
+  const auto slope = std::max(0.0, heading_rad + ahead_m * curvature_1pm);
+  return std::min(of_axle_m, slope * slope / (2 * ahead_m * steering_1pm2));
+}
 
 } // namespace
 
@@ -57,6 +80,7 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
   s_m_ = s_m;
   ds_m_ = ds_m;
   steps_ = steps;
+  kept_gap_m_ = passing_gap_m;
   const auto knots = static_cast<std::size_t>(steps) + 1;
   for (std::size_t j = 0; j < rows; ++j) {
     if (by <= steps)
@@ -66,6 +90,9 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
     measure_lane(j, std::max(0, steps + 1 - by), steps);
     std::copy_n(lane_lo_[j].begin(), knots, lo_[j].begin());
     std::copy_n(lane_hi_[j].begin(), knots, hi_[j].begin());
+    constexpr auto far_m = std::numeric_limits<double>::infinity();
+    std::fill_n(near_left_[j].begin(), knots, far_m);
+    std::fill_n(near_right_[j].begin(), knots, -far_m);
     discs_[j] = {parts[j].ahead_m, std::span{lo_[j]}.first(knots),
                  std::span{hi_[j]}.first(knots)};
   }
@@ -89,6 +116,11 @@ void corridor::measure_lane(std::size_t part, int from, int to) {
 void corridor::pass(const lane_obstacle& body, side_of_road side) {
   assert(line_ && steps_ >= 1); // opened
   assert(!(body.from_m > body.to_m));
+  // What is lacking is taken from the gap first, then from what discs are
+  // wider than the car at the other side.
+  const auto from_gap = std::min(body.lacks_m, passing_gap_m - gap_at_last_m);
+  const auto over = body.lacks_m - from_gap;
+  kept_gap_m_ = std::min(kept_gap_m_, passing_gap_m - from_gap);
   for (int k = 0; k <= steps_; ++k) {
     const auto s = s_m_ + k * ds_m_;
     if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
@@ -104,31 +136,61 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
-      const auto gap = passing_gap_m + p.radius_m - disc_excess_m;
-      if (side == side_of_road::left)
+      const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
+      // Who moves may be in its own lane by then.
+      constexpr auto stands_mps = 0.3, far_m = 1e3;
+      const auto stands = std::abs(body.speed_mps) < stands_mps;
+      const auto near =
+          stands ? touching_m + p.radius_m - disc_excess_m : -far_m;
+      if (side == side_of_road::left) {
+        near_right_[j][k] =
+            std::max(near_right_[j][k], body.high_m + near + bow);
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
-      else
+        hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
+      } else {
+        near_left_[j][k] = std::min(near_left_[j][k], body.low_m - near + bow);
         hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
+        lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
+      }
     }
   }
 }
 
-void corridor::admit(const path_state& start) {
+void corridor::admit(const path_state& start, steering steers) {
   assert(line_ && steps_ >= 1); // opened
+  // Both sides alike, measured outwards.
+  const auto widened = [](double room, double lane, double over, double off,
+                          double fading) {
+    return std::max(
+        room, std::min(room + over * fading, lane + spare_m + off * fading));
+  };
   for (std::size_t j = 0; j < rows; ++j) {
     const auto ahead = parts[j].ahead_m;
-    const auto drift = overshoot_m * std::abs(start.heading_rad);
     const auto y = start.d_m + ahead * std::sin(start.heading_rad);
-    const auto over = std::max(0.0, y + drift - hi_[j][0]);
-    const auto under = std::max(0.0, lo_[j][0] - y + drift);
+    auto left = y, right = y;
+    if (steers == steering::drifts) {
+      left += drift_m(ahead, start.heading_rad, start.curvature_1pm);
+      right -= drift_m(ahead, -start.heading_rad, -start.curvature_1pm);
+    }
+    const auto over = std::max(0.0, left - hi_[j][0]);
+    const auto under = std::max(0.0, lo_[j][0] - right);
     if (over == 0 && under == 0)
       continue;
+    const auto off_left = std::max(0.0, y - lane_hi_[j][0]);
+    const auto off_right = std::max(0.0, lane_lo_[j][0] - y);
     for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
       const auto fading = 1 - k * ds_m_ / return_m;
-      hi_[j][k] += over * fading;
-      lo_[j][k] -= under * fading;
+      // Who is nearer to a body than that stands.
+      const auto most = near_left_[j][k], least = near_right_[j][k];
+      hi_[j][k] =
+          std::min(widened(hi_[j][k], lane_hi_[j][k], over, off_left, fading),
+                   std::max(hi_[j][k], most));
+      lo_[j][k] = std::max(
+          -widened(-lo_[j][k], -lane_lo_[j][k], under, off_right, fading),
+          std::min(lo_[j][k], least));
+      kept_gap_m_ = std::min({kept_gap_m_, most - hi_[j][k] + touching_m,
+                              lo_[j][k] - least + touching_m});
     }
-    assert(!(y > hi_[j][0] + rounding_m || y < lo_[j][0] - rounding_m));
   }
 }
 

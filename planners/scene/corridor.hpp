@@ -24,7 +24,10 @@ public:
   static constexpr double freedom_m = 0.25;
 
   /// A car needs so much room beside a body: the discs, and a gap.
-  static constexpr double room_beside_m = 2.52;
+  static constexpr double room_beside_m = 2.42;
+
+  /// Of that, the gap.
+  static constexpr double passing_gap_m = 0.2;
 
   /// The free lane along the knots s_m + k · ds_m, k = 0..steps. The line
   /// itself always fits.
@@ -33,10 +36,19 @@ public:
   /// Narrows it beside a body; the car may use the whole lane there.
   void pass(const lane_obstacle& body, side_of_road side);
 
-  /// Widens it near the car as far as it needs to come back into it.
-  void admit(const path_state& start);
+  enum class steering {
+    as_planned, ///< It is where its path leads back into the corridor.
+    drifts      ///< Its heading and curvature carry it on at first.
+  };
+
+  /// Widens it near the car as far as it needs to come back into it, beside
+  /// bodies by what is left of the gap at most.
+  void admit(const path_state& start, steering steers);
 
   std::span<const disc_corridor> discs() const { return discs_; }
+
+  /// @returns the least gap that it keeps beside a body, m.
+  double gap_m() const { return kept_gap_m_; }
 
   /// @returns whether a car that keeps to the line of knots
   /// d(k), θ(k) stays within, up to `tolerance_m`.
@@ -51,8 +63,10 @@ private:
   const reference_line* line_ = nullptr;
   double s_m_ = 0, ds_m_ = 1;
   int steps_ = -1;
+  double kept_gap_m_ = passing_gap_m;
   std::array<ocp::column, rows> lane_lo_, lane_hi_; // with nothing in it
   std::array<ocp::column, rows> lo_, hi_;
+  std::array<ocp::column, rows> near_right_, near_left_; // bodies, to a touch
   std::array<disc_corridor, rows> discs_;
 };
 

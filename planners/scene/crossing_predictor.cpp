@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
 
 namespace sofof::planners {
 
 namespace {
 
-/// Who would have to brake harder than this to give way does not, m/s².
-constexpr auto yielding_decel_mps2 = 6.0;
+/// Who would have to brake harder than this to give way does not, m/s²; nor who
+/// would have to brake so hard and has not begun to.
+constexpr auto yielding_decel_mps2 = 6.0, begins_by_mps2 = 3.0;
 
 /// To be expected at once; more take more memory, once.
 constexpr std::size_t many = 128;
@@ -19,10 +24,50 @@ double forward_mps(const track& x) {
   return std::max(0.0, x.speed_mps());
 }
 
-bool gives_way(const track& x, const conflict_visit& when, int own_rank) {
-  const auto v = forward_mps(x);
-  return when.way_m > 0 && when.rank > own_rank
-         && v * v <= 2 * yielding_decel_mps2 * when.way_m;
+/// Ways at a smaller angle than 30° to each other, either way, come from
+/// neither side.
+constexpr auto across_sine = 0.5;
+
+/// Ways at a smaller angle than 30° against each other come towards each other.
+constexpr auto towards_cosine = 0.866;
+
+/// Who turns left by more than this crosses who comes towards it.
+constexpr auto turning_rad = 0.5;
+
+/// Nobody turns before another who comes to the place sooner after it than
+/// this, s; who would have to give way brakes at least so.
+constexpr auto close_s = 1.0, slows_down_mps2 = 1.0;
+
+/// Who comes later than this to a zone that a car is on already can brake, s.
+constexpr auto soon_s = 2.0;
+
+/// Who is slower among crossings may come to rest there, m/s.
+constexpr auto hesitant_mps = 3.0;
+
+/// What a car brakes with at most when it has begun in time, m/s².
+constexpr auto easy_decel_mps2 = 2.0;
+
+/// Who stands before a zone for longer than this is not waited for any more.
+constexpr duration patience = std::chrono::seconds{4};
+constexpr duration more_patience = std::chrono::milliseconds{500};
+constexpr std::uint32_t different_patiences = 8;
+
+/// Who has stood for longer itself does not wait for who stands.
+constexpr auto long_stand_s = 15.0;
+
+duration patience_of(const std::optional<station_id>& who) {
+  constexpr auto spread = 2654435761U; // of neighbouring numbers (Knuth)
+  const auto mixed = who ? who->value() * spread >> 16 : 0;
+  return patience + (mixed % different_patiences) * more_patience;
+}
+
+/// @returns the braking that stops a body after so long a way, if it begins as
+/// soon as its driver has seen why; infinite: none does.
+double decel_before(double way_m, double speed_mps) {
+  constexpr auto reaction_s = 1.0;
+  const auto left_m = way_m - reaction_s * speed_mps;
+  return left_m > 0 ? speed_mps * speed_mps / (2 * left_m)
+                    : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -38,28 +83,127 @@ crossing_predictor::crossing_predictor(
   foreseen_.reserve(many);
 }
 
-void crossing_predictor::judge(double from_m, double to_m,
+void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,
+                                    std::vector<way_stretch>& keep_free) {
+  assert(rear_m < front_m && front_m < to_m);
+  find_zones(rear_m, to_m);
+  join_zones(front_m - rear_m, keep_free);
+}
+
+void crossing_predictor::judge(const crossing_viewer& me,
                                std::span<other_body> others,
+                               std::span<const way_stretch> keep_free,
                                std::vector<crossing_user>& found,
                                std::vector<double>& yields) {
-  assert(from_m < to_m);
-  find_zones(from_m, to_m);
-  for (const auto& [own, middle] : zones_)
-    if (lanes_->rank(own.other_side()) < own.rank)
-      yields.push_back(own.from_m);
+  assert(me.rear_m < me.front_m);
+  for (const auto& own : zones_)
+    if (lanes_->rank(own.on.other_side()) < own.on.rank)
+      yields.push_back(own.on.from_m);
   foresee(others);
-  for (const auto& [own, middle] : zones_)
+  for (const auto& own : zones_)
     for (const auto& [who, when] : foreseen_) {
-      auto& [x, is_crossing] = others[who];
-      if (when.side != own.other_side()
-          || (when.way_m == 0 && drives_along(x, own)))
+      auto& [x, is_crossing, cuts_in] = others[who];
+      if (when.side != own.on.other_side() || !std::isfinite(when.leave_s)
+          || (when.way_m == 0 && drives_along(x, own.on))
+          || (when.is_past && gap_m(x, own.on) > 0))
         continue;
-      found.push_back({own.from_m, own.to_m, when.enter_s, when.leave_s,
-                       !gives_way(x, when, own.rank)});
-      is_crossing = is_crossing || std::isfinite(when.leave_s);
+      const auto first = !gives_way(me, x, when, own);
+      const auto hesitates =
+          first && forward_mps(x) < hesitant_mps && when.enter_s < soon_s;
+      found.push_back(
+          {hesitates ? line_before(me, own, keep_free) : own.on.from_m,
+           own.on.to_m, when.enter_s, when.leave_s, first,
+           decel_before(when.way_m, forward_mps(x)), x.id});
+      cuts_in = cuts_in
+                || (own.on.from_m < me.front_m && found.back().goes_first
+                    && !when.sets_off && when.enter_s < soon_s);
+      is_crossing =
+          is_crossing || (own.on.from_m >= me.front_m && !when.sets_off);
     }
-  assert(std::ranges::is_sorted(found, {}, &crossing_user::from_m));
+  std::ranges::sort(found, {}, [](const crossing_user& x) {
+    return std::tuple{x.from_m, x.to_m, x.body};
+  });
   assert(std::ranges::is_sorted(yields));
+}
+
+/// @returns where the crossings begin that a zone is one of, if the vehicle can
+/// still stop there with ease; else where the zone begins.
+double crossing_predictor::line_before(const crossing_viewer& me,
+                                       const own_zone& own,
+                                       std::span<const way_stretch> keep_free) {
+  const auto stopping_m = me.speed_mps * me.speed_mps / (2 * easy_decel_mps2);
+  for (const auto& all : keep_free)
+    if (all.from_m <= own.on.from_m && own.on.from_m <= all.to_m
+        && me.front_m + stopping_m <= all.from_m)
+      return all.from_m;
+  return own.on.from_m;
+}
+
+/// Zones between which no car fits are one.
+void crossing_predictor::join_zones(double car_m,
+                                    std::vector<way_stretch>& keep_free) const {
+  for (const auto& [own, middle] : zones_)
+    if (!keep_free.empty() && own.from_m < keep_free.back().to_m + car_m)
+      keep_free.back().to_m = std::max(keep_free.back().to_m, own.to_m);
+    else
+      keep_free.push_back({own.from_m, own.to_m});
+  assert(std::ranges::is_sorted(keep_free, {}, &way_stretch::from_m));
+}
+
+bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
+                                   const conflict_visit& when,
+                                   const own_zone& own) const {
+  const auto v = forward_mps(x);
+  // A zone begins before bodies touch.
+  const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
+  if (way_m <= 0)
+    return false; // it is there
+  const auto brakes = x.accel_mps2 < -slows_down_mps2;
+  if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
+    // It will be there, unless it comes towards the car and does not turn.
+    const auto own_way_m = std::max(0.0, own.on.from_m - me.front_m);
+    return when.may_turn_off && !brakes && would_turn_across(when, own)
+           && own_way_m < me.speed_mps * (when.enter_s + close_s)
+           && has_to_give_way(me, x, when, own);
+  }
+  const auto waits =
+      me.stands_s > long_stand_s ? duration::zero() : patience_of(me.station);
+  if (when.sets_off && x.at - x.moved > waits)
+    return true;
+  return has_to_give_way(me, x, when, own);
+}
+
+/// @returns whether it comes towards the car and only meets it if it turns
+/// left.
+bool crossing_predictor::would_turn_across(const conflict_visit& when,
+                                           const own_zone& own) const {
+  const auto theirs = lanes_->course_of(when.side);
+  const auto ours = lanes_->course_of(own.on.side);
+  return std::cos(theirs.from_rad - ours.from_rad) < -towards_cosine
+         && theirs.turn_rad > turning_rad && ours.turn_rad <= turning_rad;
+}
+
+/// @returns whether it has to by right of way.
+bool crossing_predictor::has_to_give_way(const crossing_viewer& me,
+                                         const track& x,
+                                         const conflict_visit& when,
+                                         const own_zone& own) const {
+  if (when.rank != own.on.rank)
+    return when.rank > own.on.rank;
+  if (lanes_->is_on_roundabout(when.side)
+      != lanes_->is_on_roundabout(own.on.side))
+    return lanes_->is_on_roundabout(own.on.side);
+  const auto theirs = lanes_->course_of(when.side);
+  const auto ours = lanes_->course_of(own.on.side);
+  const auto sine = std::sin(theirs.from_rad - ours.from_rad);
+  if (std::abs(sine) > across_sine)
+    return sine < 0; // it comes from the left
+  const auto turns_left = [](const lane_network::course& c) {
+    return c.turn_rad > turning_rad;
+  };
+  if (turns_left(theirs) != turns_left(ours))
+    return turns_left(theirs);
+  return me.station && x.station && *me.station < *x.station;
 }
 
 void crossing_predictor::find_zones(double from_m, double to_m) {
@@ -70,7 +214,7 @@ void crossing_predictor::find_zones(double from_m, double to_m) {
                    const auto middle_m = (z.from_m + z.to_m) / 2;
                    assert(z.from_m <= z.to_m && z.from_m < to_m);
                    if (z.to_m > from_m)
-                     zones_.push_back({z, way_.on()->path().at(middle_m).at});
+                     zones_.push_back({z, way_.on()->path().at(middle_m)});
                    return true;
                  });
 }
@@ -81,11 +225,12 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
   for (std::size_t who = 0; who < others.size(); ++who) {
     const auto& x = others[who].x;
     const auto within_m =
-        std::min(foresight_s_ * forward_mps(x), lane_network::farthest_m);
+        std::clamp(foresight_s_ * forward_mps(x), lane_network::at_line_m,
+                   lane_network::farthest_m);
     assert(within_m >= 0 && x.length_m > 0);
     const auto gets_there = [&](const own_zone& z) {
       const auto reach_m = within_m + x.length_m + z.on.to_m - z.on.from_m;
-      const auto apart = z.middle - x.centre();
+      const auto apart = z.middle.at - x.centre();
       return dot(apart, apart) < reach_m * reach_m;
     };
     if (std::ranges::none_of(zones_, gets_there))
@@ -97,6 +242,28 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
       foreseen_.push_back({who, when});
     }
   }
+}
+
+/// @returns how far a body's outline is from the way of the own body at a zone;
+/// not above 0 where it reaches into it.
+double crossing_predictor::gap_m(const track& x, const world::zone& z) const {
+  const auto& line = way_.on()->path();
+  const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
+  const point left{-ahead.y_m, ahead.x_m};
+  auto nearest_m = std::numeric_limits<double>::infinity();
+  auto is_left = false, is_right = false;
+  for (const auto along : {-0.5, 0.0, 0.5})
+    for (const auto across : {-0.5, 0.5}) {
+      const auto p =
+          x.centre() + along * x.length_m * ahead + across * x.width_m * left;
+      const auto d_m = line.project(p, (z.from_m + z.to_m) / 2,
+                                    (z.to_m - z.from_m) / 2 + x.length_m)
+                           .d_m;
+      nearest_m = std::min(nearest_m, std::abs(d_m));
+      (d_m > 0 ? is_left : is_right) = true;
+    }
+  assert(std::isfinite(nearest_m));
+  return is_left && is_right ? 0 : nearest_m - corridor_m_;
 }
 
 /// @returns whether a body at a zone drives on the own way already.

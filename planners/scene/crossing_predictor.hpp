@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,16 @@ namespace sofof::planners {
 /// Another road user, at the present.
 struct other_body {
   track x;
-  bool is_crossing = false; ///< On or before a zone of the own way, moving.
+  bool is_crossing = false; ///< On or before a zone ahead of the own front.
+  bool cuts_in = false; ///< It comes first to a zone that the own front is on.
+};
+
+/// The vehicle that judges, on its route.
+struct crossing_viewer {
+  std::optional<station_id> station; ///< If it is heard by that name.
+  double rear_m = 0, front_m = 0;    ///< Its bumpers, arc length.
+  double speed_mps = 0;
+  double stands_s = 0; ///< For so long.
 };
 
 /// @param cosine  Of the angle between a body and a way.
@@ -37,18 +47,39 @@ public:
                      world::route_ptr way, double corridor_m,
                      double foresight_s);
 
-  /// Finds the zones of the own way that end after `from_m` and begin before
-  /// `to_m`, and for each of them everybody on its other side or on the way
+  /// Finds the zones of the own way that the vehicle has not left and that
+  /// begin before `to_m`.
+  /// @param keep_free  Them, joined where no car fits between.
+  void look_ahead(double rear_m, double front_m, double to_m,
+                  std::vector<way_stretch>& keep_free);
+
+  /// Finds everybody on the other side of each of these zones, or on the way
   /// there. Marks those who cross.
-  /// @param found   In the order of zones.
-  /// @param yields  Where zones begin whose other side goes first by rank.
-  void judge(double from_m, double to_m, std::span<other_body> others,
+  ///
+  /// Who goes first: whoever is on the zone, or cannot stop before it any more;
+  /// then the lower rank; of equal ones who is on a roundabout; who comes from
+  /// the right, or goes
+  /// straight on where the other turns left; else the lower station; else the
+  /// other. Who stands before a zone may set off as long as it has not stood
+  /// there for too long, each vehicle waits for another time, so that not all
+  /// set off at once; who has stood for long itself waits for nobody who
+  /// stands. Who stands on a zone is not crossing: it is in the way, or it is
+  /// not.
+  ///
+  /// Who goes first and is slow may come to rest among crossings that belong
+  /// together: a car that is not among them yet waits before all of them.
+  ///
+  /// @param keep_free  From `look_ahead`.
+  /// @param found      In the order of `from_m`.
+  /// @param yields     Where zones begin whose other side goes first by rank.
+  void judge(const crossing_viewer& me, std::span<other_body> others,
+             std::span<const way_stretch> keep_free,
              std::vector<crossing_user>& found, std::vector<double>& yields);
 
 private:
   struct own_zone {
     world::zone on;
-    point middle;
+    world::path_point middle;
   };
   struct foreseen {
     std::size_t who;
@@ -56,7 +87,16 @@ private:
   };
   void find_zones(double from_m, double to_m);
   void foresee(std::span<const other_body> others);
+  static double line_before(const crossing_viewer& me, const own_zone& own,
+                            std::span<const way_stretch> keep_free);
+  void join_zones(double car_m, std::vector<way_stretch>& keep_free) const;
+  bool gives_way(const crossing_viewer& me, const track& x,
+                 const conflict_visit& when, const own_zone& own) const;
+  bool would_turn_across(const conflict_visit& when, const own_zone& own) const;
+  bool has_to_give_way(const crossing_viewer& me, const track& x,
+                       const conflict_visit& when, const own_zone& own) const;
   bool drives_along(const track& x, const world::zone& z) const;
+  double gap_m(const track& x, const world::zone& z) const;
 
   std::shared_ptr<const lane_network> lanes_;
   world::unrolled_route way_;

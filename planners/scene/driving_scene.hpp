@@ -4,6 +4,8 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,18 +28,30 @@ struct crossing_user {
                                ///< there.
   double leave_s = 0;          ///< Its rear has left; infinite: it stands.
   bool goes_first = true;      ///< By right of way; else it gives way.
+  /// It has to brake so hard, from a second on, to stay off the stretch.
+  double brakes_mps2 = std::numeric_limits<double>::infinity();
+  std::uint32_t body = 0; ///< One number for all entries of a road user.
+};
+
+/// A part of the own way, arc length on the own route.
+struct way_stretch {
+  double from_m = 0, to_m = 0;
 };
 
 /// A body that reaches into the lane but leaves room to pass beside it.
 struct lane_obstacle {
   double from_m = 0, to_m = 0;  ///< Of the body, arc length on the own route.
-  double low_m = 0, high_m = 0; ///< Its lateral extent, left positive.
+  double low_m = 0, high_m = 0; ///< Its lateral extent, left positive, with
+                                ///< what is uncertain of it.
   double speed_mps = 0; ///< Along the own route; negative when it comes.
+  double lacks_m = 0;   ///< So much room is lacking; it is passed all the same,
+                        ///< as that has begun, or cannot be stopped any more.
 };
 
 /// What a driver has to know about the others.
 struct driving_scene {
   time_point at;
+  double stands_s = 0; ///< For so long the own car has stood.
   std::optional<lead_vehicle> lead;
   /// The front bumper must not pass this arc length on the own route: a
   /// crossing has not been granted yet.
@@ -47,6 +61,9 @@ struct driving_scene {
   /// Where crossings begin at which others would go first, whether anybody is
   /// seen or not: arc length on the own route, rising.
   std::vector<double> yields_m;
+  /// Where others cross: no place to come to rest. Rising, apart by more than a
+  /// car's length.
+  std::vector<way_stretch> keep_free;
 };
 
 } // namespace sofof::planners

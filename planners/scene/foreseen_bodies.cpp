@@ -76,7 +76,7 @@ void foreseen_bodies::look(const world::route& way, double s_m,
       const auto way_to_stop_m =
           x.across_mps * x.across_mps / (2 * expected_decel_mps2);
       x.counts = apart_m <= 0 || (comes && apart_m < way_to_stop_m);
-      x.core_m = o.width_m / 2 - uncertain_m;
+      x.core_m = std::min(o.length_m, o.width_m) / 2 - uncertain_m;
       x.crosses = true;
     }
     assert(x.brakes_mps2 >= 0 && (x.crosses || x.counts));

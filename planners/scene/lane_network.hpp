@@ -18,11 +18,14 @@ namespace sofof::planners {
 
 /// When a body is on one side of a conflict, if its speed stays as it is.
 struct conflict_visit {
-  std::uint32_t side = 0; ///< As in `conflict_side`.
-  int rank = 0;           ///< Of its lane.
-  double way_m = 0;       ///< From its front to the stretch; 0: on it.
-  double enter_s = 0;     ///< Its front comes onto the stretch; 0: on it.
-  double leave_s = 0;     ///< Its rear leaves; infinite: it stands there.
+  std::uint32_t side = 0;    ///< As in `conflict_side`.
+  int rank = 0;              ///< Of its lane.
+  double way_m = 0;          ///< From its front to the stretch; 0: on it.
+  double enter_s = 0;        ///< Its front comes onto the stretch; 0: on it.
+  double leave_s = 0;        ///< Its rear leaves; infinite: it stands there.
+  bool sets_off = false;     ///< If it does: it stands before the stretch.
+  bool is_past = false;      ///< Its middle has left the stretch.
+  bool may_turn_off = false; ///< There is another way for it before that.
 };
 
 /// Lanes, how they follow each other, and their conflicts; immutable, one for
@@ -30,6 +33,8 @@ struct conflict_visit {
 class lane_network {
 public:
   static constexpr double farthest_m = 300;
+  /// Who stands no farther than this before a conflict may set off, m.
+  static constexpr double at_line_m = 8;
 
   explicit lane_network(const world::road_map& map);
 
@@ -37,6 +42,21 @@ public:
 
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
+
+  /// @returns whether the lane of a conflict's side is one of a roundabout.
+  bool is_on_roundabout(std::uint32_t side) const { return rounds_[side]; }
+
+  /// How a lane comes to a conflict and goes through it.
+  struct course {
+    double from_rad = 0; ///< Its direction shortly before.
+    double turn_rad = 0; ///< How it has turned at the end, left positive.
+  };
+  course course_of(std::uint32_t side) const { return courses_[side]; }
+
+  /// @returns places on the way of those who come to a conflict's side, from
+  /// where it begins back, 4 m apart, as far as one gets at the lanes' speed
+  /// limits in that time.
+  std::vector<point> approach(std::uint32_t side, double within_s) const;
 
   /// Where a body is on a lane that it drives along.
   struct placement {
@@ -61,10 +81,17 @@ public:
 
   /// Appends the conflicts that a body is on or drives towards, on whatever
   /// lanes it may take; each side once, with the earliest entry and the latest
-  /// exit of all ways. Who stands drives towards none.
+  /// exit of all ways; but for those with bends that it is too fast for. Who
+  /// stands is thought to set off at once, if it is at
+  /// most `at_line_m` away.
   /// @param within_m  How far its front looks, m, at most `farthest_m`.
   void foresee(const track& x, double within_m,
                std::vector<conflict_visit>& out) const;
+
+  /// @returns a body as it will be after so long a way: along the lane that it
+  /// keeps to best, at its distance from that; straight on where it is on none,
+  /// and behind the lane's end.
+  track moved_along(track x, double way_m) const;
 
 private:
   struct piece {
@@ -74,13 +101,30 @@ private:
   };
   struct driver; // on its way
   void cut(std::size_t lane);
-  void meet(const driver& who, std::size_t lane, double start_m) const;
-  void drive(const driver& who, std::size_t lane, double start_m) const;
+  struct bend {            // where a lane is sharpest
+    double s_m, speed_mps; // and how fast anybody drives there
+  };
+  bool stays_on(const track& x, const placement& on) const;
+  bool takes(const driver& who, std::size_t lane, double start_m) const;
+  void come(std::size_t lane, double s_m, double within_s,
+            std::vector<point>& out) const;
+  /// A lane on a body's way.
+  struct lane_ahead {
+    std::size_t lane;
+    double start_m;    ///< From the body's centre on.
+    bool may_turn_off; ///< There was another one to choose.
+  };
+  void meet(const driver& who, const lane_ahead& on) const;
+  void drive(const driver& who, const lane_ahead& on) const;
 
   world::conflict_sides meetings_;
-  std::vector<int> ranks_; // of all sides
+  std::vector<int> ranks_;        // of all sides
+  std::vector<bool> rounds_;      // likewise, whether on a roundabout
+  std::vector<placement> begins_; // likewise, where they begin
+  std::vector<bend> bends_;       // of each lane
+  std::vector<course> courses_;   // likewise
   std::vector<world::path> paths_;
-  std::vector<double> half_widths_m_;
+  std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
   std::vector<piece> pieces_;
   cell_grid cells_; // of the pieces, as wide as the lanes

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sofof::planners {
@@ -13,7 +14,17 @@ constexpr double max_step_m = 0.25;
 
 } // namespace
 
-reference_line::reference_line(world::route_ptr way) : way_{std::move(way)} {
+double seen_limit_mps(std::span<const double> most_mps, double s_m) {
+  if (most_mps.empty())
+    return std::numeric_limits<double>::infinity();
+  const auto i = std::min(static_cast<std::size_t>(std::max(0.0, s_m)),
+                          most_mps.size() - 1);
+  return std::min(most_mps[i], most_mps[std::min(i + 1, most_mps.size() - 1)]);
+}
+
+reference_line::reference_line(world::route_ptr way,
+                               std::span<const double> most_mps)
+    : way_{std::move(way)} {
   assert(way_ && way_->length_m() > 0);
   const auto length_m = way_->length_m();
   const auto steps =
@@ -24,7 +35,8 @@ reference_line::reference_line(world::route_ptr way) : way_{std::move(way)} {
   laps_per_m_ = 1 / length_m;
   for (long i = 0; i <= steps; ++i) {
     const auto s = static_cast<double>(i) * step_m;
-    table_.push_back({way_->path().at(s).curvature_1pm, way_->limit_mps(s),
+    table_.push_back({way_->path().at(s).curvature_1pm,
+                      std::min(way_->limit_mps(s), seen_limit_mps(most_mps, s)),
                       way_->half_width_m(s)});
   }
 }

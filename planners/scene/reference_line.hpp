@@ -3,16 +3,24 @@
 
 #include "world/roads/route.hpp"
 
+#include <span>
 #include <vector>
 
 namespace sofof::planners {
+
+/// @returns the lower of the limits at the metres round a place; infinite
+/// without any.
+double seen_limit_mps(std::span<const double> most_mps, double s_m);
 
 /// The centre line of a route, tabulated once. Arc lengths are those of the
 /// route: closed routes wrap, open ones clamp.
 class reference_line {
 public:
-  /// @param way  Kept.
-  explicit reference_line(world::route_ptr way);
+  /// @param way       Kept.
+  /// @param most_mps  No faster than this besides: at 0, 1, 2 … m, to the end;
+  ///                  empty: no such limit.
+  explicit reference_line(world::route_ptr way,
+                          std::span<const double> most_mps = {});
 
   const world::route& way() const { return *way_; }
 

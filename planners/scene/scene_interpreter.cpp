@@ -22,6 +22,24 @@ constexpr auto outline_m = 2.6;
 /// Curvature changes by no more than this beneath a car, 1/m.
 constexpr auto curvature_change_1pm = 0.05;
 
+/// Of sums of widths.
+constexpr auto rounding_m = 1e-6;
+/// A body that was passable stays so with so much less room.
+constexpr auto hysteresis_m = 0.1;
+/// Where a car cannot stop before a body any more it goes on beside it if so
+/// much is left on both sides together.
+constexpr auto least_room_to_pass_m = 0.3;
+constexpr auto decides_within_s = 0.7; // with what it keeps before the body
+constexpr auto stops_mps2 = 2.5;
+/// Longer than any conflict of two ways and the car, and what bodies move until
+/// their sightings are used.
+constexpr auto ample_m = 60.0;
+/// So much way a car needs to steer round a body from rest, besides what it
+/// keeps to one ahead; and how it brakes if it is to stand there.
+constexpr auto pulls_out_m = 5.0, calmly_mps2 = 1.5;
+/// So far beside its line a car steers round something.
+constexpr auto steers_round_m = 0.1;
+
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
 /// To be expected at once; more take more memory, once.
@@ -42,10 +60,9 @@ point offset(const world::path_point& p, double along_m, double left_m) {
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
                                      const world::route_ptr& way,
                                      scene_params params)
-    : way_{way}, params_{params}, crossings_{std::move(lanes), way,
-                                             params.car.width_m / 2
-                                                 + params.margin_m,
-                                             params.foresight_s} {
+    : lanes_{lanes}, way_{way}, params_{params},
+      crossings_{std::move(lanes), way,
+                 params.car.width_m / 2 + params.margin_m, params.foresight_s} {
   assert(params_.horizon_m > 0 && params_.margin_m >= 0);
   const auto& line = way->path();
   const auto count = std::ceil(line.length_m() / coarse_m);
@@ -68,21 +85,43 @@ void scene_interpreter::describe(time_point now, const own_place& me,
                                  driving_scene& out) {
   assert(std::isfinite(me.s_m) && std::isfinite(me.d_m));
   out.at = now;
+  out.stands_s = stands_s(now, me);
   out.lead.reset();
   out.crossings.clear();
   out.beside.clear();
   out.yields_m.clear();
+  out.keep_free.clear();
   gather(now, me, tracks);
-  if (params_.judges_crossings) {
-    const auto rear_m = me.s_m - params_.car.rear_m;
-    const auto front_m = me.s_m + params_.car.front_m;
-    crossings_.judge(rear_m, front_m + params_.horizon_m, others_,
-                     out.crossings, out.yields_m);
-  }
+  const auto rear_m = me.s_m - params_.car.rear_m;
+  const auto front_m = me.s_m + params_.car.front_m;
+  crossings_.look_ahead(rear_m, front_m, front_m + params_.horizon_m,
+                        out.keep_free);
+  if (params_.judges_crossings)
+    crossings_.judge({me.station, rear_m, front_m, me.speed_mps, out.stands_s},
+                     others_, out.keep_free, out.crossings, out.yields_m);
+  foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
   assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
   assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
+}
+
+double scene_interpreter::stands_s(time_point now, const own_place& me) {
+  if (me.speed_mps > stands_below_mps)
+    stands_since_.reset();
+  else if (!stands_since_)
+    stands_since_ = now;
+  return stands_since_ ? to_seconds(now - *stands_since_) : 0;
+}
+
+/// @returns how far off a body may come to matter, m.
+double scene_interpreter::reach_of(const track& x) const {
+  const auto comes_m =
+      params_.judges_crossings
+          ? std::clamp(params_.foresight_s * std::abs(x.speed_mps()),
+                       lane_network::at_line_m, lane_network::farthest_m)
+          : 0.0;
+  return comes_m + 2 * x.length_m + ample_m;
 }
 
 /// Brings the others, without the own vehicle, to the present.
@@ -96,14 +135,49 @@ void scene_interpreter::gather(time_point now, const own_place& me,
     assert(std::isfinite(known.heading_rad));
     if (me.station && known.station == me.station)
       continue;
-    const auto x = predict(known, now);
+    const auto far = known.centre() - own_centre;
+    if (const auto least_m = params_.horizon_m + reach_of(known);
+        dot(far, far) > least_m * least_m)
+      continue; // neither on the way nor soon at a crossing of it
+    auto x = predict(known, now);
+    keep_to_lane(known, now, x);
     const auto apart = x.centre() - own_centre;
     if (!known.station
-        && in_one_place(dot(apart, apart), x.width_m, car.width_m))
+        && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
       continue;
     assert(x.length_m > 0 && x.width_m > 0);
-    others_.push_back({x, false});
+    others_.push_back({x, false, false});
   }
+}
+
+/// Who has not been seen for a moment is thought to follow its lane's bend.
+void scene_interpreter::keep_to_lane(const track& known, time_point now,
+                                     track& x) const {
+  constexpr auto moment_s = 0.15;
+  const auto unseen_s = to_seconds(now - known.seen);
+  const auto speed_mps = known.speed_mps();
+  if (unseen_s < moment_s || speed_mps < stands_below_mps)
+    return;
+  auto then = known; // straight on since it was seen
+  then.motion.mean.col(0) -=
+      to_seconds(known.at - known.seen) * then.motion.mean.col(1);
+  const auto bent = lanes_->moved_along(then, speed_mps * unseen_s);
+  x.motion.mean = bent.motion.mean;
+  x.heading_rad = bent.heading_rad;
+  assert(x.motion.mean.allFinite());
+}
+
+/// Adds bodies where those who cut in will be soon.
+void scene_interpreter::foresee_cutting_in() {
+  const auto count = seen_ = others_.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (others_[i].cuts_in)
+      for (const auto in_s : {0.7, 1.4}) {
+        const auto& x = others_[i].x;
+        const auto way_m = in_s * std::max(0.0, x.speed_mps());
+        others_.push_back({lanes_->moved_along(x, way_m), false, false});
+      }
+  assert(others_.size() >= count);
 }
 
 /// Finds, by the beads, the places on the way ahead where bodies may reach
@@ -112,19 +186,22 @@ void scene_interpreter::find_near(const own_place& me) {
   const auto count = static_cast<std::int64_t>(beads_.size());
   assert(count > 0 && bead_m_ > 0);
   const auto front_m = me.s_m + params_.car.front_m;
-  auto first = static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
+  const auto at_front =
+      static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
   auto last = static_cast<std::int64_t>(
                   std::ceil((front_m + params_.horizon_m) / bead_m_))
               + 1;
-  if (!way_->closed()) {
-    first = std::clamp<std::int64_t>(first, 0, count - 1);
+  if (!way_->closed())
     last = std::clamp<std::int64_t>(last, 0, count - 1);
-  }
-  const auto start = (first % count + count) % count; // on the lap
-  assert(first <= last && start >= 0 && start < count);
   near_.clear();
   for (std::size_t who = 0; who < others_.size(); ++who) {
     const auto& x = others_[who].x;
+    // The middle of a long one may be far behind.
+    auto first = at_front - static_cast<std::int64_t>(radius_m(x) / bead_m_);
+    if (!way_->closed())
+      first = std::clamp<std::int64_t>(first, 0, count - 1);
+    const auto start = (first % count + count) % count; // on the lap
+    assert(first <= last && start >= 0 && start < count);
     const auto reach_m =
         radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
     auto away_m = [&](std::int64_t i) {
@@ -159,11 +236,9 @@ void scene_interpreter::find_near(const own_place& me) {
 /// Measures a body from the way.
 /// @returns nothing when it stays out of the lane and the way of the car.
 std::optional<scene_interpreter::footprint>
-scene_interpreter::measure(const near& where) const {
-  assert(where.who < others_.size());
-  const auto& x = others_[where.who].x;
+scene_interpreter::measure(const track& x, double guess_m) const {
   const auto& line = way_->path();
-  const auto on = line.project(x.centre(), where.guess_m, bead_m_);
+  const auto on = line.project(x.centre(), guess_m, bead_m_);
   const auto here = line.at(on.s_m);
   const auto turned_rad = x.heading_rad - here.heading_rad;
   const auto c = std::cos(turned_rad), s = std::sin(turned_rad);
@@ -184,30 +259,66 @@ scene_interpreter::measure(const near& where) const {
   if (std::abs(on.d_m) - across_m - bulge_m > wide_m)
     return {};
 
-  const auto pieces = std::ceil(x.length_m / outline_m);
-  assert(pieces >= 1);
   const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
-  for (auto i = 0.0; i <= pieces; ++i)
-    for (const auto side : {-0.5, 0.5}) {
-      const auto along_m = (i / pieces - 0.5) * x.length_m;
-      const auto left_m = side * x.width_m;
-      const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
-      const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
-                                  guess_m, bead_m_);
-      print.from_m = std::min(print.from_m, p.s_m);
-      print.to_m = std::max(print.to_m, p.s_m);
-      print.low_m = std::min(print.low_m, p.d_m);
-      print.high_m = std::max(print.high_m, p.d_m);
-    }
+  const auto add = [&](double along_m, double left_m) {
+    const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
+    const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
+                                guess_m, bead_m_);
+    print.from_m = std::min(print.from_m, p.s_m);
+    print.to_m = std::max(print.to_m, p.s_m);
+    print.low_m = std::min(print.low_m, p.d_m);
+    print.high_m = std::max(print.high_m, p.d_m);
+  };
+  const auto pieces_along = std::ceil(x.length_m / outline_m);
+  const auto pieces_across = std::ceil(x.width_m / outline_m);
+  assert(pieces_along >= 1 && pieces_across >= 1);
+  for (const auto side : {-0.5, 0.5}) {
+    for (auto i = 0.0; i <= pieces_along; ++i)
+      add((i / pieces_along - 0.5) * x.length_m, side * x.width_m);
+    for (auto i = 1.0; i < pieces_across; ++i)
+      add(side * x.length_m, (i / pieces_across - 0.5) * x.width_m);
+  }
   if (print.low_m >= wide_m || print.high_m <= -wide_m)
     return {};
   assert(print.from_m <= print.to_m && print.low_m <= print.high_m);
   return print;
 }
 
+/// Measures a body that comes towards the car as it will be where they meet:
+/// by then it has followed its lane, and turned with it.
+/// @param b  As it is now.
+std::optional<scene_interpreter::footprint>
+scene_interpreter::measure_met(const own_place& me, const near& where,
+                               const footprint& b) const {
+  assert(b.speed_mps < 0);
+  const auto& x = others_[where.who].x;
+  const auto way_m = b.from_m - me.s_m - params_.car.front_m;
+  const auto in_s = std::max(0.0, way_m) / (me.speed_mps - b.speed_mps);
+  const auto way_to_it_m = std::max(0.0, x.speed_mps()) * in_s;
+  auto met = measure(lanes_->moved_along(x, way_to_it_m),
+                     where.guess_m + b.speed_mps * in_s);
+  if (met)
+    met->from_m = b.from_m, met->to_m = b.to_m;
+  return met;
+}
+
+/// @returns whether a body can only be passed: that has begun, whoever planned
+/// it, and there is no way left to stop before it.
+bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
+                                    const footprint& b) const {
+  const auto way_m = b.from_m - me.s_m - params_.car.front_m;
+  const auto to_left_m = -b.high_m > b.low_m ? me.d_m : -me.d_m;
+  const auto has_begun = std::ranges::binary_search(were_beside_, x.id)
+                         || to_left_m > steers_round_m;
+  return has_begun
+         && way_m < me.speed_mps
+                        * (decides_within_s + me.speed_mps / (2 * stops_mps2));
+}
+
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
+  beside_.clear();
   const auto front_m = me.s_m + params_.car.front_m;
   const auto rear_m = me.s_m - params_.car.rear_m;
   const auto need_m = 2 * corridor_m();
@@ -215,24 +326,63 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   for (const auto& where : near_) {
     if (out.lead && where.low_m > out.lead->rear_s_m)
       break;
-    const auto print = measure(where);
+    auto print = measure(others_[where.who].x, where.guess_m);
     if (!print || print->to_m <= rear_m
         || print->from_m > front_m + params_.horizon_m)
       continue;
-    const auto& b = *print;
-    const auto& [x, is_crossing] = others_[where.who];
+    if (print->speed_mps < -stands_below_mps && print->low_m < half_lane_m_
+        && print->high_m > -half_lane_m_)
+      print = measure_met(me, where, *print);
+    if (!print)
+      continue; // it will have left the lane
+    auto b = *print;
+    if (where.who >= seen_ && b.from_m < front_m)
+      continue; // it would come into the side: braking does not help
+    const auto& [x, is_crossing, cuts_in] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;
+    const auto is_in_the_way = [&](double margin_m) {
+      return b.low_m - margin_m < corridor_m()
+             && b.high_m + margin_m > -corridor_m();
+    };
     const auto room_m =
         b.half_lane_m + std::max(-b.high_m, b.low_m); // on its better side
-    const auto is_in_the_way =
-        b.low_m < corridor_m() && b.high_m > -corridor_m();
-    if (!is_in_the_way || room_m >= need_m)
-      out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps});
-    else if (b.to_m > front_m && (!out.lead || b.from_m < out.lead->rear_s_m))
-      out.lead = {x.station, b.from_m, std::max(b.speed_mps, 0.0),
+    const auto lacking_m = [&](double margin_m) {
+      return is_in_the_way(margin_m)
+                 ? std::max(0.0, need_m + margin_m - room_m + rounding_m)
+                 : 0.0;
+    };
+    const auto passes = has_to_pass(me, x, b);
+    auto margin_m = x.margin_m();
+    const auto may_lack_m = passes ? 2 * params_.margin_m - least_room_to_pass_m
+                            : std::ranges::binary_search(were_beside_, x.id)
+                                ? hysteresis_m
+                                : 0.0;
+    if (passes) // what is uncertain is no reason to turn back now
+      margin_m -= std::clamp(lacking_m(margin_m) - may_lack_m, 0.0, margin_m);
+    const auto lacks_m = lacking_m(margin_m);
+    const auto certainly_lacks_m = lacking_m(0);
+    b.low_m -= margin_m;
+    b.high_m += margin_m;
+    if (lacks_m <= may_lack_m + 2 * rounding_m) {
+      out.beside.push_back(
+          {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, lacks_m});
+      beside_.push_back(x.id);
+    } else if (b.to_m > front_m
+               && (!out.lead || b.from_m < out.lead->rear_s_m)) {
+      // What is certain leaves room: it may turn out to be passable, and then
+      // there must be way to steer round it.
+      const auto may_pass = x.stands() && certainly_lacks_m <= 0;
+      const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
+      const auto back_m =
+          may_pass ? std::clamp(b.from_m - front_m - stop_m, 0.0, pulls_out_m)
+                   : 0.0;
+      out.lead = {x.station, b.from_m - back_m, std::max(b.speed_mps, 0.0),
                   b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+    }
   }
+  std::ranges::sort(beside_);
+  were_beside_ = beside_;
   assert(!out.lead || out.lead->speed_mps >= 0);
   if (out.lead)
     std::erase_if(out.beside, [&](const lane_obstacle& o) {

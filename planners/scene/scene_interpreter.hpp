@@ -8,6 +8,7 @@
 #include "planners/scene/track.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,19 +32,24 @@ struct own_place {
   std::optional<station_id> station; ///< If it is heard by that name.
   double s_m = 0;                    ///< Rear axle on the route, with laps.
   double d_m = 0; ///< Offset from the centre line, left positive.
+  double speed_mps = 0;
 };
 
 /// Finds out who leads, who stands in the lane, and who crosses. A body is
 /// * nobody's business while it stays out of the own lane, whatever its
 ///   heading;
 /// * beside, when it reaches into the lane but leaves room for the own body
-///   and both margins on one side;
+///   and both margins on one side; once it has been that, with a little less
+///   room too, and with as much as the own body needs when there is no way to
+///   stop before it any more;
 /// * the lead, when it is the nearest that reaches into the way of the own
 ///   body (and margins) on the centre line, and leaves no such room; bodies
 ///   beyond it are not looked for;
 /// * crossing, when crossings are judged and it is on, or drives towards, the
 ///   other side of a zone ahead. Who drives across the own way there is
-///   not a lead besides, and who drives along it is not crossing.
+///   not a lead besides, and who drives along it is not crossing. Whoever
+///   comes first to a zone that the own front is on already counts where it
+///   will be in a moment, too.
 class scene_interpreter {
 public:
   /// @param lanes  Of the map that the route is on; not null.
@@ -72,15 +78,24 @@ private:
     double cosine; // of the angle to the way
     double speed_mps, half_lane_m;
   };
+  double reach_of(const track& x) const;
+  double stands_s(time_point now, const own_place& me);
   void gather(time_point now, const own_place& me,
               std::span<const track> tracks);
+  void keep_to_lane(const track& known, time_point now, track& x) const;
+  void foresee_cutting_in();
   void find_near(const own_place& me);
-  std::optional<footprint> measure(const near& where) const;
+  std::optional<footprint> measure(const track& x, double guess_m) const;
+  std::optional<footprint> measure_met(const own_place& me, const near& where,
+                                       const footprint& b) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
+  bool has_to_pass(const own_place& me, const track& x,
+                   const footprint& b) const;
 
+  std::shared_ptr<const lane_network> lanes_;
   world::route_ptr way_;
   scene_params params_;
   crossing_predictor crossings_;
@@ -88,7 +103,10 @@ private:
   double bead_m_ = 0;
   double half_lane_m_ = 0; // at its widest
   std::vector<other_body> others_;
+  std::size_t seen_ = 0; // of them; the rest is where those who cut in will be
   std::vector<near> near_;
+  std::vector<std::uint32_t> beside_, were_beside_; // their tracks, sorted
+  std::optional<time_point> stands_since_;
 };
 
 } // namespace sofof::planners

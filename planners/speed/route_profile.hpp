@@ -5,6 +5,7 @@
 #include "planners/speed/speed_envelope.hpp"
 
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace sofof::planners {
@@ -12,8 +13,10 @@ namespace sofof::planners {
 /// A route as it is sampled, and how fast it may be driven. It takes
 /// milliseconds to compute and never changes: all planners share one.
 struct route_profile {
-  route_profile(world::route_ptr way, const comfort_limits& style)
-      : line{std::move(way)}, envelope{line.way(), style} {}
+  /// @param most_mps  As in `reference_line`.
+  route_profile(world::route_ptr way, const comfort_limits& style,
+                std::span<const double> most_mps = {})
+      : line{std::move(way), most_mps}, envelope{line.way(), style, most_mps} {}
 
   reference_line line;
   speed_envelope envelope;

@@ -31,9 +31,12 @@ struct way_table {
 
 /// v²/2 that limits and bends allow at a place.
 double allowed_at(const world::route& way, double s_m,
-                  const comfort_limits& params) {
+                  const comfort_limits& params,
+                  std::span<const double> most_mps) {
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
-  const auto limit = std::max(min_speed_mps, way.limit_mps(s_m));
+  const auto limit =
+      std::max(min_speed_mps,
+               std::min(way.limit_mps(s_m), seen_limit_mps(most_mps, s_m)));
   return std::min(limit * limit, params.max_lateral_accel_mps2
                                      / std::max(bend, min_curvature_1pm))
          / 2;
@@ -43,12 +46,13 @@ double allowed_at(const world::route& way, double s_m,
 /// to the entries beside it, so that the line between two entries stays below
 /// what is allowed between them.
 way_table allowed(const world::route& way, double step_m, long size,
-                  const comfort_limits& params) {
+                  const comfort_limits& params,
+                  std::span<const double> most_mps) {
   assert(step_m > 0 && size > 0);
   way_table half{{}, way.closed()}; // in half steps
   for (long i = 0; i < 2 * size; ++i)
     half.values.push_back(
-        allowed_at(way, static_cast<double>(i) * step_m / 2, params));
+        allowed_at(way, static_cast<double>(i) * step_m / 2, params, most_mps));
   way_table u{{}, way.closed()};
   for (long i = 0; i < 2 * size; i += 2)
     u.values.push_back(std::min(
@@ -96,7 +100,8 @@ way_table rounded(const way_table& u, double step_m, double build_up_s) {
 } // namespace
 
 speed_envelope::speed_envelope(const world::route& way,
-                               const comfort_limits& params)
+                               const comfort_limits& params,
+                               std::span<const double> most_mps)
     : length_m_{way.length_m()}, closed_{way.closed()} {
   assert(length_m_ > 0 && params.max_accel_mps2 > 0);
   assert(params.comfort_decel_mps2 > 0 && params.max_jerk_mps3 > 0);
@@ -108,7 +113,7 @@ speed_envelope::speed_envelope(const world::route& way,
   const auto decel = params.comfort_decel_mps2;
   const auto jerk = table_share_of_jerk * params.max_jerk_mps3;
 
-  auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params);
+  auto u = allowed(way, step_m, closed_ ? steps : steps + 1, params, most_mps);
   ramp_from_slow(u, 1, step_m, params.max_accel_mps2, jerk);
   ramp_from_slow(u, -1, step_m, decel, jerk);
   assert(u.size() == (closed_ ? steps : steps + 1));

@@ -1,9 +1,11 @@
 // How fast a route may be driven where.
 #pragma once
 
+#include "planners/scene/reference_line.hpp"
 #include "planners/speed/comfort_limits.hpp"
 #include "world/roads/route.hpp"
 
+#include <span>
 #include <vector>
 
 namespace sofof::planners {
@@ -19,8 +21,10 @@ public:
     double accel_mps2 = 0;
   };
 
-  /// @param way  Its limits must be positive.
-  speed_envelope(const world::route& way, const comfort_limits& params);
+  /// @param way       Its limits must be positive.
+  /// @param most_mps  As in `reference_line`.
+  speed_envelope(const world::route& way, const comfort_limits& params,
+                 std::span<const double> most_mps = {});
 
   /// @param s_m  Arc length on the route; closed routes wrap, open ones
   ///             clamp.

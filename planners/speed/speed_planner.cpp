@@ -156,6 +156,25 @@ bool speed_planner::comes_too_late(const speed_constraints& task,
                 > end.last_m;
 }
 
+/// @returns how far it may move up: to where it stops, or to a place that it
+/// may not come to yet.
+double speed_planner::free_m(const speed_constraints& task, const stop& end) {
+  auto way_m = end.wanted_m;
+  for (const auto& window : task.windows)
+    if (window.earliest_s > 0)
+      way_m = std::min(way_m, std::max(window.at_m, 0.0));
+  assert(way_m <= end.wanted_m);
+  return way_m;
+}
+
+/// @returns whether it has to have passed a place that it does not come to.
+bool speed_planner::is_to_be_passed(const speed_constraints& task,
+                                    double way_m) {
+  return std::ranges::any_of(task.windows, [way_m](const auto& window) {
+    return std::isfinite(window.latest_s) && window.at_m > way_m;
+  });
+}
+
 speed_planner::result speed_planner::plan(const planned_path& path,
                                           double way_m,
                                           const speed_constraints& task,
@@ -167,14 +186,18 @@ speed_planner::result speed_planner::plan(const planned_path& path,
   if (needed_decel(task) > style_.firm_decel_mps2()
       || comes_too_late(task, end)) {
     r = brake_only(task);
-  } else if (setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
+  } else if (const auto up_m = free_m(task, end);
+             setting_off::is_needed({0, task.speed_mps, task.accel_mps2},
                                     grid_.ds_m)
-             && end.wanted_m < moving_up_m) {
-    const auto stands =
-        task.speed_mps < halted_mps && end.wanted_m < worth_starting_m;
+             && up_m < moving_up_m) {
+    if (is_to_be_passed(task, up_m)) {
+      motion_.clear(); // in time, where it would come to rest before that
+      return r;
+    }
+    const auto stands = task.speed_mps < halted_mps && up_m < worth_starting_m;
     r.how = stands ? speed_mode::stands : speed_mode::moves_up;
     r.report.status = ocp::solve_status::converged;
-    move_up({0, task.speed_mps, task.accel_mps2}, end.wanted_m, style_, steps_,
+    move_up({0, task.speed_mps, task.accel_mps2}, up_m, style_, steps_,
             motion_);
     solved_ = false;
   } else if (!drive(path, way_m, task, end, r, go_on)) {

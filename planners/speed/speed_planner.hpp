@@ -73,6 +73,8 @@ private:
     bool stops; // at its end
   };
   stop find_stop(const speed_constraints& task) const;
+  static double free_m(const speed_constraints& task, const stop& end);
+  static bool is_to_be_passed(const speed_constraints& task, double way_m);
   double needed_decel(const speed_constraints& task) const;
   bool drive(const planned_path& path, double way_m,
              const speed_constraints& task, const stop& end, result& r,

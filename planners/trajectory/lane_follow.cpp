@@ -98,6 +98,7 @@ plan_report lane_follow::plan(time_point now, const planning_input& input,
     assert(!(x.speed_mps < 0));
     x = advance(x, next_accel(x, others), params_.step_s);
   }
+  tell_extremes(out, params_, report);
   return report;
 }
 

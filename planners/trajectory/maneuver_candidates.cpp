@@ -4,24 +4,29 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace sofof::planners {
 namespace {
 
 /// Between those who cross and the own car, at the place that both use.
 constexpr double gap_after_s = 0.8;
-/// Whoever goes first shall not notice that the own car went before.
-constexpr double gap_before_s = 1.5;
-/// When a way is made at the soonest.
-double soonest_s(double way_m, const crossing_car& car) {
-  const auto v = car.speed_mps, a = car.max_accel_mps2;
-  const auto top = std::max(v, car.top_mps);
-  assert(v >= 0 && a > 0);
-  const auto until_top = (top * top - v * v) / (2 * a);
-  if (way_m < until_top)
-    return (std::sqrt(v * v + 2 * a * way_m) - v) / a;
-  return (top - v) / a + (way_m - until_top) / top;
-}
+/// Whoever goes first shall not notice that the own car went before: not at
+/// all when it decides to, less once it has begun.
+constexpr double gap_to_begin_s = 1.5;
+constexpr double gap_once_begun_s = 0.8;
+constexpr double gap_at_last_s = 0.5;
+/// Whoever can stay off a place by braking so little may have to, for a car
+/// that cannot stop before it any more.
+constexpr double little_braking_mps2 = 1.5;
+/// Who waits at a line or is slow, or hardly moves, may come so far beyond it:
+/// a place begins before bodies touch.
+constexpr double waits_within_m = 0.5, stands_within_m = 1.5;
+constexpr double slow_mps = 2.0, hardly_mps = 0.3;
+/// Less is not worth to come beyond a line.
+constexpr double worth_it_m = 0.1;
+/// It takes so long until a car that decides to stop brakes.
+constexpr double hesitation_s = 0.5;
 
 void put_first(auto& orders, std::uint32_t choice) {
   const auto it =
@@ -30,66 +35,249 @@ void put_first(auto& orders, std::uint32_t choice) {
     std::rotate(orders.begin(), it, it + 1);
 }
 
+/// A place where somebody crosses who is minded.
+struct minded_place {
+  double line_m, clear_m; // way to before and behind it
+  const crossing_user* user;
+  std::size_t car; // its bit
+};
+
+/// Those who are minded, in the order in which they come.
+struct minded_cars {
+  struct car {
+    std::uint32_t body;
+    double enter_s;
+    double gap_s;   // to leave it when the own car goes before it, ...
+    bool committed; // ... and cannot wait for it any more
+  };
+  std::array<minded_place, crossing_order::most_windows> places;
+  std::size_t count = 0;
+  std::array<car, crossing_order::most_cars> cars;
+  std::size_t car_count = 0;
+};
+
+/// A crossing that the own front has not reached, of one who goes first there
+/// and will not have left before the car can be there.
+bool is_minded(const crossing_user& user, double line_m,
+               const crossing_car& car) {
+  return line_m >= 0 && user.goes_first
+         && user.leave_s + gap_after_s > soonest_s(line_m, car);
+}
+
+/// The first cars to come; of more there is no telling anyway.
+void find_cars(std::span<const crossing_user> users, const crossing_car& car,
+               const auto& line_of, minded_cars& found) {
+  std::array<minded_cars::car, 4 * crossing_order::most_cars> all;
+  std::size_t count = 0;
+  for (const auto& user : users) {
+    if (!is_minded(user, line_of(user), car))
+      continue;
+    const auto known =
+        std::find_if(all.begin(), all.begin() + count,
+                     [&](const auto& x) { return x.body == user.body; });
+    if (known != all.begin() + count)
+      known->enter_s = std::min(known->enter_s, user.enter_s);
+    else if (count < all.size())
+      all[count++] = {user.body, user.enter_s, gap_to_begin_s, false};
+  }
+  std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
+    return std::pair{x.enter_s, x.body};
+  });
+  found.car_count = std::min(count, found.cars.size());
+  std::copy_n(all.begin(), found.car_count, found.cars.begin());
+  assert(found.car_count <= crossing_order::most_cars);
+}
+
+/// @returns way to where it waits for what begins after a way: there, or a
+/// little later where that is too near; negative where it is too late to.
+double waiting_line_m(double line_m, const crossing_car& car, bool waits) {
+  const auto slow = car.speed_mps < slow_mps;
+  const auto within_m = car.speed_mps < hardly_mps ? stands_within_m
+                        : waits || slow            ? waits_within_m
+                                                   : 0.0;
+  if (line_m < -within_m)
+    return line_m;
+  const auto begun = std::clamp(-car.accel_mps2 / car.firm_decel_mps2, 0., 1.);
+  const auto rolls_on_m = begun * hesitation_s * car.speed_mps;
+  const auto softly_m =
+      std::min(line_m + waits_within_m, stopping_m(car) - rolls_on_m);
+  return std::max(softly_m > line_m + worth_it_m ? softly_m : line_m, 0.0);
+}
+
+minded_cars find_minded(std::span<const crossing_user> users,
+                        const crossing_car& car,
+                        const std::function<double(double)>& way,
+                        const crossing_choice& last) {
+  minded_cars found;
+  const auto line_of = [&](const crossing_user& user) {
+    return waiting_line_m(way(user.from_m - car.front_m), car, last.waits);
+  };
+  find_cars(users, car, line_of, found);
+  for (const auto& user : users) {
+    const auto line_m = line_of(user);
+    for (std::size_t i = 0; i < found.car_count; ++i) {
+      auto& x = found.cars[i];
+      if (x.body != user.body || !is_minded(user, line_m, car)
+          || found.count == found.places.size())
+        continue;
+      found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
+                                     i};
+      const auto before = last.goes_before(x.body);
+      x.committed =
+          x.committed
+          || (before && stopping_m(car) > way(user.from_m - car.front_m));
+      if (before)
+        x.gap_s = x.committed ? gap_at_last_s : gap_once_begun_s;
+    }
+  }
+  assert(found.car_count == 0 || found.count > 0);
+  return found;
+}
+
+/// @returns whether it can be driven at all.
+bool add_windows(const minded_cars& minded, const crossing_car& car,
+                 crossing_order& order) {
+  auto possible = true;
+  for (std::size_t i = 0; i < minded.count; ++i) {
+    const auto& [line_m, clear_m, user, bit] = minded.places[i];
+    const auto before = (order.choice >> bit & 1U) != 0;
+    if (before && minded.cars[bit].committed
+        && user->brakes_mps2 < little_braking_mps2)
+      continue; // it lets the car pass
+    auto& window = order.windows[order.count++];
+    if (before) {
+      window = {clear_m, -speed_constraints::never,
+                user->enter_s - minded.cars[bit].gap_s};
+      possible &= soonest_s(clear_m, car) <= window.latest_s;
+    } else {
+      window = {line_m, user->leave_s + gap_after_s, speed_constraints::never};
+      possible &= std::isfinite(window.earliest_s);
+    }
+  }
+  assert(order.count <= crossing_order::most_windows);
+  return possible;
+}
+
+/// Who goes before one at a place goes before all who come there later, too.
+/// @returns the bits with those of such cars.
+std::uint32_t with_later(std::uint32_t bits, const minded_cars& minded) {
+  const auto is_before = [&](const minded_place& x) {
+    return (bits >> x.car & 1U) != 0;
+  };
+  for (std::size_t i = 0; i < minded.count; ++i)
+    for (std::size_t k = 0; k < minded.count; ++k) {
+      const auto &a = minded.places[i], &b = minded.places[k];
+      if (is_before(a) && !is_before(b) && a.user->enter_s <= b.user->enter_s
+          && a.user->from_m < b.user->to_m && b.user->from_m < a.user->to_m)
+        return with_later(bits | 1U << b.car, minded);
+    }
+  return bits;
+}
+
+/// @returns the bits of the cars that the last plan went before.
+std::uint32_t bits_of(const crossing_choice& last, const minded_cars& minded) {
+  if (last.waits)
+    return crossing_order::waits;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < minded.car_count; ++i)
+    if (last.goes_before(minded.cars[i].body))
+      bits |= 1U << i;
+  return with_later(bits, minded);
+}
+
 } // namespace
 
-void list_orders(std::span<const crossing_user> users, const crossing_car& car,
-                 const std::function<double(double)>& way, std::uint32_t first,
-                 std::size_t most, std::vector<crossing_order>& out) {
+double soonest_s(double way_m, const crossing_car& car) {
+  const auto v = car.speed_mps, a = car.max_accel_mps2;
+  const auto top = std::max(v, car.top_mps);
+  assert(v >= 0 && a > 0);
+  const auto until_top = (top * top - v * v) / (2 * a);
+  if (way_m < until_top)
+    return (std::sqrt(v * v + 2 * a * std::max(way_m, 0.0)) - v) / a;
+  return (top - v) / a + (way_m - until_top) / top;
+}
+
+double stopping_m(const crossing_car& car) {
+  const auto v = car.speed_mps;
+  assert(v >= 0 && car.firm_decel_mps2 > 0);
+  return v * (hesitation_s + v / (2 * car.firm_decel_mps2));
+}
+
+crossing_choice choice_of(const crossing_order& order) {
+  crossing_choice choice{order.choice == crossing_order::waits, {}};
+  for (std::size_t i = 0; i < order.cars.size(); ++i)
+    if (!choice.waits && (order.choice >> i & 1U) != 0)
+      choice.before[i] = order.cars[i];
+  return choice;
+}
+
+crossing_choice going_on(crossing_choice last,
+                         std::span<const crossing_user> users,
+                         const crossing_car& car,
+                         const std::function<double(double)>& way,
+                         const std::function<double(double)>& when_s) {
+  assert(way && when_s);
+  for (const auto& user : users) {
+    const auto line_m = way(user.from_m - car.front_m);
+    const auto free = std::ranges::find(last.before, 0U);
+    if (last.waits || free == last.before.end() || !user.goes_first
+        || line_m < 0 || line_m > stopping_m(car)
+        || last.goes_before(user.body))
+      continue;
+    const auto goes_before = [&](const crossing_user& x) {
+      return x.body != user.body
+             || when_s(way(x.to_m + car.rear_m)) < x.enter_s;
+    };
+    if (std::ranges::all_of(users, goes_before))
+      *free = user.body;
+  }
+  return last;
+}
+
+bool list_orders(std::span<const crossing_user> users, const crossing_car& car,
+                 const std::function<double(double)>& way,
+                 const crossing_choice& last, std::size_t most,
+                 std::vector<crossing_order>& out) {
   assert(most >= 1 && car.max_accel_mps2 > 0);
   assert(car.speed_mps >= 0 && way);
-  struct place {
-    double line_m, clear_m; // way to before and behind the crossing
-    const crossing_user* user;
-  };
-  std::array<place, crossing_order::most_users> minded;
-  std::size_t n = 0;
-  for (const auto& user : users) {
-    const auto line = way(user.from_m - car.front_m);
-    const auto waits_for = user.goes_first || user.enter_s <= 0;
-    if (waits_for && line >= 0 && n < minded.size())
-      minded[n++] = {line, way(user.to_m + car.rear_m), &user};
-  }
+  const auto minded = find_minded(users, car, way, last);
+  const auto before_all = (1U << minded.car_count) - 1;
+  const auto first = bits_of(last, minded);
+  crossing_order blank;
+  for (std::size_t i = 0; i < minded.car_count; ++i)
+    blank.cars[i] = minded.cars[i].body;
   out.clear();
-  for (std::uint32_t choice = 0; choice < (1U << n); ++choice) {
-    crossing_order order;
+  for (std::uint32_t choice = 0; choice <= before_all; ++choice) {
+    auto order = blank;
     order.choice = choice;
-    auto possible = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto& [line, clear, user] = minded[i];
-      auto& window = order.windows[order.count++];
-      if ((choice >> i & 1U) != 0) {
-        window = {clear, -speed_constraints::never,
-                  user->enter_s - gap_before_s};
-        possible &= soonest_s(clear, car) <= window.latest_s;
-      } else {
-        window = {line, user->leave_s + gap_after_s, speed_constraints::never};
-        possible &= std::isfinite(window.earliest_s);
-      }
-    }
-    if (possible)
+    if (with_later(choice, minded) == choice && add_windows(minded, car, order))
       out.push_back(order);
   }
+  put_first(out, before_all);
+  put_first(out, 0);
   put_first(out, first);
-  if (out.size() > most)
-    out.resize(std::max<std::size_t>(most, 1));
-  if (n == 0) {
+  constexpr std::size_t always = 3; // the last one, after all, before all
+  if (out.size() > std::max(most, always))
+    out.resize(std::max(most, always));
+  if (minded.car_count == 0) {
     assert(out.size() == 1 && out.front().count == 0);
-    return;
+    return true;
   }
-  crossing_order order;
+  auto order = blank;
   order.choice = crossing_order::waits;
-  for (std::size_t i = 0; i < n; ++i)
-    order.stop_m = std::min(order.stop_m, minded[i].line_m);
+  for (std::size_t i = 0; i < minded.count; ++i)
+    order.stop_m = std::min(order.stop_m, minded.places[i].line_m);
   assert(order.stop_m >= 0); // before the first crossing, and not behind
   out.push_back(order);
   put_first(out, first);
+  return out.front().choice == first;
 }
 
 bool leaves_room(const lane_obstacle& body, side_of_road side,
                  double half_width_m) {
   const auto room = side == side_of_road::right ? body.low_m + half_width_m
                                                 : half_width_m - body.high_m;
-  return room >= corridor::room_beside_m;
+  return room >= corridor::room_beside_m - body.lacks_m;
 }
 
 void list_sides(std::span<const lane_obstacle> bodies, double half_width_m,

@@ -21,7 +21,15 @@ constexpr double least_left_s = 1.5;
 constexpr double rounding_mps2 = 1e-6;
 /// A car ahead that slows down less than this keeps its speed.
 constexpr double least_braking_mps2 = 0.3;
-/// A path that could not be planned on ends here, before its end.
+/// Who is slower than this among crossings may as well stand there.
+constexpr double rests_below_mps = 0.5;
+/// Who has waited longer goes on among crossings as far as it can.
+constexpr double patience_s = 15;
+/// What a car keeps to the one ahead behind a crossing.
+constexpr double least_way_out_m = 1.0;
+/// A path that could not be planned on keeps so far off bodies at least; it
+/// ends here, before its end.
+constexpr double closest_m = 0.1;
 constexpr double path_end_gap_m = 2.0;
 
 /// Path and speeds are planned on grids alike.
@@ -36,6 +44,10 @@ constexpr double moving_mps = 0.3;
 bool is_moving(const lane_obstacle& body) {
   return std::abs(body.speed_mps) > moving_mps;
 }
+
+/// Of plans to cross, the best first. Cars that each come to rest among
+/// crossings for another one stand there for ever.
+enum class worth { drives, waits, rests, brakes, none };
 
 } // namespace
 
@@ -80,7 +92,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
   plan_report report;
   report.input = input.at;
   const scene at{now, joined(lane(), now, input, previous), input.others,
-                 to_seconds(now - input.others.at)};
+                 to_seconds(now - input.others.at), previous};
   s_m_ = at.start.s_m;
   assert(std::isfinite(s_m_) && at.start.speed_mps >= 0);
   auto done = false;
@@ -118,6 +130,7 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
     out = safe_stop(lane(), now, at.start);
   }
   assert(out.start == now && out.is_sound());
+  tell_extremes(out, style_, report);
   return report;
 }
 
@@ -125,7 +138,8 @@ plan_report spatial_planner::plan(time_point now, const planning_input& input,
 void spatial_planner::forget() {
   path_->forget();
   speed_->forget();
-  sides_ = order_ = 0;
+  sides_ = 0;
+  crossed_ = {};
   kept_from_.reset();
 }
 
@@ -202,7 +216,8 @@ bool spatial_planner::meets(const lane_obstacle& body) const {
   constexpr auto step_m = 0.5;
   assert(!path_->path().empty());
   assert(!(body.from_m > body.to_m));
-  const auto half_m = car_.width_m / 2;
+  const auto may_stop = body.from_m > s_m_ + style_.front_m;
+  const auto half_m = car_.width_m / 2 + (may_stop ? closest_m : 0.0);
   for (auto s = body.from_m - style_.front_m; s < body.to_m + car_.rear_m;
        s += step_m) {
     const auto d = path_->path().at_s(s).x.d_m;
@@ -277,6 +292,59 @@ speed_constraints spatial_planner::task(const scene& at) const {
   return t;
 }
 
+crossing_car spatial_planner::crossing(const scene& at) const {
+  constexpr auto look_m = 5.0;
+  const auto& line = way_->line;
+  auto top_mps = 0.0; // where it is, a corner may slow it down
+  for (auto ahead_m = 0.0; ahead_m < params_.horizon_m; ahead_m += look_m)
+    top_mps = std::max(top_mps, line.limit_mps(at.start.s_m + ahead_m));
+  return {style_.front_m,        car_.rear_m,
+          at.start.speed_mps,    top_mps,
+          style_.max_accel_mps2, style_.firm_decel_mps2(),
+          at.start.accel_mps2};
+}
+
+// Before a place where others cross, rather than on it, where the way out is
+// not free, as long as the car can stop there.
+double spatial_planner::kept_free_m(const speed_constraints& t,
+                                    const scene& at) const {
+  const auto car = crossing(at);
+  const auto stopping = stopping_m(car);
+  assert(stopping >= 0);
+  for (const auto& stretch : at.others.keep_free) {
+    const auto line_m = way_from_car(stretch.from_m - style_.front_m);
+    const auto clear_m = way_from_car(stretch.to_m + car_.rear_m);
+    if (line_m < stopping)
+      continue;
+    const auto stops_on_it = t.stop_m > line_m && t.stop_m < clear_m;
+    const auto stops_behind_it =
+        t.ahead && t.ahead->touch_m > line_m
+        && t.ahead->at(soonest_s(clear_m, car)) < clear_m + least_way_out_m;
+    if (stops_on_it || stops_behind_it)
+      return std::min(t.stop_m, line_m);
+  }
+  return t.stop_m;
+}
+
+// Whoever comes to rest there holds up those who are held up already: a car
+// waits before all crossings instead, but not for ever.
+bool spatial_planner::rests_among(const speed_profile& motion,
+                                  const scene& at) const {
+  assert(!motion.empty());
+  if (at.others.stands_s > patience_s)
+    return false;
+  const auto stopping = stopping_m(crossing(at));
+  return std::ranges::any_of(at.others.keep_free, [&](const way_stretch& x) {
+    const auto line_m = way_from_car(x.from_m - style_.front_m);
+    const auto clear_m = way_from_car(x.to_m + car_.rear_m);
+    return line_m >= stopping
+           && std::ranges::any_of(motion, [&](const auto& moment) {
+                return moment.s_m > line_m && moment.s_m < clear_m
+                       && moment.speed_mps < rests_below_mps;
+              });
+  });
+}
+
 bool spatial_planner::plan_speed(const scene& at, plan_report& report,
                                  const ocp::budget& go_on) {
   assert(!path_->path().empty() && !all_sides_.empty());
@@ -287,46 +355,54 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
-  const crossing_car car{style_.front_m, car_.rear_m, at.start.speed_mps,
-                         way_->line.limit_mps(at.start.s_m),
-                         style_.max_accel_mps2};
-  list_orders(
-      users_, car, [this](double s) { return way_from_car(s); }, order_, most(),
+  const auto car = crossing(at);
+  const auto way = [this](double s) { return way_from_car(s); };
+  const auto when_s = [&](double way_m) {
+    if (at.in_use)
+      for (const auto& p : at.in_use->points)
+        if (way(p.s_m) >= way_m)
+          return p.t_s - to_seconds(at.now - at.in_use->start);
+    return speed_constraints::never;
+  };
+  const auto is_as_before = list_orders(
+      users_, car, way, going_on(crossed_, users_, car, way, when_s), most(),
       all_orders_);
   const auto free = task(at);
   assert(!all_orders_.empty() && speed_ != other_speed_);
-  auto found = false, calm = false;
-  auto cheapest = std::numeric_limits<double>::infinity();
+  constexpr auto nothing_yet =
+      std::pair{worth::none, std::numeric_limits<double>::infinity()};
+  auto best = nothing_yet;
   report.candidates =
       static_cast<std::int32_t>(all_sides_.size() * all_orders_.size());
-  const auto last = order_;
   for (const auto& order : all_orders_) {
-    if (order.choice == crossing_order::waits && calm && last != order.choice)
-      continue; // only when nothing else is left
     const auto first = &order == &all_orders_.front();
+    const auto waits = order.choice == crossing_order::waits;
+    if (waits && best.first == worth::drives)
+      continue; // only when nothing else is left
     auto& trial = first ? speed_ : other_speed_;
     if (!first)
       trial->forget();
     auto t = free;
     t.windows = std::span{order.windows}.first(order.count);
     t.stop_m = std::min(t.stop_m, order.stop_m);
+    t.stop_m = kept_free_m(t, at);
     const auto result = trial->plan(path_->path(), way_m_, t, go_on);
     report.iterations += result.report.iterations;
-    const auto good = !trial->motion().empty();
-    const auto price =
-        order.choice == last ? (1 - hysteresis) * result.price : result.price;
-    // A plan in comfort is better than any other.
-    const auto better = !found || (!calm && !result.emergency)
-                        || (calm != result.emergency && price < cheapest);
-    if (!found)
+    if (best == nothing_yet)
       report.velocity = result.report.status;
-    if (!good || !better)
+    if (trial->motion().empty())
       continue;
+    const auto price =
+        first && is_as_before ? (1 - hysteresis) * result.price : result.price;
+    const auto is_worth = result.emergency                   ? worth::brakes
+                          : waits                            ? worth::waits
+                          : rests_among(trial->motion(), at) ? worth::rests
+                                                             : worth::drives;
     assert(!std::isnan(price));
-    found = true;
-    calm = !result.emergency;
-    cheapest = price;
-    order_ = order.choice;
+    if (std::pair{is_worth, price} >= best)
+      continue;
+    best = {is_worth, price};
+    crossed_ = choice_of(order);
     report.velocity = result.report.status;
     report.violation = std::max(report.violation, result.report.violation);
     report.emergency = result.emergency;
@@ -334,8 +410,8 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (!first)
       std::swap(speed_, other_speed_);
   }
-  assert(!found || std::isfinite(cheapest));
-  return found;
+  assert(best == nothing_yet || std::isfinite(best.second));
+  return best != nothing_yet;
 }
 
 // -- what is published --------------------------------------------------------

@@ -48,7 +48,8 @@ private:
     time_point now;
     planning_input start;
     const driving_scene& others;
-    double age_s; ///< Of what is known of them.
+    double age_s;                    ///< Of what is known of them.
+    const world::trajectory* in_use; ///< If there is a plan.
   };
 
   void forget();
@@ -57,6 +58,9 @@ private:
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
   speed_constraints task(const scene& at) const;
+  crossing_car crossing(const scene& at) const;
+  double kept_free_m(const speed_constraints& t, const scene& at) const;
+  bool rests_among(const speed_profile& motion, const scene& at) const;
   bool keep(const world::trajectory& previous, const scene& at,
             world::trajectory& out);
   bool avoids_crossings() const;
@@ -81,10 +85,11 @@ private:
   // The plan in use and one to try others with.
   std::unique_ptr<path_planner> path_, other_path_;
   std::unique_ptr<speed_planner> speed_, other_speed_;
-  double way_m_ = 0;       // of the car on its path, ...
-  double s_m_ = 0;         // ... and on its route
-  double blocked_s_m_ = 0; // where a body begins that leaves no room
-  std::uint32_t sides_ = 0, order_ = 0; // chosen last
+  double way_m_ = 0;        // of the car on its path, ...
+  double s_m_ = 0;          // ... and on its route
+  double blocked_s_m_ = 0;  // where a body begins that leaves no room
+  std::uint32_t sides_ = 0; // chosen last
+  crossing_choice crossed_; // decided last
   std::vector<lane_obstacle> bodies_;
   std::vector<crossing_user> users_;
   std::vector<passing_order> all_sides_;

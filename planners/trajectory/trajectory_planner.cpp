@@ -27,7 +27,21 @@ planning_input own(const planning_input& x) {
   return alone;
 }
 
+// What solvers may be off by.
+constexpr double lateral_slack_mps2 = 0.1, jerk_slack_mps3 = 0.5;
+
 } // namespace
+
+void tell_extremes(const world::trajectory& plan, const comfort_limits& style,
+                   plan_report& report) {
+  assert(plan.is_sound() && style.max_lateral_accel_mps2 > 0);
+  const auto most = world::extremes_of(plan);
+  report.extremes = most;
+  report.emergency |= most.lateral_accel_mps2
+                          > style.max_lateral_accel_mps2 + lateral_slack_mps2
+                      || most.jerk_mps3 > style.max_jerk_mps3 + jerk_slack_mps3;
+  assert(std::isfinite(most.jerk_mps3));
+}
 
 planning_input joined(const world::route& way, time_point now,
                       const planning_input& input,

@@ -3,6 +3,7 @@
 
 #include "planners/ocp/status.hpp"
 #include "planners/scene/planning_input.hpp"
+#include "planners/speed/comfort_limits.hpp"
 #include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/trajectory.hpp"
 
@@ -27,7 +28,7 @@ struct plan_report {
   plan_origin origin = plan_origin::planned;
   ocp::solve_status path = ocp::solve_status::converged;
   ocp::solve_status velocity = ocp::solve_status::converged;
-  bool emergency = false;      ///< It brakes firmer than comfort allows.
+  bool emergency = false;      ///< It asks for more than comfort allows.
   double violation = 0;        ///< The largest of both problems' bounds.
   std::int32_t iterations = 0; ///< Newton steps of all candidates.
   std::int32_t candidates = 1; ///< Plans that were weighed.
@@ -49,6 +50,11 @@ void visit_fields(auto& v, plan_report& x) {
   v("input", x.input);
   v("extremes", x.extremes);
 }
+
+/// Measures a plan as it was made, and calls it an emergency where it asks for
+/// more than comfort allows: it may steer late, or end a plan that did.
+void tell_extremes(const world::trajectory& plan, const comfort_limits& style,
+                   plan_report& report);
 
 /// Plans cycle by cycle: a plan continues the plan before.
 class trajectory_planner {

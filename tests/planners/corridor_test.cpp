@@ -123,7 +123,7 @@ TEST_CASE("a corridor that moved on is the one of the new place") {
     CAPTURE(by);
     check_same(moving, fresh);
     moving.pass({s + 20, s + 25, -1.7, -1.0, 0}, side_of_road::left);
-    moving.admit({0.9, 0.1, 0});
+    moving.admit({0.9, 0.1, 0}, corridor::steering::drifts);
   }
   moving.open(line, s + 0.4, 1, steps); // between the old knots
   corridor fresh;
@@ -153,10 +153,55 @@ TEST_CASE("beside a body the car keeps its distance, on the side it was told") {
         if (s + 4.0175 < from || s - 1.0825 > from + length)
           continue; // the car is not beside it
         if (left)
-          CHECK(lo - half_car_m >= edge + 0.25);
+          CHECK(lo - half_car_m >= edge + corridor::passing_gap_m - 0.05);
         else
-          CHECK(hi + half_car_m <= -edge - 0.25);
+          CHECK(hi + half_car_m <= -edge - corridor::passing_gap_m + 0.05);
         CHECK(std::abs(left ? hi : lo) + half_car_m <= 1.75);
+      }
+    }
+  }
+}
+
+TEST_CASE("whoever comes too near to a body is let no farther into it") {
+  const reference_line line{test::straight(200, {{0, 10}})};
+  test::dice dice{9};
+  for (auto i = 0; i < 500; ++i) {
+    const auto from = dice.between(-3, 12), length = dice.between(0.3, 12);
+    const auto edge = dice.between(-1.7, -0.8);
+    const path_state car{dice.between(-0.8, 0.8), dice.between(-0.3, 0.3),
+                         dice.between(-0.1, 0.1)};
+    corridor room;
+    room.open(line, 0, 1, steps);
+    room.pass({from, from + length, -2.0, edge, 0, dice.between(0, 0.3)},
+              side_of_road::left);
+    room.admit(car, corridor::steering::drifts);
+    CHECK(room.gap_m() > 0.019);
+    for (std::size_t k = 1; k <= steps; ++k) {
+      const auto s = static_cast<double>(k);
+      if (s + 4.0175 < from || s - 1.0825 > from + length)
+        continue; // the car is not beside it
+      CAPTURE(edge);
+      CAPTURE(k);
+      CHECK(straight_room(room, k).first - half_car_m > edge - 0.04);
+    }
+  }
+}
+
+TEST_CASE("a car that drifts may leave its lane by its discs, not by itself") {
+  const reference_line line{test::straight(200, {{0, 10}})};
+  test::dice dice{10};
+  for (auto i = 0; i < 500; ++i) {
+    const path_state car{0, dice.between(-0.2, 0.2), dice.between(-0.2, 0.2)};
+    corridor room;
+    room.open(line, 0, 1, steps);
+    room.admit(car, corridor::steering::drifts);
+    for (std::size_t j = 1; j < room.discs().size(); ++j) {
+      const auto& disc = room.discs()[j];
+      if (std::abs(disc.ahead_m * std::sin(car.heading_rad)) > 0.48)
+        continue; // it has left already
+      for (std::size_t k = 0; k <= steps; ++k) {
+        CHECK(disc.hi_m[k] <= 1.75 - 1.27 + 0.15 + 1e-9);
+        CHECK(disc.lo_m[k] >= -(1.75 - 1.27 + 0.15) - 1e-9);
       }
     }
   }
@@ -181,7 +226,7 @@ TEST_CASE("a car outside is let in, and 25 m on all is as before") {
     corridor room, free;
     room.open(line, 20, 1, steps);
     free.open(line, 20, 1, steps);
-    room.admit(car);
+    room.admit(car, corridor::steering::drifts);
     for (std::size_t j = 0; j < room.discs().size(); ++j) {
       const auto &disc = room.discs()[j], &was = free.discs()[j];
       const auto y = car.d_m + disc.ahead_m * std::sin(car.heading_rad);

@@ -111,13 +111,44 @@ TEST_CASE("who drives towards a junction meets conflicts on all its ways") {
   CHECK(sides.size() == found.size());
 }
 
+TEST_CASE("who is too fast for a bend does not take it") {
+  const auto sides_of = [](double x_m, double speed_mps) {
+    std::set<std::string> lanes_taken;
+    for (const auto& a : foresee(make_track({x_m, -1.75}, 0, speed_mps), 60))
+      for (const auto* turn : {"3>0>1", "3>0>2", "3>0>4"})
+        for (const auto& e : lanes().meetings()[static_cast<std::size_t>(
+                 std::ranges::find(cross_roads().lanes(), turn, &lane::name)
+                 - cross_roads().lanes().begin())])
+          if (e.side == a.side)
+            lanes_taken.insert(turn);
+    return lanes_taken;
+  };
+  CHECK(sides_of(-40, 10).contains("3>0>2"));
+  CHECK_FALSE(sides_of(-14, 13).contains("3>0>2"));
+  CHECK(sides_of(-14, 13).contains("3>0>1"));
+  CHECK(sides_of(-14, 6).contains("3>0>2"));
+}
+
 TEST_CASE("nobody looks farther than asked") {
   CHECK(foresee(make_track({-50, -1.75}, 0, 10), 35).empty());
   CHECK_FALSE(foresee(make_track({-50, -1.75}, 0, 10), 45).empty());
 }
 
-TEST_CASE("who stands drives towards nothing, but may stand on a conflict") {
+TEST_CASE("who stands before a conflict may set off, who stands farther away "
+          "drives towards nothing") {
   CHECK(foresee(make_track({-20, -1.75}, 0, 0), 100).empty());
+  const auto found = foresee(make_track({-14, -1.75}, 0, 0), 100);
+  REQUIRE_FALSE(found.empty());
+  for (const auto& a : found) {
+    CHECK(a.sets_off);
+    CHECK(a.way_m > 0);
+    CHECK(a.way_m <= lane_network::at_line_m);
+    CHECK(a.enter_s == doctest::Approx(0.5 + std::sqrt(2 * a.way_m / 1.5)));
+    CHECK(a.leave_s > a.enter_s);
+  }
+}
+
+TEST_CASE("who stands on a conflict does not leave it") {
   const auto found = foresee(make_track({1.75, -1.75}, 0, 0), 100);
   const auto e = find_encounter("3>0>1", "4>0>2");
   const auto a = std::ranges::find(found, e.side, &conflict_visit::side);

@@ -20,12 +20,21 @@ double straight_on(double s_m) {
   return s_m;
 }
 
+/// A road user that crosses at one place; without a number, one of its own.
+crossing_user user(double from_m, double to_m, double enter_s, double leave_s,
+                   bool goes_first, std::uint32_t body = 0) {
+  static std::uint32_t last = 1000;
+  crossing_user x{from_m, to_m, enter_s, leave_s, goes_first};
+  x.body = body > 0 ? body : ++last;
+  return x;
+}
+
 std::vector<crossing_order> orders(std::vector<crossing_user> users,
-                                   std::uint32_t first = 0,
+                                   const crossing_choice& last = {},
                                    std::size_t most = 16,
                                    crossing_car c = car) {
   std::vector<crossing_order> out;
-  list_orders(users, c, straight_on, first, most, out);
+  list_orders(users, c, straight_on, last, most, out);
   return out;
 }
 
@@ -52,23 +61,16 @@ TEST_CASE("without anybody to mind there is one order, free of windows") {
     CHECK(all[0].stop_m == speed_constraints::never);
   };
   check_free(orders({}));
-  check_free(orders({}, crossing_order::waits));
+  check_free(orders({}, {.waits = true, .before = {7}}));
   // Who gives way is not minded, nor who crosses where the car has been.
-  check_free(orders({{50, 55, 3, 5, false}}));
-  check_free(orders({{2, 5, 0, 5, true}}));
-}
-
-TEST_CASE("who gives way but is already there is minded") {
-  const auto all = orders({{50, 55, 0, 4, false}});
-  REQUIRE(!all.empty());
-  CHECK(lists(all, 0));
-  CHECK(lists(all, crossing_order::waits));
-  CHECK(!lists(all, 1));
+  check_free(orders({user(50, 55, 3, 5, false)}));
+  check_free(orders({user(50, 55, 0, 4, false)})); // it waits there
+  check_free(orders({user(2, 5, 0, 5, true)}));
 }
 
 TEST_CASE("one who goes first can be passed after, or before when there is "
           "time, or waited for") {
-  const auto all = orders({{40, 45, 9, 11, true}});
+  const auto all = orders({user(40, 45, 9, 11, true)});
   REQUIRE(all.size() == 3);
   for (const auto& order : all) {
     if (order.choice == crossing_order::waits) {
@@ -91,58 +93,120 @@ TEST_CASE("one who goes first can be passed after, or before when there is "
 }
 
 TEST_CASE("nobody can be first where the time is too short") {
-  CHECK(!lists(orders({{40, 45, 3, 5, true}}), 1));
-  CHECK(lists(orders({{40, 45, 8, 10, true}}), 1));
+  CHECK(!lists(orders({user(40, 45, 3, 5, true)}), 1));
+  CHECK(lists(orders({user(40, 45, 8, 10, true)}), 1));
   // From standstill it takes longer.
   const crossing_car stands{4, 1, 0, 14, 1.5};
-  CHECK(!lists(orders({{40, 45, 8, 10, true}}, 0, 16, stands), 1));
+  CHECK(!lists(orders({user(40, 45, 8, 10, true)}, {}, 16, stands), 1));
 }
 
 TEST_CASE("somebody who stands on the crossing can only be waited for") {
-  const auto all = orders({{40, 45, 0, speed_constraints::never, true}});
+  const auto all = orders({user(40, 45, 0, speed_constraints::never, true)});
   REQUIRE(all.size() == 1);
   CHECK(all[0].choice == crossing_order::waits);
   CHECK(all[0].stop_m == Approx(36));
 }
 
-TEST_CASE("waiting is always possible, among however few; the choice before "
-          "comes first") {
+TEST_CASE(
+    "one decision is made for a road user, at all places where it crosses") {
+  const auto all =
+      orders({user(40, 45, 9, 11, true, 1), user(46, 50, 10, 12, true, 1),
+              user(52, 55, 9, 12, true, 2)});
+  CHECK(all.size() == 5); // each of two before or after, and to wait
+  for (const auto& order : all)
+    CHECK(order.count == (order.choice == crossing_order::waits ? 0 : 3));
+  const auto first =
+      std::ranges::find(all, 1U, [](const auto& x) { return x.choice; });
+  REQUIRE(first != all.end());
+  CHECK(choice_of(*first).goes_before(1));
+  CHECK_FALSE(choice_of(*first).goes_before(2));
+  CHECK(first->windows[0].latest_s == Approx(9 - 1.5));
+  CHECK(first->windows[1].latest_s == Approx(10 - 1.5));
+  CHECK(first->windows[2].earliest_s == Approx(12 + 0.8));
+}
+
+TEST_CASE("after all and before all are tried, among however few") {
+  const std::vector<crossing_user> three{user(40, 45, 9, 11, true, 1),
+                                         user(40, 45, 10, 12, true, 2),
+                                         user(40, 45, 11, 13, true, 3)};
+  for (const std::size_t most : {1, 2, 3}) {
+    const auto few = orders(three, {.before = {2}}, most);
+    REQUIRE(few.size() == 4);
+    CHECK(choice_of(few[0]).goes_before(2));
+    CHECK_FALSE(choice_of(few[0]).goes_before(1));
+    CHECK(few[1].choice == 0);
+    CHECK(few[2].choice == 7);
+    CHECK(few[3].choice == crossing_order::waits);
+  }
+}
+
+TEST_CASE("who has begun to go before another leaves it less time, and least "
+          "where it cannot stop any more") {
+  const crossing_car slow{4, 1, 4, 14, 1.5};
+  const auto latest_s = [](double from_m, const crossing_choice& last,
+                           const crossing_car& c) {
+    for (const auto& order :
+         orders({user(from_m, from_m + 5, 20, 22, true, 1)}, last, 16, c))
+      if (order.choice == 1)
+        return order.windows[0].latest_s;
+    return 0.0;
+  };
+  CHECK(latest_s(60, {}, slow) == Approx(18.5));
+  CHECK(latest_s(60, {.before = {1}}, slow) == Approx(19.2));
+  // At 4 m/s it stops within 5.2 m.
+  CHECK(latest_s(9, {.before = {1}}, slow) == Approx(19.5));
+  CHECK(latest_s(9, {}, slow) == Approx(18.5));
+}
+
+TEST_CASE("who can stay off by braking little lets a car pass that cannot stop "
+          "any more") {
+  const crossing_car fast{4, 1, 10, 14, 1.5};
+  auto other = user(12, 17, 0.5, 3, true, 1);
+  const auto goes = [&](const crossing_choice& last) {
+    return lists(orders({other}, last, 16, fast), 1);
+  };
+  CHECK_FALSE(goes({.before = {1}}));
+  other.brakes_mps2 = 1.4;
+  CHECK(goes({.before = {1}}));
+  CHECK_FALSE(goes({}));
+  other.brakes_mps2 = 1.6;
+  CHECK_FALSE(goes({.before = {1}}));
+}
+
+TEST_CASE("waiting is always possible, among however few; what was decided "
+          "last comes first") {
   test::dice dice{1};
   for (auto i = 0; i < 2000; ++i) {
     std::vector<crossing_user> users;
-    const auto n = static_cast<int>(dice.between(1, 7));
-    for (auto k = 0; k < n; ++k) {
+    const auto n = static_cast<std::uint32_t>(dice.between(1, 7));
+    for (std::uint32_t k = 0; k < n; ++k) {
       const auto from = dice.between(5, 80), enter = dice.between(-2, 15);
       const auto stands = dice.between(0, 1) < 0.1;
-      users.push_back({from, from + 4, std::max(0.0, enter),
-                       stands ? speed_constraints::never
-                              : std::max(0.0, enter) + dice.between(0.5, 5),
-                       dice.between(0, 1) < 0.8});
+      users.push_back(user(from, from + 4, std::max(0.0, enter),
+                           stands ? speed_constraints::never
+                                  : std::max(0.0, enter) + dice.between(0.5, 5),
+                           dice.between(0, 1) < 0.8,
+                           1 + static_cast<std::uint32_t>(dice.between(0, n))));
     }
     std::ranges::sort(users, {}, &crossing_user::from_m);
-    const auto full = orders(users, 0, 100);
+    const auto full = orders(users, {}, 100);
     const auto minded = full.size() > 1 || full[0].count > 0
                         || full[0].choice == crossing_order::waits;
-    for (const auto most : {1, 2, 4, 16, 17})
-      for (const auto first : {0U, 1U, 2U, crossing_order::waits}) {
+    for (const auto& before : full)
+      for (const std::size_t most : {1, 2, 4, 16, 17}) {
         CAPTURE(i);
         CAPTURE(most);
-        CAPTURE(first);
-        const auto few = orders(users, first, static_cast<std::size_t>(most));
+        const auto last = choice_of(before);
+        const auto few = orders(users, last, most);
         REQUIRE(!few.empty());
         // To wait comes on top of them.
-        CHECK(few.size()
-              == std::min(full.size(),
-                          static_cast<std::size_t>(most) + (minded ? 1 : 0)));
-        if (lists(full, first))
-          CHECK(few.front().choice == first);
+        CHECK(few.size() <= std::max(most, std::size_t{3}) + (minded ? 1 : 0));
+        CHECK(few.front().choice == before.choice);
         if (minded)
           CHECK(lists(few, crossing_order::waits));
-        for (const auto& order : few) {
-          CHECK(lists(full, order.choice));
+        for (const auto& order : few)
           CHECK(std::ranges::count(few, order.choice, &crossing_order::choice)
                 == 1);
-        }
       }
     for (const auto& order : full)
       for (std::size_t k = 0; k < order.count; ++k) {
@@ -155,12 +219,31 @@ TEST_CASE("waiting is always possible, among however few; the choice before "
 }
 
 TEST_CASE("who waits does so before the first crossing") {
-  const auto all = orders(
-      {{70, 75, 9, 14, true}, {40, 45, 2, 5, true}, {40, 46, 6, 9, true}});
+  const auto all = orders({user(70, 75, 9, 14, true), user(40, 45, 2, 5, true),
+                           user(40, 46, 6, 9, true)});
   const auto wait =
       std::ranges::find(all, crossing_order::waits, &crossing_order::choice);
   REQUIRE(wait != all.end());
   CHECK(wait->stop_m == Approx(36));
+}
+
+TEST_CASE("who sees late that it has to wait comes a little beyond the line "
+          "rather than brake hard") {
+  const auto waits_at_m = [](double speed_mps, double line_m, double accel) {
+    crossing_car c{4, 1, speed_mps, 14, 1.5};
+    c.accel_mps2 = accel;
+    for (const auto& x :
+         orders({user(line_m + 4, line_m + 9, 3, 5, true)}, {}, 16, c))
+      if (x.choice == crossing_order::waits)
+        return x.stop_m;
+    return -1.0;
+  };
+  CHECK(waits_at_m(2.5, 4, 0) == Approx(4));     // far enough
+  CHECK(waits_at_m(2.5, 2.2, 0) == Approx(2.5)); // 0.5 s, then 2.5 m/s²
+  CHECK(waits_at_m(2.5, 1.5, 0) == Approx(2));
+  CHECK(waits_at_m(2.5, 1.5, -2.5) == Approx(1.5)); // it brakes already
+  CHECK(waits_at_m(1, -0.3, -1) == Approx(0.2));
+  CHECK(waits_at_m(1, -0.6, -1) < 0); // it has come onto the crossing
 }
 
 TEST_CASE("an empty lane has one way through") {

@@ -177,7 +177,7 @@ TEST_CASE("a path passes a body on the side it was told, at a distance") {
       CAPTURE(edge);
       CAPTURE(body.to_m);
       CHECK(ocp::publishable(report.status));
-      CHECK(!touches(planner.path(), body, 0.2));
+      CHECK(!touches(planner.path(), body, corridor::passing_gap_m - 0.05));
     }
   }
 }

@@ -53,8 +53,9 @@ struct onlooker {
       : way{route}, eyes{std::make_shared<const lane_network>(map), route,
                          params} {}
 
-  const driving_scene& look(const std::vector<track>& tracks) {
-    eyes.describe(look_time, me, tracks, seen);
+  const driving_scene& look(const std::vector<track>& tracks,
+                            time_point at = look_time) {
+    eyes.describe(at, me, tracks, seen);
     return seen;
   }
 
@@ -155,6 +156,31 @@ TEST_CASE("a body across the lane leads with its near side") {
   CHECK(seen.lead->speed_mps < 1e-9);
 }
 
+TEST_CASE("a body that is wider than long is seen along all its width") {
+  auto o = ten_metres_down_the_street();
+  auto wall = seen_track({80, -1.25});
+  wall.length_m = 0.5;
+  wall.width_m = 6; // up to 1.75 m to the left
+  const auto& seen = o.look({wall});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(79.75, 1e-6));
+  wall.motion.mean(1, 0) = -4.25; // up to 1.25 m to the right: it leaves 3 m
+  o.look({wall});
+  CHECK_FALSE(seen.lead);
+  REQUIRE(seen.beside.size() == 1);
+  CHECK(seen.beside[0].high_m == test::near(-1.25, 1e-6));
+  CHECK(seen.beside[0].low_m == test::near(-7.25, 1e-6));
+}
+
+TEST_CASE("a body of 50 m leads with its near end") {
+  auto o = ten_metres_down_the_street();
+  auto convoy = seen_track({80, 0});
+  convoy.length_m = 50;
+  const auto& seen = o.look({convoy});
+  REQUIRE(seen.lead);
+  CHECK(seen.lead->rear_s_m == test::near(55, 1e-6));
+}
+
 TEST_CASE("whoever is behind, or farther than one looks, does not lead") {
   auto o = ten_metres_down_the_street();
   CHECK_FALSE(o.look({seen_track({5, 0}, 0, 30)}).lead);
@@ -170,25 +196,52 @@ TEST_CASE("a car beside oneself leads once its nose is ahead of the own one") {
 
 TEST_CASE("who leaves room in the lane is beside, who does not leads") {
   auto o = ten_metres_down_the_street();
-  // Of 3.5 m the own car needs 2.52 m: 0.98 m are free.
+  // Of 3.5 m the own car needs 2.42 m: 1.08 m are free, 0.1 m less once it has
+  // found room.
+  std::uint32_t id = 0;
+  const auto other = [&](double beside_m, double speed_mps = 0) {
+    auto x = seen_track({60, beside_m}, 0, speed_mps);
+    x.id = ++id;
+    return x;
+  };
   for (const auto side : {-1.0, 1.0}) {
-    o.look({seen_track({60, side * (0.78 + 0.945)}, 0, 2)});
+    o.look({other(side * (0.68 + 0.945), 2)});
     CHECK_FALSE(o.seen.lead);
     REQUIRE(o.seen.beside.size() == 1);
     const auto& b = o.seen.beside[0];
     CHECK(b.from_m == test::near(60 - 2.55, 1e-6));
     CHECK(b.to_m == test::near(60 + 2.55, 1e-6));
     CHECK(std::min(std::abs(b.low_m), std::abs(b.high_m))
-          == test::near(0.78, 1e-6));
+          == test::near(0.68, 1e-6));
     CHECK(b.low_m * side > 0);
     CHECK(b.speed_mps == test::near(2, 1e-9));
-    o.look({seen_track({60, side * (0.73 + 0.945)})});
+    o.look({other(side * (0.66 + 0.945))});
     CHECK(o.seen.lead);
     CHECK(o.seen.beside.empty());
     o.look({seen_track({60, side * (1.76 + 0.945)})});
     CHECK_FALSE(o.seen.lead);
     CHECK(o.seen.beside.empty());
   }
+}
+
+TEST_CASE(
+    "who has left room is beside with a little less, too, and with as much "
+    "as the body needs when there is no way to stop any more") {
+  const auto is_beside = [](double speed_mps, double beside_m) {
+    auto o = ten_metres_down_the_street();
+    o.me.speed_mps = speed_mps;
+    auto x = seen_track({34, 0.7 + 0.945});
+    o.look({x});
+    REQUIRE(o.seen.beside.size() == 1);
+    CHECK(o.seen.beside[0].lacks_m < 1e-3);
+    x.motion.mean(1, 0) = beside_m + 0.945;
+    o.look({x});
+    return !o.seen.beside.empty() && o.seen.beside[0].lacks_m > 1e-3;
+  };
+  CHECK(is_beside(5, 0.6));
+  CHECK_FALSE(is_beside(5, 0.55));
+  CHECK(is_beside(13.9, 0.45));
+  CHECK_FALSE(is_beside(13.9, 0.25));
 }
 
 TEST_CASE("those beside come in order, as far as the lead") {
@@ -294,6 +347,7 @@ TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
                                     * point{-std::sin(here.heading_rad),
                                             std::cos(here.heading_rad)},
                           here.heading_rad + dice.uniform(-pi, pi, n, 2));
+      x.id = n + 1;
       x.length_m = dice.uniform(2, 12, n, 3);
       auto nearest_m = 1e9; // of its outline
       const auto box = x.body();
@@ -314,7 +368,7 @@ TEST_CASE("Lehr: in tight bends, whatever reaches into the lane is found") {
         CHECK_FALSE(is_found);
       if (nearest_m < 1.65) // between measured points, sides bulge
         CHECK(is_found);
-      if (nearest_m < 0.7)
+      if (nearest_m < 0.6)
         CHECK(seen.lead);
       reaching += is_found ? 1 : 0;
     }
@@ -386,12 +440,110 @@ TEST_CASE("who has to give way does so, unless it cannot stop any more") {
   CHECK(c->goes_first);
 }
 
-TEST_CASE("of equals the other goes first") {
+TEST_CASE("who comes towards one, would have to give way to turn, and does "
+          "not slow down, goes straight on") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.me.s_m = o.way->path().project({0, -1.75}).s_m - 14;
+  o.me.speed_mps = 7;
+  auto oncoming = seen_track({12.5, 1.75}, pi, 5.4); // it may turn across
+  REQUIRE_FALSE(o.look({oncoming}).crossings.empty());
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
+  // From the south each way meets the own one.
+  const auto comes = seen_track({1.75, -8}, pi / 2, 5.4);
+  o.look({comes});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+}
+
+TEST_CASE("who rolls on where it would have to brake by now goes first") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  auto x = seen_track({1.75, -6.1}, pi / 2, 2); // 0.6 m to go
+  o.look({x});
+  const auto* c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK(c->goes_first);
+  x.accel_mps2 = -2;
+  o.look({x});
+  c = find_crossing(o, from_south_meets_from_west);
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+}
+
+TEST_CASE("of equals who comes from the right goes first") {
   auto o = at_cross_roads({3, 0, 1}, 100, true);
   o.look({seen_track({1.75, -60}, pi / 2, 10)});
   const auto* c = find_crossing(o, from_south_meets_from_west);
   REQUIRE(c);
   CHECK(c->goes_first);
+  o.look({seen_track({-1.75, 60}, -pi / 2, 10)}); // from the left
+  c = find_crossing(o, {-1.75, -1.75});
+  REQUIRE(c);
+  CHECK_FALSE(c->goes_first);
+}
+
+TEST_CASE("of equals that come towards each other who turns left gives way") {
+  const auto oncoming = seen_track({60, 1.75}, pi, 10);
+  auto left = at_cross_roads({3, 0, 2}, 100, true);
+  REQUIRE_FALSE(left.look({oncoming}).crossings.empty());
+  CHECK(std::ranges::any_of(left.seen.crossings, &crossing_user::goes_first));
+  auto straight = at_cross_roads({3, 0, 1}, 100, true);
+  REQUIRE_FALSE(straight.look({oncoming}).crossings.empty()); // it may turn
+  for (const auto& user : straight.seen.crossings)
+    CHECK_FALSE(user.goes_first);
+}
+
+TEST_CASE("who stands before a crossing is waited for until it has stood there "
+          "for some seconds") {
+  auto o = at_cross_roads({3, 0, 1}, 130, true);
+  auto x = seen_track({1.75, -9.5}, pi / 2); // its front at 6.95 m
+  const auto other_first = [&](duration stood) {
+    x.moved = look_time - stood;
+    o.look({x});
+    const auto* c = find_crossing(o, from_south_meets_from_west);
+    REQUIRE(c);
+    CHECK(c->enter_s > 0.5);
+    CHECK(std::isfinite(c->leave_s));
+    return c->goes_first;
+  };
+  CHECK(other_first(1s));
+  CHECK(other_first(4s));
+  CHECK_FALSE(other_first(4s + 1ms));
+  for (std::uint32_t station = 101; station < 120; ++station) {
+    o.me.station = station;
+    CHECK(other_first(4s));
+    CHECK_FALSE(other_first(8s));
+  }
+}
+
+TEST_CASE("who has stood for long itself waits for nobody who stands") {
+  auto o = at_cross_roads({3, 0, 1}, 130, true);
+  const auto waits_for_it = [&](duration stood) {
+    auto x = seen_track({1.75, -9.5}, pi / 2);
+    x.at = x.seen = look_time + stood;
+    x.moved = x.at - 1s;
+    o.look({x}, look_time + stood);
+    CHECK(o.seen.stands_s == to_seconds(stood));
+    const auto* c = find_crossing(o, from_south_meets_from_west);
+    REQUIRE(c);
+    return c->goes_first;
+  };
+  CHECK(waits_for_it(0s));
+  CHECK(waits_for_it(14s));
+  CHECK_FALSE(waits_for_it(16s));
+  o.me.speed_mps = 1;
+  CHECK(waits_for_it(0s));
+}
+
+TEST_CASE("a car does not come to rest where others cross") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({});
+  REQUIRE(o.seen.keep_free.size() == 1); // no car fits between its zones
+  CHECK(o.seen.keep_free[0].from_m
+        < o.way->path().project(from_south_meets_from_west).s_m - 3);
+  CHECK(o.seen.keep_free[0].to_m
+        > o.way->path().project(from_south_meets_from_west).s_m + 3);
 }
 
 TEST_CASE("who comes towards one may turn across, but gives way then") {
@@ -425,15 +577,26 @@ TEST_CASE(
   CHECK(o.look({across}).lead);
 }
 
-TEST_CASE("who stands on a crossing blocks it, and leads") {
+TEST_CASE(
+    "who stands on a crossing leads where it is in the way, and is nobody's "
+    "business where it is not") {
   auto o = at_cross_roads({3, 0, 1}, 100); // one's own right of way or not
   o.look({seen_track({1.75, -1.75}, pi / 2)});
-  const auto* c = find_crossing(o, from_south_meets_from_west);
-  REQUIRE(c);
-  CHECK(c->enter_s == 0);
-  CHECK(std::isinf(c->leave_s));
-  CHECK(c->goes_first);
+  CHECK(o.seen.crossings.empty());
   CHECK(o.seen.lead);
+  o.look({seen_track({1.75, -6.5}, pi / 2)}); // its nose 2.2 m beside
+  for (const auto& c : o.seen.crossings)
+    CHECK_FALSE(c.goes_first);
+  CHECK_FALSE(o.seen.lead);
+}
+
+TEST_CASE("who crosses where the own front is already leads while it is in the "
+          "way") {
+  auto o = at_cross_roads({3, 0, 1}, 132);
+  const auto across = seen_track({1.75, -4}, pi / 2, 5);
+  CHECK_FALSE(o.look({across}).lead);
+  o.me.s_m = 136;
+  CHECK(o.look({across}).lead);
 }
 
 TEST_CASE("who goes ahead on the own way leads over a crossing") {
@@ -491,4 +654,29 @@ TEST_CASE("Lehr: who turns left across the road waits for through traffic") {
   const auto through = lehr().route("east_to_west");
   const auto& seen = o.look({on_way(*through, 270, 8)});
   CHECK(std::ranges::any_of(seen.crossings, &crossing_user::goes_first));
+}
+
+TEST_CASE("Lehr: a long body beside a bend is as wide all the way past it") {
+  constexpr auto length_m = 26.0, width_m = 2.0;
+  onlooker o{lehr().map, lehr().route(round_trips[0])};
+  const auto& line = o.way->path();
+  auto looks = 0;
+  for (auto s_m = 60.0; s_m < line.length_m() - 60; s_m += 35) {
+    CAPTURE(s_m);
+    const auto here = line.at(s_m);
+    const point left{-std::sin(here.heading_rad), std::cos(here.heading_rad)};
+    auto x = seen_track(here.at + -2.3 * left, here.heading_rad);
+    x.length_m = length_m;
+    x.width_m = width_m;
+    std::optional<double> high_m;
+    for (o.me.s_m = s_m - 25; o.me.s_m < s_m + 13; o.me.s_m += 0.9) {
+      o.look({x});
+      if (o.seen.lead || o.seen.beside.size() != 1)
+        continue; // the bend leaves no room
+      ++looks;
+      high_m = high_m.value_or(o.seen.beside[0].high_m);
+      REQUIRE(std::abs(o.seen.beside[0].high_m - *high_m) < 0.02);
+    }
+  }
+  CHECK(looks > 300);
 }

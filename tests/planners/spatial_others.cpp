@@ -107,10 +107,12 @@ crossing_drive cross(test_drive& drive, const std::vector<crosser>& all,
   for (auto t = 0.0; t < seconds; t += 0.05) {
     auto& users = drive.others.crossings;
     users.clear();
-    for (const auto& c : all)
+    for (std::uint32_t body = 0; const auto& c : all) {
+      ++body;
       if (c.leave_s > t && drive.rear_m() < c.to_m)
         users.push_back({c.from_m, c.to_m, std::max(0.0, c.enter_s - t),
-                         c.leave_s - t, c.goes_first});
+                         c.leave_s - t, c.goes_first, body});
+    }
     drive.cycle();
     const auto order = drive.report.choice >> 8 & 0xf;
     if (users.size() == known && known > 0)
@@ -264,6 +266,36 @@ TEST_CASE("somebody who stands on the crossing is waited for until he goes") {
   CHECK(drive.front_m() < 120);
   CHECK(drive.front_m() > 118);
   check_comfort_among_others(drive);
+}
+
+TEST_CASE("a car waits before crossings rather than come to rest among them") {
+  // The first place of two is free soon, the second one is not.
+  const std::vector<crosser> all{{120, 126, 0, 1}, {130, 136, 3, 60}};
+  const auto drive_to_them = [&](double seconds) {
+    auto drive = optimal(test::straight(900, {{0, 13.9}}), 90, 3);
+    drive.others.keep_free = {{120, 136}};
+    cross(drive, all, seconds);
+    return drive;
+  };
+  auto waiting = drive_to_them(25);
+  CHECK(waiting.car.speed_mps == 0);
+  CHECK(waiting.front_m() < 120);
+  CHECK(waiting.front_m() > 118);
+  check_comfort_among_others(waiting);
+}
+
+TEST_CASE("who has stood before crossings for long moves up among them") {
+  const auto comes_to_m = [](double stood_s) {
+    auto drive = optimal(test::straight(900, {{0, 13.9}}), 90, 3);
+    drive.others.keep_free = {{120, 136}};
+    cross(drive, {{120, 126, 0, 25}}, 20);
+    REQUIRE(drive.front_m() < 120);
+    drive.others.stands_s = stood_s;
+    CHECK(!cross(drive, {{130, 136, 0, 20}}, 12).met);
+    return drive.front_m();
+  };
+  CHECK(comes_to_m(10) < 121);
+  CHECK(comes_to_m(16) > 123);
 }
 
 TEST_CASE("several who cross at several places are never met") {

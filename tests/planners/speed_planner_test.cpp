@@ -278,6 +278,21 @@ TEST_CASE("a standing car without way to go stands, with a little it moves "
   }
 }
 
+TEST_CASE("who moves up behind another stops before a place that is not open") {
+  auto here = town_street();
+  auto task = constraints_at(0);
+  task.stop_m = 4;
+  std::vector<speed_constraints::window> windows{{2, 8}};
+  task.windows = windows;
+  REQUIRE(!here.plan(task).emergency);
+  CHECK(here.motion().back().s_m > 1);
+  CHECK(here.motion().back().s_m < 2.001);
+  // Nor does it come to rest on one that it has to have left.
+  windows[0] = {6, -speed_constraints::never, 9};
+  here.plan(task);
+  CHECK(here.motion().empty());
+}
+
 TEST_CASE("a place that opens later is not passed before, one that closes is "
           "passed in time") {
   test::dice dice{4};

@@ -149,7 +149,7 @@ TEST_CASE("the ego is offloaded at once, the unconnected other never") {
   for (const auto& e : records.episodes) {
     CHECK(e.session.station == ego);
     CHECK(e.got_data);
-    CHECK(e.first_data < time_point{500ms});
+    CHECK(e.first_data < time_point{1200ms}); // it is known for a second
   }
   for (const auto& e : records.events)
     CHECK(e.station != other);

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "planners/scene/lane_network.hpp"
+#include "planners/scene/line_of_sight.hpp"
+#include "planners/scene/route_sight.hpp"
 #include "planners/speed/route_profile.hpp"
 
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace sofof::actors {
 
@@ -14,21 +17,29 @@ namespace sofof::actors {
 /// vehicles make their planners in their own.
 class known_roads {
 public:
-  known_roads(const world::road_map& map,
-              const planners::comfort_limits& style);
+  /// @param eyes    Those of a provider; vehicles have their own alone.
+  /// @param judges  Crossings are judged, not granted.
+  known_roads(const world::road_map& map, const planners::comfort_limits& style,
+              const planners::eyes_on_road& eyes, bool judges);
 
   const std::shared_ptr<const planners::lane_network>& lanes() const {
     return lanes_;
   }
 
-  planners::route_profile_ptr profile(const world::route_ptr& way);
+  /// @param at_provider  It is for plans that are made there.
+  planners::route_profile_ptr profile(const world::route_ptr& way,
+                                      bool at_provider);
 
 private:
   std::shared_ptr<const planners::lane_network> lanes_;
   planners::comfort_limits style_;
+  planners::line_of_sight houses_;
+  planners::eyes_on_road eyes_;
+  bool judges_;
   std::mutex mutex_;
   // Each keeps its route, so that no other takes its place in memory.
-  std::map<const world::route*, planners::route_profile_ptr> profiles_;
+  std::map<std::pair<const world::route*, bool>, planners::route_profile_ptr>
+      profiles_;
 };
 
 } // namespace sofof::actors

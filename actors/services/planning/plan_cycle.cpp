@@ -27,7 +27,7 @@ planners::plan_report plan_cycle::run(time_point now,
                                       planners::planning_input from,
                                       std::span<const planners::track> others) {
   const auto stop_at_m = from.others.stop_at_m;
-  const planners::own_place me{station_, from.s_m, from.d_m};
+  const planners::own_place me{station_, from.s_m, from.d_m, from.speed_mps};
   scene_.describe(now, me, others, from.others);
   from.others.stop_at_m = stop_at_m;
   const auto start = clock_();
@@ -35,7 +35,6 @@ planners::plan_report plan_cycle::run(time_point now,
   auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
                                next_, planners::ocp::budget{in_time});
   std::swap(plan_, next_);
-  report.extremes = world::extremes_of(plan_);
   return report;
 }
 

@@ -19,7 +19,7 @@ std::unique_ptr<planners::trajectory_planner>
 planner_options::make(const world::route_ptr& way, known_roads& roads,
                       bool remote) const {
   const auto make_it = (*find_named(planner_table, name))();
-  return make_it(*this, roads.profile(way), remote);
+  return make_it(*this, roads.profile(way, remote), remote);
 }
 
 } // namespace sofof::actors

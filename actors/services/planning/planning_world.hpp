@@ -5,6 +5,7 @@
 #include "actors/services/planning/planner_options.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "world/roads/streets.hpp"
+#include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <memory>
@@ -17,6 +18,7 @@ struct planning_world {
   messages::georeference_ptr where;
   world::vehicle_params car{};
   bool crossings_granted = true;
+  world::sensor_params eyes{}; ///< Of each vehicle.
   planner_options options;
   std::shared_ptr<known_roads> roads;
 };
