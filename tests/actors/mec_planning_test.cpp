@@ -23,7 +23,7 @@ const vehicle_params car;
 struct informed : planning {
   explicit informed(const std::string& way, double s_m = 20, double mps = 8)
       : planning{true}, ask{at(way, s_m, mps)} {
-    hear(pdu_of(ask.own));
+    meet(ask.own);
   }
 
   std::shared_ptr<const trajectory> plan() {
@@ -60,13 +60,29 @@ TEST_CASE("before a provider has heard a CAM and a word, it plans nothing") {
   const auto ask = there.at("3-4-5", 20, 8);
   CHECK(there.run({}).what.type().empty());
   CHECK(there.run(there.word(ask)).what.type().empty());
-  there.hear(pdu_of(ask.own));
+  there.meet(ask.own);
   CHECK(there.understood(there.run({}), ask)); // the word is remembered
 
   planning other{true};
-  other.hear(pdu_of(ask.own));
+  other.meet(ask.own);
   CHECK(other.run({}).what.type().empty());
   CHECK(other.understood(other.run(other.word(ask)), ask));
+}
+
+TEST_CASE("a provider suggests nothing before it has heard a vehicle for long "
+          "enough, without a gap, to know what is round it") {
+  planning there{true};
+  const auto hears = [&](time_point t) {
+    *there.now = t;
+    const auto ask = there.at("3-4-5", 20, 0);
+    there.hear(pdu_of(ask.own));
+    return there.understood(there.run(there.word(ask)), ask) != nullptr;
+  };
+  CHECK_FALSE(hears(planning::start));
+  CHECK_FALSE(hears(planning::start + 500ms));
+  CHECK_FALSE(hears(planning::start + 2s)); // it was silent for too long
+  CHECK(hears(planning::start + 3s));
+  CHECK(hears(planning::start + 5s)); // once begun, it goes on
 }
 
 TEST_CASE("what a vehicle asks its own planner is no word") {

@@ -203,6 +203,7 @@ TEST_CASE("whatever a provider's planner is told, it gives a sound plan or "
   for (const auto granted : {true, false}) {
     planning planner{true, granted};
     liar who{++number};
+    planner.meet(planner.at("0-1-4-3", 60, 8).own);
     auto plans = 0;
     const auto take = [&](const offloading::service_output& result,
                           const plan_request& truth) {
@@ -298,7 +299,7 @@ TEST_CASE("what nobody can have seen yet blinds no provider's planner") {
     REQUIRE(made);
     return made->points.back().s_m;
   };
-  planner.hear(pdu_of(ask.own));
+  planner.meet(ask.own);
   const cam witness{102, start, {0, 300}, 0, 0};
   planner.hear(pdu_of(witness, {{1, obstacle}}));
   CHECK(stands_m() < 40);
@@ -315,7 +316,7 @@ TEST_CASE("what nobody can have seen yet blinds no provider's planner") {
 TEST_CASE("clocks may differ a little") {
   planning planner{true};
   const auto ask = planner.at("3-4-5", 0, 8);
-  planner.hear(pdu_of(ask.own));
+  planner.meet(ask.own);
   planner.hear(pdu_of({102, start + 100ms, {0, 300}},
                       {{1, car_at(planner.way(ask.way)->path().at(40).at)}}));
   const auto made = planner.understood(planner.run(planner.word(ask)), ask);
@@ -326,7 +327,7 @@ TEST_CASE("clocks may differ a little") {
 TEST_CASE("a word of another station does not steer this one's planning") {
   planning planner{true};
   const auto ask = planner.at("3-4-5", 0, 8);
-  planner.hear(pdu_of(ask.own));
+  planner.meet(ask.own);
   auto other = ask;
   other.own.station = planning::station + 1;
   other.seen.stop_at_m = 30;
@@ -343,7 +344,7 @@ TEST_CASE("a word of another station does not steer this one's planning") {
 TEST_CASE("a CAM of another station moves no one else") {
   planning planner{true};
   const auto ask = planner.at("3-4-5", 0, 8);
-  planner.hear(pdu_of(ask.own));
+  planner.meet(ask.own);
   auto far = planner.at("3-4-5", 150, 8).own;
   far.station = planning::station + 1;
   far.at += 50ms;

@@ -78,6 +78,17 @@ public:
       actors::listener_of(*there)->on_objects(*seen, seen->from.value());
   }
 
+  /// A vehicle comes in that has been heard for a second, and knows all that is
+  /// round it.
+  void meet(const messages::cam& own) {
+    auto before = own;
+    *now -= 1s;
+    before.at -= 1s;
+    hear(pdu_of(before));
+    *now += 1s;
+    hear(pdu_of(own));
+  }
+
   /// @returns the vehicle's word to who plans for it, or takes over.
   messages::payload word(const actors::plan_request& request,
                          const messages::payload& in_use = {},

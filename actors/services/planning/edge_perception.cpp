@@ -13,6 +13,12 @@ namespace {
 /// Nobody has more vehicles round him; more are made up.
 constexpr std::size_t most_stations = 10'000;
 
+/// Who has been heard for so long has told of all that it sees, once.
+constexpr duration acquaintance = std::chrono::milliseconds{900};
+/// CAMs come once a second, at the latest.
+constexpr duration longest_pause =
+    messages::generation::longest + protocol::clock_tolerance;
+
 } // namespace
 
 world::perceived_object body_of(const messages::cam& c) {
@@ -28,8 +34,12 @@ world::perceived_object body_of(const messages::cam& c) {
 }
 
 edge_perception::edge_perception(std::function<time_point()> clock,
-                                 std::span<const world::building> houses)
-    : clock_{std::move(clock)}, doubts_{houses} {}
+                                 std::span<const world::building> houses,
+                                 const planners::sighting_noise& noise)
+    : clock_{std::move(clock)}, model_{noise,
+                                       {messages::generation::moved_m,
+                                        messages::generation::longest}},
+      doubts_{houses} {}
 
 void edge_perception::on_cam(const messages::cam& c, sender_id from) {
   const auto now = clock_();
@@ -41,7 +51,9 @@ void edge_perception::on_cam(const messages::cam& c, sender_id from) {
   forget_silent(now);
   if (told_.size() >= most_stations && !told_.contains(c.station))
     return;
-  auto& newest = told_[c.station];
+  auto& [newest, since] = told_.try_emplace(c.station, c, now).first->second;
+  if (c.at - newest.at > longest_pause)
+    since = now;
   if (newest.at <= c.at)
     newest = c;
 }
@@ -85,7 +97,7 @@ edge_perception::look_of(const messages::object_list& told) const {
                            told.at,        told.objects, told.ids,
                            told.perceived};
   const auto own = told_.find(told.from);
-  const auto self = own == told_.end() ? messages::cam{} : own->second;
+  const auto self = own == told_.end() ? messages::cam{} : own->second.newest;
   look.speed_mps = self.speed_mps;
   look.from.at =
       look.from.at
@@ -96,9 +108,16 @@ edge_perception::look_of(const messages::object_list& told) const {
 std::optional<messages::cam> edge_perception::told_by(station_id who) const {
   const std::lock_guard lock{mutex_};
   const auto x = told_.find(who);
-  if (x == told_.end() || clock_() - x->second.at > protocol::cam_timeout)
+  if (x == told_.end()
+      || clock_() - x->second.newest.at > protocol::cam_timeout)
     return std::nullopt;
-  return x->second;
+  return x->second.newest;
+}
+
+bool edge_perception::knows_surroundings_of(station_id who) const {
+  const std::lock_guard lock{mutex_};
+  const auto x = told_.find(who);
+  return x != told_.end() && clock_() - x->second.since >= acquaintance;
 }
 
 void edge_perception::tracks(std::vector<planners::track>& out,
@@ -112,7 +131,7 @@ void edge_perception::forget_silent(time_point now) {
     return;
   tidied_ = now;
   std::erase_if(told_, [now](const auto& x) {
-    return now - x.second.at > protocol::cam_timeout;
+    return now - x.second.newest.at > protocol::cam_timeout;
   });
 }
 

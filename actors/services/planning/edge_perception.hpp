@@ -25,8 +25,10 @@ world::perceived_object body_of(const messages::cam& c);
 class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
+  /// @param noise   Of those who tell what they see.
   explicit edge_perception(std::function<time_point()> clock,
-                           std::span<const world::building> houses = {});
+                           std::span<const world::building> houses = {},
+                           const planners::sighting_noise& noise = {});
 
   void on_cam(const messages::cam& c, sender_id from) override;
   void on_objects(const messages::object_list& told, sender_id from) override;
@@ -36,6 +38,11 @@ public:
   /// @returns what a vehicle told of itself last, unless that is older than
   /// protocol::cam_timeout.
   std::optional<messages::cam> told_by(station_id who) const;
+
+  /// @returns whether a vehicle has been heard for long enough, without a gap,
+  ///          to know what is round it: bodies that stand are told of once a
+  ///          second, and what nothing is known of yet has no sides to pass by.
+  bool knows_surroundings_of(station_id who) const;
 
   /// Copies what is known now and believed by who plans for `station`.
   void tracks(std::vector<planners::track>& out, station_id station);
@@ -47,10 +54,13 @@ private:
   std::function<time_point()> clock_;
   mutable std::mutex mutex_;
   // Told by CAMs and CPMs, which come when there is news.
-  planners::object_tracker model_{
-      {}, {messages::generation::moved_m, messages::generation::longest}};
+  planners::object_tracker model_;
   planners::plausibility doubts_;
-  std::map<station_id, messages::cam> told_; // the newest CAM of each
+  struct voice {
+    messages::cam newest;
+    time_point since; ///< It has been heard without a gap.
+  };
+  std::map<station_id, voice> told_; // by CAMs
   time_point tidied_;
 };
 

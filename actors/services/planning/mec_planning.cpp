@@ -44,6 +44,10 @@ public:
     const auto report =
         cycle_->run(now, planners::made_possible(*from), tracks_);
     ego_->follow(cycle_->plan());
+    if (!has_begun_
+        && (report.emergency || !perceived_->knows_surroundings_of(station_)))
+      return {}; // until it would drive no worse than the vehicle itself
+    has_begun_ = true;
     return said(report, input.session.counter);
   }
 
@@ -168,6 +172,7 @@ private:
   double from_m_ = 0;                          // of the last word
   double stop_at_m_ = 0; // the end of the vehicle's authority
   std::uint16_t update_ = 0;
+  bool has_begun_ = false; // to suggest plans
   // Room that is used again.
   messages::etsi::mcm word_, said_;
   std::vector<planners::track> tracks_;

@@ -13,7 +13,8 @@ namespace sofof::actors {
 /// when the provider takes over, which plan it follows. Where the vehicle is
 /// it knows from its CAMs, and from the plans that it has sent; the others
 /// from everybody's CAMs and CPMs and from its sensors. Gives an MCM that
-/// suggests a plan, about it a `plan_report`.
+/// suggests a plan, about it a `plan_report`; none until it knows what is round
+/// the vehicle, and has a plan in comfort.
 /// @param vehicle  For which it plans.
 std::shared_ptr<offloading::service_function>
 make_mec_planning(planning_world_ptr world,

@@ -18,7 +18,8 @@ class onboard_planning final : public offloading::service_function {
 public:
   onboard_planning(planning_world_ptr world,
                    offloading::vehicle_context vehicle)
-      : world_{std::move(world)}, vehicle_{std::move(vehicle)} {}
+      : world_{std::move(world)}, vehicle_{std::move(vehicle)},
+        model_{planners::noise_of(world_->eyes)} {}
 
   offloading::service_output
   run(time_point now, const messages::service_input& input) override {
@@ -40,6 +41,11 @@ public:
     const auto report = cycle_->run(now, std::move(from), model_.tracks());
     return {messages::payload::of(cycle_->plan()),
             messages::payload::of(report)};
+  }
+
+  void observe(time_point now, const messages::service_input& input) override {
+    if (const auto request = input.what.as<plan_request>())
+      take_in(now, request->seen);
   }
 
 private:

@@ -137,7 +137,8 @@ public:
                        offloading::provider_context provider)
       : world_{std::move(world)}, provider_{std::move(provider)},
         perceived_{std::make_shared<edge_perception>(
-            provider_.clock, world_->streets->map.buildings())} {}
+            provider_.clock, world_->streets->map.buildings(),
+            planners::noise_of(world_->eyes))} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
