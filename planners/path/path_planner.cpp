@@ -16,11 +16,13 @@ constexpr double same_curvature_1pm = 0.02;
 constexpr double reduced_margin_m = 0.1;
 constexpr double curvature_max_1pm = 0.2;
 constexpr double rate_max_1pm2 = 0.1;
+constexpr double knots_off_m = 1e-9; // of sums of knots
 
 } // namespace
 
 bool path_planner::follows(const path_start& car) const {
   assert(path_.empty() || path_.ds_m == grid_.ds_m);
+  assert(grid_.ds_m > 0);
   if (path_.empty() || car.s_m < path_.start_s_m
       || car.s_m >= path_.end_s_m() - path_.ds_m)
     return false;
@@ -55,7 +57,8 @@ ocp::solve_report path_planner::plan(const path_start& car,
   if (solve(s, path_.knots[first].x, how, others, go_on))
     adopt_solution(s, static_cast<int>(first));
   // It may have moved on by a piece, but never from below the car.
-  assert(path_.start_s_m <= car.s_m && car.s_m <= path_.end_s_m());
+  assert(path_.start_s_m <= car.s_m + knots_off_m);
+  assert(car.s_m <= path_.end_s_m());
   return report_;
 }
 

@@ -158,6 +158,7 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
 
 void corridor::admit(const path_state& start, steering steers) {
   assert(line_ && steps_ >= 1); // opened
+  assert(ds_m_ > 0 && kept_gap_m_ >= 0);
   // Both sides alike, measured outwards.
   const auto widened = [](double room, double lane, double over, double off,
                           double fading) {

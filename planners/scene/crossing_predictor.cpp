@@ -154,6 +154,8 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
                                    const conflict_visit& when,
                                    const own_zone& own) const {
   const auto v = forward_mps(x);
+  assert(when.way_m >= 0 && when.enter_s <= when.leave_s);
+  assert(me.stands_s >= 0 && me.speed_mps >= 0);
   // A zone begins before bodies touch.
   const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
   if (way_m <= 0)
@@ -188,6 +190,8 @@ bool crossing_predictor::has_to_give_way(const crossing_viewer& me,
                                          const track& x,
                                          const conflict_visit& when,
                                          const own_zone& own) const {
+  assert(when.side == own.on.other_side() && when.side != own.on.side);
+  assert(!me.station || x.station != me.station); // not the own one
   if (when.rank != own.on.rank)
     return when.rank > own.on.rank;
   if (lanes_->is_on_roundabout(when.side)
@@ -248,6 +252,7 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
 /// not above 0 where it reaches into it.
 double crossing_predictor::gap_m(const track& x, const world::zone& z) const {
   const auto& line = way_.on()->path();
+  assert(x.length_m > 0 && z.from_m <= z.to_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
   auto nearest_m = std::numeric_limits<double>::infinity();

@@ -165,6 +165,7 @@ std::vector<point> lane_network::approach(std::uint32_t side,
 void lane_network::come(std::size_t lane, double s_m, double within_s,
                         std::vector<point>& out) const {
   constexpr auto apart_m = 4.0;
+  assert(lane < paths_.size() && s_m <= paths_[lane].length_m());
   const auto limit_mps = limits_mps_[lane];
   assert(limit_mps > 0);
   for (auto way_m = 0.0; way_m <= within_s * limit_mps; way_m += apart_m) {
@@ -226,6 +227,7 @@ track lane_network::moved_along(track x, double way_m) const {
   at = at + straight_m * ahead(x.heading_rad);
   const auto speed_mps = std::hypot(x.motion.mean(0, 1), x.motion.mean(1, 1));
   const auto along = ahead(x.heading_rad);
+  assert(straight_m >= 0 && std::isfinite(at.x_m));
   x.motion.mean << at.x_m, speed_mps * along.x_m, at.y_m, speed_mps * along.y_m;
   x.rest.reset();
   return x;
@@ -296,6 +298,7 @@ void lane_network::meet(const driver& who, const lane_ahead& on) const {
 }
 
 void lane_network::drive(const driver& who, const lane_ahead& on) const {
+  assert(on.lane < paths_.size());
   meet(who, on);
   const auto end_m = on.start_m + paths_[on.lane].length_m();
   assert(end_m > on.start_m); // or lanes that end in each other had no end

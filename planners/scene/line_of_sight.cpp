@@ -36,6 +36,7 @@ bool meets_rim(point a, point b, std::span<const point> rim) {
 } // namespace
 
 bool crosses(point a, point b, const oriented_box& box) {
+  assert(box.length_m >= 0 && box.width_m >= 0);
   const point along{std::cos(box.heading_rad), std::sin(box.heading_rad)};
   const auto forward = box.length_m / 2 * along;
   const auto left = box.width_m / 2 * point{-along.y_m, along.x_m};
@@ -59,8 +60,9 @@ line_of_sight::line_of_sight(std::span<const world::building> buildings)
     h.middle = {(west->x_m + east->x_m) / 2, (south->y_m + north->y_m) / 2};
     for (const auto p : b.corners)
       h.radius_m = std::max(h.radius_m, distance_m(h.middle, p));
-    assert(h.radius_m > 0);
+    assert(h.radius_m > 0 && std::isfinite(h.radius_m));
     largest_m_ = std::max(largest_m_, h.radius_m);
+    assert(largest_m_ >= h.radius_m);
     cells_.add(h.middle, h.middle, 0,
                static_cast<cell_grid::item>(houses_.size()));
     houses_.push_back(std::move(h));

@@ -40,6 +40,7 @@ bool route_sight::is_seen_from(const world::viewpoint& eye, point p) const {
 }
 
 bool route_sight::is_seen(point p, double s_m) const {
+  assert(std::isfinite(s_m) && std::isfinite(p.x_m));
   const auto axle = way_->path().at(s_m);
   const auto middle_m = (car_.front_m - car_.rear_m) / 2;
   const point ahead{std::cos(axle.heading_rad), std::sin(axle.heading_rad)};
@@ -53,6 +54,7 @@ bool route_sight::is_seen(point p, double s_m) const {
 
 double route_sight::ahead_m(double s_m) const {
   const auto front_m = s_m + car_.front_m;
+  assert(car_.front_m > 0 && look_step_m > 0);
   const auto end_m = way_->closed()
                          ? front_m + eyes_.range_m
                          : std::min(front_m + eyes_.range_m, way_->length_m());
@@ -60,6 +62,7 @@ double route_sight::ahead_m(double s_m) const {
   while (seen_m < end_m
          && is_seen(way_->path().at(seen_m + look_step_m).at, s_m))
     seen_m += look_step_m;
+  assert(seen_m >= front_m);
   // Whoever is on an open route's end has left.
   if (!way_->closed() && seen_m >= end_m)
     return eyes_.range_m;
@@ -71,6 +74,7 @@ route_sight::corners(const lane_network& lanes) const {
   std::vector<blind_corner> found;
   const world::unrolled_route zones{way_, lanes.meetings()};
   zones.for_zones(0, way_->length_m(), [&](const world::zone& z) {
+    assert(z.from_m <= z.to_m);
     const auto other = lanes.rank(z.other_side());
     const auto those = lanes.approach(z.other_side(), in_time_s);
     if (other > z.rank || those.size() < 2)
@@ -88,12 +92,15 @@ route_sight::corners(const lane_network& lanes) const {
   });
   add_long_ones(zones, found);
   std::ranges::sort(found, {}, &blind_corner::line_m);
+  assert(std::ranges::all_of(
+      found, [](const auto& x) { return x.seen_from_m <= x.line_m; }));
   return found;
 }
 
 /// Adds where crossings begin that belong together and end out of reach.
 void route_sight::add_long_ones(const world::unrolled_route& zones,
                                 std::vector<blind_corner>& found) const {
+  assert(eyes_.range_m >= 0 && car_.rear_m >= 0);
   const auto reach_m = eyes_.range_m + (car_.front_m - car_.rear_m) / 2;
   auto from_m = 0.0, to_m = 0.0;
   const auto add = [&] {
@@ -108,6 +115,7 @@ void route_sight::add_long_ones(const world::unrolled_route& zones,
       from_m = z.from_m;
     }
     to_m = std::max(to_m, z.to_m);
+    assert(from_m <= to_m);
     return true;
   });
   add();
@@ -117,6 +125,7 @@ void route_sight::add_long_ones(const world::unrolled_route& zones,
 blind_corner route_sight::look_at(double line_m,
                                   std::span<const point> those) const {
   blind_corner corner{line_m, line_m};
+  assert(!those.empty());
   for (auto s = line_m; s > line_m - approach_m; s -= approach_step_m) {
     if (!std::ranges::all_of(those, [&](point p) { return is_seen(p, s); }))
       break;

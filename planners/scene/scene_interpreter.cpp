@@ -154,6 +154,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
 void scene_interpreter::keep_to_lane(const track& known, time_point now,
                                      track& x) const {
   constexpr auto moment_s = 0.15;
+  assert(x.id == known.id);
   const auto unseen_s = to_seconds(now - known.seen);
   const auto speed_mps = known.speed_mps();
   if (unseen_s < moment_s || speed_mps < stands_below_mps)
@@ -170,6 +171,7 @@ void scene_interpreter::keep_to_lane(const track& known, time_point now,
 /// Adds bodies where those who cut in will be soon.
 void scene_interpreter::foresee_cutting_in() {
   const auto count = seen_ = others_.size();
+  assert(lanes_);
   for (std::size_t i = 0; i < count; ++i)
     if (others_[i].cuts_in)
       for (const auto in_s : {0.7, 1.4}) {
@@ -292,7 +294,8 @@ scene_interpreter::measure(const track& x, double guess_m) const {
 std::optional<scene_interpreter::footprint>
 scene_interpreter::measure_met(const own_place& me, const near& where,
                                const footprint& b) const {
-  assert(b.speed_mps < 0);
+  assert(b.speed_mps < 0 && me.speed_mps >= 0);
+  assert(where.who < others_.size());
   const auto& x = others_[where.who].x;
   const auto way_m = b.from_m - me.s_m - params_.car.front_m;
   const auto in_s = std::max(0.0, way_m) / (me.speed_mps - b.speed_mps);
@@ -317,27 +320,52 @@ bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
                         * (decides_within_s + me.speed_mps / (2 * stops_mps2));
 }
 
+/// @returns what a body takes of the way before the own rear, where the car
+/// will be; nothing if it will have left.
+std::optional<scene_interpreter::footprint>
+scene_interpreter::measure_ahead(const own_place& me, const near& where) const {
+  assert(where.who < others_.size() && half_lane_m_ > 0);
+  const auto front_m = me.s_m + params_.car.front_m;
+  auto print = measure(others_[where.who].x, where.guess_m);
+  if (!print || print->to_m <= me.s_m - params_.car.rear_m
+      || print->from_m > front_m + params_.horizon_m)
+    return {};
+  if (print->speed_mps < -stands_below_mps && print->low_m < half_lane_m_
+      && print->high_m > -half_lane_m_)
+    print = measure_met(me, where, *print);
+  if (print && where.who >= seen_ && print->from_m < front_m)
+    return {}; // it would come into the side: braking does not help
+  assert(!print || print->from_m <= print->to_m);
+  return print;
+}
+
+/// @param may_pass  What is certain leaves room: it may turn out to be
+///                  passable, and then there must be way to steer round it.
+lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
+                                        const footprint& b,
+                                        bool may_pass) const {
+  const auto front_m = me.s_m + params_.car.front_m;
+  const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
+  const auto back_m =
+      may_pass ? std::clamp(b.from_m - front_m - stop_m, 0.0, pulls_out_m)
+               : 0.0;
+  assert(back_m >= 0 && b.to_m > front_m);
+  return {x.station, b.from_m - back_m, std::max(b.speed_mps, 0.0),
+          b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+}
+
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   beside_.clear();
   const auto front_m = me.s_m + params_.car.front_m;
-  const auto rear_m = me.s_m - params_.car.rear_m;
   const auto need_m = 2 * corridor_m();
-  assert(rear_m < front_m && need_m > 0);
+  assert(need_m > 0 && !out.lead);
   for (const auto& where : near_) {
     if (out.lead && where.low_m > out.lead->rear_s_m)
       break;
-    auto print = measure(others_[where.who].x, where.guess_m);
-    if (!print || print->to_m <= rear_m
-        || print->from_m > front_m + params_.horizon_m)
-      continue;
-    if (print->speed_mps < -stands_below_mps && print->low_m < half_lane_m_
-        && print->high_m > -half_lane_m_)
-      print = measure_met(me, where, *print);
+    const auto print = measure_ahead(me, where);
     if (!print)
-      continue; // it will have left the lane
+      continue;
     auto b = *print;
-    if (where.who >= seen_ && b.from_m < front_m)
-      continue; // it would come into the side: braking does not help
     const auto& [x, is_crossing, cuts_in] = others_[where.who];
     if (is_crossing && !is_along(b.cosine))
       continue;
@@ -370,15 +398,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
       beside_.push_back(x.id);
     } else if (b.to_m > front_m
                && (!out.lead || b.from_m < out.lead->rear_s_m)) {
-      // What is certain leaves room: it may turn out to be passable, and then
-      // there must be way to steer round it.
-      const auto may_pass = x.stands() && certainly_lacks_m <= 0;
-      const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
-      const auto back_m =
-          may_pass ? std::clamp(b.from_m - front_m - stop_m, 0.0, pulls_out_m)
-                   : 0.0;
-      out.lead = {x.station, b.from_m - back_m, std::max(b.speed_mps, 0.0),
-                  b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+      out.lead = leading(me, x, b, x.stands() && certainly_lacks_m <= 0);
     }
   }
   std::ranges::sort(beside_);

@@ -88,6 +88,10 @@ private:
   std::optional<footprint> measure(const track& x, double guess_m) const;
   std::optional<footprint> measure_met(const own_place& me, const near& where,
                                        const footprint& b) const;
+  std::optional<footprint> measure_ahead(const own_place& me,
+                                         const near& where) const;
+  lead_vehicle leading(const own_place& me, const track& x, const footprint& b,
+                       bool may_pass) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;

@@ -33,6 +33,7 @@ void see_round(std::vector<double>& most_mps, const blind_corner& corner,
   constexpr double approach_m = 100;
   const auto size = static_cast<long>(most_mps.size());
   assert(size > 1 && corner.seen_from_m <= corner.line_m);
+  assert(std::isfinite(corner.line_m));
   for (auto s_m = std::floor(corner.line_m - approach_m);
        s_m <= corner.seen_from_m; ++s_m) {
     auto i = std::lround(s_m);
@@ -52,6 +53,7 @@ std::vector<double> sight_limits_mps(const world::route& way,
                                      const route_sight& sight,
                                      const lane_network* lanes) {
   std::vector<double> most_mps;
+  assert(way.length_m() > 0 && style.standstill_gap_m >= 0);
   for (auto s_m = 0.0; s_m < way.length_m() + 1; ++s_m)
     most_mps.push_back(speed_to_stop_mps(
         sight.ahead_m(s_m) - half_car_m - style.standstill_gap_m, style));

@@ -33,6 +33,7 @@ struct way_table {
 double allowed_at(const world::route& way, double s_m,
                   const comfort_limits& params,
                   std::span<const double> most_mps) {
+  assert(std::isfinite(s_m) && params.max_lateral_accel_mps2 > 0);
   const auto bend = std::abs(way.path().at(s_m).curvature_1pm);
   const auto limit =
       std::max(min_speed_mps,

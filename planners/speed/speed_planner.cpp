@@ -1,6 +1,7 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
+#include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
 
 #include <algorithm>
@@ -12,15 +13,9 @@ namespace {
 
 constexpr double never = speed_constraints::never;
 
-// Where to stop before a line, and what must be kept in any case.
+// Where to stop before a line.
 constexpr double wanted_line_gap_m = 0.3;
-constexpr double least_line_gap_m = 0.15;
-constexpr double least_gap_m = 1.0;
-/// Comfort keeps off a window by so much more than an emergency does.
-constexpr double window_slack_s = 0.4;
 constexpr double least_way_m = 0.1;
-/// What a plan that was made before may come closer still.
-constexpr double slack_m = 0.1;
 
 /// Behind a car that crawls, rather stop than follow: it is taken to brake.
 constexpr double crawl_ahead_mps = 2.0;
@@ -81,20 +76,6 @@ double decel_to_be_late(double v, double way_m, double time_s) {
   const auto way = std::max(way_m, least_way_m);
   const auto decel = 2 * (v * time_s - way) / square(time_s);
   return v < decel * time_s ? square(v) / (2 * way) : decel; // or at rest
-}
-
-bool keeps_windows(const speed_profile& motion, double step_s,
-                   const speed_constraints& task) {
-  assert(step_s > 0);
-  for (std::size_t i = 1; i < motion.size(); ++i) {
-    const auto t = static_cast<double>(i) * step_s;
-    for (const auto& window : task.windows)
-      if (motion[i].s_m > window.at_m && motion[i - 1].s_m <= window.at_m
-          && (t < window.earliest_s - window_slack_s
-              || t > window.latest_s + window_slack_s))
-        return false;
-  }
-  return true;
 }
 
 } // namespace
@@ -488,6 +469,7 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
 // different length can be compared.
 double speed_planner::price(const planned_path& path, double way_m) const {
   assert(style_.step_s > 0 && !path.empty());
+  assert(!motion_.empty());
   constexpr velocity_weights weigh;
   auto sum = 0.0;
   for (std::size_t i = 1; i < motion_.size(); ++i) {
@@ -498,20 +480,6 @@ double speed_planner::price(const planned_path& path, double way_m) const {
            + weigh.accel * square(x.accel_mps2) + weigh.jerk * square(jerk);
   }
   return sum * style_.step_s;
-}
-
-bool is_clear(const speed_profile& motion, double step_s,
-              const speed_constraints& task) {
-  assert(step_s > 0);
-  for (std::size_t i = 0; i < motion.size(); ++i) {
-    const auto t = static_cast<double>(i) * step_s;
-    const auto& x = motion[i];
-    if (x.s_m > task.stop_m - least_line_gap_m + slack_m)
-      return false;
-    if (task.ahead && x.s_m > task.ahead->at(t) - least_gap_m + slack_m)
-      return false;
-  }
-  return keeps_windows(motion, step_s, task);
 }
 
 } // namespace sofof::planners

@@ -114,9 +114,4 @@ private:
   std::vector<double> w_max_, wanted_, bends_, earliest_, latest_;
 };
 
-/// @returns whether a motion keeps off lines and the car ahead, by less than
-/// what a plan keeps: to judge plans that were made before, or badly.
-bool is_clear(const speed_profile& motion, double step_s,
-              const speed_constraints& task);
-
 } // namespace sofof::planners

@@ -69,6 +69,7 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
                const auto& line_of, minded_cars& found) {
   std::array<minded_cars::car, 4 * crossing_order::most_cars> all;
   std::size_t count = 0;
+  assert(found.car_count == 0);
   for (const auto& user : users) {
     if (!is_minded(user, line_of(user), car))
       continue;
@@ -91,6 +92,7 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
 /// @returns way to where it waits for what begins after a way: there, or a
 /// little later where that is too near; negative where it is too late to.
 double waiting_line_m(double line_m, const crossing_car& car, bool waits) {
+  assert(car.speed_mps >= 0 && car.firm_decel_mps2 > 0);
   const auto slow = car.speed_mps < slow_mps;
   const auto within_m = car.speed_mps < hardly_mps ? stands_within_m
                         : waits || slow            ? waits_within_m
@@ -101,6 +103,7 @@ double waiting_line_m(double line_m, const crossing_car& car, bool waits) {
   const auto rolls_on_m = begun * hesitation_s * car.speed_mps;
   const auto softly_m =
       std::min(line_m + waits_within_m, stopping_m(car) - rolls_on_m);
+  assert(rolls_on_m <= stopping_m(car));
   return std::max(softly_m > line_m + worth_it_m ? softly_m : line_m, 0.0);
 }
 
@@ -109,6 +112,7 @@ minded_cars find_minded(std::span<const crossing_user> users,
                         const std::function<double(double)>& way,
                         const crossing_choice& last) {
   minded_cars found;
+  assert(way && car.front_m > 0);
   const auto line_of = [&](const crossing_user& user) {
     return waiting_line_m(way(user.from_m - car.front_m), car, last.waits);
   };
@@ -138,6 +142,7 @@ minded_cars find_minded(std::span<const crossing_user> users,
 bool add_windows(const minded_cars& minded, const crossing_car& car,
                  crossing_order& order) {
   auto possible = true;
+  assert(order.count == 0 && order.choice < crossing_order::waits);
   for (std::size_t i = 0; i < minded.count; ++i) {
     const auto& [line_m, clear_m, user, bit] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
@@ -161,6 +166,8 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
 /// Who goes before one at a place goes before all who come there later, too.
 /// @returns the bits with those of such cars.
 std::uint32_t with_later(std::uint32_t bits, const minded_cars& minded) {
+  assert(bits >> minded.car_count == 0);
+  assert(minded.count <= minded.places.size());
   const auto is_before = [&](const minded_place& x) {
     return (bits >> x.car & 1U) != 0;
   };
@@ -231,6 +238,7 @@ crossing_choice going_on(crossing_choice last,
     if (std::ranges::all_of(users, goes_before))
       *free = user.body;
   }
+  assert(!last.waits || last.before[0] == 0);
   return last;
 }
 

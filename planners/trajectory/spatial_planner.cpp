@@ -2,6 +2,7 @@
 #include "planners/trajectory/spatial_planner.hpp"
 
 #include "planners/scene/lane_motion.hpp"
+#include "planners/speed/clearance.hpp"
 #include "planners/trajectory/safe_stop.hpp"
 
 #include <algorithm>
@@ -50,18 +51,6 @@ bool is_moving(const lane_obstacle& body) {
 enum class worth { drives, waits, rests, brakes, none };
 
 } // namespace
-
-void spatial_params::visit_options(option_visitor& s) {
-  s.field("horizon_m", horizon_m, {20, 200});
-  s.field("step_m", step_m, {0.25, 2});
-  if (horizon_m / step_m > ocp::most_steps)
-    s.refuse("step_m", "must be at least horizon_m / 256.");
-  if (horizon_m / step_m < speed_planner::fewest_steps)
-    s.refuse("step_m", "must be at most horizon_m / 16.");
-  s.field("candidates", candidates, {1, 16});
-  s.field("alternations", alternations, {1, 4});
-  s.field("cautious_sight_m", cautious_sight_m, {0, 200});
-}
 
 spatial_planner::spatial_planner(route_profile_ptr way,
                                  const comfort_limits& style,
@@ -175,7 +164,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   }
   if (path_->path().empty())
     return false;
-  way_m_ = path_->path().way_m(car.s_m);
+  way_m_ = std::max(0.0, path_->path().way_m(car.s_m)); // but for rounding
   assert(way_m_ >= 0 && way_m_ <= path_->path().length_m());
   if (!path_->settled()) // it knows nothing of what is new
     for (const auto& body : bodies_)
@@ -294,6 +283,7 @@ speed_constraints spatial_planner::task(const scene& at) const {
 
 crossing_car spatial_planner::crossing(const scene& at) const {
   constexpr auto look_m = 5.0;
+  assert(at.start.speed_mps >= 0 && params_.horizon_m > look_m);
   const auto& line = way_->line;
   auto top_mps = 0.0; // where it is, a corner may slow it down
   for (auto ahead_m = 0.0; ahead_m < params_.horizon_m; ahead_m += look_m)
@@ -310,7 +300,8 @@ double spatial_planner::kept_free_m(const speed_constraints& t,
                                     const scene& at) const {
   const auto car = crossing(at);
   const auto stopping = stopping_m(car);
-  assert(stopping >= 0);
+  assert(stopping >= 0 && !std::isnan(t.stop_m));
+  assert(std::ranges::is_sorted(at.others.keep_free, {}, &way_stretch::from_m));
   for (const auto& stretch : at.others.keep_free) {
     const auto line_m = way_from_car(stretch.from_m - style_.front_m);
     const auto clear_m = way_from_car(stretch.to_m + car_.rear_m);
@@ -330,7 +321,8 @@ double spatial_planner::kept_free_m(const speed_constraints& t,
 // waits before all crossings instead, but not for ever.
 bool spatial_planner::rests_among(const speed_profile& motion,
                                   const scene& at) const {
-  assert(!motion.empty());
+  assert(!motion.empty() && motion.front().s_m == 0);
+  assert(at.others.stands_s >= 0);
   if (at.others.stands_s > patience_s)
     return false;
   const auto stopping = stopping_m(crossing(at));
@@ -443,6 +435,7 @@ bool spatial_planner::keep(const world::trajectory& previous, const scene& at,
 // Nobody who goes first is met where both cross.
 bool spatial_planner::avoids_crossings() const {
   assert(!kept_.empty());
+  assert(style_.step_s > 0);
   return std::ranges::none_of(users_, [this](const crossing_user& user) {
     const auto from = way_from_car(user.from_m - style_.front_m);
     const auto to = way_from_car(user.to_m + car_.rear_m);
@@ -458,7 +451,8 @@ bool spatial_planner::avoids_crossings() const {
 
 bool spatial_planner::passes(const world::trajectory& plan,
                              std::span<const lane_obstacle> bodies) const {
-  assert(!plan.empty());
+  assert(plan.is_sound());
+  assert(car_.width_m > 0 && style_.front_m > 0);
   const auto half_m = car_.width_m / 2;
   return std::ranges::none_of(bodies, [&](const lane_obstacle& body) {
     return std::ranges::any_of(

@@ -2,10 +2,10 @@
 // again, for the best of several ways past the others.
 #pragma once
 
-#include "base/options/option_visitor.hpp"
 #include "planners/path/path_planner.hpp"
 #include "planners/speed/speed_planner.hpp"
 #include "planners/trajectory/maneuver_candidates.hpp"
+#include "planners/trajectory/spatial_params.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 
 #include <memory>
@@ -13,19 +13,6 @@
 #include <vector>
 
 namespace sofof::planners {
-
-/// How far, how finely and how thoroughly a planner plans.
-struct spatial_params {
-  double horizon_m = 80;
-  double step_m = 1;
-  std::int64_t candidates = 2;   ///< Ways past the others that are weighed.
-  std::int64_t alternations = 1; ///< Path, speed, path for these speeds, …
-  /// Before crossings where others go first it reckons with seeing no
-  /// farther than this; 0: it does not.
-  double cautious_sight_m = 0;
-
-  void visit_options(option_visitor& s);
-};
 
 /// Path–velocity decomposition over arc length; both parts by the
 /// augmented-Lagrangian iLQR of planners/ocp. A plan that fails is replaced by

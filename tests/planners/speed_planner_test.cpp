@@ -2,6 +2,7 @@
 // much.
 #include "planners/speed/speed_planner.hpp"
 
+#include "planners/speed/clearance.hpp"
 #include "tests/planners/random_road.hpp"
 #include "tests/planners/usual_drive.hpp"
 #include "tests/support/dice.hpp"
