@@ -53,8 +53,11 @@ planning_input joined(const world::route& way, time_point now,
     const auto then = previous->at(std::max(input.at, previous->start));
     assert(std::isfinite(then.s_m) && then.speed_mps >= 0);
     if (std::abs(then.s_m - seen.s_m) <= same_drive_m
-        && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps)
-      return seen_from(way, previous->at(now));
+        && std::abs(then.speed_mps - seen.speed_mps) <= same_speed_mps) {
+      auto on_it = seen_from(way, previous->at(now));
+      on_it.at = now;
+      return on_it;
+    }
   }
   return made_possible(moved_forward(made_possible(own(input)), now));
 }

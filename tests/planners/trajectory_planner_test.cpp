@@ -58,6 +58,7 @@ TEST_CASE("a plan that is followed well is gone on from") {
   CHECK(start.s_m == Approx(102.5));
   CHECK(start.speed_mps == Approx(10));
   CHECK(start.d_m == Approx(0.1));
+  CHECK(start.at == plan_time); // or who moves it forward goes too far
 }
 
 TEST_CASE("a plan that is not followed is not gone on from") {
