@@ -46,7 +46,7 @@ constexpr std::size_t max_seen = 256;
 /// Nothing on a road is faster, larger or farther away: no load that is carried
 /// on one is 60 m long, nor what is left standing on one.
 constexpr auto max_speed_mps = 100.0;
-constexpr auto max_size_m = 60.0;
+constexpr auto min_size_m = 0.01, max_size_m = 60.0;
 constexpr auto most_distant_m = 1e7;
 constexpr auto max_heading_rad = 1e6; // many laps, unwrapped
 
@@ -63,8 +63,8 @@ bool is_sound(const world::perceived_object& o) {
          && std::abs(o.centre.y_m) <= most_distant_m
          && std::abs(o.heading_rad) <= max_heading_rad
          && std::isfinite(o.accel_mps2)
-         && std::abs(o.speed_mps) <= max_speed_mps && o.width_m > 0
-         && o.width_m <= max_size_m && o.length_m > 0
+         && std::abs(o.speed_mps) <= max_speed_mps && o.width_m >= min_size_m
+         && o.width_m <= max_size_m && o.length_m >= min_size_m
          && o.length_m <= max_size_m;
 }
 

@@ -482,7 +482,7 @@ TEST_CASE("a name is nobody else's") {
 TEST_CASE("what no body can be is left out") {
   constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
   object_tracker model;
-  std::vector wrong(12, perceived_car({}));
+  std::vector wrong(13, perceived_car({}));
   wrong[0].centre.x_m = nan;
   wrong[1].heading_rad = std::numeric_limits<double>::infinity();
   wrong[2].speed_mps = nan;
@@ -495,6 +495,7 @@ TEST_CASE("what no body can be is left out") {
   wrong[9].heading_rad = nan;
   wrong[10].width_m = 61;
   wrong[11].length_m = 0;
+  wrong[12].width_m = 1e-300; // a mean with it may be 0
   model.update(first_sight, wrong);
   for (const auto& o : wrong)
     model.on_report(first_sight, 1, o);
