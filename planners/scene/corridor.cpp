@@ -146,11 +146,13 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
         near_right_[j][k] =
             std::max(near_right_[j][k], body.high_m + near + bow);
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
-        hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
+        if (hi_[j][k] >= lane_hi_[j][k]) // no other body is there
+          hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
       } else {
         near_left_[j][k] = std::min(near_left_[j][k], body.low_m - near + bow);
         hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
-        lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
+        if (lo_[j][k] <= lane_lo_[j][k])
+          lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
       }
     }
   }

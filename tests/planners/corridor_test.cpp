@@ -162,6 +162,23 @@ TEST_CASE("beside a body the car keeps its distance, on the side it was told") {
   }
 }
 
+TEST_CASE("between two bodies both keep the car off, whichever comes first") {
+  const reference_line line{test::straight(200, {{0, 10}})};
+  const lane_obstacle left{30, 34, 0.9, 2, 0}, right{30, 34, -2, -0.9, 0};
+  for (const auto left_first : {true, false}) {
+    corridor room;
+    room.open(line, 10, 1, steps);
+    if (left_first)
+      room.pass(left, side_of_road::right);
+    room.pass(right, side_of_road::left);
+    if (!left_first)
+      room.pass(left, side_of_road::right);
+    const auto [lo, hi] = straight_room(room, 19); // beside both
+    CHECK(hi < left.low_m - half_car_m);
+    CHECK(lo > right.high_m + half_car_m);
+  }
+}
+
 TEST_CASE("whoever comes too near to a body is let no farther into it") {
   const reference_line line{test::straight(200, {{0, 10}})};
   test::dice dice{9};
