@@ -82,6 +82,17 @@ sensors_beside(const scenario_definition& s,
   return beside;
 }
 
+/// @returns sensors of one kind, with the errors of the worse of two: of a
+/// track nobody remembers who saw it.
+world::sensor_params noisier(world::sensor_params one,
+                             const world::sensor_params& other) {
+  const auto worsen = [](double& x, double y) { x = std::max(x, y); };
+  worsen(one.position_noise_m, other.position_noise_m);
+  worsen(one.speed_noise_mps, other.speed_noise_mps);
+  worsen(one.heading_noise_rad, other.heading_noise_rad);
+  return one;
+}
+
 std::vector<oriented_box> obstacles(const scenario_definition& s) {
   std::vector<oriented_box> boxes;
   for (const auto& o : s.obstacles)
@@ -166,7 +177,7 @@ public:
             [where = where_](const messages::its_pdu& message, time_point now) {
               return messages::decode(message, *where, now);
             }} {
-    services_ = services_in(s.world);
+    services_ = services_in(s.world, {});
     world_.recorder = actors::spawn_recorder(sys_, std::move(sink));
     name(watched_, world_.recorder, "the recorder");
     world_.has_peers = here.serves_others || !here.remotes.empty();
@@ -192,13 +203,17 @@ public:
 
 private:
   /// @param streets  What is known of them where the services run.
+  /// @param beside   The sensors that tell what they see there.
   std::vector<offloading::service>
-  services_in(const world::streets_ptr& streets) const {
+  services_in(const world::streets_ptr& streets,
+              std::span<const roadside_options> beside) const {
     actors::service_world known{
         streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors, {}};
-    for (const auto& provider : s_.providers)
-      for (const auto& sensor : provider.sensors)
-        known.roadside.push_back(sensor.make({0, ""}).view());
+    for (const auto& options : beside) {
+      const auto sensor = options.make({0, ""});
+      known.roadside.push_back(sensor.view());
+      known.eyes = noisier(known.eyes, sensor.can);
+    }
     std::vector<offloading::service> all;
     for (const auto& type : s_.services)
       all.push_back(type->in(known));
@@ -249,7 +264,12 @@ private:
     const auto& streets = own ? own : s_.world;
     setup.map = {streets, &streets->map};
     setup.decode = decode_;
-    for (const auto& service : own ? services_in(own) : services_)
+    const auto beside = here_.serves_others
+                            ? std::span<const roadside_options>{}
+                            : std::span{options.sensors};
+    const auto services =
+        own || !beside.empty() ? services_in(streets, beside) : services_;
+    for (const auto& service : services)
       if (options.offers(service.name.view()))
         setup.services.push_back(service);
     setup.codm = s_.policies.codm->clone();

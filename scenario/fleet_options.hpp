@@ -79,7 +79,7 @@ struct traffic_options {
 /// A body that stands on the road, as a parked car does.
 struct obstacle_options {
   point position_m;       ///< Of its middle.
-  double heading_deg = 0; ///< Of its long axis, counter-clockwise from east.
+  double heading_deg = 0; ///< Along its length, counter-clockwise from east.
   double length_m = 4.5;
   double width_m = 1.8;
 

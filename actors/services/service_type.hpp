@@ -25,7 +25,7 @@ struct service_world {
   /// Whether the road grants crossings; else drivers judge them.
   bool crossings_granted = true;
   world::sensor_params eyes{};            ///< Of each vehicle.
-  std::vector<world::viewpoint> roadside; ///< Sensors of providers.
+  std::vector<world::viewpoint> roadside; ///< Sensors of the provider there.
 };
 
 // actors/services/service_client.hpp has both.
