@@ -81,7 +81,7 @@ double length_m(std::span<const point> polyline);
 /// A rectangle on the road: the footprint of a vehicle.
 struct oriented_box {
   point centre;
-  double heading_rad = 0; ///< Of the long axis, counter-clockwise from east.
+  double heading_rad = 0; ///< Along its length, counter-clockwise from east.
   double length_m = 0;
   double width_m = 0;
 };

@@ -122,7 +122,7 @@ private:
   std::vector<bool> rounds_;      // likewise, whether on a roundabout
   std::vector<placement> begins_; // likewise, where they begin
   std::vector<bend> bends_;       // of each lane
-  std::vector<course> courses_;   // likewise
+  std::vector<course> courses_;   // of all sides
   std::vector<world::path> paths_;
   std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane

@@ -36,7 +36,7 @@ bool route_sight::is_seen_from(const world::viewpoint& eye, point p) const {
   const auto off_rad = wrap_angle(std::atan2(to.y_m, to.x_m) - eye.heading_rad);
   constexpr auto rad_per_deg = std::numbers::pi / 180;
   return std::abs(off_rad) <= eye.field_of_view_deg / 2 * rad_per_deg
-         && (!eyes_.is_hidden || houses_.is_free(eye.at, p));
+         && (!eyes_.houses_hide || houses_.is_free(eye.at, p));
 }
 
 bool route_sight::is_seen(point p, double s_m) const {

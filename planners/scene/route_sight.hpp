@@ -17,7 +17,7 @@ namespace sofof::planners {
 struct eyes_on_road {
   double range_m = 100; ///< Of a car's own sensor, in the middle of its body.
   double field_of_view_deg = 360; ///< Round its heading.
-  bool is_hidden = true;          ///< What is behind houses.
+  bool houses_hide = true;        ///< What is behind them.
   /// Of sensors at the roadside, which tell what they see.
   std::vector<world::viewpoint> roadside;
 };

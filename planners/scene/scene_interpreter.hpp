@@ -40,8 +40,8 @@ struct own_place {
 ///   heading;
 /// * beside, when it reaches into the lane but leaves room for the own body
 ///   and both margins on one side; once it has been that, with a little less
-///   room too, and with as much as the own body needs when there is no way to
-///   stop before it any more;
+///   room too, and with 0.3 m beside the own body when there is no way to stop
+///   before it any more;
 /// * the lead, when it is the nearest that reaches into the way of the own
 ///   body (and margins) on the centre line, and leaves no such room; bodies
 ///   beyond it are not looked for;
@@ -60,8 +60,7 @@ public:
   /// is not seen.
   /// * The lead: its speed along the own way, 0 when it comes; its
   ///   acceleration only when it brakes; its station 0 when unknown.
-  /// * Crossings: of equal ranks, the other goes first. So does whoever is on
-  ///   the zone or cannot stop before it any more.
+  /// * Crossings: who goes first, see `crossing_predictor::judge`.
   /// @param tracks  At most as new as `now`; the own one may be among them
   ///                and is known by its station or its place.
   /// @param out     Its vectors are reused.

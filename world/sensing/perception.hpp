@@ -12,7 +12,7 @@ namespace sofof::world {
 /// A body that a sensor has seen, as a perceived object of a CPM describes it.
 struct perceived_object {
   point centre;           ///< Of its body, m, east-north.
-  double heading_rad = 0; ///< Of its long axis, forward.
+  double heading_rad = 0; ///< Where its front is.
   double speed_mps = 0;   ///< Along its heading.
   double accel_mps2 = 0;  ///< Along its heading.
   double length_m = 0;
