@@ -1,6 +1,8 @@
 // The corridor, disc by disc.
 #include "planners/scene/corridor.hpp"
 
+#include "planners/scene/track.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -138,8 +140,8 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       const auto bow = line_->bow_m(s, p.ahead_m);
       const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
       // Who moves may be in its own lane by then.
-      constexpr auto stands_mps = 0.3, far_m = 1e3;
-      const auto stands = std::abs(body.speed_mps) < stands_mps;
+      constexpr auto far_m = 1e3;
+      const auto stands = std::abs(body.speed_mps) < stands_below_mps;
       const auto near =
           stands ? touching_m + p.radius_m - disc_excess_m : -far_m;
       if (side == side_of_road::left) {

@@ -2,6 +2,7 @@
 #include "planners/trajectory/spatial_planner.hpp"
 
 #include "planners/scene/lane_motion.hpp"
+#include "planners/scene/track.hpp"
 #include "planners/speed/clearance.hpp"
 #include "planners/trajectory/safe_stop.hpp"
 
@@ -39,11 +40,8 @@ constexpr typename Planner::grid grid_of(const spatial_params& p) {
   return {p.step_m, static_cast<int>(p.horizon_m / p.step_m)};
 }
 
-/// Slower bodies stand: sensors are not that good.
-constexpr double moving_mps = 0.3;
-
 bool is_moving(const lane_obstacle& body) {
-  return std::abs(body.speed_mps) > moving_mps;
+  return std::abs(body.speed_mps) > stands_below_mps;
 }
 
 /// Of plans to cross, the best first. Cars that each come to rest among
