@@ -109,9 +109,15 @@ crossing_drive cross(test_drive& drive, const std::vector<crosser>& all,
     users.clear();
     for (std::uint32_t body = 0; const auto& c : all) {
       ++body;
-      if (c.leave_s > t && drive.rear_m() < c.to_m)
-        users.push_back({c.from_m, c.to_m, std::max(0.0, c.enter_s - t),
-                         c.leave_s - t, c.goes_first, body});
+      if (c.leave_s <= t || drive.rear_m() >= c.to_m)
+        continue;
+      auto& user = users.emplace_back();
+      user.from_m = c.from_m;
+      user.to_m = c.to_m;
+      user.enter_s = std::max(0.0, c.enter_s - t);
+      user.leave_s = c.leave_s - t;
+      user.goes_first = c.goes_first;
+      user.body = body;
     }
     drive.cycle();
     const auto order = drive.report.choice >> 8 & 0xf;

@@ -101,7 +101,7 @@ planning_input junk(test::dice& dice) {
     x.others.crossings.push_back(
         {number(dice.between(0, 300)), number(dice.between(0, 300)),
          number(dice.between(0, 9)), number(dice.between(0, 12)),
-         dice.between(0, 1) < 0.5,
+         dice.between(0, 1) < 0.5, number(dice.between(0, 9)),
          static_cast<std::uint32_t>(dice.between(0, 3))});
   for (auto n = dice.between(-2, 6); n > 0; --n)
     x.others.beside.push_back(
