@@ -111,22 +111,12 @@ TEST_CASE("without the line that requires nothing, one sentence says so") {
                        input_error);
 }
 
-TEST_CASE("the least delay's drives have as many results as the real ones") {
-  paper_runs e;
-  for (const auto results : {20'000, 30'000}) {
-    auto& run = e.real_world.emplace_back();
-    run.figures = {{"latency_ms.count", results}};
-  }
-  const auto s = sensitivity(e);
-  const auto& f = the<report::figure>(s, "The least delay");
-  CHECK(contains(f.caption, "25000"));
-  CHECK(f.curves[0].y[3]
-        == near(15 * share_of_drives_with_a_late_result(5, 50, 25'000), 1e-9));
-}
-
-TEST_CASE("a loaded host and correlated latencies are drawn beside the plot") {
+// One section, as its pictures take seconds: each sum needs runs of its own.
+TEST_CASE("what is chosen is varied beside what is measured") {
   const scratch dir;
   auto e = two_curves(dir, 50, 40, 3);
+  for (const auto results : {20'000, 30'000})
+    e.real_world.emplace_back().figures = {{"latency_ms.count", results}};
   for (const auto* n : {"1", "6"})
     for (auto* runs : {&e.correlated, &e.loaded_host}) {
       auto& run = runs->emplace_back();
@@ -136,22 +126,6 @@ TEST_CASE("a loaded host and correlated latencies are drawn beside the plot") {
                      {"latency_ms.std", 9}};
       run.t_off_s = {runs == &e.correlated ? 70.0 : n[0] == '1' ? 60.0 : 30.0};
     }
-  const auto s = sensitivity(e);
-  const auto& host = the<report::figure>(s, "One host");
-  REQUIRE(host.curves.size() == 4);
-  CHECK(host.curves[0].y == std::vector<double>{60});
-  CHECK(host.curves[1].y == std::vector<double>{30});
-  CHECK(host.curves[2].dashed);
-  CHECK(host.curves[2].y.back() == 50);
-  CHECK(contains(host.caption, "15.00 ± 9.00 ms with six"));
-  const auto& level = the<report::figure>(s, "Latencies that depend on the one "
-                                             "before, simulated");
-  CHECK(level.curves[0].y == std::vector<double>{70});
-  CHECK(contains(level.caption, "11.00 ± 9.00 ms for one"));
-}
-
-TEST_CASE("hosts are shown with their runs") {
-  paper_runs e;
   for (const auto* host : {"1 worker", "2 workers"}) {
     auto& run = e.host.emplace_back();
     run.point = {{"6", host}, 1, {}};
@@ -163,12 +137,33 @@ TEST_CASE("hosts are shown with their runs") {
     run.t_off_s = {host[0] == '1' ? 50.0 : 70.0};
   }
   const auto s = sensitivity(e);
-  const auto& t = the<report::table>(s, "The host");
-  REQUIRE(t.rows.size() == 2);
-  CHECK(t.rows[0][0] == "1 worker");
-  CHECK(t.rows[0][2].starts_with("50.0 ("));
-  CHECK(t.rows[1][2].starts_with("70.0 ("));
-  CHECK(t.rows[0][4] == "11.00 ± 9.00");
+
+  // The least delay's drives have as many results as the real ones.
+  const auto& least = the<report::figure>(s, "The least delay");
+  CHECK(contains(least.caption, "25000"));
+  CHECK(least.curves[0].y[3]
+        == near(15 * share_of_drives_with_a_late_result(5, 50, 25'000), 1e-9));
+
+  // A loaded host and correlated latencies are drawn beside the plot.
+  const auto& one_host = the<report::figure>(s, "One host");
+  REQUIRE(one_host.curves.size() == 4);
+  CHECK(one_host.curves[0].y == std::vector<double>{60});
+  CHECK(one_host.curves[1].y == std::vector<double>{30});
+  CHECK(one_host.curves[2].dashed);
+  CHECK(one_host.curves[2].y.back() == 50);
+  CHECK(contains(one_host.caption, "15.00 ± 9.00 ms with six"));
+  const auto& level = the<report::figure>(s, "Latencies that depend on the one "
+                                             "before, simulated");
+  CHECK(level.curves[0].y == std::vector<double>{70});
+  CHECK(contains(level.caption, "11.00 ± 9.00 ms for one"));
+
+  // Hosts are shown with their runs.
+  const auto& hosts = the<report::table>(s, "The host");
+  REQUIRE(hosts.rows.size() == 2);
+  CHECK(hosts.rows[0][0] == "1 worker");
+  CHECK(hosts.rows[0][2].starts_with("50.0 ("));
+  CHECK(hosts.rows[1][2].starts_with("70.0 ("));
+  CHECK(hosts.rows[0][4] == "11.00 ± 9.00");
 }
 
 } // namespace sofof::experiments::study
