@@ -83,11 +83,16 @@ std::vector<octet_line> octet_ledger::read(time_point now) {
   return lines;
 }
 
-std::vector<disturbed_line> octet_ledger::disturbed() const {
+std::vector<disturbed_line> octet_ledger::take_disturbed(time_point before) {
   const std::lock_guard lock{mutex_};
   std::vector<disturbed_line> lines;
-  for (const auto& [of, count] : disturbed_)
-    lines.push_back({of.first, of.second.first, of.second.second, count});
+  auto next = disturbed_.begin();
+  for (; next != disturbed_.end() && start_ + next->first.first < before;
+       ++next) {
+    const auto& [at, of] = next->first;
+    lines.push_back({at, of.first, of.second, next->second});
+  }
+  disturbed_.erase(disturbed_.begin(), next);
   return lines;
 }
 

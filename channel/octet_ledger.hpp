@@ -101,9 +101,11 @@ public:
   /// @param now  Not earlier than in calls before.
   std::vector<octet_line> read(time_point now);
 
-  /// @returns a line for each moment, vehicle and purpose that was disturbed,
-  /// in this order.
-  std::vector<disturbed_line> disturbed() const;
+  /// Forgets what was disturbed before then, so that long runs need no more
+  /// memory than short ones.
+  /// @returns a line for each moment, vehicle and purpose of that, in this
+  /// order.
+  std::vector<disturbed_line> take_disturbed(time_point before);
 
 private:
   struct arrival {

@@ -41,6 +41,10 @@ struct margin_row {
   const messages::session_id& id() const { return x.session; }
 };
 
+struct disturbed_row {
+  const disturbed_messages& of;
+};
+
 struct track_row {
   const messages::track_record& x;
   row_context in;
@@ -156,6 +160,19 @@ inline constexpr csv_column<margin_row> of_margins[]{
     {"received_s", received},
     {"margin", [](const auto& r) { return std::string_view{r.of.name}; }},
     {"left", [](const auto& r) { return rounded(r.of.left, margin_places); }},
+};
+
+inline constexpr csv_column<disturbed_row> of_disturbed[]{
+    {"t_s", [](const auto& r) { return seconds(r.of.x.at); }},
+    {"provider", [](const auto& r) { return std::string_view{r.of.provider}; }},
+    {"direction", [](const auto& r) { return r.of.direction; }},
+    {"station",
+     [](const auto& r) { return std::uint64_t{r.of.x.station.value()}; }},
+    {"what", [](const auto& r) { return std::string_view{r.of.x.what}; }},
+    {"lost", [](const auto& r) { return r.of.x.count.lost; }},
+    {"outage", [](const auto& r) { return r.of.x.count.outage; }},
+    {"stall", [](const auto& r) { return r.of.x.count.stall; }},
+    {"slow", [](const auto& r) { return r.of.x.count.slow; }},
 };
 
 inline constexpr csv_column<track_row> of_tracks[]{

@@ -63,19 +63,16 @@ std::string_view in_words(channel::disturbance of_results) {
   }
 }
 
-/// @returns why an episode of a service ended early, in a few words.
-std::string in_words(const early_end& x, std::string_view service,
-                     const run_info& run, const load_table& load) {
+/// @returns why an episode ended early, in a few words.
+std::string in_words(const early_end& x) {
   const auto takes_time = x.reason == end_reason::qos_latency
                           || x.reason == end_reason::qos_input_age;
   if (takes_time && !x.mostly.empty())
     return fmt::format("{}, mostly {}", in_words(x.reason), x.mostly);
   if (x.reason != end_reason::qos_gap)
     return std::string{in_words(x.reason)};
-  const auto by = disturbance_of(
-      load, {x.provider, "down", x.station, service},
-      due_next(x.last_sent - run.start, x.sent_after, x.at - run.start));
-  return std::string{in_words(by.value_or(channel::disturbance::none))};
+  return std::string{
+      in_words(x.disturbed.value_or(channel::disturbance::none))};
 }
 
 using provider_counts = std::vector<std::pair<std::string, std::uint64_t>>;
@@ -96,13 +93,11 @@ std::string listed(const provider_counts& counts) {
 
 /// @returns ": 18 by latency (junction 16, east 2), 3 by revocation (west 3)";
 /// of one reason alone ", all by latency (junction 16, east 4)".
-std::string early_ends(const service_metrics& x, const run_info& run,
-                       const load_table& load) {
+std::string early_ends(const service_metrics& x) {
   using reason_and_cause = std::pair<end_reason, std::string>;
   std::map<reason_and_cause, std::map<std::string, std::uint64_t>> counts;
   for (const auto& end : x.early)
-    ++counts[{end.reason, in_words(end, x.service.view(), run, load)}]
-            [end.provider];
+    ++counts[{end.reason, in_words(end)}][end.provider];
   struct group {
     std::string cause;
     std::uint64_t count = 0;
@@ -165,8 +160,7 @@ std::string offloading_of(const metrics& m, const run_info& run) {
                                 x.episodes));
   return text
          + fmt::format("{} of {} episode{} ended early{}.", x.early.size(),
-                       x.episodes, x.episodes == 1 ? "" : "s",
-                       early_ends(x, run, m.load()));
+                       x.episodes, x.episodes == 1 ? "" : "s", early_ends(x));
 }
 
 std::string safety_of(const safety_metrics& x) {

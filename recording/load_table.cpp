@@ -83,25 +83,6 @@ constexpr csv_column<octet_row> of_octets[]{
     {"under_way", [](const auto& r) { return r.x.under_way.octets; }},
 };
 
-struct disturbed_row {
-  const cell_octets& cell;
-  const channel::disturbed_line& x;
-};
-
-constexpr csv_column<disturbed_row> of_disturbed[]{
-    {"t_s", [](const auto& r) { return seconds(r.x.at); }},
-    {"provider",
-     [](const auto& r) { return std::string_view{r.cell.provider}; }},
-    {"direction", [](const auto& r) { return r.cell.direction; }},
-    {"station",
-     [](const auto& r) { return std::uint64_t{r.x.station.value()}; }},
-    {"what", [](const auto& r) { return std::string_view{r.x.what}; }},
-    {"lost", [](const auto& r) { return r.x.count.lost; }},
-    {"outage", [](const auto& r) { return r.x.count.outage; }},
-    {"stall", [](const auto& r) { return r.x.count.stall; }},
-    {"slow", [](const auto& r) { return r.x.count.slow; }},
-};
-
 template <class Row>
 void append_line(std::string& out, csv_columns<Row> columns, const Row& row) {
   append_fields(out, columns, row);
@@ -186,16 +167,6 @@ std::string octets_csv(const load_table& table) {
           append_line<octet_row>(text, of_octets, {t, cell, line.what, x});
         t += line.rows.length();
       }
-  return text;
-}
-
-std::string disturbed_csv(const load_table& table) {
-  std::string text;
-  append_names<disturbed_row>(text, of_disturbed);
-  text += '\n';
-  for (const auto& cell : table.cells)
-    for (const auto& line : cell.disturbed)
-      append_line<disturbed_row>(text, of_disturbed, {cell, line});
   return text;
 }
 

@@ -34,6 +34,13 @@ struct cell_octets {
   std::vector<channel::disturbed_line> disturbed = {};
 };
 
+/// Messages of one cell that were disturbed.
+struct disturbed_messages {
+  std::string provider;       ///< Its name.
+  std::string_view direction; ///< "up" or "down".
+  channel::disturbed_line x;
+};
+
 /// All that was measured in a run.
 struct load_table {
   std::vector<server_load> servers; ///< Those that had work.
@@ -84,10 +91,6 @@ std::string load_csv(const load_table& table, duration length);
 /// @returns octets.csv: a line for each second, cell, direction and purpose;
 /// for each 2, 4, 8 … s of a run of more than half an hour.
 std::string octets_csv(const load_table& table);
-
-/// @returns disturbed.csv: a line for each moment at which messages of or to a
-/// vehicle for one thing were sent that were lost or held back.
-std::string disturbed_csv(const load_table& table);
 
 /// Whose messages.
 struct message_path {

@@ -72,8 +72,8 @@ bool safety_metrics::ok() const {
 }
 
 metrics::metrics(const run_info& run)
-    : headline_{run.headline_kind}, names_{run.provider_names},
-      work_{run.costs}, obstacles_{run.obstacles} {
+    : start_{run.start}, headline_{run.headline_kind},
+      names_{run.provider_names}, work_{run.costs}, obstacles_{run.obstacles} {
   for (const auto& name : run.services)
     of(messages::service_name{name});
 }
@@ -235,6 +235,33 @@ void metrics::add(const messages::plan_switch_record& x) {
   switches_.curvature_1pm.add(x.jump.curvature_1pm);
   switches_.speed_mps.add(x.jump.speed_mps);
   switches_.accel_mps2.add(x.jump.accel_mps2);
+}
+
+void metrics::add(std::span<const disturbed_messages> all, time_point until) {
+  // A gap that takes as long has ended its episode before.
+  constexpr duration remembered = std::chrono::minutes{1};
+  auto& cells = recent_.cells;
+  for (const auto& x : all) {
+    auto cell = std::ranges::find_if(cells, [&x](const auto& c) {
+      return c.provider == x.provider && c.direction == x.direction;
+    });
+    if (cell == cells.end())
+      cell = cells.insert(cell, {x.provider, x.direction, {}, {}});
+    cell->disturbed.push_back(x.x);
+  }
+  for (auto& service : services_)
+    for (; service.early_told < service.early.size()
+           && service.early[service.early_told].at < until;
+         ++service.early_told) {
+      auto& end = service.early[service.early_told];
+      end.disturbed = disturbance_of(
+          recent_, {end.provider, "down", end.station, service.service.view()},
+          due_next(end.last_sent - start_, end.sent_after, end.at - start_));
+    }
+  for (auto& cell : cells)
+    std::erase_if(cell.disturbed, [&](const auto& x) {
+      return start_ + x.at < until - remembered;
+    });
 }
 
 void metrics::add(load_table of_all) {

@@ -46,6 +46,8 @@ struct early_end {
   /// What took half of the time that was too long, or more: "the computing",
   /// say; empty if nothing did.
   std::string_view mostly{};
+  /// What made a gap between results; known a little later, where modelled.
+  std::optional<channel::disturbance> disturbed{};
 };
 
 /// The figures of one kind of service, as the requesters see it.
@@ -67,6 +69,8 @@ struct service_metrics {
   end_counts ended_by{};
   /// Of the episodes those that ended early.
   std::vector<early_end> early;
+  std::size_t early_told = 0; ///< Of these the first: all that disturbed
+                              ///< results before them is known.
   /// How often a provider refused, and how often the vehicle wanted no
   /// provider, by the reason that was given.
   std::map<std::string, std::uint64_t> refused;
@@ -166,6 +170,10 @@ public:
 
   void on_record(const messages::record& x);
 
+  /// Messages that were disturbed, in order of time.
+  /// @param until  All of those that were sent before then are known now.
+  void add(std::span<const disturbed_messages> all, time_point until);
+
   /// What providers and their cells had to do; once, before the end.
   void add(load_table of_all);
 
@@ -235,6 +243,7 @@ private:
   service_metrics& of(const messages::service_name& name);
   void source_changed(const messages::event_record& x);
 
+  time_point start_;
   messages::service_name headline_;
   provider_names names_;
   cycle_ledger work_;
@@ -244,6 +253,7 @@ private:
   std::map<user, open_episode> open_;
   std::map<user, left_provider> left_; ///< The last one.
   std::map<user, last_result> results_;
+  load_table recent_; // of the cells, what was disturbed lately
   drive_metrics together_;
   std::map<station_id, drive_metrics> vehicles_;
   switch_metrics switches_;

@@ -36,6 +36,7 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     : pcap_{capture_of(run)}, folder_{cleared(std::move(folder))},
       start_{run.start}, names_{run.provider_names},
       episodes_{folder_ / "episodes.csv", columns::of_episodes},
+      disturbed_{folder_ / "disturbed.csv", columns::of_disturbed},
       events_{folder_ / "events.jsonl"} {
   if (run.cycles)
     cycles_.emplace(folder_ / "cycles.csv", columns::of_cycles);
@@ -96,8 +97,14 @@ void result_files::write(const messages::air_record& x) {
     pcap_->write(x);
 }
 
+void result_files::write(std::span<const disturbed_messages> all) {
+  for (const auto& x : all)
+    disturbed_.write({x});
+}
+
 void result_files::flush() {
   episodes_.flush();
+  disturbed_.flush();
   if (cycles_)
     cycles_->flush();
   if (tracks_)
@@ -112,6 +119,7 @@ void result_files::flush() {
 void result_files::finish(const metrics& all, const run_info& run,
                           const run_end& end, const figures_of_clock& clock) {
   episodes_.close();
+  disturbed_.close();
   if (cycles_)
     cycles_->close();
   if (tracks_)
@@ -126,7 +134,6 @@ void result_files::finish(const metrics& all, const run_info& run,
   const auto& load = all.load();
   write_file(folder_ / "load.csv", load_csv(load, from_seconds(end.virtual_s)));
   write_file(folder_ / "octets.csv", octets_csv(load));
-  write_file(folder_ / "disturbed.csv", disturbed_csv(load));
   write_timing(end, clock.timings);
   if (!clock.cpu_csv.empty())
     write_file(folder_ / "cpu.csv", clock.cpu_csv);

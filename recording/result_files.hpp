@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,8 @@ public:
   result_files(std::filesystem::path folder, const run_info& run);
 
   void on_record(const messages::record& x);
+
+  void write(std::span<const disturbed_messages> all);
 
   /// Brings all files up to date.
   void flush();
@@ -71,6 +74,7 @@ private:
   std::optional<csv_file<cycle_row>> cycles_;
   std::optional<csv_file<track_row>> tracks_;
   std::optional<csv_file<margin_row>> margins_;
+  csv_file<disturbed_row> disturbed_;
   output_file events_;
 };
 

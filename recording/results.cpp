@@ -74,6 +74,13 @@ void results::add_cpu(const cpu_table& x) {
   of_clock_.cpu_csv = to_csv(x);
 }
 
+void results::add_disturbed(std::span<const disturbed_messages> all,
+                            time_point until) {
+  if (files_)
+    files_->write(all);
+  metrics_.add(all, until);
+}
+
 void results::flush() {
   if (files_)
     files_->flush();

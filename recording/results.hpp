@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -36,8 +37,13 @@ public:
   /// Who computed how much, for cpu.csv.
   void add_cpu(const cpu_table& x);
 
-  /// What providers and cells had to do, for load.csv,
-  /// octets.csv and disturbed.csv.
+  /// Messages that were disturbed, for disturbed.csv and for what made gaps
+  /// between results.
+  /// @param all    In order of time.
+  /// @param until  All that were sent before then have been told of now.
+  void add_disturbed(std::span<const disturbed_messages> all, time_point until);
+
+  /// What providers and cells had to do, for load.csv and octets.csv.
   void add_load(load_table x) { metrics_.add(std::move(x)); }
 
   const metrics& so_far() const { return metrics_; }

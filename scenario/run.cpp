@@ -134,8 +134,27 @@ struct stage {
   std::optional<stall_watch> stalls{}; ///< On the wall clock.
 };
 
+/// Keeps which messages were disturbed before some time: the ledgers forget
+/// them.
+void keep_disturbed(const std::vector<provider_load>& loads, time_point until,
+                    recording::locked_results& keeper) {
+  std::vector<recording::disturbed_messages> all;
+  const auto take = [&](const std::string& provider, std::string_view direction,
+                        channel::octet_ledger& ledger) {
+    for (auto& x : ledger.take_disturbed(until))
+      all.push_back({provider, direction, std::move(x)});
+  };
+  for (const auto& x : loads) {
+    take(x.name, "up", *x.octets_up);
+    take(x.name, "down", *x.octets_down);
+  }
+  std::ranges::stable_sort(all, {}, [](const auto& m) { return m.x.at; });
+  keeper.with([&](recording::results& r) { r.add_disturbed(all, until); });
+}
+
 /// Moves the run to its end, or to where it was interrupted.
-time_point advance(runtime& time, time_point end, stage& on) {
+time_point advance(runtime& time, time_point end,
+                   const std::vector<provider_load>& loads, stage& on) {
   const auto& options = on.options;
   const auto start = time.now();
   const auto total_s = options.endless ? 0 : to_seconds(end - start);
@@ -146,6 +165,7 @@ time_point advance(runtime& time, time_point end, stage& on) {
   while (t < end && !on.interrupted) {
     t = std::min(t + slice, end);
     time.run_until(t);
+    keep_disturbed(loads, t, on.keeper);
     if (options.news)
       tell_news(options, on.shown, on.console);
     const auto wall_s = on.watch.elapsed_s();
@@ -251,8 +271,7 @@ recording::load_table table_of(const std::vector<provider_load>& loads,
     add("downlink", x.cell_down);
     const auto count = [&](std::string_view direction, const auto& octets) {
       if (auto lines = octets->read(end); !lines.empty())
-        all.cells.push_back(
-            {x.name, direction, std::move(lines), octets->disturbed()});
+        all.cells.push_back({x.name, direction, std::move(lines)});
     };
     count("up", x.octets_up);
     count("down", x.octets_down);
@@ -288,7 +307,7 @@ played play(const scenario_definition& s, const process_share& here,
       time.run_until(std::min(start + settling, end));
       meter.emplace(*ledger, time.now());
     }
-    run.ended = advance(time, end, on);
+    run.ended = advance(time, end, actors.loads, on);
     if (meter)
       run.computed = meter->read(time.now());
   } catch (const start_refused&) { // by a peer, perhaps a little later
@@ -300,6 +319,7 @@ played play(const scenario_definition& s, const process_share& here,
     throw;
   }
   dismiss(actors, time);
+  keep_disturbed(actors.loads, time_point::max(), *keeper);
   run.load = table_of(actors.loads, run.ended);
   if (deciding)
     run.decisions = deciding->figures();

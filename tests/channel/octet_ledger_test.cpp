@@ -81,7 +81,9 @@ TEST_CASE("of all that is sent for something nothing vanishes, at any time") {
   }
 }
 
-TEST_CASE("what is disturbed is counted by moment, vehicle and purpose") {
+TEST_CASE(
+    "what is disturbed is counted by moment, vehicle and purpose, and told "
+    "once") {
   octet_ledger ledger{at(1s)};
   const auto lose = [&ledger](duration t, station_id of, disturbance by) {
     ledger.lose({"one", of, 10, at(t), by});
@@ -92,15 +94,19 @@ TEST_CASE("what is disturbed is counted by moment, vehicle and purpose") {
   lose(3001ms, 102, disturbance::loss);
   ledger.send({"one", 102, 10, at(3s), disturbance::stall}, at(4s));
   ledger.send({"one", 102, 10, at(3s)}, at(4s));
-  const auto all = ledger.disturbed();
-  REQUIRE(all.size() == 3);
-  CHECK(all[0].at == 1s);
-  CHECK(all[0].station == 101);
-  CHECK(all[0].count.outage == 1);
-  CHECK(all[1].at == 2s);
-  CHECK(all[1].what == "one");
-  CHECK(all[1].count.lost == 2);
-  CHECK(all[1].count.stall == 1);
-  CHECK(all[1].count.most() == disturbance::loss);
+  CHECK(ledger.take_disturbed(at(2s)).empty());
+  const auto first = ledger.take_disturbed(at(3s));
+  REQUIRE(first.size() == 1);
+  CHECK(first[0].at == 1s);
+  CHECK(first[0].station == 101);
+  CHECK(first[0].count.outage == 1);
+  const auto all = ledger.take_disturbed(time_point::max());
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].at == 2s);
+  CHECK(all[0].what == "one");
+  CHECK(all[0].count.lost == 2);
+  CHECK(all[0].count.stall == 1);
+  CHECK(all[0].count.most() == disturbance::loss);
+  CHECK(ledger.take_disturbed(time_point::max()).empty());
   CHECK(disturbed_count{}.most() == disturbance::none);
 }

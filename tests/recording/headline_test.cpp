@@ -57,6 +57,9 @@ struct told_run {
   void drive() {
     figures.on_record(safety_record{.station = 101, .driven = 100s});
   }
+  void tell(const disturbed_messages& x) {
+    figures.add(std::span{&x, 1}, time_point{30s});
+  }
   headline said() { return headline_of(figures, info, end); }
 };
 
@@ -105,13 +108,13 @@ TEST_CASE("of early ends of several reasons the headline counts each") {
 
 TEST_CASE("of gaps between results the headline names what made them, by what "
           "the link did to this vehicle's results") {
-  told_run run;
-  run.offer();
-  run.drive();
-  run.result(junction, {.down = {0ms, 20ms}}); // sent at 19.88 s
-  run.episode(junction, end_reason::qos_gap);  // ends at 20 s
-  const auto disturbed = [&run](channel::disturbed_line line) {
-    run.figures.add(load_table{{}, {{"junction", "down", {}, {line}}}});
+  const auto disturbed = [](channel::disturbed_line line) {
+    told_run run;
+    run.offer();
+    run.drive();
+    run.result(junction, {.down = {0ms, 20ms}}); // sent at 19.88 s
+    run.episode(junction, end_reason::qos_gap);  // ends at 20 s
+    run.tell({"junction", "down", line});
     return run.said().offloading;
   };
   const auto said = [](std::string_view cause) {
@@ -136,20 +139,14 @@ TEST_CASE("of gaps between results the headline names what made them, by what "
 
 TEST_CASE(
     "a result that was lost long after the next one was due made no gap") {
-  told_run run;
-  run.offer();
-  run.drive();
-  run.result(junction, {.down = {0ms, 50ms}}); // sent at 19.85 s
-  run.result(junction, {.down = {0ms, 20ms}}); // and at 19.88 s
-  run.episode(junction, end_reason::qos_gap);  // ends at 20 s
-  const auto lost_at = [&run](duration at) {
-    run.figures.add(
-        load_table{{},
-                   {{"junction",
-                     "down",
-                     {},
-                     {channel::disturbed_line{
-                         at, 101, "trajectory_planning", {1, 0, 0}}}}}});
+  const auto lost_at = [](duration at) {
+    told_run run;
+    run.offer();
+    run.drive();
+    run.result(junction, {.down = {0ms, 50ms}}); // sent at 19.85 s
+    run.result(junction, {.down = {0ms, 20ms}}); // and at 19.88 s
+    run.episode(junction, end_reason::qos_gap);  // ends at 20 s
+    run.tell({"junction", "down", {at, 101, "trajectory_planning", {1, 0, 0}}});
     return run.said().offloading.find("as results were lost")
            != std::string::npos;
   };
