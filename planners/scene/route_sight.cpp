@@ -12,6 +12,8 @@ namespace {
 
 /// The centre line is looked at in these steps, m.
 constexpr double look_step_m = 2;
+/// So far ahead others tell what they see, at least; nobody needs more to stop.
+constexpr double told_m = 200;
 /// From so far before a crossing on, who comes is looked for.
 constexpr double approach_m = 60;
 constexpr double approach_step_m = 1;
@@ -47,17 +49,22 @@ bool route_sight::is_seen(point p, double s_m) const {
   return is_seen_from({axle.at + middle_m * ahead, axle.heading_rad,
                        eyes_.range_m, eyes_.field_of_view_deg},
                       p)
-         || std::ranges::any_of(eyes_.roadside, [&](const auto& eye) {
-              return is_seen_from(eye, p);
-            });
+         || is_told(p);
+}
+
+bool route_sight::is_told(point p) const {
+  return std::ranges::any_of(
+      eyes_.roadside, [&](const auto& eye) { return is_seen_from(eye, p); });
 }
 
 double route_sight::ahead_m(double s_m) const {
   const auto front_m = s_m + car_.front_m;
   assert(car_.front_m > 0 && look_step_m > 0);
+  const auto most_m =
+      eyes_.roadside.empty() ? eyes_.range_m : std::max(eyes_.range_m, told_m);
   const auto end_m = way_->closed()
-                         ? front_m + eyes_.range_m
-                         : std::min(front_m + eyes_.range_m, way_->length_m());
+                         ? front_m + most_m
+                         : std::min(front_m + most_m, way_->length_m());
   auto seen_m = front_m;
   while (seen_m < end_m
          && is_seen(way_->path().at(seen_m + look_step_m).at, s_m))
@@ -65,7 +72,7 @@ double route_sight::ahead_m(double s_m) const {
   assert(seen_m >= front_m);
   // Whoever is on an open route's end has left.
   if (!way_->closed() && seen_m >= end_m)
-    return eyes_.range_m;
+    return most_m;
   return seen_m - front_m;
 }
 
@@ -79,11 +86,9 @@ route_sight::corners(const lane_network& lanes) const {
     const auto those = lanes.approach(z.other_side(), in_time_s);
     if (other > z.rank || those.size() < 2)
       return true;
-    const auto from = those[0] - those[1]; // the way they come
-    const auto own = way_->path().at(z.from_m).heading_rad;
-    const auto sine = cross({std::cos(own), std::sin(own)}, from)
-                      / std::sqrt(dot(from, from));
-    if (other == z.rank && sine < sideways_sine)
+    const auto own_rad = way_->path().at(z.from_m).heading_rad;
+    const auto they_rad = lanes.course_of(z.other_side()).from_rad;
+    if (other == z.rank && std::sin(they_rad - own_rad) < sideways_sine)
       return true;
     const auto corner = look_at(z.from_m - car_.front_m, those);
     if (corner.seen_from_m > corner.line_m - approach_m)
@@ -105,7 +110,8 @@ void route_sight::add_long_ones(const world::unrolled_route& zones,
   auto from_m = 0.0, to_m = 0.0;
   const auto add = [&] {
     const blind_corner corner{from_m - car_.front_m, to_m - reach_m};
-    if (to_m > from_m && corner.seen_from_m > corner.line_m - approach_m)
+    if (to_m > from_m && !is_told(way_->path().at(to_m).at)
+        && corner.seen_from_m > corner.line_m - approach_m)
       found.push_back(
           {corner.line_m, std::min(corner.seen_from_m, corner.line_m)});
   };

@@ -54,6 +54,7 @@ public:
 
 private:
   bool is_seen_from(const world::viewpoint& eye, point p) const;
+  bool is_told(point p) const;
   void add_long_ones(const world::unrolled_route& zones,
                      std::vector<blind_corner>& found) const;
   blind_corner look_at(double line_m, std::span<const point> those) const;

@@ -82,6 +82,14 @@ TEST_CASE("a sensor at the roadside sees round corners") {
   CHECK(view{5, eyes}.sight.corners(lanes()).empty());
 }
 
+TEST_CASE("a sensor at the roadside sees farther along a way than the car") {
+  eyes_on_road eyes;
+  eyes.range_m = 30;
+  CHECK(view{200, eyes}.sight.ahead_m(20) < 30);
+  eyes.roadside = {{{0, 0}, 0, 120, 360}};
+  CHECK(view{200, eyes}.sight.ahead_m(40) > 100);
+}
+
 TEST_CASE("who has the right of way by rank has no blind corners") {
   const line_of_sight houses{houses_at(5)};
   const auto way = toy::make_route(cross(), {3, 0, 1});
