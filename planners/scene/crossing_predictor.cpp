@@ -50,10 +50,10 @@ constexpr auto easy_decel_mps2 = 2.0;
 /// Who stands before a zone for longer than this is not waited for any more.
 constexpr duration patience = std::chrono::seconds{4};
 constexpr duration more_patience = std::chrono::milliseconds{500};
+/// And so much longer, for each rank that it goes before the own car: whoever
+/// held it up may just have gone.
+constexpr duration patience_by_rank = std::chrono::seconds{4};
 constexpr std::uint32_t different_patiences = 8;
-
-/// Who has stood for longer itself does not wait for who stands.
-constexpr auto long_stand_s = 15.0;
 
 duration patience_of(const std::optional<station_id>& who) {
   constexpr auto spread = 2654435761U; // of neighbouring numbers (Knuth)
@@ -90,6 +90,18 @@ void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,
   join_zones(front_m - rear_m, keep_free);
 }
 
+double crossing_predictor::patience_s(const std::optional<station_id>& who,
+                                      double front_m) const {
+  constexpr auto more_s = 11.0, by_rank_s = 8.0;
+  auto rank = 0;
+  for (const auto& own : zones_)
+    if (own.on.to_m > front_m
+        && own.on.from_m < front_m + lane_network::at_line_m)
+      rank = std::max(rank, own.on.rank);
+  assert(rank >= 0);
+  return to_seconds(patience_of(who)) + more_s + by_rank_s * rank;
+}
+
 void crossing_predictor::judge(const crossing_viewer& me,
                                std::span<other_body> others,
                                std::span<const way_stretch> keep_free,
@@ -112,7 +124,8 @@ void crossing_predictor::judge(const crossing_viewer& me,
           first && forward_mps(x) < hesitant_mps && when.enter_s < soon_s;
       found.push_back(
           {hesitates ? line_before(me, own, keep_free) : own.on.from_m,
-           own.on.to_m, when.enter_s, when.leave_s, first,
+           own.on.to_m, when.enter_s,
+           first ? leaves_s({who, when}) : when.leave_s, first,
            decel_before(when.way_m, forward_mps(x)), x.id});
       cuts_in = cuts_in
                 || (own.on.from_m < me.front_m && found.back().goes_first
@@ -124,6 +137,23 @@ void crossing_predictor::judge(const crossing_viewer& me,
     return std::tuple{x.from_m, x.to_m, x.body};
   });
   assert(std::ranges::is_sorted(yields));
+}
+
+/// @returns when a body leaves a zone; later than it would at its speed, if it
+/// has to wait before, or there, for a third one.
+double crossing_predictor::leaves_s(const foreseen& x) const {
+  auto late_s = 0.0;
+  for (const auto& [who, own] : foreseen_) {
+    if (who != x.who || own.way_m <= 0 || own.enter_s > x.when.leave_s)
+      continue;
+    for (const auto& [third, other] : foreseen_)
+      if (third != who && other.side == (own.side ^ 1U) && other.rank < own.rank
+          && std::isfinite(other.leave_s) && other.enter_s < own.leave_s
+          && other.leave_s > own.enter_s)
+        late_s = std::max(late_s, other.leave_s - own.enter_s);
+  }
+  assert(late_s >= 0);
+  return x.when.leave_s + late_s;
 }
 
 /// @returns where the crossings begin that a zone is one of, if the vehicle can
@@ -155,7 +185,7 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
                                    const own_zone& own) const {
   const auto v = forward_mps(x);
   assert(when.way_m >= 0 && when.enter_s <= when.leave_s);
-  assert(me.stands_s >= 0 && me.speed_mps >= 0);
+  assert(me.speed_mps >= 0);
   // A zone begins before bodies touch.
   const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
   if (way_m <= 0)
@@ -169,7 +199,10 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
            && has_to_give_way(me, x, when, own);
   }
   const auto waits =
-      me.stands_s > long_stand_s ? duration::zero() : patience_of(me.station);
+      me.is_impatient
+          ? duration::zero()
+          : patience_of(me.station)
+                + std::max(0, own.on.rank - when.rank) * patience_by_rank;
   if (when.sets_off && x.at - x.moved > waits)
     return true;
   return has_to_give_way(me, x, when, own);

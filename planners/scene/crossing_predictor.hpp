@@ -27,7 +27,7 @@ struct crossing_viewer {
   std::optional<station_id> station; ///< If it is heard by that name.
   double rear_m = 0, front_m = 0;    ///< Its bumpers, arc length.
   double speed_mps = 0;
-  double stands_s = 0; ///< For so long.
+  bool is_impatient = false; ///< As in `driving_scene`.
 };
 
 /// @param cosine  Of the angle between a body and a way.
@@ -58,13 +58,15 @@ public:
   ///
   /// Who goes first: whoever is on the zone, or cannot stop before it any more;
   /// then the lower rank; of equal ones who is on a roundabout; who comes from
-  /// the right, or goes
-  /// straight on where the other turns left; else the lower station; else the
-  /// other. Who stands before a zone may set off as long as it has not stood
-  /// there for too long, each vehicle waits for another time, so that not all
-  /// set off at once; who has stood for long itself waits for nobody who
-  /// stands. Who stands on a zone is not crossing: it is in the way, or it is
-  /// not.
+  /// the right, or goes straight on where the other turns left; else the lower
+  /// station; else the other. Who stands before a zone may set off as long as
+  /// it has not stood there for too long: each vehicle waits for another time,
+  /// so that not all set off at once, and for longer if the other has the
+  /// better rank; who has stood for long itself waits for nobody who stands.
+  /// Who stands on a zone is not crossing: it is in the way, or it is not.
+  ///
+  /// Who goes first leaves later than it would at its speed, if it has to wait
+  /// for a third one by rank.
   ///
   /// Who goes first and is slow may come to rest among crossings that belong
   /// together: a car that is not among them yet waits before all of them.
@@ -76,6 +78,12 @@ public:
              std::span<const way_stretch> keep_free,
              std::vector<crossing_user>& found, std::vector<double>& yields);
 
+  /// @returns how long a car that stands there is patient, s: longer where
+  /// others go first, and each for another time, so that not all set off at
+  /// once.
+  /// @param front_m  Of its bumper, after `look_ahead`.
+  double patience_s(const std::optional<station_id>& who, double front_m) const;
+
 private:
   struct own_zone {
     world::zone on;
@@ -85,6 +93,7 @@ private:
     std::size_t who;
     conflict_visit when;
   };
+  double leaves_s(const foreseen& x) const;
   void find_zones(double from_m, double to_m);
   void foresee(std::span<const other_body> others);
   static double line_before(const crossing_viewer& me, const own_zone& own,

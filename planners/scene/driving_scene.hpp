@@ -51,7 +51,9 @@ struct lane_obstacle {
 /// What a driver has to know about the others.
 struct driving_scene {
   time_point at;
-  double stands_s = 0; ///< For so long the own car has stood.
+  /// The own car has stood for so long that it waits for nobody who stands any
+  /// more, and goes on as far as it can: everybody else may think the same.
+  bool is_impatient = false;
   std::optional<lead_vehicle> lead;
   /// The front bumper must not pass this arc length on the own route: a
   /// crossing has not been granted yet.

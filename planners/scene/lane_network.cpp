@@ -42,6 +42,16 @@ double standing_start_s(double way_m) {
   return sets_off_after_s + std::sqrt(2 * way_m / sets_off_mps2);
 }
 
+/// Who is slower may be setting off, m/s.
+constexpr auto slow_mps = 3.0;
+
+/// @returns when a body has come so far: at its speed, or sooner if it is
+/// setting off.
+double enters_s(double way_m, double speed_mps) {
+  const auto v = speed_mps, a = sets_off_mps2;
+  return v < slow_mps ? (std::sqrt(v * v + 2 * a * way_m) - v) / a : way_m / v;
+}
+
 } // namespace
 
 struct lane_network::driver {
@@ -278,7 +288,7 @@ void lane_network::meet(const driver& who, const lane_ahead& on) const {
     } else if (stands) {
       here.leave_s = std::numeric_limits<double>::infinity();
     } else {
-      here.enter_s = way_m / who.speed_mps;
+      here.enter_s = enters_s(way_m, who.speed_mps);
       here.leave_s = left_m / who.speed_mps;
     }
     assert(here.way_m >= 0 && here.enter_s <= here.leave_s);

@@ -85,7 +85,6 @@ void scene_interpreter::describe(time_point now, const own_place& me,
                                  driving_scene& out) {
   assert(std::isfinite(me.s_m) && std::isfinite(me.d_m));
   out.at = now;
-  out.stands_s = stands_s(now, me);
   out.lead.reset();
   out.crossings.clear();
   out.beside.clear();
@@ -96,9 +95,12 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   const auto front_m = me.s_m + params_.car.front_m;
   crossings_.look_ahead(rear_m, front_m, front_m + params_.horizon_m,
                         out.keep_free);
+  out.is_impatient =
+      stands_s(now, me) > crossings_.patience_s(me.station, front_m);
   if (params_.judges_crossings)
-    crossings_.judge({me.station, rear_m, front_m, me.speed_mps, out.stands_s},
-                     others_, out.keep_free, out.crossings, out.yields_m);
+    crossings_.judge(
+        {me.station, rear_m, front_m, me.speed_mps, out.is_impatient}, others_,
+        out.keep_free, out.crossings, out.yields_m);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);

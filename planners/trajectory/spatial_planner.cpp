@@ -25,8 +25,6 @@ constexpr double rounding_mps2 = 1e-6;
 constexpr double least_braking_mps2 = 0.3;
 /// Who is slower than this among crossings may as well stand there.
 constexpr double rests_below_mps = 0.5;
-/// Who has waited longer goes on among crossings as far as it can.
-constexpr double patience_s = 15;
 /// What a car keeps to the one ahead behind a crossing.
 constexpr double least_way_out_m = 1.0;
 /// A path that could not be planned on keeps so far off bodies at least; it
@@ -320,8 +318,7 @@ double spatial_planner::kept_free_m(const speed_constraints& t,
 bool spatial_planner::rests_among(const speed_profile& motion,
                                   const scene& at) const {
   assert(!motion.empty() && motion.front().s_m == 0);
-  assert(at.others.stands_s >= 0);
-  if (at.others.stands_s > patience_s)
+  if (at.others.is_impatient)
     return false;
   const auto stopping = stopping_m(crossing(at));
   return std::ranges::any_of(at.others.keep_free, [&](const way_stretch& x) {

@@ -157,6 +157,53 @@ TEST_CASE("who stands before a crossing is waited for until it has stood there "
   }
 }
 
+TEST_CASE("who has the better rank is waited for longer, though it stands") {
+  auto o = at_cross_roads({4, 0, 2}, 125); // gives way to the road
+  auto x = seen_track({-9.5, -1.75}, 0);
+  const auto other_first = [&](duration stood) {
+    x.moved = look_time - stood;
+    o.look({x});
+    const auto* c = find_crossing(o, from_south_meets_from_west);
+    REQUIRE(c);
+    return c->goes_first;
+  };
+  CHECK(other_first(4s + 1ms));
+  CHECK(other_first(11s));
+  CHECK_FALSE(other_first(16s));
+}
+
+TEST_CASE("who is slow may be setting off, and is there sooner than at its "
+          "speed") {
+  auto o = at_cross_roads({4, 0, 2}, 125);
+  const auto enters_s = [&](double speed_mps) {
+    o.look({seen_track({-11, -1.75}, 0, speed_mps)});
+    const auto* c = find_crossing(o, from_south_meets_from_west);
+    REQUIRE(c);
+    CHECK(c->leave_s > 12 / speed_mps); // as it drives
+    return c->enter_s;
+  };
+  CHECK(enters_s(0.5) < 4);
+  CHECK(enters_s(3.1) < enters_s(0.5));
+}
+
+TEST_CASE("who has to wait for a third one is foreseen to leave later") {
+  auto o = at_cross_roads({4, 0, 3}, 110); // turns left, and gives way to all
+  const auto oncoming = seen_track({1.75 + 25, 1.75}, pi, 8);
+  auto turning = seen_track({-14.5, -1.75}, 0, 4); // perhaps to the left
+  const auto leaves_s = [&](const std::vector<track>& all) {
+    auto last_s = 0.0;
+    o.look(all);
+    for (const auto& c : o.seen.crossings)
+      if (c.body == turning.id && c.goes_first)
+        last_s = std::max(last_s, c.leave_s);
+    return last_s;
+  };
+  turning.id = 7;
+  const auto alone_s = leaves_s({turning});
+  REQUIRE(alone_s > 0);
+  CHECK(leaves_s({turning, oncoming}) > alone_s + 1);
+}
+
 TEST_CASE("who has stood for long itself waits for nobody who stands") {
   auto o = at_cross_roads({3, 0, 1}, 130, true);
   const auto waits_for_it = [&](duration stood) {
@@ -164,16 +211,30 @@ TEST_CASE("who has stood for long itself waits for nobody who stands") {
     x.at = x.seen = look_time + stood;
     x.moved = x.at - 1s;
     o.look({x}, look_time + stood);
-    CHECK(o.seen.stands_s == to_seconds(stood));
     const auto* c = find_crossing(o, from_south_meets_from_west);
     REQUIRE(c);
     return c->goes_first;
   };
   CHECK(waits_for_it(0s));
   CHECK(waits_for_it(14s));
-  CHECK_FALSE(waits_for_it(16s));
+  CHECK_FALSE(o.seen.is_impatient);
+  CHECK_FALSE(waits_for_it(19s));
+  CHECK(o.seen.is_impatient);
   o.me.speed_mps = 1;
   CHECK(waits_for_it(0s));
+}
+
+TEST_CASE("who has to give way is patient for longer") {
+  const auto impatient_from = [](const std::vector<std::size_t>& way) {
+    auto o = at_cross_roads(way, 130);
+    auto stood = 10s;
+    for (; !o.seen.is_impatient && stood < 60s; stood += 1s) {
+      o.look({}, look_time);
+      o.look({}, look_time + stood);
+    }
+    return stood;
+  };
+  CHECK(impatient_from({4, 0, 2}) > impatient_from({3, 0, 1}) + 10s);
 }
 
 TEST_CASE("a car does not come to rest where others cross") {

@@ -291,17 +291,17 @@ TEST_CASE("a car waits before crossings rather than come to rest among them") {
 }
 
 TEST_CASE("who has stood before crossings for long moves up among them") {
-  const auto comes_to_m = [](double stood_s) {
+  const auto comes_to_m = [](bool is_impatient) {
     auto drive = optimal(test::straight(900, {{0, 13.9}}), 90, 3);
     drive.others.keep_free = {{120, 136}};
     cross(drive, {{120, 126, 0, 25}}, 20);
     REQUIRE(drive.front_m() < 120);
-    drive.others.stands_s = stood_s;
+    drive.others.is_impatient = is_impatient;
     CHECK(!cross(drive, {{130, 136, 0, 20}}, 12).met);
     return drive.front_m();
   };
-  CHECK(comes_to_m(10) < 121);
-  CHECK(comes_to_m(16) > 123);
+  CHECK(comes_to_m(false) < 121);
+  CHECK(comes_to_m(true) > 123);
 }
 
 TEST_CASE("several who cross at several places are never met") {
