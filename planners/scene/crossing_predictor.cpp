@@ -94,6 +94,7 @@ double crossing_predictor::patience_s(const std::optional<station_id>& who,
                                       double front_m) const {
   constexpr auto more_s = 11.0, by_rank_s = 8.0;
   auto rank = 0;
+  assert(std::isfinite(front_m));
   for (const auto& own : zones_)
     if (own.on.to_m > front_m
         && own.on.from_m < front_m + lane_network::at_line_m)
@@ -143,6 +144,7 @@ void crossing_predictor::judge(const crossing_viewer& me,
 /// has to wait before, or there, for a third one.
 double crossing_predictor::leaves_s(const foreseen& x) const {
   auto late_s = 0.0;
+  assert(x.when.enter_s <= x.when.leave_s);
   for (const auto& [who, own] : foreseen_) {
     if (who != x.who || own.way_m <= 0 || own.enter_s > x.when.leave_s)
       continue;
@@ -185,7 +187,7 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
                                    const own_zone& own) const {
   const auto v = forward_mps(x);
   assert(when.way_m >= 0 && when.enter_s <= when.leave_s);
-  assert(me.speed_mps >= 0);
+  assert(me.speed_mps >= 0 && own.on.from_m <= own.on.to_m);
   // A zone begins before bodies touch.
   const auto way_m = when.way_m > 0 ? when.way_m : gap_m(x, own.on);
   if (way_m <= 0)

@@ -16,8 +16,8 @@
 
 namespace sofof::planners {
 
-/// When a body is on one side of a conflict, if its speed stays as it is; who is
-/// slow may come there sooner, as if it sets off.
+/// When a body is on one side of a conflict, if its speed stays as it is; who
+/// is slow may come there sooner, as if it sets off.
 struct conflict_visit {
   std::uint32_t side = 0;    ///< As in `conflict_side`.
   int rank = 0;              ///< Of its lane.

@@ -53,6 +53,7 @@ bool route_sight::is_seen(point p, double s_m) const {
 }
 
 bool route_sight::is_told(point p) const {
+  assert(std::isfinite(p.x_m) && std::isfinite(p.y_m));
   return std::ranges::any_of(
       eyes_.roadside, [&](const auto& eye) { return is_seen_from(eye, p); });
 }
@@ -60,6 +61,7 @@ bool route_sight::is_told(point p) const {
 double route_sight::ahead_m(double s_m) const {
   const auto front_m = s_m + car_.front_m;
   assert(car_.front_m > 0 && look_step_m > 0);
+  assert(std::isfinite(s_m));
   const auto most_m =
       eyes_.roadside.empty() ? eyes_.range_m : std::max(eyes_.range_m, told_m);
   const auto end_m = way_->closed()

@@ -321,6 +321,7 @@ bool spatial_planner::rests_among(const speed_profile& motion,
   if (at.others.is_impatient)
     return false;
   const auto stopping = stopping_m(crossing(at));
+  assert(stopping >= 0 && std::isfinite(stopping));
   return std::ranges::any_of(at.others.keep_free, [&](const way_stretch& x) {
     const auto line_m = way_from_car(x.from_m - style_.front_m);
     const auto clear_m = way_from_car(x.to_m + car_.rear_m);
