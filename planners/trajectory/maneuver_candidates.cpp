@@ -99,11 +99,7 @@ double waiting_line_m(double line_m, const crossing_car& car, bool waits) {
                                                    : 0.0;
   if (line_m < -within_m)
     return line_m;
-  const auto begun = std::clamp(-car.accel_mps2 / car.firm_decel_mps2, 0., 1.);
-  const auto rolls_on_m = begun * hesitation_s * car.speed_mps;
-  const auto softly_m =
-      std::min(line_m + waits_within_m, stopping_m(car) - rolls_on_m);
-  assert(rolls_on_m <= stopping_m(car));
+  const auto softly_m = std::min(line_m + waits_within_m, stopping_m(car));
   return std::max(softly_m > line_m + worth_it_m ? softly_m : line_m, 0.0);
 }
 
@@ -207,7 +203,8 @@ double soonest_s(double way_m, const crossing_car& car) {
 double stopping_m(const crossing_car& car) {
   const auto v = car.speed_mps;
   assert(v >= 0 && car.firm_decel_mps2 > 0);
-  return v * (hesitation_s + v / (2 * car.firm_decel_mps2));
+  const auto begun = std::clamp(-car.accel_mps2 / car.firm_decel_mps2, 0., 1.);
+  return v * ((1 - begun) * hesitation_s + v / (2 * car.firm_decel_mps2));
 }
 
 crossing_choice choice_of(const crossing_order& order) {
