@@ -43,13 +43,14 @@ double standing_start_s(double way_m) {
 }
 
 /// Who is slower may be setting off, m/s.
-constexpr auto slow_mps = 3.0;
+constexpr auto setting_off_below_mps = 3.0;
 
 /// @returns when a body has come so far: at its speed, or sooner if it is
 /// setting off.
 double enters_s(double way_m, double speed_mps) {
   const auto v = speed_mps, a = sets_off_mps2;
-  return v < slow_mps ? (std::sqrt(v * v + 2 * a * way_m) - v) / a : way_m / v;
+  return v < setting_off_below_mps ? (std::sqrt(v * v + 2 * a * way_m) - v) / a
+                                   : way_m / v;
 }
 
 } // namespace
