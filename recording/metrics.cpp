@@ -238,7 +238,7 @@ void metrics::add(const messages::plan_switch_record& x) {
 }
 
 void metrics::add(std::span<const disturbed_messages> all, time_point until) {
-  // A gap that takes as long has ended its episode before.
+  // No gap that ends an episode is longer.
   constexpr duration remembered = std::chrono::minutes{1};
   auto& cells = recent_.cells;
   for (const auto& x : all) {

@@ -69,8 +69,8 @@ struct service_metrics {
   end_counts ended_by{};
   /// Of the episodes those that ended early.
   std::vector<early_end> early;
-  std::size_t early_told = 0; ///< Of these the first: all that disturbed
-                              ///< results before them is known.
+  std::size_t early_told = 0; ///< So many of them, from the first on, have
+                              ///< their `disturbed`.
   /// How often a provider refused, and how often the vehicle wanted no
   /// provider, by the reason that was given.
   std::map<std::string, std::uint64_t> refused;
