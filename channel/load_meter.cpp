@@ -12,6 +12,7 @@ load_figures::bin& load_figures::bin::operator+=(const bin& other) {
   jobs += other.jobs;
   asked += other.asked;
   waited += other.waited;
+  longest_wait = std::max(longest_wait, other.longest_wait);
   busy += other.busy;
   return *this;
 }
@@ -77,6 +78,7 @@ void load_meter::add(time_point arrives, duration wait, duration work,
   ++now.jobs;
   now.asked += work;
   now.waited += wait;
+  now.longest_wait = std::max(now.longest_wait, wait);
   all_.waits.add(wait);
   use(arrives + wait, arrives + wait + work, what);
 }

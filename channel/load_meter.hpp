@@ -22,10 +22,11 @@ namespace sofof::channel {
 struct load_figures {
   /// A part of the time.
   struct bin {
-    std::uint64_t jobs = 0; ///< That arrived in it.
-    duration asked{};       ///< Servers' time that these need.
-    duration waited{};      ///< By these, until a server took them.
-    duration busy{};        ///< Servers' time that was used in this bin.
+    std::uint64_t jobs = 0;  ///< That arrived in it.
+    duration asked{};        ///< Servers' time that these need.
+    duration waited{};       ///< By these, until a server took them.
+    duration longest_wait{}; ///< Of one of these.
+    duration busy{};         ///< Servers' time that was used in this bin.
 
     bin& operator+=(const bin& other);
   };

@@ -3,6 +3,7 @@
 #include "offloading/requester.hpp"
 
 #include "base/protocol.hpp"
+#include "base/text/words.hpp"
 #include "offloading/qos_monitor.hpp"
 
 #include <algorithm>
@@ -116,13 +117,23 @@ void requester::expire(const epoch_end&, time_point now) {
 
 // -- providers ----------------------------------------------------------------
 
+// A list of bounded length, whatever an offer says.
+std::string
+requester::own_services_of(const messages::service_offer& offer) const {
+  std::string all;
+  for (const auto& x : services_)
+    if (std::ranges::count(offer.services, x.service.name))
+      add_word(all, x.service.name.view());
+  return all;
+}
+
 void requester::on_offer(const messages::service_offer& offer, peer_id from,
                          time_point now) {
   pass(now);
   if (offer.provider == 0) // no provider has this number
     return;
-  log(messages::event_type::offer, {offer.provider, setup_.station, {}, 0}, {},
-      now);
+  log(messages::event_type::offer, {offer.provider, setup_.station, {}, 0},
+      own_services_of(offer), now);
   auto& provider = meet(offer.provider, from);
   assert(provider.offered_at <= now);
   if (provider.peer != from)
@@ -256,8 +267,8 @@ requester::decide(service_state& service,
   const auto decision =
       setup_.policy->decide(context_of(service, providers, path, now));
   if (std::holds_alternative<policies::come_home>(decision.what)) {
-    leave(service, {messages::end_reason::released, std::string{decision.why}},
-          now, [](provider_id) { return true; });
+    leave(service, {messages::end_reason::released, decision.why.told()}, now,
+          [](provider_id) { return true; });
     return {};
   }
   const auto second = policies::second_of(decision);
@@ -276,8 +287,8 @@ requester::decide(service_state& service,
   if (wanted.empty()) {
     if (service.sessions.empty() && offering)
       log(messages::event_type::stay_local,
-          {*offering, setup_.station, service.service.name, 0}, decision.why,
-          now);
+          {*offering, setup_.station, service.service.name, 0},
+          decision.why.told(), now);
     return {};
   }
   assert(wanted.size() <= 2);

@@ -177,6 +177,7 @@ private:
                                     std::span<const point> path,
                                     time_point now);
   void set_standby(service_state& service, duration after);
+  std::string own_services_of(const messages::service_offer& offer) const;
   void request(provider_id id, std::vector<messages::service_name> wanted,
                const std::vector<point>& path, time_point now);
 

@@ -151,14 +151,20 @@ void source_selector::on_result(const messages::service_result& result,
     return;
   }
   auto* x = find(result.session);
-  if (!x || !(result.cycle > x->last_cycle))
+  if (!x) {
+    record_refusal(result.session, "session_over", now);
     return;
+  }
+  if (!(result.cycle > x->last_cycle)) {
+    record_refusal(result.session,
+                   in_words({"cycle", static_cast<double>(result.cycle),
+                             static_cast<double>(*x->last_cycle)}),
+                   now);
+    return;
+  }
   x->last_cycle = result.cycle;
-  const auto can = can_judge(*x, result, now);
-  const auto in_limits = can && keeps_limits(result, now);
-  if (can && !in_limits)
-    record_refusal(result, now);
-  if (!in_limits) {
+  if (const auto beyond = broken_limit(*x, result, now); !beyond.empty()) {
+    record_refusal(result.session, beyond, now);
     on_result_of(*x, result, now, false, {});
     return;
   }
@@ -184,28 +190,32 @@ void source_selector::on_result(const messages::service_result& result,
                  now, true, judged.margins);
 }
 
-bool source_selector::keeps_limits(const messages::service_result& result,
-                                   time_point now) const {
+/// @returns the limit that a result does not keep, in words; empty if it keeps
+/// all.
+std::string
+source_selector::broken_limit(source& x, const messages::service_result& result,
+                              time_point now) {
   const auto& limits = options().limits;
-  return in_time(result.created, now, limits.max_latency)
-         && in_time(result.timing.input_at, now, limits.max_input_age);
+  if (!can_judge(x, result, now))
+    return in_words("clock_doubt", result.doubt, limits.max_latency / 2);
+  if (!in_time(result.created, now, limits.max_latency))
+    return in_words("latency", now - result.created, limits.max_latency);
+  const auto& input_at = result.timing.input_at;
+  if (!in_time(input_at, now, limits.max_input_age))
+    return in_words("input_age", now - input_at, limits.max_input_age);
+  return {};
 }
 
-void source_selector::record_refusal(const messages::service_result& result,
-                                     time_point now) {
-  const auto& limits = options().limits;
-  const auto is_late = !in_time(result.created, now, limits.max_latency);
-  port_.record(messages::event_record{
-      .at = now,
-      .what = messages::event_type::result_refused,
-      .station = setup_.station,
-      .provider = result.session.provider,
-      .service = setup_.service.name,
-      .counter = result.session.counter,
-      .detail = is_late ? in_words("latency", now - result.created,
-                                   limits.max_latency)
-                        : in_words("input_age", now - result.timing.input_at,
-                                   limits.max_input_age)});
+void source_selector::record_refusal(const messages::session_id& session,
+                                     std::string why, time_point now) {
+  port_.record(
+      messages::event_record{.at = now,
+                             .what = messages::event_type::result_refused,
+                             .station = setup_.station,
+                             .provider = session.provider,
+                             .service = setup_.service.name,
+                             .counter = session.counter,
+                             .detail = std::move(why)});
 }
 
 /// A latency is not judged by a clock that is not known well enough: results
@@ -247,6 +257,7 @@ void source_selector::refuse(const messages::session_id& session,
 void source_selector::leave_out(source& x, const objection& why,
                                 time_point now) {
   x.useless = told(why);
+  record_refusal(x.session, x.useless->why, now);
   x.useless_at = now;
   port_.watch_useless(x.session, *x.useless);
 }

@@ -137,9 +137,10 @@ private:
   void announce_roles(time_point now);
   void await_cycle_after(time_point start);
 
-  bool keeps_limits(const messages::service_result& result,
-                    time_point now) const;
-  void record_refusal(const messages::service_result& result, time_point now);
+  std::string broken_limit(source& x, const messages::service_result& result,
+                           time_point now);
+  void record_refusal(const messages::session_id& session, std::string why,
+                      time_point now);
   bool can_judge(source& x, const messages::service_result& result,
                  time_point now);
   void refuse(const messages::session_id& session, const objection& why,

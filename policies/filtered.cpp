@@ -35,7 +35,7 @@ filtered_lodm::filtered_lodm(std::unique_ptr<local_policy> choice)
     : filtered_policy{make_local_filter("location"), std::move(choice)} {}
 
 local_decision filtered_lodm::decide(const local_context& context) {
-  std::string_view objection; // the first
+  reason objection; // the first
   std::vector<provider_view> left;
   for (const auto& provider : context.providers) {
     const auto why = filter_->objection(context, provider);

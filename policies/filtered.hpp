@@ -24,8 +24,8 @@ public:
     assert(filter_ && choice_);
   }
 
-  std::string_view objection(const Context& context,
-                             const Candidate& candidate) const override {
+  reason objection(const Context& context,
+                   const Candidate& candidate) const override {
     return filter_->objection(context, candidate);
   }
   void observe(const cycle_outcome& outcome) override {

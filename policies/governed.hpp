@@ -18,8 +18,8 @@ public:
 
   local_decision decide(const local_context& context) override;
   /// That of the policy; governors may choose all the same.
-  std::string_view objection(const local_context& context,
-                             const provider_view& provider) const override {
+  reason objection(const local_context& context,
+                   const provider_view& provider) const override {
     return whole_->objection(context, provider);
   }
   void observe(const cycle_outcome& outcome) override;

@@ -402,6 +402,8 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
                        messages_of(m.air()) == 1 ? "" : "s", run.pcap);
   if (run.provider.empty())
     headline_lines(out, paint, headline_of(m, run, end), m.safety().ok());
+  else if (const auto late = lateness_of(end.stood_still); !late.empty())
+    out += wrapped(late, line_width) + '\n';
   return out;
 }
 

@@ -140,12 +140,12 @@ std::string name_among(const service_metrics& x, const run_info& run) {
                                  : std::string{};
 }
 
-std::string offloading_of(const metrics& m, const run_info& run) {
-  const auto& x = m.headline();
+std::string offloading_of(const service_metrics& x, duration driven,
+                          const run_info& run) {
   const auto name = name_among(x, run);
   if (x.episodes == 0)
-    return fmt::format("Never offloaded{}: {}", name, why_never(x, m.offers()));
-  const auto share = x.offloaded_share(m.safety().driven);
+    return fmt::format("Never offloaded{}: {}", name, why_never(x));
+  const auto share = x.offloaded_share(driven);
   auto text =
       share ? fmt::format("Offloaded{} {:.1f} % of the time; ", name,
                           100 * *share)
@@ -163,6 +163,17 @@ std::string offloading_of(const metrics& m, const run_info& run) {
                        x.episodes, x.episodes == 1 ? "" : "s", early_ends(x));
 }
 
+/// @returns the same of the service that the run is about, and of each other
+/// one that did not go well.
+std::string offloading_of(const metrics& m, const run_info& run) {
+  const auto driven = m.safety().driven;
+  auto text = offloading_of(m.headline(), driven, run);
+  for (const auto& x : m.services())
+    if (&x != &m.headline() && (x.episodes == 0 || !x.early.empty()))
+      text += ' ' + offloading_of(x, driven, run);
+  return text;
+}
+
 std::string safety_of(const safety_metrics& x) {
   if (x.driven == duration::zero())
     return "Safety was not recorded.";
@@ -176,16 +187,6 @@ std::string safety_of(const safety_metrics& x) {
                      "the road, {} collision{}; {}.",
                      to_seconds(x.without_fresh_plan), to_seconds(x.off_road),
                      x.collisions, x.collisions == 1 ? "" : "s", near);
-}
-
-/// @returns how late a thread was that had hardly anything to do.
-std::string lateness_of(const standstill& x) {
-  constexpr duration worth_a_word = std::chrono::milliseconds{100};
-  if (x.together < worth_a_word)
-    return "";
-  return fmt::format(" A thread that only looks at the clock was woken late by "
-                     "{:.3f} s, {:.3f} s at once: plans may have been, too.",
-                     to_seconds(x.together), to_seconds(x.longest));
 }
 
 std::string load_of(const load_table& table, bool is_modelled,
@@ -212,9 +213,20 @@ std::string load_of(const load_table& table, bool is_modelled,
 
 } // namespace
 
-std::string why_never(const service_metrics& x, std::uint64_t offers) {
-  if (offers == 0)
-    return "no offer came.";
+std::string lateness_of(const standstill& x) {
+  constexpr duration worth_a_word = std::chrono::milliseconds{100};
+  if (x.together < worth_a_word)
+    return "";
+  return fmt::format("The machine kept a thread waiting that only looks at the "
+                     "clock: {:.3f} s in all, {:.3f} s at once until {:.1f} s; "
+                     "plans may have been late, too.",
+                     to_seconds(x.together), to_seconds(x.longest),
+                     to_seconds(x.longest_at));
+}
+
+std::string why_never(const service_metrics& x) {
+  if (x.offers == 0 && x.requests() == 0)
+    return "nobody offered it.";
   if (x.requests() == 0)
     return fmt::format("the LODM asked for nothing{}.",
                        most_frequent(x.stayed));
@@ -227,9 +239,10 @@ std::string why_never(const service_metrics& x, std::uint64_t offers) {
 
 headline headline_of(const metrics& m, const run_info& run,
                      const run_end& end) {
+  const auto late = lateness_of(end.stood_still);
   return {
       offloading_of(m, run),
-      safety_of(m.safety()) + lateness_of(end.stood_still),
+      safety_of(m.safety()) + (late.empty() ? "" : ' ' + late),
       load_of(m.load(), run.clock == "virtual", from_seconds(end.virtual_s))};
 }
 

@@ -14,15 +14,19 @@ namespace sofof::recording {
 /// summary and the head of a report.
 struct headline {
   /// Of the service at the top of the summary, by its name where there are
-  /// several.
+  /// several; then of each other one that was never offloaded or ended early.
   std::string offloading;
   std::string safety;
   std::string load;
 };
 
 /// @param x  Of a service that was never offloaded.
-/// @returns why, as far as counts tell: "no offer came."
-std::string why_never(const service_metrics& x, std::uint64_t offers);
+/// @returns why, as far as counts tell: "nobody offered it."
+std::string why_never(const service_metrics& x);
+
+/// @returns when a thread with hardly anything to do was late, as the machine
+/// let it wait; empty if that was not worth a word.
+std::string lateness_of(const standstill& x);
 
 /// @param m  Finished, with its load.
 headline headline_of(const metrics& m, const run_info& run, const run_end& end);

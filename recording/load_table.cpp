@@ -61,6 +61,10 @@ constexpr csv_column<load_row> of_load[]{
                   : milliseconds(r.in.waited
                                  / static_cast<duration::rep>(r.in.jobs));
      }},
+    {"max_wait_ms",
+     [](const auto& r) {
+       return r.in.jobs == 0 ? decimal{} : milliseconds(r.in.longest_wait);
+     }},
 };
 
 struct octet_row {

@@ -1,6 +1,8 @@
 // Adding up what happened.
 #include "recording/metrics.hpp"
 
+#include "base/reason.hpp"
+#include "base/text/words.hpp"
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/etsi/uper.hpp"
@@ -85,7 +87,7 @@ void metrics::on_record(const messages::record& x) {
 void metrics::add(const messages::event_record& x) {
   switch (x.what) {
     case messages::event_type::offer:
-      ++offers_;
+      count_offer(x.detail);
       break;
     case messages::event_type::near_miss:
       ++together_.safety.near_misses;
@@ -95,10 +97,10 @@ void metrics::add(const messages::event_record& x) {
             .implausible[std::string{name_of(x.provider, names_)}][x.check];
       break;
     case messages::event_type::refused:
-      ++of(x.service).refused[x.detail];
+      ++of(x.service).refused[std::string{reason::words_of(x.detail)}];
       break;
     case messages::event_type::stay_local:
-      ++of(x.service).stayed[x.detail];
+      ++of(x.service).stayed[std::string{reason::words_of(x.detail)}];
       break;
     case messages::event_type::switched:
       source_changed(x);
@@ -106,6 +108,12 @@ void metrics::add(const messages::event_record& x) {
     default: // scored by other records, or not at all
       break;
   }
+}
+
+void metrics::count_offer(std::string_view services) {
+  ++offers_;
+  for (auto& x : services_)
+    x.offers += has_word(services, x.service.view());
 }
 
 void metrics::source_changed(const messages::event_record& x) {

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct early_end {
 /// The figures of one kind of service, as the requesters see it.
 struct service_metrics {
   messages::service_name service;
+  std::uint64_t offers = 0; ///< That named it.
   // Pairs of a request and a service that it names; the answer counts.
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0; ///< No answer in time is a rejection too.
@@ -241,6 +243,7 @@ private:
   void add(const Other&) {}
 
   service_metrics& of(const messages::service_name& name);
+  void count_offer(std::string_view services);
   void source_changed(const messages::event_record& x);
 
   time_point start_;

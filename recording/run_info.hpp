@@ -77,13 +77,18 @@ struct standstill {
 
   duration together{}; ///< Of times of more than `least` each.
   duration longest{};
+  duration longest_at{}; ///< Since the start, when that one was over.
 
   /// Who was to be woken was woken so much later.
-  void woken_late(duration by) {
+  /// @param at  Since the start.
+  void woken_late(duration by, duration at) {
     if (by <= least)
       return;
     together += by;
-    longest = std::max(longest, by);
+    if (by > longest) {
+      longest = by;
+      longest_at = at;
+    }
   }
 };
 

@@ -47,8 +47,8 @@ public:
     return decision;
   }
 
-  std::string_view objection(const Context& context,
-                             const Candidate& candidate) const override {
+  reason objection(const Context& context,
+                   const Candidate& candidate) const override {
     return what_->objection(context, candidate);
   }
   void observe(const policies::cycle_outcome& x) override { what_->observe(x); }

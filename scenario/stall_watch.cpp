@@ -23,12 +23,16 @@ recording::standstill stall_watch::so_far() const {
 
 void stall_watch::look(const std::stop_token& end) {
   using clock = std::chrono::steady_clock;
+  const auto since = [](clock::time_point then) {
+    return std::chrono::duration_cast<duration>(clock::now() - then);
+  };
+  const auto start = clock::now();
   while (!end.stop_requested()) {
     const auto due = clock::now() + nap;
     std::this_thread::sleep_until(due);
-    const auto late = std::chrono::duration_cast<duration>(clock::now() - due);
+    const auto late = since(due);
     const std::lock_guard lock{mutex_};
-    seen_.woken_late(late);
+    seen_.woken_late(late, since(start));
   }
 }
 

@@ -135,8 +135,9 @@ struct road_state {
                       .at = t,
                       .what = messages::event_type::near_miss,
                       .station = x.first,
-                      .detail = fmt::format("with {} ttc_s={:.3f}", x.second,
-                                            x.time_to_collision_s)});
+                      .detail = fmt::format(
+                          "with {} ttc_s={:.3f} limit_s={:.3f}", x.second,
+                          x.time_to_collision_s, world::near_miss_s)});
   }
 };
 

@@ -1,6 +1,8 @@
 // Leaderboards as a report.
 #include "experiments/benchmark/board_page.hpp"
 
+#include "experiments/report/documented.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@ namespace sofof::experiments::bench {
 namespace {
 
 constexpr auto absent = "–";
+constexpr std::string_view who = "a pair of policies";
 constexpr std::string_view across = "violations_per_h";
 constexpr std::string_view upwards = "energy_saved_percent";
 /// Nobody above the line has any of these.
@@ -33,6 +36,18 @@ bool is_one_of(std::string_view name, const Names& names) {
 
 const criterion& criterion_of(std::string_view name) {
   return *std::ranges::find(criteria(), name, &criterion::name);
+}
+
+void add_column(report::table& t, std::string_view title,
+                std::string_view meaning) {
+  t.columns.emplace_back(title);
+  t.column_meanings.emplace_back(meaning);
+}
+
+void add_column(report::table& t, std::string_view title, const criterion& by) {
+  add_column(
+      t, title,
+      report::documented_in(report::bench_page, "What is measured", by.name));
 }
 
 std::string text_of(const standing& one, const criterion& by) {
@@ -75,13 +90,14 @@ report::table ranking(const leaderboard& board) {
   std::vector<std::string_view> compared{score_name};
   if (has(board, than_location_name))
     compared.push_back(than_location_name);
-  t.columns = {"", "entrant"};
+  add_column(t, "", "the place, by the score");
+  add_column(t, "entrant", who);
   for (const auto name : compared) {
-    t.columns.emplace_back(criterion_of(name).title);
-    t.columns.emplace_back("95 % interval");
+    add_column(t, criterion_of(name).title, criterion_of(name));
+    add_column(t, "95 % interval", "of the mean before it, over seeds");
   }
   for (const auto& by : shown)
-    t.columns.emplace_back(by.brief);
+    add_column(t, by.brief, by);
   std::size_t place = 0;
   for (const auto& one : board.above()) {
     std::vector<std::string> row{
@@ -116,16 +132,17 @@ std::vector<report::table> other_figures(const leaderboard& board,
   std::vector<report::table> all;
   for (std::size_t from = 0; all.empty() || from < shown.size();) {
     auto& t = all.emplace_back();
-    t.columns = {"entrant"};
+    add_column(t, "entrant", who);
     const auto first = all.size() == 1;
     if (first) {
       t.title = "Other figures";
-      t.columns.emplace_back("time to decide, 99 %, µs");
+      add_column(t, "time to decide, 99 %, µs",
+                 "of LODM or CODM, whichever takes longer");
     }
     const auto to =
         std::min(shown.size(), from + most_columns - t.columns.size());
     for (auto i = from; i < to; ++i)
-      t.columns.emplace_back(shown[i].title);
+      add_column(t, shown[i].title, shown[i]);
     for (const auto& one : board.above()) {
       auto& row = t.rows.emplace_back();
       row.push_back(one.entrant);
@@ -142,11 +159,16 @@ std::vector<report::table> other_figures(const leaderboard& board,
 report::table below_the_line(const leaderboard& board) {
   report::table t;
   t.title = "Below the line";
-  t.columns = {"entrant", "unsafe runs", "failed runs", "of"};
+  add_column(t, "entrant", who);
+  add_column(t, "unsafe runs",
+             "in which somebody drove without a fresh plan, left the road or "
+             "touched somebody");
+  add_column(t, "failed runs", "without a result");
+  add_column(t, "of", "all runs of the entrant");
   std::vector<std::string_view> shown{score_name};
   shown.insert(shown.end(), std::begin(of_safety), std::end(of_safety));
   for (const auto name : shown)
-    t.columns.emplace_back(criterion_of(name).title);
+    add_column(t, criterion_of(name).title, criterion_of(name));
   for (const auto& one : board.below()) {
     auto& row = t.rows.emplace_back();
     row = {one.entrant, std::to_string(one.unsafe), std::to_string(one.failed),
@@ -224,7 +246,9 @@ report::section overall(const leaderboard& board, std::size_t scenarios,
 report::section about(std::span<const entrant> entrants) {
   report::section s{"Entrants", {}};
   report::table t;
-  t.columns = {"entrant", "LODM", "CODM"};
+  add_column(t, "entrant", who);
+  add_column(t, "LODM", "decides in the vehicle");
+  add_column(t, "CODM", "decides at the provider");
   for (const auto& one : entrants)
     t.rows.push_back({one.name, one.lodm, one.codm});
   s.blocks.emplace_back(std::move(t));

@@ -2,7 +2,9 @@
 #include "experiments/explain/absence.hpp"
 
 #include "base/input_error.hpp"
+#include "base/reason.hpp"
 #include "base/text/csv_reader.hpp"
+#include "base/text/words.hpp"
 #include "base/text/wrapped.hpp"
 #include "recording/headline.hpp"
 
@@ -59,30 +61,27 @@ void refuse_unknown(const fs::path& folder, const question& q,
     refuse(fmt::format("service {}", q.service), "summary.json");
 }
 
-/// What came before an episode could begin.
-struct attempts {
-  recording::service_metrics of;
-  std::uint64_t offers = 0;
-};
-
-attempts count_attempts(const std::vector<report::event_line>& events,
-                        const question& q) {
-  attempts all;
+/// @returns what came before an episode could begin.
+recording::service_metrics
+count_attempts(const std::vector<report::event_line>& events,
+               const question& q) {
+  recording::service_metrics all;
   for (const auto& x : events) {
     if (q.station && x.of.station != *q.station)
       continue;
-    if (x.what == "offer")
+    if (x.what == "offer"
+        && (q.service.empty() || has_word(x.detail, q.service)))
       ++all.offers;
     if (!q.is_about(x.of))
       continue;
     if (x.what == "accepted")
-      ++all.of.accepted;
+      ++all.accepted;
     if (x.what == "refused") {
-      ++all.of.rejected;
-      ++all.of.refused[x.detail];
+      ++all.rejected;
+      ++all.refused[std::string{reason::words_of(x.detail)}];
     }
     if (x.what == "stay_local")
-      ++all.of.stayed[x.detail];
+      ++all.stayed[std::string{reason::words_of(x.detail)}];
   }
   return all;
 }
@@ -158,9 +157,9 @@ std::string tell_absence(const fs::path& folder, const question& q) {
     whose += fmt::format("{}{}", whose.empty() ? "" : ", ", q.service);
   if (!whose.empty())
     whose += ": ";
-  const auto why = all.of.accepted > 0
+  const auto why = all.accepted > 0
                        ? "accepted, but no vehicle has closed an episode yet."
-                       : recording::why_never(all.of, all.offers);
+                       : recording::why_never(all);
   return text
          + wrapped(fmt::format("{}never offloaded: {}", whose, why), line_width)
          + '\n';

@@ -1,4 +1,4 @@
-// Reads the tables of docs/results.md.
+// Reads tables of pages in Markdown.
 #include "experiments/report/documented.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,7 @@ std::string_view cut(std::string_view& text, std::string_view end) {
   return before;
 }
 
-std::string_view section_of(std::string_view heading) {
-  auto page = results_page;
+std::string_view section_of(std::string_view page, std::string_view heading) {
   cut(page, fmt::format("\n## {}\n", heading));
   return cut(page, "\n## ");
 }
@@ -88,11 +87,15 @@ std::string row_of(std::string_view section, std::string_view name) {
 
 } // namespace
 
+std::string documented_in(std::string_view page, std::string_view heading,
+                          std::string_view name) {
+  return row_of(section_of(page, heading), name);
+}
+
 std::string documented(std::string_view heading, std::string_view name) {
-  const auto section = section_of(heading);
   for (const auto& known :
        {std::string{name}, fmt::format("services.any.{}", name)})
-    if (auto text = row_of(section, known); !text.empty())
+    if (auto text = documented_in(results_page, heading, known); !text.empty())
       return text;
   const auto dot = name.rfind('.');
   return dot == name.npos ? "" : documented(heading, name.substr(0, dot));

@@ -41,6 +41,7 @@ constexpr shown_event shown_events[]{
     {messages::event_type::provider_lost, "lost"},
     {messages::event_type::requester_lost, "lost"},
     {messages::event_type::implausible, "implausible"},
+    {messages::event_type::result_refused, "other"},
     {messages::event_type::refused, "other"},
     {messages::event_type::clock_in_doubt, "other"},
     {messages::event_type::clock_known, "other"},

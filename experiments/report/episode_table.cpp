@@ -82,6 +82,7 @@ struct episode_column {
   std::string_view title;
   std::string_view name; ///< In episodes.csv; empty if reckoned from cycles.
   std::string (*text)(const episode_entry& of);
+  std::string_view meaning{}; ///< Of what is reckoned.
 };
 
 constexpr episode_column episode_columns[]{
@@ -108,20 +109,24 @@ constexpr episode_column episode_columns[]{
     {"results", "",
      [](const episode_entry& e) {
        return e.results.count > 0 ? std::to_string(e.results.count) : "";
-     }},
+     },
+     "results that came, used or not"},
     {"mean latency, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.latency_sum_ms
                                      / static_cast<double>(e.results.count));
-     }},
+     },
+     "of all results that came: received after the start of their cycle"},
     {"longest latency, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.longest_latency_ms);
-     }},
+     },
+     "of all results that came"},
     {"longest gap, ms", "",
      [](const episode_entry& e) {
        return ms_text(e.results, e.results.longest_gap_ms);
-     }},
+     },
+     "between two results, while the service was remote"},
 };
 
 } // namespace
@@ -131,7 +136,8 @@ table episode_table(const recorded_run& run) {
   for (const auto& column : episode_columns) {
     all.columns.emplace_back(column.title);
     all.column_meanings.push_back(
-        column.name.empty() ? "" : documented("episodes.csv", column.name));
+        column.name.empty() ? std::string{column.meaning}
+                            : documented("episodes.csv", column.name));
   }
   if (!run.episodes.empty())
     for (const auto& [name, text] : run.episodes.front().others) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,21 +27,25 @@ using runs_view = std::span<const recorded_run>;
 constexpr std::array<std::string_view, 3> servers{"workers", "uplink",
                                                   "downlink"};
 
-/// Shares that were asked for, by the second.
+/// By the second.
 struct load_curve {
   std::vector<double> t_s;
   std::vector<double> asked_percent;
+  std::vector<double> mean_wait_ms, max_wait_ms; ///< NaN where nobody waited.
 };
 
 /// By provider and what of it.
 using load_curves = std::map<std::pair<std::string, std::string>, load_curve>;
 
 load_curves curves_of(const recorded_run& run) {
+  constexpr auto none = std::numeric_limits<double>::quiet_NaN();
   load_curves all;
   for (const auto& line : read_load(run.folder)) {
     auto& to = all[{line.provider, line.what}];
     to.t_s.push_back(line.t_s);
     to.asked_percent.push_back(100 * line.asked_share);
+    to.mean_wait_ms.push_back(line.mean_wait_ms.value_or(none));
+    to.max_wait_ms.push_back(line.max_wait_ms.value_or(none));
   }
   return all;
 }
@@ -51,32 +56,59 @@ std::string label(const recorded_run& run, const std::string& provider,
                           : fmt::format("{}: {}", run.label, provider);
 }
 
-/// One figure for workers, uplinks and downlinks each, as far as any had work.
+/// One of the figures of load by time.
+struct load_figure {
+  struct shown_curve {
+    std::string_view suffix; ///< Of its name.
+    std::vector<double> load_curve::*y;
+  };
+  std::string_view title; ///< "{}" stands for what of a provider.
+  std::string_view y_label;
+  std::vector<shown_curve> curves;
+  std::vector<std::pair<double, std::string>> levels{};
+};
+
+/// Of workers, an uplink or a downlink, as far as any had work.
+void add_figure(section& to, runs_view runs,
+                const std::vector<load_curves>& loads, std::string_view what,
+                const load_figure& of_load) {
+  figure shown;
+  shown.title = fmt::format(fmt::runtime(of_load.title),
+                            what == "workers" ? std::string{what}
+                                              : fmt::format("the {}", what));
+  shown.x_label = "time, s";
+  shown.y_label = of_load.y_label;
+  shown.levels = of_load.levels;
+  shown.by_clock = true;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const auto& [of, load] : loads[i])
+      if (of.second == what)
+        for (const auto& [suffix, y] : of_load.curves)
+          shown.curves.push_back(
+              {.name = label(runs[i], of.first, runs).append(suffix),
+               .x = load.t_s,
+               .y = load.*y,
+               .low = {},
+               .high = {},
+               .provider = runs.size() == 1 ? runs[i].place_of(of.first)
+                                            : std::nullopt});
+  if (!shown.curves.empty())
+    to.blocks.emplace_back(std::move(shown));
+}
+
 void add_curves(section& to, runs_view runs,
                 const std::vector<load_curves>& loads) {
-  for (const auto what : servers) {
-    figure shown;
-    shown.title = fmt::format("Asked of {} by time",
-                              what == "workers" ? std::string{what}
-                                                : fmt::format("the {}", what));
-    shown.x_label = "time, s";
-    shown.y_label = "asked for, %";
-    shown.levels = {{100, "all that they can do"}};
-    shown.by_clock = true;
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      for (const auto& [of, load] : loads[i])
-        if (of.second == what)
-          shown.curves.push_back({.name = label(runs[i], of.first, runs),
-                                  .x = load.t_s,
-                                  .y = load.asked_percent,
-                                  .low = {},
-                                  .high = {},
-                                  .provider = runs.size() == 1
-                                                  ? runs[i].place_of(of.first)
-                                                  : std::nullopt});
-    if (!shown.curves.empty())
-      to.blocks.emplace_back(std::move(shown));
-  }
+  const load_figure asked{"Asked of {} by time",
+                          "asked for, %",
+                          {{"", &load_curve::asked_percent}},
+                          {{100, "all that they can do"}}};
+  const load_figure waits{"Waits for {} by time",
+                          "wait, ms",
+                          {{", mean", &load_curve::mean_wait_ms},
+                           {", longest", &load_curve::max_wait_ms}}};
+  for (const auto what : servers)
+    for (const auto* of_load : {&asked, &waits})
+      add_figure(to, runs, loads, what, *of_load);
 }
 
 /// A column of the table, and the figure of the summary that it shows.
@@ -104,8 +136,8 @@ table servers_of(runs_view runs, const std::vector<load_curves>& loads) {
                          documented("load.csv", "what")};
   for (const auto& column : load_columns) {
     all.columns.emplace_back(column.title);
-    all.column_meanings.push_back(
-        documented("summary.json", "load.<provider>"));
+    all.column_meanings.push_back(documented(
+        "summary.json", fmt::format("load.any.workers.{}", column.name)));
   }
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const auto& [of, load] : loads[i]) {

@@ -188,13 +188,19 @@ read_cycles(const fs::path& folder,
 
 std::vector<load_line> read_load(const fs::path& folder) {
   static constexpr columns names{"t_s", "provider", "what", "asked_share"};
+  static constexpr columns newer{"mean_wait_ms", "max_wait_ms"};
+  enum { mean_wait = 4, max_wait = 5 };
   const auto file = folder / "load.csv";
   std::vector<load_line> all;
   if (!fs::exists(file))
     return all;
-  csv_reader row{file, names, ending_of(folder)};
+  csv_reader row{file, names, ending_of(folder), newer};
+  const auto wait = [&row](std::size_t column) {
+    return row.has(column) ? row.number_if_any(column) : std::nullopt;
+  };
   while (row.next())
-    all.push_back({row.number(0), row.text(1), row.text(2), row.number(3)});
+    all.push_back({row.number(0), row.text(1), row.text(2), row.number(3),
+                   wait(mean_wait), wait(max_wait)});
   return all;
 }
 

@@ -66,6 +66,8 @@ struct load_line {
   std::string provider;
   std::string what; ///< "workers", "uplink", "downlink".
   double asked_share = 0;
+  // Of jobs that arrived in it; none without any, and in older folders.
+  std::optional<double> mean_wait_ms, max_wait_ms;
 };
 
 /// Of octets.csv.

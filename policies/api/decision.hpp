@@ -2,11 +2,11 @@
 #pragma once
 
 #include "base/ids.hpp"
+#include "base/reason.hpp"
 #include "base/time.hpp"
 
 #include <cstddef>
 #include <optional>
-#include <string_view>
 #include <variant>
 
 namespace sofof::policies {
@@ -41,18 +41,18 @@ struct run_at {
 /// What an LODM says of one service.
 struct local_decision {
   std::variant<stay, come_home, run_at> what;
-  std::string_view why; ///< A short literal, for the records.
+  reason why; ///< For the records.
 };
 
 /// @returns a decision to leave all as it is.
-constexpr local_decision as_it_is(std::string_view why) {
+constexpr local_decision as_it_is(reason why) {
   return {stay{}, why};
 }
 
 /// @param now     Where the service runs.
 /// @param wanted  Where alone it shall run.
 constexpr local_decision at_place(service_place now, service_place wanted,
-                                  std::string_view why) {
+                                  reason why) {
   if (wanted)
     return {run_at{.provider = *wanted}, why};
   return now ? local_decision{come_home{}, why} : as_it_is(why);
@@ -94,7 +94,7 @@ struct refused {
 /// What a CODM says of one request or one session.
 struct central_decision {
   std::variant<refused, accepted> what;
-  std::string_view why; ///< A short literal, for the records.
+  reason why; ///< For the records.
 };
 
 /// @returns the terms on which a request is accepted; null if it is not.

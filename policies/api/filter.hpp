@@ -1,6 +1,7 @@
 // What comes into question at all: the first part of a decision.
 #pragma once
 
+#include "base/reason.hpp"
 #include "policies/api/context.hpp"
 
 #include <memory>
@@ -15,9 +16,9 @@ class filter {
 public:
   virtual ~filter() = default;
 
-  /// @returns what speaks against it, a short literal; empty if nothing does.
-  virtual std::string_view objection(const Context& context,
-                                     const Candidate& candidate) const = 0;
+  /// @returns what speaks against it; empty if nothing does.
+  virtual reason objection(const Context& context,
+                           const Candidate& candidate) const = 0;
 
   /// Lists the options once (base/options/option_visitor.hpp).
   virtual void visit_options(option_visitor&) {}

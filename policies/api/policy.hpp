@@ -49,9 +49,9 @@ public:
 
   virtual Decision decide(const Context& context) = 0;
 
-  /// @returns what speaks against a candidate whatever else there is, a short
-  /// literal; empty if nothing does.
-  virtual std::string_view objection(const Context&, const Candidate&) const {
+  /// @returns what speaks against a candidate whatever else there is; empty if
+  /// nothing does.
+  virtual reason objection(const Context&, const Candidate&) const {
     return {};
   }
 

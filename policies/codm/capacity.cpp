@@ -14,11 +14,13 @@ public:
     std::vector<central_decision> all;
     auto used = context.utilisation;
     for (const auto& request : context.requests) {
-      const auto fits = used + request.utilisation <= most_;
+      const auto asked = used + request.utilisation;
+      const auto fits = asked <= most_;
       if (fits)
-        used += request.utilisation;
-      all.push_back(fits ? central_decision{accepted{}, "there is room"}
-                         : central_decision{refused{}, "no room"});
+        used = asked;
+      all.push_back(
+          fits ? central_decision{accepted{}, "there is room"}
+               : central_decision{refused{}, {"no room", asked, most_}});
     }
     return all;
   }

@@ -69,9 +69,11 @@ std::vector<central_decision> edf::decide(const central_context& context) {
   for (const auto& request : context.requests) {
     auto task = to_schedule(request.task);
     const auto test = test_of(test_);
-    if (test == admission_test::phases
-        && task.period + task.deadline > protocol::start_timeout) {
-      all.push_back({refused{}, "its first result would come too late"});
+    if (const auto first = task.period + task.deadline;
+        test == admission_test::phases && first > protocol::start_timeout) {
+      all.push_back({refused{},
+                     {"its first result would come too late", to_seconds(first),
+                      to_seconds(protocol::start_timeout)}});
       continue;
     }
     const auto place = worst_fit(workers, task, test);

@@ -21,8 +21,8 @@ public:
     }
     return all;
   }
-  std::string_view objection(const central_context& context,
-                             const request_view& request) const override {
+  reason objection(const central_context& context,
+                   const request_view& request) const override {
     return stays_.objection(context, request);
   }
   void visit_options(option_visitor& s) override { stays_.visit_options(s); }

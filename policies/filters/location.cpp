@@ -40,13 +40,13 @@ double distance_in_disc_m(std::span<const point> path, point centre,
   return passed_m;
 }
 
-std::string_view near_provider::objection(const local_context& context,
-                                          const provider_view& provider) const {
+reason near_provider::objection(const local_context& context,
+                                const provider_view& provider) const {
   const auto passed_m =
       distance_in_disc_m(context.path, provider.at, radius_m_, min_distance_m_);
   if (passed_m > min_distance_m_)
     return {};
-  return "path leaves r_off or ends before d_min";
+  return {"path leaves r_off or ends before d_min", passed_m, min_distance_m_};
 }
 
 void near_provider::visit_options(option_visitor& s) {
@@ -65,8 +65,8 @@ std::unique_ptr<local_filter> near_provider::clone() const {
   return std::make_unique<near_provider>(*this);
 }
 
-std::string_view stays_in_area::objection(const central_context& context,
-                                          const request_view& request) const {
+reason stays_in_area::objection(const central_context& context,
+                                const request_view& request) const {
   if (context.map.lanes().empty())
     return "no map present";
   if (!context.map.near_lanes(request.route, map_tolerance_m_))
@@ -77,7 +77,7 @@ std::string_view stays_in_area::objection(const central_context& context,
   if (!time_s)
     return "outside the area";
   if (!(*time_s >= enough_s)) // nor what is no number
-    return "t_in_area < t_min";
+    return {"t_in_area < t_min", *time_s, enough_s};
   return {};
 }
 

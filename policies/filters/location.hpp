@@ -40,8 +40,8 @@ double distance_in_disc_m(std::span<const point> path, point centre,
 /// within r_off of it.
 class near_provider final : public local_filter {
 public:
-  std::string_view objection(const local_context& context,
-                             const provider_view& provider) const override;
+  reason objection(const local_context& context,
+                   const provider_view& provider) const override;
   void visit_options(option_visitor& s) override;
   static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }
@@ -56,8 +56,8 @@ private:
 /// stays in the offloading area long enough.
 class stays_in_area final : public central_filter {
 public:
-  std::string_view objection(const central_context& context,
-                             const request_view& request) const override;
+  reason objection(const central_context& context,
+                   const request_view& request) const override;
   void visit_options(option_visitor& s) override;
   static std::vector<option_info> parameters();
   std::string_view name() const override { return "location"; }

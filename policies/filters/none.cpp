@@ -9,7 +9,7 @@ namespace {
 template <class Context, class Candidate>
 class no_filter final : public filter<Context, Candidate> {
 public:
-  std::string_view objection(const Context&, const Candidate&) const override {
+  reason objection(const Context&, const Candidate&) const override {
     return {};
   }
   std::string_view name() const override { return "none"; }

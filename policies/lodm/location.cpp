@@ -12,7 +12,7 @@ namespace {
 class location final : public local_policy {
 public:
   local_decision decide(const local_context& context) override {
-    std::string_view first; // objection
+    reason first; // objection
     for (const auto& provider : context.providers) {
       const auto why = objection(context, provider);
       if (why.empty())
@@ -22,8 +22,8 @@ public:
     }
     return as_it_is(first.empty() ? "nobody offers it" : first);
   }
-  std::string_view objection(const local_context& context,
-                             const provider_view& provider) const override {
+  reason objection(const local_context& context,
+                   const provider_view& provider) const override {
     return near_.objection(context, provider);
   }
   void visit_options(option_visitor& s) override { near_.visit_options(s); }

@@ -147,7 +147,7 @@ TEST_CASE_FIXTURE(road_world, "who comes near too fast is noted once") {
   REQUIRE(events.size() == 1);
   CHECK(events[0].what == event_type::near_miss);
   CHECK(events[0].station == 1);
-  CHECK(events[0].detail == "with 2 ttc_s=1.400");
+  CHECK(events[0].detail == "with 2 ttc_s=1.400 limit_s=1.500");
   CHECK(collisions() == 0);
 }
 

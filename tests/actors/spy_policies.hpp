@@ -60,8 +60,8 @@ public:
       there.second = {*script_->second, script_->hedge_after};
     return {there, "as told"};
   }
-  std::string_view objection(const policies::local_context&,
-                             const policies::provider_view& x) const override {
+  reason objection(const policies::local_context&,
+                   const policies::provider_view& x) const override {
     return script_->unwanted.contains(x.id) ? "as told" : "";
   }
   void observe(const policies::cycle_outcome& x) override {

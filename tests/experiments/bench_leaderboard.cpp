@@ -4,6 +4,7 @@
 #include "experiments/benchmark/board_text.hpp"
 #include "experiments/benchmark/decision_costs.hpp"
 #include "experiments/benchmark/leaderboard.hpp"
+#include "experiments/report/documented.hpp"
 #include "tests/support/near.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -185,6 +186,24 @@ TEST_CASE("of one seed there is no interval") {
   CHECK(ranking.rows[0][2] == "0.1100");
   CHECK(ranking.rows[0][3] == "–");
   CHECK(lines_of(to_csv(boards, three))[1].ends_with(",0.110000,,"));
+}
+
+TEST_CASE("each column of a leaderboard says what it means") {
+  const std::vector boards{rank(all_runs(), two_by_two, "")};
+  for (const auto& section : board_page(boards, {}, three, "").sections)
+    for (const auto& block : section.blocks)
+      if (const auto* t = std::get_if<report::table>(&block)) {
+        REQUIRE(t->column_meanings.size() == t->columns.size());
+        for (std::size_t i = 0; i < t->columns.size(); ++i) {
+          CAPTURE(t->columns[i]);
+          CHECK(t->column_meanings[i] != "");
+        }
+      }
+  for (const auto& by : criteria()) {
+    CAPTURE(by.name);
+    CHECK(report::documented_in(report::bench_page, "What is measured", by.name)
+          != "");
+  }
 }
 
 TEST_CASE("scores whose difference may be none are tied") {

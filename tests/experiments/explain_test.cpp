@@ -198,7 +198,7 @@ struct idle_run {
   explicit idle_run(const std::string& events, const std::string& side = "") {
     write_text(
         folder / "summary.json",
-        R"({"headline":{"offloading":"Never offloaded: no offer came."},)"
+        R"({"headline":{"offloading":"Never offloaded: nobody offered it."},)"
         R"("services":{"climate":{"requests":0}}})");
     write_text(folder / "episodes.csv",
                "side,station,provider,provider_id,service,counter,accepted_s,"
@@ -222,27 +222,29 @@ struct idle_run {
 
 TEST_CASE("a run without episodes is told by its headline") {
   const idle_run run{""};
-  CHECK(run.told() == "Never offloaded: no offer came.\n");
+  CHECK(run.told() == "Never offloaded: nobody offered it.\n");
 }
 
 TEST_CASE("a vehicle or a service without episodes is told why") {
   const idle_run quiet{""};
   CHECK(contains(quiet.told({102, {}, ""}),
-                 "Station 102: never offloaded: no offer came."));
+                 "Station 102: never offloaded: nobody offered it."));
   CHECK(contains(quiet.told({{}, {}, "climate"}), "climate: never offloaded"));
   CHECK_THROWS_AS(quiet.told({103, {}, ""}), input_error);
-  const idle_run refused{idle_run::event("offer", "")
-                         + idle_run::event("stay_local", "too short")
-                         + idle_run::event("refused", "no room")
-                         + idle_run::event("refused", "no room")};
+  const idle_run refused{
+      idle_run::event("offer", "planning")
+      + idle_run::event("stay_local", "too short value=1.0 limit=2.0")
+      + idle_run::event("refused", "no room value=0.9 limit=0.8")
+      + idle_run::event("refused", "no room value=1.1 limit=0.8")};
   CHECK(contains(refused.told({101, {}, "planning"}),
                  "Station 101, planning: never offloaded: 2 requests, none "
                  "accepted; most often (2\ntimes): no room."));
-  CHECK(contains(refused.told({102, {}, ""}), "no offer came"));
+  CHECK(contains(refused.told({102, {}, ""}), "nobody offered it"));
   CHECK(
       unwrapped(refused.told({101, 1.0, ""}))
           .starts_with("No episode ran at 1 s; at 1.000 s planning of station "
-                       "101 stayed in the vehicle: too short. Station 101: "
+                       "101 stayed in the vehicle: too short value=1.0 "
+                       "limit=2.0. Station 101: "
                        "never offloaded"));
   CHECK_THROWS_AS(refused.told({101, 500.0, ""}), input_error);
 }

@@ -18,29 +18,6 @@ namespace sofof::experiments::report {
 
 using namespace made_up;
 
-TEST_CASE("each figure, and each column of a file, says what it means") {
-  const played_folder folder;
-  const auto sections = describe_run(folder.path());
-  for (const auto& one : sections)
-    for (const auto& block : one.blocks) {
-      const auto* shown = std::get_if<table>(&block);
-      if (shown == nullptr)
-        continue;
-      CAPTURE(shown->title);
-      if (one.title == "Key figures") {
-        REQUIRE(shown->row_meanings.size() == shown->rows.size());
-        for (std::size_t i = 0; i < shown->rows.size(); ++i) {
-          CAPTURE(shown->rows[i][0]);
-          CHECK(shown->row_meanings[i] != "");
-        }
-      } else {
-        REQUIRE(shown->column_meanings.size() == shown->columns.size());
-        for (std::size_t i = 0; i < 8; ++i)
-          CHECK(shown->column_meanings[i] != "");
-      }
-    }
-}
-
 TEST_CASE("meanings are those of the documentation") {
   CHECK(documented("Reasons", "left_area")
         == "the vehicle left the provider's area");

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -26,11 +27,12 @@ const section* find(const std::vector<section>& all, std::string_view title) {
 struct loaded_folder : played_folder {
   loaded_folder() {
     write("load.csv",
-          "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
-          "0,mec,workers,20,0.25,0.25,1.0\n"
-          "1,mec,workers,20,0.50,0.50,2.0\n"
-          "0,mec,uplink,20,4.06,1.00,400.0\n"
-          "1,mec,uplink,0,0.00,1.00,\n");
+          "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms,"
+          "max_wait_ms\n"
+          "0,mec,workers,20,0.25,0.25,1.0,3.0\n"
+          "1,mec,workers,20,0.50,0.50,2.0,5.0\n"
+          "0,mec,uplink,20,4.06,1.00,400.0,800.0\n"
+          "1,mec,uplink,0,0.00,1.00,,\n");
     write("octets.csv",
           "t_s,provider,direction,what,messages,sent,delivered,lost,under_way"
           "\n0,mec,up,CAM,7,1000,900,100,0\n"
@@ -56,13 +58,38 @@ TEST_CASE("a report of one run begins with the run in sentences") {
   CHECK(contains(said, " Safe: "));
 }
 
+TEST_CASE("each figure, and each column of a file, says what it means") {
+  const loaded_folder folder;
+  const auto sections = describe_run(folder.path());
+  for (const auto& one : sections)
+    for (const auto& block : one.blocks) {
+      const auto* shown = std::get_if<table>(&block);
+      if (shown == nullptr)
+        continue;
+      CAPTURE(shown->title);
+      if (one.title == "Key figures") {
+        REQUIRE(shown->row_meanings.size() == shown->rows.size());
+        for (std::size_t i = 0; i < shown->rows.size(); ++i) {
+          CAPTURE(shown->rows[i][0]);
+          CHECK(shown->row_meanings[i] != "");
+        }
+      } else {
+        REQUIRE(shown->column_meanings.size() == shown->columns.size());
+        for (std::size_t i = 0; i < shown->columns.size(); ++i) {
+          CAPTURE(shown->columns[i]);
+          CHECK(shown->column_meanings[i] != "");
+        }
+      }
+    }
+}
+
 TEST_CASE("load has a table, a figure for each kind of server, and octets in "
           "all and by time") {
   const loaded_folder folder;
   const auto all = describe_run(folder.path());
   const auto* load = find(all, "Load");
   REQUIRE(load);
-  REQUIRE(load->blocks.size() == 5);
+  REQUIRE(load->blocks.size() == 7);
   const auto& servers = std::get<table>(load->blocks[0]);
   REQUIRE(servers.rows.size() == 2);
   CHECK(servers.rows[0]
@@ -73,14 +100,22 @@ TEST_CASE("load has a table, a figure for each kind of server, and octets in "
   REQUIRE(workers.curves.size() == 1);
   CHECK(workers.curves[0].y == std::vector<double>{25, 50});
   CHECK(workers.curves[0].provider == 0);
-  const auto& uplink = std::get<figure>(load->blocks[2]);
+  const auto& waits = std::get<figure>(load->blocks[2]);
+  CHECK(waits.title == "Waits for workers by time");
+  REQUIRE(waits.curves.size() == 2);
+  CHECK(waits.curves[0].name == "mec, mean");
+  CHECK(waits.curves[0].y == std::vector<double>{1, 2});
+  CHECK(waits.curves[1].name == "mec, longest");
+  CHECK(waits.curves[1].y == std::vector<double>{3, 5});
+  const auto& uplink = std::get<figure>(load->blocks[3]);
   CHECK(uplink.title == "Asked of the uplink by time");
   CHECK(uplink.curves.at(0).y.at(0) == doctest::Approx(406));
-  const auto& octets = std::get<table>(load->blocks[3]);
+  CHECK(std::isnan(std::get<figure>(load->blocks[4]).curves.at(0).y.at(1)));
+  const auto& octets = std::get<table>(load->blocks[5]);
   CHECK(octets.rows.at(0)
         == std::vector<std::string>{"mec", "up", "CAM", "11", "1485", "1385",
                                     "100", "0"});
-  const auto& by_time = std::get<figure>(load->blocks[4]);
+  const auto& by_time = std::get<figure>(load->blocks[6]);
   CHECK(by_time.title == "On the air of mec by time");
   REQUIRE(by_time.curves.size() == 1);
   CHECK(by_time.curves[0].name == "CAM up");

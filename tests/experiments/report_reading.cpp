@@ -160,7 +160,7 @@ TEST_CASE("one sentence tells what is wrong with a results folder, and where") {
              "events.jsonl:1: ",
              {"\"station\"", "whole number"}},
       spoilt{"events.jsonl",
-             "\"detail\":\"\"",
+             "\"detail\":\"trajectory_planning\"",
              "\"detail\":1",
              "events.jsonl:1: ",
              {"\"detail\"", "text"}},
@@ -393,12 +393,13 @@ TEST_CASE("the gap that ended an episode is one of its gaps") {
 
 TEST_CASE("near misses are counted apart from QoS events") {
   const played_folder folder;
-  folder.write("events.jsonl",
-               folder.read("events.jsonl")
-                   + R"({"t_s":66,"what":"near_miss","station":101,)"
-                     R"("provider":"","provider_id":0,"service":"",)"
-                     R"("counter":0,"detail":"with 102 ttc_s=1.463"})"
-                     "\n");
+  folder.write(
+      "events.jsonl",
+      folder.read("events.jsonl")
+          + R"({"t_s":66,"what":"near_miss","station":101,)"
+            R"("provider":"","provider_id":0,"service":"",)"
+            R"("counter":0,"detail":"with 102 ttc_s=1.463 limit_s=1.500"})"
+            "\n");
   const auto got = document_in(html({"", "", describe_run(folder.path())}));
   std::map<std::string, int> groups;
   for (const auto& event : got["sections"][1]["blocks"][0]["events"])

@@ -7,6 +7,7 @@
 #include "tests/support/echo.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -218,9 +219,13 @@ TEST_CASE_FIXTURE(selecting, "results that come twice or out of order are not "
   result(a, 150ms);
   news();
   selector.on_result({a, cycle, at(190ms), of(1)}, at(200ms));
+  CHECK(port.detail == fmt::format("cycle value={0}.000 limit={0}.000", cycle));
   selector.on_result({a, cycle - 1, at(190ms), of(1)}, at(200ms));
+  CHECK(port.detail
+        == fmt::format("cycle value={}.000 limit={}.000", cycle - 1, cycle));
   result(b, 200ms);
-  CHECK(news().empty());
+  CHECK(port.detail == "session_over");
+  CHECK(news() == lines{"result_refused", "result_refused", "result_refused"});
 }
 
 TEST_CASE_FIXTURE(selecting,
@@ -230,7 +235,8 @@ TEST_CASE_FIXTURE(selecting,
   result(a, 150ms);
   news();
   result(a, 200ms, 10ms, useless);
-  CHECK(news() == lines{"useless: A"});
+  CHECK(news() == lines{"result_refused", "useless: A"});
+  CHECK(port.detail == "number value=1001.000 limit=999.000");
   CHECK(selector.is_remote());
 }
 
@@ -238,7 +244,8 @@ TEST_CASE_FIXTURE(selecting, "a result by a clock that is not known is not "
                              "used") {
   session(a, 100ms);
   selector.on_result({a, 1, at(140ms), of(1), {}, 26ms}, at(150ms));
-  CHECK(news() == lines{"feed A", "clock_in_doubt"});
+  CHECK(news() == lines{"feed A", "clock_in_doubt", "result_refused"});
+  CHECK(port.detail == "clock_doubt value_ms=26.000000 limit_ms=25.000000");
   selector.on_result({a, 2, at(190ms), of(1), {}, 25ms}, at(200ms));
   CHECK(news().front() == "clock_known");
   CHECK(selector.is_remote());

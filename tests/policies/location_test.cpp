@@ -237,9 +237,21 @@ TEST_CASE_FIXTURE(codm_world, "the route is matched to the map before the area "
   CHECK(decide({{98, 0}, {99, 0}}, 10).front().why == "t_in_area < t_min");
 }
 
+TEST_CASE_FIXTURE(codm_world, "the decisions tell the number that decided and "
+                              "its limit") {
+  CHECK(decide({{98, 0}, {99, 0}}, 10).front().why.told()
+        == "t_in_area < t_min value=0.100 limit=5.000");
+  const std::vector<provider_view> one{{7, {0, 0}, 0}};
+  const line path{{0, 0}, {12.5, 0}};
+  CHECK(make_lodm("location")
+            ->decide({time_point{}, "any", one, path, 10})
+            .why.told()
+        == "path leaves r_off or ends before d_min value=12.500 limit=50.000");
+}
+
 TEST_CASE_FIXTURE(codm_world, "each reason to refuse has words of its own") {
   const auto why = [&](const line& route, double speed_mps) {
-    return std::string{decide(route, speed_mps).front().why};
+    return decide(route, speed_mps).front().why.told();
   };
   const std::vector<std::string> all{
       why(eastward(50, 300), 20), why(eastward(101, 300), 10),

@@ -2,6 +2,11 @@
 #include "tests/processes/results_reader.hpp"
 #include "tests/processes/workplace.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 using namespace sofof::test;
 namespace fs = std::filesystem;
 
@@ -18,6 +23,27 @@ TEST_CASE("six vehicles drive and offload on the wall's clock") {
   CHECK(summary["safety"]["off_road_s"] == 0.0);
   CHECK(summary["episodes"] >= 1); // 102 starts in the area
   CHECK(rows_of(out / "cycles.csv").size() > 20);
+}
+
+TEST_CASE(
+    "a run on the wall's clock says when the machine let it stand still") {
+  constexpr double stopped_s = 0.6;
+  const workplace at;
+  program run{
+      {"run", scenario_file, "--realtime", "--duration", "3s", "--out", "out"},
+      at.here()};
+  REQUIRE(wait_until([&] { return fs::exists(at / "out/tracks.csv"); }));
+  run.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::duration<double>{stopped_s});
+  run.send(SIGCONT);
+  const auto end = run.wait();
+  CAPTURE(end.out);
+  std::string said = end.out;
+  std::ranges::replace(said, '\n', ' ');
+  CHECK(said.find("The machine kept a thread waiting") != said.npos);
+  const double seen_s = summary_of(at / "out")["timing"]["stood_still_s"];
+  CHECK(seen_s >= stopped_s - 0.05);
+  CHECK(seen_s < 3);
 }
 
 TEST_CASE("runs without a folder of their own take the first free one") {

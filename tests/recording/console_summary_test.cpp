@@ -79,7 +79,8 @@ TEST_CASE("the table ends with the run in three sentences") {
   const auto end =
       text.find("\nOffloaded trajectory_planning 17.5 % of the time; 1 of 3 ");
   REQUIRE(end != text.npos);
-  CHECK(std::ranges::count(text.substr(end + 1), '\n') == 4);
+  CHECK(std::ranges::count(text.substr(end + 1), '\n') == 5);
+  CHECK(contains(text.substr(end), "Never offloaded environment: accepted 1"));
   CHECK(contains(text.substr(end), "\nSafe: "));
 }
 

@@ -29,7 +29,10 @@ struct told_run {
     info.services = {"trajectory_planning"};
     return info;
   }
-  void offer() { figures.on_record(event_record{.what = event_type::offer}); }
+  void offer(const std::string& services = "trajectory_planning") {
+    figures.on_record(
+        event_record{.what = event_type::offer, .detail = services});
+  }
   void decide(bool accepted, const std::string& why = {}) {
     figures.on_record(
         decision_record{{}, 101, "trajectory_planning", accepted});
@@ -38,13 +41,13 @@ struct told_run {
                                      .service = "trajectory_planning",
                                      .detail = why});
   }
-  void episode(provider_id at, end_reason reason, bool got_data = true) {
-    figures.on_record(
-        episode_record{.session = {at, 101, "trajectory_planning", 1},
-                       .first_data = time_point{10s},
-                       .got_data = got_data,
-                       .ended = time_point{20s},
-                       .reason = reason});
+  void episode(provider_id at, end_reason reason, bool got_data = true,
+               const char* service = "trajectory_planning") {
+    figures.on_record(episode_record{.session = {at, 101, service, 1},
+                                     .first_data = time_point{10s},
+                                     .got_data = got_data,
+                                     .ended = time_point{20s},
+                                     .reason = reason});
   }
   /// One that came before the end, and where its time went.
   void result(provider_id at, const result_timing& timing) {
@@ -195,17 +198,30 @@ TEST_CASE("what nobody drove has no share of time") {
            "episode did not end early.");
 }
 
-TEST_CASE("of several services the headline names the one that it is about") {
+TEST_CASE("of several services the headline names the one that it is about, "
+          "and others that did not go well") {
   told_run run;
   run.info.services.emplace_back("cabin_climate");
+  run.figures = metrics{run.info};
   CHECK(run.said().offloading
-        == "Never offloaded trajectory_planning: no offer came.");
-  run.offer();
+        == "Never offloaded trajectory_planning: nobody offered it. Never "
+           "offloaded cabin_climate: nobody offered it.");
   run.drive();
+  run.offer("cabin_climate");
+  run.episode(junction, end_reason::left_area, true, "cabin_climate");
+  CHECK(run.said().offloading
+        == "Never offloaded trajectory_planning: nobody offered it.");
+  run.offer();
   run.episode(junction, end_reason::left_area);
   CHECK(run.said().offloading
         == "Offloaded trajectory_planning 10.0 % of the time; the one episode "
            "did not end early.");
+  run.episode(junction, end_reason::qos_input_age, true, "cabin_climate");
+  CHECK(run.said().offloading
+        == "Offloaded trajectory_planning 10.0 % of the time; the one episode "
+           "did not end early. Offloaded cabin_climate 20.0 % of the time; 1 "
+           "of 2 episodes ended early, that by the age of inputs (junction "
+           "1).");
 }
 
 TEST_CASE("every early end has words of its own") {
@@ -227,7 +243,7 @@ TEST_CASE("every early end has words of its own") {
 
 TEST_CASE("where nothing was offloaded the headline says why") {
   told_run none;
-  CHECK(none.said().offloading == "Never offloaded: no offer came.");
+  CHECK(none.said().offloading == "Never offloaded: nobody offered it.");
   told_run unwanted;
   unwanted.offer();
   unwanted.figures.on_record(event_record{.what = event_type::stay_local,
@@ -238,8 +254,8 @@ TEST_CASE("where nothing was offloaded the headline says why") {
            "never.");
   told_run refused;
   refused.offer();
-  refused.decide(false, "no room");
-  refused.decide(false, "no room");
+  refused.decide(false, "no room value=0.900 limit=0.800");
+  refused.decide(false, "no room value=1.000 limit=0.800");
   refused.decide(false, "not in the area");
   CHECK(refused.said().offloading
         == "Never offloaded: 3 requests, none accepted; most often (2 times): "
@@ -272,10 +288,12 @@ TEST_CASE("a headline says when a thread with nothing to do was late") {
   run.drive();
   run.end.stood_still = {.together = 99ms, .longest = 50ms};
   CHECK(run.said().safety.ends_with("0 near misses."));
-  run.end.stood_still = {.together = 600ms, .longest = 400ms};
-  CHECK(run.said().safety.ends_with("A thread that only looks at the clock was "
-                                    "woken late by 0.600 s, 0.400 s "
-                                    "at once: plans may have been, too."));
+  run.end.stood_still = {
+      .together = 600ms, .longest = 400ms, .longest_at = 42s};
+  CHECK(run.said().safety.ends_with(
+      " The machine kept a thread waiting that only looks at the clock: "
+      "0.600 s in all, 0.400 s at once until 42.0 s; plans may have been "
+      "late, too."));
 }
 
 TEST_CASE("what nobody measured is not said to be empty") {

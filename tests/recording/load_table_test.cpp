@@ -75,18 +75,20 @@ TEST_CASE("a run that is over before a second is counts its shares") {
 TEST_CASE("load.csv has a line for each second of the run") {
   const load_table table{{{"mec", "uplink", asked_for(50ms)}}, {}};
   CHECK(load_csv(table, 2500ms)
-        == "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms\n"
-           "0,mec,uplink,10,0.500000,0.500000,0.000000\n"
-           "1,mec,uplink,10,0.500000,0.500000,0.000000\n"
-           "2,mec,uplink,5,0.500000,0.500000,0.000000\n");
+        == "t_s,provider,what,jobs,asked_share,busy_share,mean_wait_ms,"
+           "max_wait_ms\n"
+           "0,mec,uplink,10,0.500000,0.500000,0.000000,0.000000\n"
+           "1,mec,uplink,10,0.500000,0.500000,0.000000,0.000000\n"
+           "2,mec,uplink,5,0.500000,0.500000,0.000000,0.000000\n");
   const auto after = load_csv(table, 11s);
-  CHECK(after.ends_with("10,mec,uplink,0,0.000000,0.000000,\n"));
+  CHECK(after.ends_with("10,mec,uplink,0,0.000000,0.000000,,\n"));
 }
 
 TEST_CASE("a run that ends within a tenth of a second leaves it out") {
   const load_table table{{{"mec", "uplink", asked_for(400ms)}}, {}};
   const auto text = load_csv(table, 1010ms);
-  CHECK(text.ends_with("0,mec,uplink,10,4.000000,1.000000,1350.000000\n"));
+  CHECK(text.ends_with(
+      "0,mec,uplink,10,4.000000,1.000000,1350.000000,2700.000000\n"));
   const auto sum = summary_of(asked_for(400ms), 1010ms);
   CHECK(sum.busy_share == doctest::Approx(1));
   CHECK(sum.asked_share == doctest::Approx(4));

@@ -29,6 +29,12 @@ def moved(before, after):
     return sum(before[one] != after[one] for one in both), len(both)
 
 
+def points_of_load(rows):
+    """What was asked for, and the mean and the longest wait where any job
+    came."""
+    return len(rows) + 2 * sum(one["mean_wait_ms"] != "" for one in rows)
+
+
 def points_of_octets(rows):
     """One for each second in which anything was sent, and where a pause has its
     first and its last second."""
@@ -87,10 +93,10 @@ def look(report, folder):
         ages = [one for one in cycles if one["input_age_ms"]]
         seen |= {
             "points": points,
-            # Each quantity by time and as a distribution; load and octets
-            # by time, these with the ends of pauses.
+            # Each quantity by time and as a distribution; load, waits and
+            # octets by time, these with the ends of pauses.
             "csv_rows": 2 * (len(cycles) + len(gaps) + len(ages))
-            + len(rows_of(folder, "load.csv"))
+            + points_of_load(rows_of(folder, "load.csv"))
             + points_of_octets(rows_of(folder, "octets.csv")),
             "track_points":
                 page.run("sofof.players[0].track_rows[0]"),

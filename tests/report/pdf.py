@@ -3,6 +3,7 @@ poppler-utils."""
 
 import shutil
 import subprocess
+import xml.etree.ElementTree
 
 
 def program():
@@ -15,6 +16,17 @@ def text_of(file):
                           text=True, capture_output=True).stdout
 
 
+def words_of(file):
+    """For each page its words in their order, as (text, left, top), in points."""
+    page = xml.etree.ElementTree.fromstring(subprocess.run(
+        ["pdftotext", "-bbox", file, "-"], check=True, text=True,
+        capture_output=True).stdout)
+    space = "{http://www.w3.org/1999/xhtml}"
+    return [[(word.text, float(word.get("xMin")), float(word.get("yMin")))
+             for word in sheet.iter(space + "word")]
+            for sheet in page.iter(space + "page")]
+
+
 class Sheet:
     """One page as pixels."""
 
@@ -25,6 +37,16 @@ class Sheet:
         kind, size, _, self.pixels = data.split(b"\n", 3)
         assert kind == b"P6"
         self.width, self.height = map(int, size.split())
+
+    def coloured(self, left, top, right, bottom):
+        """How many pixels there are not grey."""
+        count = 0
+        for y in range(max(int(top), 0), min(int(bottom), self.height)):
+            for x in range(max(int(left), 0), min(int(right), self.width)):
+                at = 3 * (y * self.width + x)
+                colour = self.pixels[at:at + 3]
+                count += max(colour) - min(colour) > 60
+        return count
 
     def places_of(self, colour, tolerance=6):
         """Where pixels of a colour are, as (x, y)."""

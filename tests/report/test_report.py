@@ -7,6 +7,7 @@ import csv
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -186,6 +187,44 @@ class Report(unittest.TestCase):
             self.assertFalse(page.run(
                 "document.querySelector('.clock-line').hidden"))
 
+    def test_all_is_drawn_on_phones_and_desks_in_light_and_dark(self):
+        for width in (390, 1400):
+            for dark in (False, True):
+                with self.subTest(width=width, dark=dark), Browser() as page:
+                    page.show(width, 900, dark=dark, mobile=width < 500)
+                    page.open(self.file)
+                    page.run("sofof.ready")
+                    page.run("sofof.draw_all()")
+                    page.wait(0.3)
+                    self.assertLessEqual(page.run(
+                        "document.documentElement.scrollWidth"), width)
+                    ground = page.run("""getComputedStyle(
+                        document.body).backgroundColor""")
+                    light = sum(map(int, re.findall(r"\d+", ground)[:3]))
+                    self.assertEqual(light < 3 * 128, dark, ground)
+                    empty = page.run("""[...document.querySelectorAll(
+                        "canvas")].filter(({width, height}) => width && height)
+                        .filter((one) => {
+                            const {data} = one.getContext("2d").getImageData(
+                                0, 0, one.width, one.height);
+                            const seen = new Set(new Uint32Array(data.buffer));
+                            return seen.size < 3;
+                        }).map((one) => one.parentElement.className)""")
+                    self.assertEqual(empty, [])
+                    self.assertEqual(page.errors, [])
+
+    def test_every_column_says_what_it_means(self):
+        with Browser() as page:
+            self.opened(page)
+            heads = page.run("""[...document.querySelectorAll(
+                "section thead th")].filter(
+                one => !one.closest("#section-2")).map(one => [
+                    one.textContent, one.querySelector("[title]")?.title
+                                     ?? one.title])""")
+            self.assertGreater(len(heads), 40)
+            self.assertEqual([head for head, meaning in heads
+                              if not meaning], [])
+
     def test_every_figure_says_what_it_means(self):
         with Browser() as page:
             self.opened(page)
@@ -283,20 +322,35 @@ class Paper(unittest.TestCase):
             cls.figures = page.run("""[...document.querySelectorAll(
                 "#section-2 tbody td:first-child .term")].map(
                 one => one.textContent)""")
+            page.run("dispatchEvent(new Event('beforeprint'))")
+            cls.curves = page.run("""sofof.charts.map(({title}, i) => [title,
+                [...document.querySelectorAll("figure .on-paper svg")[i]
+                    .querySelectorAll("path")].filter(
+                    (one) => one.getAttribute("d").length > 5).length])""")
             cls.errors = page.errors
         cls.text = pdf.text_of(cls.pdf)
         cls.sheets = pdf.sheets_of(cls.pdf)
 
     def test_every_chart_has_its_title_and_its_curve(self):
         self.assertEqual(self.errors, [])
-        self.assertEqual(len(self.charts), 18)
+        self.assertEqual(len(self.charts), 19)
         for title in self.charts:
             self.assertIn(title, self.text)
         self.assertEqual(self.text.count("share of results, 1 − F"), 6)
-        self.assertEqual(self.text.count("time, s"), 12)
-        with_curves = [sheet for sheet in self.sheets
-                       if len(sheet.places_of((0x00, 0x72, 0xB2), 40)) > 300]
-        self.assertGreaterEqual(len(with_curves), 3)
+        self.assertEqual(self.text.count("time, s"), 13)
+        self.assertEqual([title for title, paths in self.curves
+                          if paths == 0], [])
+        pages = pdf.words_of(self.pdf)
+        for title in self.charts:
+            sought = title.split()
+            found = [(sheet, words[i][1:]) for sheet, words in
+                     zip(self.sheets, pages) for i in range(len(words))
+                     if [word[0] for word in words[i:i + len(sought)]]
+                     == sought]
+            coloured = [sheet.coloured(left, top + 15, left + 220, top + 200)
+                        for sheet, (left, top) in found]
+            self.assertEqual(len(found), self.charts.count(title), title)
+            self.assertGreater(min(coloured), 15, title)
 
     def test_every_row_is_there(self):
         words = set(self.text.split())

@@ -27,8 +27,8 @@ public:
   local_decision decide(const local_context&) override {
     return {run_at{wanted_}, "because"};
   }
-  std::string_view objection(const local_context&,
-                             const provider_view& x) const override {
+  reason objection(const local_context&,
+                   const provider_view& x) const override {
     return x.id == wanted_ ? "" : "not wanted";
   }
   void observe(const cycle_outcome&) override { ++to_.cycles; }

@@ -10,14 +10,15 @@ using namespace std::chrono_literals;
 
 TEST_CASE("to be woken late by more than 20 ms is a standstill") {
   recording::standstill seen;
-  seen.woken_late(-1ms);
-  seen.woken_late(20ms);
+  seen.woken_late(-1ms, 1s);
+  seen.woken_late(20ms, 2s);
   CHECK(seen.together == 0ms);
-  seen.woken_late(21ms);
-  seen.woken_late(400ms);
-  seen.woken_late(30ms);
+  seen.woken_late(21ms, 3s);
+  seen.woken_late(400ms, 4s);
+  seen.woken_late(30ms, 5s);
   CHECK(seen.together == 451ms);
   CHECK(seen.longest == 400ms);
+  CHECK(seen.longest_at == 4s);
 }
 
 // How late a thread is woken is the machine's affair; what is seen is whole.

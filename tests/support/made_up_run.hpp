@@ -100,9 +100,9 @@ inline messages::episode_record without_data(const messages::session_id& id,
 template <class Sink>
 void play(Sink& to) {
   to.on_record(messages::event_record{at(9s), messages::event_type::offer, 101,
-                                      provider, "", 0, ""});
+                                      provider, "", 0, "trajectory_planning"});
   to.on_record(messages::event_record{at(19s), messages::event_type::offer, 102,
-                                      provider, "", 0, ""});
+                                      provider, "", 0, "trajectory_planning"});
   for (const bool accepted : {true, false, true, true, true})
     to.on_record(decision(accepted));
   to.on_record(decision(true, "environment"));
