@@ -135,7 +135,6 @@ void metrics::source_changed(const messages::event_record& x) {
   if (straight)
     left_[who] = {open->second.session.provider, x.at};
   open_[who] = {{x.provider, x.station, x.service, x.counter},
-                x.at,
                 straight ? open->second.remote_since : x.at};
 }
 
@@ -194,7 +193,8 @@ void metrics::add(const messages::episode_record& x) {
                                     && !last->second.counts_from_input);
     }
   }
-  service.t_off_s.add(to_seconds(x.ended - x.first_data));
+  if (x.reason != messages::end_reason::shutdown)
+    service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.session.service, x.session.station});
   if (open != open_.end() && open->second.session != x.session)
@@ -289,7 +289,6 @@ void metrics::finish(time_point end) {
     auto& service = of(who.first);
     ++service.episodes;
     ++service.running_at_end;
-    service.t_off_s.add(to_seconds(end - episode.since));
     service.remote_s[who.second] += to_seconds(end - episode.remote_since);
   }
   open_.clear();

@@ -80,7 +80,9 @@ struct service_metrics {
   refusal_counts implausible; ///< Results that vehicles refused.
   /// Of those that were used, the least by check; empty unless recorded.
   std::map<std::string, double> margins;
-  statistics t_off_s; ///< Switch to remote → switch back, of each episode.
+  /// Switch to remote → switch back, of each episode that ended before the
+  /// vehicle's drive did.
+  statistics t_off_s;
   /// Of each vehicle, the time that it was not local, at one provider or at
   /// several at once.
   std::map<station_id, double> remote_s;
@@ -209,7 +211,6 @@ public:
 private:
   struct open_episode {
     messages::session_id session;
-    time_point since;
     time_point remote_since; ///< Perhaps at other providers before.
   };
   /// Of a session.

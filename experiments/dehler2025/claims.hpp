@@ -42,7 +42,8 @@ struct judged_claim {
   verdict word = verdict::not_measured;
 };
 
-/// Tolerances of the claims, chosen before the runs. All of them are ours: the
+/// Tolerances of the claims, chosen before the runs, but for the part of chance
+/// in `latency_grows`. All of them are ours: the
 /// paper has none.
 namespace tolerance {
 

@@ -5,6 +5,7 @@
 #include "experiments/dehler2025/area_time.hpp"
 #include "experiments/dehler2025/histogram.hpp"
 #include "experiments/dehler2025/mean_interval.hpp"
+#include "experiments/dehler2025/normal_interval.hpp"
 #include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/paper.hpp"
 
@@ -76,15 +77,16 @@ std::optional<cost_figures> costs_of(const measured_cpu& measured) {
     balance.push_back(
         {percent * c.requester, recording::saved_while_offloaded(c)});
   }
-  const auto a = mean_interval(active), d = mean_interval(inactive),
-             r = mean_interval(remote);
+  const auto a = normal_mean_interval(active),
+             d = normal_mean_interval(inactive),
+             r = normal_mean_interval(remote);
   if (!a || !d || !r)
     return std::nullopt;
   cost_figures all{*a, *d, *r, std::nullopt};
   // The figure is that of all runs together, as the study's table has it; a
   // mean over runs weighs them otherwise.
   const auto together = recording::break_even_share(measured.figures.shares);
-  if (const auto apart = mean_interval(balance); apart && together) {
+  if (const auto apart = normal_mean_interval(balance); apart && together) {
     const auto from = percent * *together;
     all.break_even = {from, std::min(apart->low, from),
                       all_save ? std::max(apart->high, from)

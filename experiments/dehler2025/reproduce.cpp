@@ -199,6 +199,10 @@ bool reproduce(const reproduction_options& options,
     all.title = "The paper's evaluation, reproduced";
     all.subtitle = report_text::of("report").fill(
         "subtitle", {{"version", options.version}});
+    if (!options.trace.empty())
+      all.subtitle += ' '
+                      + report_text::of("report").fill(
+                          "trace", {{"trace", options.trace.string()}});
     all.sections = {verdicts(judge(figures_of(e))),
                     latency_plot(e),
                     delay_plot(e),

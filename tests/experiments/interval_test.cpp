@@ -1,6 +1,7 @@
 // Intervals of shares and means against what others have published, and against
 // each other.
 #include "experiments/dehler2025/mean_interval.hpp"
+#include "experiments/dehler2025/normal_interval.hpp"
 #include "experiments/dehler2025/offloading_time.hpp"
 #include "experiments/dehler2025/share_interval.hpp"
 #include "tests/support/near.hpp"
@@ -45,6 +46,22 @@ TEST_CASE("the interval of a share is Clopper and Pearson's") {
   const auto many = share_interval(682, 925);
   CHECK(many.low == near(0.7076683, 1e-6));
   CHECK(many.high == near(0.7654066, 1e-6));
+}
+
+TEST_CASE("Student's t is that of the tables, and of few runs bounds a mean") {
+  // Abramowitz & Stegun, table 26.10.
+  CHECK(student_t_95(1) == near(12.706, 1e-3));
+  CHECK(student_t_95(2) == near(4.303, 1e-3));
+  CHECK(student_t_95(4) == near(2.776, 1e-3));
+  CHECK(student_t_95(9) == near(2.262, 1e-3));
+  CHECK(student_t_95(30) == near(2.042, 1e-3));
+  const std::vector<group> three{{1, 1}, {2, 1}, {3, 1}, {0, 0}};
+  const auto x = normal_mean_interval(three).value();
+  CHECK(x.mean == 2);
+  CHECK(x.high - x.mean == near(4.303 / std::sqrt(3.0), 1e-3));
+  CHECK(x.mean - x.low == near(x.high - x.mean, 1e-12));
+  CHECK_FALSE(normal_mean_interval({}));
+  CHECK(normal_mean_interval(std::vector<group>{{4, 2}})->high == 2);
 }
 
 TEST_CASE("no event of many bounds a share, and all of many too") {

@@ -1,6 +1,7 @@
 // The paper's evaluation as its users start it, made small.
 #include "tests/processes/workplace.hpp"
 
+#include <csignal>
 #include <regex>
 
 using namespace sofof::test;
@@ -47,6 +48,23 @@ TEST_CASE("the paper's evaluation becomes one page and one text") {
   CHECK(text.find('{') == text.npos);
   CHECK(read_file(at / "paper/report.html").find("</html>")
         != std::string::npos);
+}
+
+TEST_CASE(
+    "the whole evaluation says how many hours it takes before it begins") {
+  const workplace at;
+  for (const auto& file : fs::directory_iterator{at / "config/paper"})
+    if (file.is_regular_file())
+      make_small(file.path());
+  program run{{"reproduce", "--full", "--out", "paper"}, at.here()};
+  const std::regex said{"at most [0-9]+ runs, [0-9.]+ hours with [0-9]+ at a "
+                        "time, as one of them took [0-9.]+ s"};
+  REQUIRE(wait_until(
+      [&] { return !run.runs() || std::regex_search(run.printed(), said); }));
+  REQUIRE(run.runs());
+  CHECK_FALSE(fs::exists(at / "paper/reproduction.md"));
+  run.send(SIGINT);
+  CHECK(run.wait().code == 130);
 }
 
 TEST_CASE("a folder that is not the paper's is refused with a sentence") {

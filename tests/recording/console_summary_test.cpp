@@ -66,7 +66,7 @@ TEST_CASE("the table shows every figure with its unit") {
   CHECK(contains(line_of(text, "accepted"), " 4 "));
   CHECK(contains(line_of(text, "qos_gap"), " 1 "));
   CHECK(line_of(text, "cam_timeout").empty());
-  CHECK(contains(line_of(text, "t_off mean"), "11.67 s"));
+  CHECK(contains(line_of(text, "t_off mean"), "12.50 s"));
   CHECK(contains(line_of(text, "offloaded share"), "17.5 %"));
   CHECK(contains(line_of(text, "latency"), "10.01 ± 1.42 ms"));
   CHECK(contains(line_of(text, "inter-arrival"), "50.00 ms"));

@@ -86,12 +86,13 @@ TEST_CASE("implausible results are counted by the provider's name and the "
   CHECK(m.services()[1].implausible.empty());
 }
 
-TEST_CASE("an episode that still runs at the end counts up to the end") {
+TEST_CASE("an episode that still runs at the end counts up to the end, but has "
+          "no t_off") {
   metrics m{run()};
   m.on_record(switched(running(), true, 90s));
   m.finish(at(100s));
   CHECK(m.headline().episodes == 1);
-  CHECK(m.headline().t_off_s.mean() == doctest::Approx(10));
+  CHECK(m.headline().t_off_s.count() == 0);
   CHECK(m.headline().offloaded_share(200s) == doctest::Approx(0.05));
 }
 
@@ -136,7 +137,18 @@ TEST_CASE("a hand-over to the next provider leaves its episode open") {
   CHECK(m.offloaded_now() == 1);
   m.finish(at(25s));
   CHECK(m.headline().episodes == 2);
-  CHECK(m.headline().t_off_s.sum() == doctest::Approx(15));
+  CHECK(m.headline().t_off_s.sum() == doctest::Approx(10));
+}
+
+TEST_CASE("what the end of a drive cuts off has no t_off") {
+  metrics m{run()};
+  m.on_record(switched(running(101), true, 10s));
+  m.on_record(episode(running(101), 10s, 50s, end_reason::shutdown));
+  m.on_record(switched(running(102), true, 20s));
+  m.finish(at(50s));
+  CHECK(m.headline().episodes == 2);
+  CHECK(m.headline().t_off_s.count() == 0);
+  CHECK(m.headline().offloaded_share(100s) == doctest::Approx(0.7));
 }
 
 TEST_CASE("who goes straight to the next provider is handed over, who was "
