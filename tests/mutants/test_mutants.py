@@ -160,7 +160,7 @@ class Lists(unittest.TestCase):
     def test_two_thirds_are_drawn_and_all_folders_have_some(self):
         drawn = sum(share for share, _ in self.draws.values())
         self.assertGreaterEqual(drawn + len(self.written), 150)
-        self.assertGreaterEqual(drawn, 1.8 * len(self.written))
+        self.assertGreaterEqual(drawn, 2 * len(self.written))
         for folder, (share, mutants) in self.draws.items():
             self.assertGreaterEqual(share, mutant_list.LEAST)
             self.assertGreater(len(mutants), share, folder)
