@@ -382,7 +382,8 @@ TEST_CASE("no text of the evaluation has a verdict of its own") {
        {"latency_plot", "delay_plot", "real_world", "cpu_cost", "quality",
         "sensitivity", "refusals", "report"}) {
     CAPTURE(name);
-    for (const auto* word : {"reproduced", "contradicts", "so are the curves", "agrees"})
+    for (const auto* word :
+         {"reproduced", "contradicts", "so are the curves", "agrees"})
       CHECK_FALSE(test::contains(std::string{template_of(name)}, word));
   }
 }
