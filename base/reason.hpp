@@ -13,26 +13,33 @@ namespace sofof {
 class reason {
 public:
   constexpr reason() = default;
-  /// @param words  A short literal.
+  /// @param words  A literal, or what lives as long.
   constexpr reason(std::string_view words) : words_{words} {}
   constexpr reason(const char* words) : words_{words} {}
-  /// @param value  What was found, in the unit of the limit.
-  constexpr reason(std::string_view words, double value, double limit)
-      : words_{words}, found_{{value, limit}} {}
+  reason(const std::string&) = delete;
+  /// @param value  What was found.
+  /// @param unit   Of both numbers: "m", "s"; a literal; empty for none.
+  constexpr reason(std::string_view words, double value, double limit,
+                   std::string_view unit = {})
+      : words_{words}, found_{{value, limit, unit}} {}
 
   constexpr bool empty() const { return words_.empty(); }
 
-  /// @returns as records have it: "no room value=0.900 limit=0.800".
-  std::string told() const {
-    return found_ ? fmt::format("{}{}{:.3f} limit={:.3f}", words_, number,
-                                found_->value, found_->limit)
-                  : std::string{words_};
+  /// @returns as records have it: "no room value=0.9 limit=0.8", or
+  /// "t_in_area < t_min value_s=3.2 limit_s=5".
+  std::string text() const {
+    if (!found_)
+      return std::string{words_};
+    const auto& [value, limit, unit] = *found_;
+    const auto of = unit.empty() ? "" : "_";
+    return fmt::format("{}{}{}{}={:.6g} limit{}{}={:.6g}", words_, value_mark,
+                       of, unit, value, of, unit, limit);
   }
 
-  /// @param told  By any reason.
+  /// @param text  Of any reason.
   /// @returns its words alone, by which reasons are counted.
-  static constexpr std::string_view words_of(std::string_view told) {
-    return told.substr(0, told.find(number));
+  static constexpr std::string_view words_of(std::string_view text) {
+    return text.substr(0, text.find(value_mark));
   }
 
   /// Reasons are the same by their words.
@@ -44,9 +51,10 @@ private:
   struct comparison {
     double value;
     double limit;
+    std::string_view unit;
   };
 
-  static constexpr std::string_view number = " value=";
+  static constexpr std::string_view value_mark = " value";
 
   std::string_view words_;
   std::optional<comparison> found_;

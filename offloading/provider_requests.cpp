@@ -162,7 +162,7 @@ provider::ask_policy(std::span<const policies::request_view> asked,
     if (const auto& session = running[k - asked.size()];
         !policies::terms_of(decided[k]))
       end(stations_.at(session.station), session,
-          {messages::end_reason::revoked, decided[k].why.told()}, true, now);
+          {messages::end_reason::revoked, decided[k].why.text()}, true, now);
   if (decided.size() > asked.size())
     decided.resize(asked.size());
   assert(decided.size() <= asked.size());
@@ -180,7 +180,7 @@ void provider::respond(const open_request& open,
     const auto& decision = decisions[k];
     messages::verdict v{
         .session = {setup_.id, request.station, request.services[k], 0},
-        .why = decision.why.told()};
+        .why = decision.why.text()};
     if (const auto* terms = policies::terms_of(decision)) {
       v.accepted = true;
       v.session.counter = ++last_session_;

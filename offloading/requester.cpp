@@ -267,7 +267,7 @@ requester::decide(service_state& service,
   const auto decision =
       setup_.policy->decide(context_of(service, providers, path, now));
   if (std::holds_alternative<policies::come_home>(decision.what)) {
-    leave(service, {messages::end_reason::released, decision.why.told()}, now,
+    leave(service, {messages::end_reason::released, decision.why.text()}, now,
           [](provider_id) { return true; });
     return {};
   }
@@ -288,7 +288,7 @@ requester::decide(service_state& service,
     if (service.sessions.empty() && offering)
       log(messages::event_type::stay_local,
           {*offering, setup_.station, service.service.name, 0},
-          decision.why.told(), now);
+          decision.why.text(), now);
     return {};
   }
   assert(wanted.size() <= 2);

@@ -153,6 +153,7 @@ void requester::complain(const messages::session_id& session, time_point now) {
   if (last && now - *last < protocol::unknown_result_period)
     return;
   last = now;
+  log(messages::event_type::result_refused, session, "session_over", now);
   send_end({session, messages::end_reason::no_data, messages::side::requester});
 }
 

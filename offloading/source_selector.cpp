@@ -151,20 +151,25 @@ void source_selector::on_result(const messages::service_result& result,
     return;
   }
   auto* x = find(result.session);
-  if (!x) {
-    record_refusal(result.session, "session_over", now);
+  if (!x)
     return;
-  }
   if (!(result.cycle > x->last_cycle)) {
-    record_refusal(result.session,
-                   in_words({"cycle", static_cast<double>(result.cycle),
-                             static_cast<double>(*x->last_cycle)}),
-                   now);
+    record_now_and_then(
+        x->repetition_told, result.session,
+        fmt::format("cycle {} after {}", result.cycle, *x->last_cycle), now);
     return;
   }
   x->last_cycle = result.cycle;
-  if (const auto beyond = broken_limit(*x, result, now); !beyond.empty()) {
-    record_refusal(result.session, beyond, now);
+  const auto can = can_judge(*x, result, now);
+  const auto broken = broken_limit(result, now);
+  if (!can)
+    record_now_and_then(
+        x->doubt_told, result.session,
+        in_words("clock_doubt", result.doubt, options().limits.max_latency / 2),
+        now);
+  else if (!broken.empty())
+    note(messages::event_type::result_refused, result.session, broken, now);
+  if (!can || !broken.empty()) {
     on_result_of(*x, result, now, false, {});
     return;
   }
@@ -193,11 +198,9 @@ void source_selector::on_result(const messages::service_result& result,
 /// @returns the limit that a result does not keep, in words; empty if it keeps
 /// all.
 std::string
-source_selector::broken_limit(source& x, const messages::service_result& result,
-                              time_point now) {
+source_selector::broken_limit(const messages::service_result& result,
+                              time_point now) const {
   const auto& limits = options().limits;
-  if (!can_judge(x, result, now))
-    return in_words("clock_doubt", result.doubt, limits.max_latency / 2);
   if (!in_time(result.created, now, limits.max_latency))
     return in_words("latency", now - result.created, limits.max_latency);
   const auto& input_at = result.timing.input_at;
@@ -206,16 +209,27 @@ source_selector::broken_limit(source& x, const messages::service_result& result,
   return {};
 }
 
-void source_selector::record_refusal(const messages::session_id& session,
-                                     std::string why, time_point now) {
-  port_.record(
-      messages::event_record{.at = now,
-                             .what = messages::event_type::result_refused,
-                             .station = setup_.station,
-                             .provider = session.provider,
-                             .service = setup_.service.name,
-                             .counter = session.counter,
-                             .detail = std::move(why)});
+void source_selector::note(messages::event_type what,
+                           const messages::session_id& session,
+                           std::string detail, time_point now) {
+  port_.record(messages::event_record{.at = now,
+                                      .what = what,
+                                      .station = setup_.station,
+                                      .provider = session.provider,
+                                      .service = setup_.service.name,
+                                      .counter = session.counter,
+                                      .detail = std::move(detail)});
+}
+
+/// Of what may be wrong with result after result: once in a while.
+/// @param last  When it was recorded last.
+void source_selector::record_now_and_then(std::optional<time_point>& last,
+                                          const messages::session_id& session,
+                                          std::string why, time_point now) {
+  if (last && now - *last < protocol::unknown_result_period)
+    return;
+  last = now;
+  note(messages::event_type::result_refused, session, std::move(why), now);
 }
 
 /// A latency is not judged by a clock that is not known well enough: results
@@ -228,15 +242,9 @@ bool source_selector::can_judge(source& x,
   const auto can = result.doubt <= options().limits.max_latency / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
-    port_.record(messages::event_record{
-        .at = now,
-        .what = can ? messages::event_type::clock_known
-                    : messages::event_type::clock_in_doubt,
-        .station = setup_.station,
-        .provider = result.session.provider,
-        .service = setup_.service.name,
-        .counter = result.session.counter,
-        .detail = in_ms(result.doubt)});
+    note(can ? messages::event_type::clock_known
+             : messages::event_type::clock_in_doubt,
+         result.session, in_ms(result.doubt), now);
   }
   assert(x.in_doubt == !can);
   return can;
@@ -257,7 +265,7 @@ void source_selector::refuse(const messages::session_id& session,
 void source_selector::leave_out(source& x, const objection& why,
                                 time_point now) {
   x.useless = told(why);
-  record_refusal(x.session, x.useless->why, now);
+  note(messages::event_type::result_refused, x.session, x.useless->why, now);
   x.useless_at = now;
   port_.watch_useless(x.session, *x.useless);
 }
@@ -347,7 +355,7 @@ void source_selector::use(const messages::service_result& result,
                           time_point now) {
   assert(result.session.is_remote() == is_remote());
   assert(!is_remote() || find(result.session)->in_use);
-  assert(!is_remote() || keeps_limits(result, now));
+  assert(!is_remote() || broken_limit(result, now).empty());
   work_.on_board += !result.session.is_remote();
   newest_.in_use = result.what;
   used_from_ = result.session;

@@ -114,6 +114,7 @@ private:
     bool in_doubt = false; // its latencies cannot be judged
     bool given_up = false;
     std::optional<std::uint64_t> last_cycle;
+    std::optional<time_point> repetition_told, doubt_told; ///< In a record.
     std::optional<time_point> last_sent;
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
@@ -137,10 +138,13 @@ private:
   void announce_roles(time_point now);
   void await_cycle_after(time_point start);
 
-  std::string broken_limit(source& x, const messages::service_result& result,
+  std::string broken_limit(const messages::service_result& result,
+                           time_point now) const;
+  void note(messages::event_type what, const messages::session_id& session,
+            std::string detail, time_point now);
+  void record_now_and_then(std::optional<time_point>& last,
+                           const messages::session_id& session, std::string why,
                            time_point now);
-  void record_refusal(const messages::session_id& session, std::string why,
-                      time_point now);
   bool can_judge(source& x, const messages::service_result& result,
                  time_point now);
   void refuse(const messages::session_id& session, const objection& why,

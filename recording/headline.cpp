@@ -167,10 +167,15 @@ std::string offloading_of(const service_metrics& x, duration driven,
 /// one that did not go well.
 std::string offloading_of(const metrics& m, const run_info& run) {
   const auto driven = m.safety().driven;
+  constexpr std::size_t most = 2; // of the others
   auto text = offloading_of(m.headline(), driven, run);
+  std::size_t others = 0;
   for (const auto& x : m.services())
-    if (&x != &m.headline() && (x.episodes == 0 || !x.early.empty()))
+    if (&x != &m.headline() && (x.episodes == 0 || !x.early.empty())
+        && ++others <= most)
       text += ' ' + offloading_of(x, driven, run);
+  if (others > most)
+    text += fmt::format(" {} more did not go well.", others - most);
   return text;
 }
 
@@ -218,14 +223,14 @@ std::string lateness_of(const standstill& x) {
   if (x.together < worth_a_word)
     return "";
   return fmt::format("The machine kept a thread waiting that only looks at the "
-                     "clock: {:.3f} s in all, {:.3f} s at once until {:.1f} s; "
-                     "plans may have been late, too.",
+                     "clock: {:.3f} s in all, {:.3f} s at once until {:.0f} s "
+                     "after the start; plans may have been late, too.",
                      to_seconds(x.together), to_seconds(x.longest),
                      to_seconds(x.longest_at));
 }
 
 std::string why_never(const service_metrics& x) {
-  if (x.offers == 0 && x.requests() == 0)
+  if (x.offers == 0 && x.requests() == 0 && x.stayed.empty())
     return "nobody offered it.";
   if (x.requests() == 0)
     return fmt::format("the LODM asked for nothing{}.",

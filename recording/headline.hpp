@@ -24,8 +24,8 @@ struct headline {
 /// @returns why, as far as counts tell: "nobody offered it."
 std::string why_never(const service_metrics& x);
 
-/// @returns when a thread with hardly anything to do was late, as the machine
-/// let it wait; empty if that was not worth a word.
+/// @returns how long, and until when, the machine kept the watch of stalls
+/// waiting (scenario/stall_watch.hpp); empty if it is not worth a word.
 std::string lateness_of(const standstill& x);
 
 /// @param m  Finished, with its load.

@@ -193,7 +193,7 @@ void metrics::add(const messages::episode_record& x) {
                                     && !last->second.counts_from_input);
     }
   }
-  if (x.reason != messages::end_reason::shutdown)
+  if (!messages::is_cut_off(x.reason, x.because))
     service.t_off_s.add(to_seconds(x.ended - x.first_data));
   // Another provider may have taken over already; that one stays open.
   const auto open = open_.find({x.session.service, x.session.station});

@@ -80,8 +80,8 @@ struct service_metrics {
   refusal_counts implausible; ///< Results that vehicles refused.
   /// Of those that were used, the least by check; empty unless recorded.
   std::map<std::string, double> margins;
-  /// Switch to remote → switch back, of each episode that ended before the
-  /// vehicle's drive did.
+  /// Switch to remote → switch back, of each episode that the end of the
+  /// drive did not cut off.
   statistics t_off_s;
   /// Of each vehicle, the time that it was not local, at one provider or at
   /// several at once.

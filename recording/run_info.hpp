@@ -77,10 +77,10 @@ struct standstill {
 
   duration together{}; ///< Of times of more than `least` each.
   duration longest{};
-  duration longest_at{}; ///< Since the start, when that one was over.
+  duration longest_at{}; ///< Since the watch began, when that was over.
 
   /// Who was to be woken was woken so much later.
-  /// @param at  Since the start.
+  /// @param at  Since the watch began.
   void woken_late(duration by, duration at) {
     if (by <= least)
       return;

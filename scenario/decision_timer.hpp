@@ -1,6 +1,7 @@
 // How long policies take to decide, on the wall's clock; none of them knows.
 #pragma once
 
+#include "base/reason.hpp"
 #include "base/statistics.hpp"
 #include "base/stopwatch.hpp"
 #include "scenario/scenario.hpp"

@@ -31,7 +31,7 @@ measured_run read_run(const sweep_point& point,
       run.served_s[{place_of(episode.of.provider_id), episode.of.service}] +=
           episode.ended_s - episode.accepted_s;
     if (!episode.by_requester || episode.of.service != planning
-        || !episode.t_off_s || episode.reason == "shutdown")
+        || !episode.t_off_s || episode.is_cut_off())
       continue;
     run.t_off_s.push_back(*episode.t_off_s);
     run.ended_early += episode.fallback ? 1U : 0U;

@@ -47,11 +47,9 @@ std::optional<interval> normal_mean_interval(std::span<const group> groups) {
       count += g.count;
       ++n;
     }
-  if (!(count > 0))
+  if (n < 2)
     return std::nullopt;
   const auto mean = sum / count;
-  if (n < 2)
-    return interval{mean, mean, mean};
   double squares = 0;
   for (const auto& g : groups)
     if (g.count > 0)

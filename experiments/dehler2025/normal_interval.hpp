@@ -18,7 +18,7 @@ double student_t_95(std::size_t degrees);
 /// The mean of all values of all groups, and its 95 % interval by Student's t,
 /// which is exact for groups of equal weight whose means are distributed
 /// normally. For few groups, whose `mean_interval` would be too narrow.
-/// @returns nullopt without values. Of a single group the interval is its mean.
+/// @returns nullopt for fewer than two groups with values.
 std::optional<interval> normal_mean_interval(std::span<const group> groups);
 
 } // namespace sofof::experiments::study

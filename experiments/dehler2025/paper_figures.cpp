@@ -64,6 +64,14 @@ std::optional<interval> step_between(const std::map<std::int64_t, spread>& from,
 }
 
 /// Each run on the wall's clock a group.
+/// @returns the mean of shares of time, none of which is below 0.
+std::optional<interval> share_of_time(std::span<const group> groups) {
+  auto x = normal_mean_interval(groups);
+  if (x)
+    x->low = std::max(x->low, 0.0);
+  return x;
+}
+
 std::optional<cost_figures> costs_of(const measured_cpu& measured) {
   constexpr double percent = 100;
   std::vector<group> active, inactive, remote, balance;
@@ -77,16 +85,15 @@ std::optional<cost_figures> costs_of(const measured_cpu& measured) {
     balance.push_back(
         {percent * c.requester, recording::saved_while_offloaded(c)});
   }
-  const auto a = normal_mean_interval(active),
-             d = normal_mean_interval(inactive),
-             r = normal_mean_interval(remote);
+  const auto a = share_of_time(active), d = share_of_time(inactive),
+             r = share_of_time(remote);
   if (!a || !d || !r)
     return std::nullopt;
   cost_figures all{*a, *d, *r, std::nullopt};
   // The figure is that of all runs together, as the study's table has it; a
   // mean over runs weighs them otherwise.
   const auto together = recording::break_even_share(measured.figures.shares);
-  if (const auto apart = normal_mean_interval(balance); apart && together) {
+  if (const auto apart = share_of_time(balance); apart && together) {
     const auto from = percent * *together;
     all.break_even = {from, std::min(apart->low, from),
                       all_save ? std::max(apart->high, from)

@@ -61,16 +61,27 @@ void refuse_unknown(const fs::path& folder, const question& q,
     refuse(fmt::format("service {}", q.service), "summary.json");
 }
 
+/// @param names_services  Whether offers of the run tell of what they are.
+bool offers(const report::event_line& x, const question& q,
+            bool names_services) {
+  if (!names_services)
+    return true;
+  return q.service.empty() ? !x.detail.empty() : has_word(x.detail, q.service);
+}
+
 /// @returns what came before an episode could begin.
 recording::service_metrics
 count_attempts(const std::vector<report::event_line>& events,
                const question& q) {
+  // Offers of older versions do not.
+  const auto names_services = std::ranges::any_of(events, [](const auto& x) {
+    return x.what == "offer" && !x.detail.empty();
+  });
   recording::service_metrics all;
   for (const auto& x : events) {
     if (q.station && x.of.station != *q.station)
       continue;
-    if (x.what == "offer"
-        && (q.service.empty() || has_word(x.detail, q.service)))
+    if (x.what == "offer" && offers(x, q, names_services))
       ++all.offers;
     if (!q.is_about(x.of))
       continue;

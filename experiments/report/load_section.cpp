@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
@@ -31,7 +32,7 @@ constexpr std::array<std::string_view, 3> servers{"workers", "uplink",
 struct load_curve {
   std::vector<double> t_s;
   std::vector<double> asked_percent;
-  std::vector<double> mean_wait_ms, max_wait_ms; ///< NaN where nobody waited.
+  std::vector<double> mean_wait_ms, max_wait_ms; ///< NaN where no job came.
 };
 
 /// By provider and what of it.
@@ -68,6 +69,10 @@ struct load_figure {
   std::vector<std::pair<double, std::string>> levels{};
 };
 
+bool is_number(double y) {
+  return !std::isnan(y);
+}
+
 /// Of workers, an uplink or a downlink, as far as any had work.
 void add_figure(section& to, runs_view runs,
                 const std::vector<load_curves>& loads, std::string_view what,
@@ -84,14 +89,15 @@ void add_figure(section& to, runs_view runs,
     for (const auto& [of, load] : loads[i])
       if (of.second == what)
         for (const auto& [suffix, y] : of_load.curves)
-          shown.curves.push_back(
-              {.name = label(runs[i], of.first, runs).append(suffix),
-               .x = load.t_s,
-               .y = load.*y,
-               .low = {},
-               .high = {},
-               .provider = runs.size() == 1 ? runs[i].place_of(of.first)
-                                            : std::nullopt});
+          if (std::ranges::any_of(load.*y, is_number))
+            shown.curves.push_back(
+                {.name = label(runs[i], of.first, runs).append(suffix),
+                 .x = load.t_s,
+                 .y = load.*y,
+                 .low = {},
+                 .high = {},
+                 .provider = runs.size() == 1 ? runs[i].place_of(of.first)
+                                              : std::nullopt});
   if (!shown.curves.empty())
     to.blocks.emplace_back(std::move(shown));
 }

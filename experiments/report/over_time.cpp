@@ -91,7 +91,7 @@ std::map<std::string, curve>
 times_of(const recorded_run& run, std::string_view service, runs_view runs) {
   std::vector<const episode_line*> ended;
   for (const auto& x : run.episodes)
-    if (x.by_requester && x.t_off_s && x.reason != "shutdown"
+    if (x.by_requester && x.t_off_s && !x.is_cut_off()
         && x.of.service == service)
       ended.push_back(&x);
   std::ranges::stable_sort(ended, {},

@@ -4,6 +4,7 @@
 #include "base/input_error.hpp"
 #include "base/options/toml_file.hpp"
 #include "base/text/csv_reader.hpp"
+#include "messages/protocol/record.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -115,6 +116,11 @@ private:
 };
 
 } // namespace
+
+bool episode_line::is_cut_off() const {
+  return reason == messages::name_of(messages::end_reason::shutdown)
+         && because != messages::told_by_provider;
+}
 
 std::vector<episode_line> read_episodes(const fs::path& folder) {
   static constexpr columns names{"provider",   "service",      "provider_id",

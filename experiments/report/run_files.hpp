@@ -36,6 +36,9 @@ struct episode_line {
   std::string reason;
   bool fallback = false;
   std::string because; ///< Empty in folders of older versions, too.
+  /// @returns whether the end of the vehicle's drive ended it.
+  bool is_cut_off() const;
+
   /// Columns that the report does not read itself, by their names.
   std::vector<std::pair<std::string, std::string>> others{};
 };

@@ -77,6 +77,13 @@ struct work_record {
 inline constexpr std::string_view told_by_provider = "told by the provider";
 inline constexpr std::string_view told_by_vehicle = "told by the vehicle";
 
+/// @param because  As the vehicle records it.
+/// @returns whether the end of the vehicle's drive, or of the run, ended an
+/// episode; a provider that shuts down ends it, too, while the vehicle goes on.
+inline bool is_cut_off(end_reason reason, std::string_view because) {
+  return reason == end_reason::shutdown && because != told_by_provider;
+}
+
 /// One side has closed a session.
 struct episode_record {
   session_id session;

@@ -3,6 +3,7 @@
 
 #include "base/ids.hpp"
 #include "base/options/option_visitor.hpp"
+#include "base/reason.hpp"
 #include "base/time.hpp"
 
 #include <memory>

@@ -73,7 +73,7 @@ std::vector<central_decision> edf::decide(const central_context& context) {
         test == admission_test::phases && first > protocol::start_timeout) {
       all.push_back({refused{},
                      {"its first result would come too late", to_seconds(first),
-                      to_seconds(protocol::start_timeout)}});
+                      to_seconds(protocol::start_timeout), "s"}});
       continue;
     }
     const auto place = worst_fit(workers, task, test);

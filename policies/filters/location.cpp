@@ -46,7 +46,8 @@ reason near_provider::objection(const local_context& context,
       distance_in_disc_m(context.path, provider.at, radius_m_, min_distance_m_);
   if (passed_m > min_distance_m_)
     return {};
-  return {"path leaves r_off or ends before d_min", passed_m, min_distance_m_};
+  return {"path leaves r_off or ends before d_min", passed_m, min_distance_m_,
+          "m"};
 }
 
 void near_provider::visit_options(option_visitor& s) {
@@ -77,7 +78,7 @@ reason stays_in_area::objection(const central_context& context,
   if (!time_s)
     return "outside the area";
   if (!(*time_s >= enough_s)) // nor what is no number
-    return {"t_in_area < t_min", *time_s, enough_s};
+    return {"t_in_area < t_min", *time_s, enough_s, "s"};
   return {};
 }
 

@@ -17,17 +17,24 @@ public:
     const auto is_gone = here && !(kept >= 0); // nor what is no number
     const provider_view* best = nullptr;
     auto most = (is_gone ? 0 : kept) + margin_;
-    for (const auto& provider : context.providers)
-      if (const auto won = gain_of(provider, context);
-          won > most && provider.id != context.current) {
+    std::optional<double> offered; // at most
+    for (const auto& provider : context.providers) {
+      const auto won = gain_of(provider, context);
+      if (!(offered >= won))
+        offered = won;
+      if (won > most && provider.id != context.current) {
         best = &provider;
         most = won;
       }
+    }
     if (is_gone && !best)
       return at_place(context.current, std::nullopt, "the gain has gone");
     if (!best)
       return at_place(context.current, context.current,
-                      here ? "the gain goes on" : "too little is gained");
+                      here ? reason{"the gain goes on"}
+                      : offered
+                          ? reason{"too little is gained", *offered, margin_}
+                          : reason{"too little is gained"});
     return {run_at{.provider = best->id, .advantage = most - kept},
             "the greatest gain"};
   }

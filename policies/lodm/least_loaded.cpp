@@ -18,7 +18,7 @@ public:
       return as_it_is("nobody comes into question");
     const auto& best = better_of_two(context);
     if (!(best.utilisation < most_)) // nor what is no number
-      return as_it_is("no room");
+      return as_it_is({"no room", best.utilisation, most_});
     return {run_at{best.id}, "the less loaded of two"};
   }
   void visit_options(option_visitor& s) override {

@@ -59,6 +59,7 @@ TEST_CASE_FIXTURE(managed_world, "that clocks are in doubt is noted once, and "
   for (int k = 0; k < 5; ++k)
     uncertain_result(++cycle, 30ms);
   REQUIRE(notes().size() == 1);
+  CHECK(recorder->count<event_record>() == 2); // and the first result refused
   const auto doubt = notes().front();
   CHECK(doubt.what == event_type::clock_in_doubt);
   CHECK(doubt.at == now());

@@ -219,6 +219,9 @@ TEST_CASE_FIXTURE(requester_world, "results of an older counter are answered "
   REQUIRE(ends().size() == 1);
   CHECK(ends().front().session == at_here(one, 6));
   CHECK(vehicle->count<service_result>() == 0);
+  const auto last = recorder->all<event_record>().back();
+  CHECK(last.what == event_type::result_refused);
+  CHECK(last.detail == "session_over");
 }
 
 TEST_CASE_FIXTURE(requester_world,

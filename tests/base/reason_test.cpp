@@ -8,16 +8,21 @@
 using namespace sofof;
 
 TEST_CASE("a reason tells the number that decided, and its limit") {
-  CHECK(reason{"no room", 0.9, 0.8}.told()
-        == "no room value=0.900 limit=0.800");
-  CHECK(reason{"nobody offers it"}.told() == "nobody offers it");
-  CHECK(reason{}.told().empty());
+  CHECK(reason{"no room", 0.9, 0.8}.text() == "no room value=0.9 limit=0.8");
+  CHECK(reason{"too short", 3.2, 5, "m"}.text()
+        == "too short value_m=3.2 limit_m=5");
+  // A value beyond its limit does not read as if it were the limit.
+  CHECK(reason{"no room", 0.80002, 0.8}.text()
+        == "no room value=0.80002 limit=0.8");
+  CHECK(reason{"nobody offers it"}.text() == "nobody offers it");
+  CHECK(reason{}.text().empty());
   CHECK(reason{}.empty());
 }
 
 TEST_CASE("reasons are counted by their words, whatever the numbers") {
-  for (const reason& x : {reason{"no room", 0.9, 0.8}, reason{"no room"}})
-    CHECK(reason::words_of(x.told()) == "no room");
+  for (const reason& x : {reason{"no room", 0.9, 0.8}, reason{"no room"},
+                          reason{"no room", 1, 2, "s"}})
+    CHECK(reason::words_of(x.text()) == "no room");
   CHECK(reason{"no room", 0.9, 0.8} == "no room");
   CHECK_FALSE(reason{"no room"} == "no answer");
 }

@@ -247,6 +247,13 @@ TEST_CASE("a vehicle or a service without episodes is told why") {
                        "limit=2.0. Station 101: "
                        "never offloaded"));
   CHECK_THROWS_AS(refused.told({101, 500.0, ""}), input_error);
+  // An offer of other services is none of this one; of older versions no offer
+  // tells.
+  const idle_run other{idle_run::event("offer", "climate")};
+  CHECK(contains(other.told({101, {}, "planning"}), "nobody offered it"));
+  CHECK(contains(other.told({101, {}, ""}), "asked for nothing"));
+  const idle_run older{idle_run::event("offer", "")};
+  CHECK(contains(older.told({101, {}, ""}), "asked for nothing"));
 }
 
 TEST_CASE("a folder of a provider is not one to explain") {

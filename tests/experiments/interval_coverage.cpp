@@ -156,7 +156,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("of a thousand intervals of five runs of computing time at least 93 "
+TEST_CASE("of a thousand intervals of few runs of computing time at least 93 "
           "of 100 hold the mean") {
   const random_stream noise{19, "runs"};
   constexpr double truth = 0.25, spread = 0.02;

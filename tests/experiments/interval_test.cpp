@@ -61,7 +61,7 @@ TEST_CASE("Student's t is that of the tables, and of few runs bounds a mean") {
   CHECK(x.high - x.mean == near(4.303 / std::sqrt(3.0), 1e-3));
   CHECK(x.mean - x.low == near(x.high - x.mean, 1e-12));
   CHECK_FALSE(normal_mean_interval({}));
-  CHECK(normal_mean_interval(std::vector<group>{{4, 2}})->high == 2);
+  CHECK_FALSE(normal_mean_interval(std::vector<group>{{4, 2}}));
 }
 
 TEST_CASE("no event of many bounds a share, and all of many too") {

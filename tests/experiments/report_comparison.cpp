@@ -22,9 +22,9 @@ TEST_CASE("meanings are those of the documentation") {
   CHECK(documented("Reasons", "left_area")
         == "the vehicle left the provider's area");
   CHECK(documented("summary.json", "t_off_s.max")
-        == "switch to remote → switch back, per episode; one that was cut off "
-           "because the run or the vehicle's way ended (shutdown, "
-           "running_at_end) has none, here and in the study");
+        == "switch to remote → switch back, per episode; without those that "
+           "the end of the drive cut off (shutdown on the vehicle's side, "
+           "running_at_end), as in the study");
   CHECK(documented("summary.json", "served.time_s.mean")
             .starts_with("running services as the provider closed them"));
   CHECK(documented("summary.json", "v2x.mcm_up.octets").starts_with("ITS"));

@@ -202,7 +202,9 @@ TEST_CASE("computing costs are as sure as their runs are alike") {
   CHECK(f.cpu_20_hz->active.half_width() > 5);
   CHECK(f.cpu_20_hz->requester_remote.half_width() < 1e-9);
   CHECK(f.cpu_20_hz->break_even->mean == near(5, 1e-9)); // 1 of 20
-  CHECK(f.cpu_20_hz->break_even->high < 20);
+  // 10, 5 and 3.33 %: half of the interval is 4.303 · 3.727 / √3.
+  CHECK(f.cpu_20_hz->break_even->high == near(5 + 9.258, 1e-3));
+  CHECK(f.cpu_20_hz->break_even->low == 0);
   e.cpu_20_hz.runs.push_back(run(10, 12)); // never pays there
   CHECK(std::isinf(figures_of(e).cpu_20_hz->break_even->high));
 }

@@ -188,12 +188,12 @@ TEST_CASE_FIXTURE(short_street,
       codm->clone()->decide({time_point{}, requests, {}, 0, 1, area, map});
   std::vector<std::string> why;
   for (const auto& decision : all)
-    why.emplace_back(reason::words_of(decision.why.told()));
+    why.emplace_back(reason::words_of(decision.why.text()));
   CHECK(why
         == std::vector<std::string>{"t_in_area < t_min", "there is room",
                                     "t_in_area < t_min", "no room",
                                     "there is room"});
   CHECK(is_accepted(all[1]));
   CHECK(!is_accepted(all[2]));
-  CHECK(all[3].why.told() == "no room value=0.900 limit=0.800");
+  CHECK(all[3].why.text() == "no room value=0.9 limit=0.8");
 }

@@ -115,7 +115,7 @@ TEST_CASE("who would wait too long for its first phase is refused") {
       at.codm->decide({time_point{}, one, {}, 0, 1, at.area, at.map});
   CHECK(!is_accepted(decided.front()));
   CHECK(decided.front().why == "its first result would come too late");
-  CHECK(decided.front().why.told().find(" limit=1.000") != std::string::npos);
+  CHECK(decided.front().why.text().find(" limit_s=1") != std::string::npos);
 }
 
 TEST_CASE("a margin is added to computing times") {

@@ -239,19 +239,19 @@ TEST_CASE_FIXTURE(codm_world, "the route is matched to the map before the area "
 
 TEST_CASE_FIXTURE(codm_world, "the decisions tell the number that decided and "
                               "its limit") {
-  CHECK(decide({{98, 0}, {99, 0}}, 10).front().why.told()
-        == "t_in_area < t_min value=0.100 limit=5.000");
+  CHECK(decide({{98, 0}, {99, 0}}, 10).front().why.text()
+        == "t_in_area < t_min value_s=0.1 limit_s=5");
   const std::vector<provider_view> one{{7, {0, 0}, 0}};
   const line path{{0, 0}, {12.5, 0}};
   CHECK(make_lodm("location")
             ->decide({time_point{}, "any", one, path, 10})
-            .why.told()
-        == "path leaves r_off or ends before d_min value=12.500 limit=50.000");
+            .why.text()
+        == "path leaves r_off or ends before d_min value_m=12.5 limit_m=50");
 }
 
 TEST_CASE_FIXTURE(codm_world, "each reason to refuse has words of its own") {
   const auto why = [&](const line& route, double speed_mps) {
-    return decide(route, speed_mps).front().why.told();
+    return decide(route, speed_mps).front().why.text();
   };
   const std::vector<std::string> all{
       why(eastward(50, 300), 20), why(eastward(101, 300), 10),

@@ -292,8 +292,8 @@ TEST_CASE("a headline says when a thread with nothing to do was late") {
       .together = 600ms, .longest = 400ms, .longest_at = 42s};
   CHECK(run.said().safety.ends_with(
       " The machine kept a thread waiting that only looks at the clock: "
-      "0.600 s in all, 0.400 s at once until 42.0 s; plans may have been "
-      "late, too."));
+      "0.600 s in all, 0.400 s at once until 42 s after the start; "
+      "plans may have been late, too."));
 }
 
 TEST_CASE("what nobody measured is not said to be empty") {

@@ -148,7 +148,11 @@ TEST_CASE("what the end of a drive cuts off has no t_off") {
   m.finish(at(50s));
   CHECK(m.headline().episodes == 2);
   CHECK(m.headline().t_off_s.count() == 0);
-  CHECK(m.headline().offloaded_share(100s) == doctest::Approx(0.7));
+  // A provider that shuts down does not end the drive.
+  auto by_provider = episode(running(101), 10s, 50s, end_reason::shutdown);
+  by_provider.because = told_by_provider;
+  m.on_record(by_provider);
+  CHECK(m.headline().t_off_s.mean() == doctest::Approx(40));
 }
 
 TEST_CASE("who goes straight to the next provider is handed over, who was "

@@ -26,19 +26,30 @@ const reasons = {
   session_over: "its session is over",
 };
 
-const short = (text) => `${Number(Number(text).toFixed(2))}`;
+const units = { ms: " ms", s: " s", m: " m" };
+
+/// Two numbers, with as few digits as tell them apart, but two.
+function pair(value, limit) {
+  const text = (x, places) => `${Number(Number(x).toFixed(places))}`;
+  let places = 2;
+  while (places < 6 && value !== limit && text(value, places) === text(limit, places)) ++places;
+  return [text(value, places), text(limit, places)];
+}
 
 /// "qos_latency value_ms=61.200000 limit_ms=50.000000" in words.
 function detail_text(detail) {
-  const limit = detail.match(/^(.+) value(_ms)?=(\S+) limit(?:_ms)?=(\S+)$/);
+  const limit = detail.match(/^(.+) value(?:_(\w+))?=(\S+) limit(?:_\w+)?=(\S+)$/);
   if (limit) {
-    const [, what, ms, value, most] = limit;
-    const unit = ms ? " ms" : "";
-    return `${reasons[what] ?? what} ${short(value)}${unit}, limit ${short(most)}${unit}`;
+    const [, what, of, ...numbers] = limit;
+    const unit = units[of] ?? "";
+    const [value, most] = pair(...numbers);
+    return `${reasons[what] ?? what} ${value}${unit}, limit ${most}${unit}`;
   }
   const near = detail.match(/^(with \S+) ttc_s=(\S+)(?: limit_s=(\S+))?$/);
-  if (near)
-    return `${near[1]}, time to collision ${short(near[2])} s${near[3] ? `, limit ${short(near[3])} s` : ""}`;
+  if (near) {
+    const [value, most] = pair(near[2], near[3] ?? near[2]);
+    return `${near[1]}, time to collision ${value} s${near[3] ? `, limit ${most} s` : ""}`;
+  }
   return reasons[detail] ?? detail;
 }
 
