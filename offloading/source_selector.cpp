@@ -161,7 +161,7 @@ void source_selector::on_result(const messages::service_result& result,
   }
   x->last_cycle = result.cycle;
   const auto can = can_judge(*x, result, now);
-  const auto broken = broken_limit(result, now);
+  const auto broken = can ? broken_limit(result, now) : std::string{};
   if (!can)
     record_now_and_then(
         x->doubt_told, result.session,
