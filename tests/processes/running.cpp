@@ -32,7 +32,11 @@ TEST_CASE(
   program run{
       {"run", scenario_file, "--realtime", "--duration", "3s", "--out", "out"},
       at.here()};
-  REQUIRE(wait_until([&] { return fs::exists(at / "out/tracks.csv"); }));
+  REQUIRE(wait_until([&] { // until it has begun to drive
+    std::error_code not_yet;
+    const auto octets = fs::file_size(at / "out/tracks.csv", not_yet);
+    return !not_yet && octets > 0;
+  }));
   run.send(SIGSTOP);
   std::this_thread::sleep_for(std::chrono::duration<double>{stopped_s});
   run.send(SIGCONT);
