@@ -187,19 +187,28 @@ TEST_CASE("whoever comes too near to a body is let no farther into it") {
     const auto edge = dice.between(-1.7, -0.8);
     const path_state car{dice.between(-0.8, 0.8), dice.between(-0.3, 0.3),
                          dice.between(-0.1, 0.1)};
-    corridor room;
-    room.open(line, 0, 1, steps);
-    room.pass({from, from + length, -2.0, edge, 0, dice.between(0, 0.3)},
-              side_of_road::left);
-    room.admit(car, corridor::steering::drifts);
-    CHECK(room.gap_m() > 0.019);
-    for (std::size_t k = 1; k <= steps; ++k) {
-      const auto s = static_cast<double>(k);
-      if (s + 4.0175 < from || s - 1.0825 > from + length)
-        continue; // the car is not beside it
-      CAPTURE(edge);
-      CAPTURE(k);
-      CHECK(straight_room(room, k).first - half_car_m > edge - 0.04);
+    const auto lacks = dice.between(0, 0.3);
+    for (const auto side : {side_of_road::left, side_of_road::right}) {
+      const auto left = side == side_of_road::left;
+      corridor room;
+      room.open(line, 0, 1, steps);
+      room.pass({from, from + length, left ? -2.0 : -edge, left ? edge : 2.0, 0,
+                 lacks},
+                side);
+      room.admit(
+          left ? car
+               : path_state{-car.d_m, -car.heading_rad, -car.curvature_1pm},
+          corridor::steering::drifts);
+      CHECK(room.gap_m() > 0.019);
+      for (std::size_t k = 1; k <= steps; ++k) {
+        const auto s = static_cast<double>(k);
+        if (s + 4.0175 < from || s - 1.0825 > from + length)
+          continue; // the car is not beside it
+        CAPTURE(edge);
+        CAPTURE(k);
+        const auto [lo, hi] = straight_room(room, k);
+        CHECK((left ? lo : -hi) - half_car_m > edge - 0.04);
+      }
     }
   }
 }
