@@ -102,7 +102,7 @@ TEST_CASE("where messages of one provider overtake those of another, "
   const auto end = drive.run().wait();
   CAPTURE(end.err);
   CHECK(end.code == 0);
-  CHECK(count_overtaken(drive.out()) > 10);
+  CHECK(count_overtaken(drive.out()) > 0);
   CHECK(count_events(drive.out(), "violation") > 0);
   check_safe(summary_of(drive.out()));
   check_violations(drive.out());
