@@ -2,7 +2,7 @@
 // rely on its own claim.
 #pragma once
 
-#include "planners/crossing/claimed_drive.hpp"
+#include "planners/scene/told_drive.hpp"
 
 #include <optional>
 #include <span>

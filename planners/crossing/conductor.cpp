@@ -172,11 +172,7 @@ void conductor::gather(time_point now, std::span<const approaching_car> all) {
     }
     x.is_committed =
         stopping_m(one.speed_mps) > left_m && one.speed_mps > rests_mps;
-    x.is_fixed =
-        x.is_committed
-        || (!x.claimed.empty()
-            && (!one.is_served
-                || x.claimed.time_s(x.line_m) < to_seconds(how_.fixed_for)));
+    x.is_fixed = x.is_committed || (!x.claimed.empty() && (one.is_fixed || !one.is_served));
     cars_.push_back(std::move(x));
   }
   wishes_ = std::move(wishes);

@@ -35,6 +35,7 @@ struct approaching_car {
   bool is_served = true; ///< It can be told how to drive.
   /// Of its own claim, from now on: this does not change if it begins soon.
   std::optional<world::trajectory> claimed;
+  bool is_fixed = false; ///< It has claimed it.
 };
 
 /// What a vehicle is told.

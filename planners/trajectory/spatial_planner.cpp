@@ -32,6 +32,11 @@ constexpr double least_way_out_m = 1.0;
 constexpr double closest_m = 0.1;
 constexpr double path_end_gap_m = 2.0;
 
+/// An agreed drive is kept to within this; behind who tells its own, a car
+/// keeps so much.
+constexpr double kept_to_s = 0.25;
+constexpr double told_gap_s = 1.0, told_gap_m = 2.5;
+
 /// Path and speeds are planned on grids alike.
 template <class Planner>
 constexpr typename Planner::grid grid_of(const spatial_params& p) {
@@ -245,7 +250,7 @@ double spatial_planner::way_from_car(double s_m) const {
   return path_->path().empty() ? s_m - s_m_ : path_->path().way_m(s_m) - way_m_;
 }
 
-speed_constraints spatial_planner::task(const scene& at) const {
+speed_constraints spatial_planner::task(const scene& at) {
   assert(at.start.speed_mps >= 0 && std::isfinite(at.start.accel_mps2));
   speed_constraints t;
   t.speed_mps = at.start.speed_mps;
@@ -274,7 +279,33 @@ speed_constraints spatial_planner::task(const scene& at) const {
                {lead.speed_mps, brakes ? lead.accel_mps2 : 0}};
   }
   assert(!t.ahead || t.ahead->lead.accel_mps2 <= 0);
+  if (const auto& agreed = at.others.agreed) {
+    appointments_.clear();
+    for (const auto& x : agreed->axle)
+      if (const auto way_m = way_from_car(x.s_m); way_m > 0.3 && (appointments_.empty() || way_m > appointments_.back().at_m + 0.2))
+        appointments_.push_back({way_m, x.t_s - at.age_s});
+    t.promised = appointments_;
+    t.sooner_s = t.later_s = kept_to_s;
+    const auto line_m = way_from_car(agreed->line_m - style_.front_m);
+    if (!agreed->binds && line_m > 0 && line_m < stopping_m(crossing(at)) + 1)
+      t.stop_m = std::min(t.stop_m, line_m + 0.3);
+  }
   return t;
+}
+
+// Behind who leads, as it tells how it drives.
+void spatial_planner::follow_told(const scene& at, speed_constraints& t) {
+  told_.clear();
+  for (const auto& [s_m, t_s] : at.others.lead_told) {
+    const auto way_m = way_from_car(s_m - style_.front_m) - told_gap_m;
+    if (way_m > 0 && (told_.empty() || way_m > told_.back().at_m + 1))
+      told_.push_back({way_m, t_s - at.age_s + told_gap_s, speed_constraints::never});
+  }
+  if (at.others.lead_told.empty())
+    return;
+  t.ahead.reset();
+  told_.insert(told_.end(), t.windows.begin(), t.windows.end());
+  t.windows = told_;
 }
 
 crossing_car spatial_planner::crossing(const scene& at) const {
@@ -372,9 +403,15 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       trial->forget();
     auto t = free;
     t.windows = std::span{order.windows}.first(order.count);
+    follow_told(at, t);
     t.stop_m = std::min(t.stop_m, order.stop_m);
     t.stop_m = kept_free_m(t, at);
-    const auto result = trial->plan(path_->path(), way_m_, t, go_on);
+    auto result = trial->plan(path_->path(), way_m_, t, go_on);
+    if (trial->motion().empty() && !t.promised.empty()) {
+      t.later_s = speed_constraints::never;
+      report.is_late = true;
+      result = trial->plan(path_->path(), way_m_, t, go_on);
+    }
     report.iterations += result.report.iterations;
     if (best == nothing_yet)
       report.velocity = result.report.status;

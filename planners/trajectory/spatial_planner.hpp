@@ -44,7 +44,8 @@ private:
                  const ocp::budget& go_on);
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
-  speed_constraints task(const scene& at) const;
+  speed_constraints task(const scene& at);
+  void follow_told(const scene& at, speed_constraints& t);
   crossing_car crossing(const scene& at) const;
   double kept_free_m(const speed_constraints& t, const scene& at) const;
   bool rests_among(const speed_profile& motion, const scene& at) const;
@@ -81,6 +82,8 @@ private:
   std::vector<crossing_user> users_;
   std::vector<passing_order> all_sides_;
   std::vector<crossing_order> all_orders_;
+  std::vector<speed_constraints::appointment> appointments_;
+  std::vector<speed_constraints::window> told_;
   speed_profile kept_;
   std::optional<time_point> made_;      // start of the last plan
   std::optional<time_point> kept_from_; // start of the plan that is kept

@@ -1,5 +1,5 @@
 // Bodies that move and would touch.
-#include "planners/crossing/claimed_drive.hpp"
+#include "planners/scene/told_drive.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-// How a vehicle is going to drive through a crossing, as it tells everybody.
+// How a vehicle is going to drive, as it tells everybody.
 #pragma once
 
 #include "base/geometry.hpp"
@@ -38,6 +38,13 @@ struct crossing_claim {
   station_id who = 0;
   time_point generated;               ///< By its own clock, as its drive.
   std::optional<claimed_drive> drive; ///< None: it claims nothing.
+};
+
+/// What another vehicle that takes part says of its drive.
+struct told_drive {
+  station_id who = 0;
+  claimed_drive drive;       ///< Empty: it says nothing of it.
+  bool is_claimed = false;   ///< Nobody else comes there meanwhile.
 };
 
 } // namespace sofof::planners

@@ -1,0 +1,81 @@
+// Cars with SOFOF's planner at four arms, conducted: delays, touches.
+#include "planners/crossing/conductor.hpp"
+#include "planners/scene/lane_motion.hpp"
+#include "planners/scene/scene_interpreter.hpp"
+#include "planners/trajectory/spatial_planner.hpp"
+#include "tests/support/dice.hpp"
+#include "tests/support/toy_streets.hpp"
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+using namespace sofof; using namespace sofof::planners;
+static const bool why=getenv("WHY"), service=!getenv("ALONE");
+static double env(const char*n,double d){ return getenv(n)?atof(getenv(n)):d; }
+struct car { station_id who; route_profile_ptr way; double appears=0, alone_s=0, s=0,v=0,a=0; bool here=false, gone=false; double done=0; world::trajectory plan; std::unique_ptr<spatial_planner> planner; std::unique_ptr<scene_interpreter> scene; driving_scene scene_out; world::trajectory drive; double line=0; bool claims=false; int late=0; };
+int main(int argc,char**argv){
+  int seeds=argc>1?atoi(argv[1]):1; double every=argc>2?atof(argv[2]):4; int each=env("EACH",3);
+  auto map=toy::cross_roads(!getenv("RANKS")); world::vehicle_params body; comfort_limits style;
+  auto lanes=std::make_shared<const lane_network>(map);
+  std::vector<route_profile_ptr> ways;
+  for(size_t in=1;in<=4;++in)for(size_t out=1;out<=4;++out) if(in!=out) ways.push_back(std::make_shared<const route_profile>(toy::make_route(map,{in,0,out}),style));
+  auto box=[&](const world::trajectory_point&p){ const point h{std::cos(p.heading_rad),std::sin(p.heading_rad)}; return oriented_box{p.at+(body.front_m-body.rear_m)/2*h,p.heading_rad,body.front_m+body.rear_m,body.width_m}; };
+  auto bodies=[&](const world::trajectory&t){ claimed_drive d{t.start,std::chrono::milliseconds{200},{}}; for(auto at=t.start;at<=t.end();at+=d.step) d.bodies.push_back(box(t.at(at))); return d; };
+  // alone
+  std::map<int,double> alone;
+  std::vector<double> delays; int touch=0,stuck=0; long hard=0,emerg=0,late=0,noplan=0; double cpu=0,cpumax=0; long plans=0; int kept=0;
+  for(int seed=1;seed<=seeds;++seed){
+    test::dice dice{(uint64_t)seed}; std::vector<int> order(12); for(int i=0;i<12;++i)order[i]=i; for(int i=11;i>0;--i) std::swap(order[i],order[(int)dice.between(0,i+1)]);
+    std::vector<car> cars; unsigned id=101;
+    auto begin=[&](car&c){ c.planner=std::make_unique<spatial_planner>(c.way,style,spatial_params{}); c.scene=std::make_unique<scene_interpreter>(lanes,std::shared_ptr<const world::route>(c.way,&c.way->line.way()),scene_params{.judges_crossings=true}); };
+    auto step=[&](car&c,time_point now,std::vector<track>&tr,std::vector<told_drive>&told){
+      planning_input in; in.at=now; in.s_m=c.s; in.speed_mps=c.v; in.accel_mps2=c.a;
+      if(!c.plan.empty()){ auto p=c.plan.at(now); auto f=seen_from(c.way->line.way(),p); in.s_m=p.s_m; in.d_m=f.d_m; in.heading_error_rad=f.heading_error_rad; in.curvature_1pm=p.curvature_1pm; in.speed_mps=p.speed_mps; in.accel_mps2=p.accel_mps2; }
+      in.others=c.scene_out; in.others.stop_at_m.reset(); in.others.agreed.reset();
+      double stop=1e9;
+      if(!c.drive.empty()){ auto&P=c.drive.points; double t0=to_seconds(c.drive.start-now); double stand=-1,leave=-1; size_t K=P.size();
+        for(size_t k=0;k+4<P.size();++k) if(P[k].s_m>c.s-0.7&&P[k+4].s_m-P[k].s_m<0.06){ if(stand>=0&&P[k].s_m>stand+.3) break; if(stand<0) K=k; stand=P[k].s_m; leave=t0+P[k+4].t_s; }
+        if(t0>0&&c.v<.3&&P[0].s_m>c.s-.5){ stand=c.s; leave=t0; K=0; }
+        agreed_drive g; g.binds=c.claims; g.line_m=c.line+body.front_m;
+        if(stand>=0&&leave>0.05) { stop=std::max(c.s,stand); } else K=P.size();
+        if(K==P.size()) for(auto&p:P) if(g.axle.empty()||p.s_m>g.axle.back().s_m+.05) g.axle.push_back({p.s_m,t0+p.t_s});
+        // far from the line only the line counts
+        if(K==P.size()){ std::erase_if(g.axle,[&](auto&x){return x.s_m<c.line-2;}); in.others.agreed=g; }
+        else in.others.agreed=agreed_drive{{},g.line_m,false};
+      }
+      else if(service&&c.line>0&&c.s<c.line+1){ stop=c.line; }
+      if(stop<1e8) in.others.stop_at_m=stop+body.front_m+.6;
+      auto a=in.others.agreed; auto st=in.others.stop_at_m;
+      c.scene->describe(now,{c.who,in.s_m,in.d_m,in.speed_mps},tr,in.others,told);
+      in.others.agreed=a; in.others.stop_at_m=st;
+      world::trajectory out; auto r=c.planner->plan(now,in,c.plan.empty()?nullptr:&c.plan,out); c.plan=out; c.scene_out=in.others;
+      if(r.emergency){++emerg; if(why) std::printf("EMERG t %.2f %u s %.1f v %.2f a %.2f line %.1f drive %d claims %d lead %.1f told %zu cross %zu\n",to_seconds(now-time_point{}),c.who.value(),c.s,c.v,c.a,c.line-c.s,!c.drive.empty(),c.claims,in.others.lead?in.others.lead->rear_s_m-c.s-body.front_m:-1,in.others.lead_told.size(),in.others.crossings.size()); }
+      if(r.is_late){ ++late; ++c.late; if(why&&c.late==1) std::printf("LATE t %.2f %u s %.1f v %.2f a %.2f line %.1f claims %d first %.1f@%.2f lead %.1f told %zu cross %zu\n",to_seconds(now-time_point{}),c.who.value(),c.s,c.v,c.a,c.line-c.s,c.claims,a&&!a->axle.empty()?a->axle[0].s_m-c.s:-1,a&&!a->axle.empty()?a->axle[0].t_s:-1,in.others.lead?in.others.lead->rear_s_m-c.s-body.front_m:-1,in.others.lead_told.size(),in.others.crossings.size()); } else c.late=0;
+      auto p=c.plan.at(now+std::chrono::milliseconds{50}); c.s=p.s_m; c.v=p.speed_mps; c.a=p.accel_mps2; if(c.a<-3)++hard; };
+    int R=env("R",6); for(int r=0;r<R;++r){ double from=dice.between(10,40), first=dice.between(0,2); for(int k=0;k<each;++k){ car c; c.who=station_id{id++}; c.way=ways[order[r]]; c.s=from; c.appears=first+k*every; begin(c);
+      { car x; x.who=c.who; x.way=c.way; x.s=from; begin(x); std::vector<track> none; std::vector<told_drive> nt; double t=0; auto L=c.way->line.way().length_m()-15; while(x.s<L&&t<120){ step(x,time_point{from_seconds(t)},none,nt); t+=.05;} c.alone_s=t; }
+      cars.push_back(std::move(c)); } }
+    emerg=hard=late=0;
+    conducting how; how.style=style; crossing_ways cw{lanes,{{0,0},80},body}; conductor boss{cw,how,body}; std::vector<crossing_advice> advice;
+    int n=0; double T=env("T",240);
+    for(double t=0;t<T;t+=.05,++n){ time_point now{from_seconds(t)};
+      for(auto&c:cars) if(!c.here&&!c.gone&&t>=c.appears){ bool free=true; for(auto&o:cars) if(o.here&&!o.gone&&o.way->line.way().at_lane(o.s).lane==c.way->line.way().at_lane(c.s).lane&&(std::abs(o.s-c.s)<9||(o.s<c.s&&c.s-o.s<9+o.v*1.5+o.v*o.v/3))) free=false; if(free) c.here=true; }
+      if(service&&n%10==0){ std::vector<approaching_car> all; for(auto&c:cars) if(c.here&&!c.gone){ approaching_car x{c.who,c.way,c.s,c.v,c.a,true,{}}; if(!c.drive.empty()&&now<=c.drive.end()) x.claimed=c.drive; x.is_fixed=c.claims; all.push_back(x);} 
+        clock_t b=clock(); boss.plan(now,all,advice); double ms=1e3*(clock()-b)/CLOCKS_PER_SEC; cpu+=ms; cpumax=std::max(cpumax,ms); ++plans;
+        for(auto&a:advice) for(auto&c:cars) if(c.who==a.who&&!c.claims){ c.line=a.line_m; c.drive=a.drive; } }
+      std::vector<track> tr; std::vector<told_drive> told; for(auto&c:cars) if(c.here&&!c.gone){ auto p=c.plan.empty()?world::trajectory_point{}:c.plan.at(now); if(c.plan.empty()){ auto q=c.way->line.way().path().at(c.s); p.at=q.at; p.heading_rad=q.heading_rad; }
+        auto bx=box(p); track k; k.id=c.who.value(); k.station=c.who; k.at=k.seen=now; k.moved=now; k.motion.mean.col(0)<<bx.centre.x_m,bx.centre.y_m; k.motion.mean.col(1)<<c.v*std::cos(p.heading_rad),c.v*std::sin(p.heading_rad); k.motion.covariance=Eigen::Matrix2d::Identity()*1e-4; k.heading_rad=p.heading_rad; k.accel_mps2=c.a; k.length_m=bx.length_m; k.width_m=bx.width_m; tr.push_back(k);
+        if(!c.drive.empty()&&now>c.drive.end()){ c.drive={}; c.claims=false; c.line=0; }
+        if(!c.drive.empty()&&!c.claims){ double t0=to_seconds(c.drive.start-now); double enter=1e9; for(auto&p:c.drive.points) if(p.s_m>=c.line){ enter=t0+p.t_s; break; } double stop=c.v*(.5+c.v/5)+1; if(enter<env("CLAIM",4.5)||(c.v>1&&c.line-c.s<stop+c.v*.5)) c.claims=true; }
+        if(c.claims&&c.late>3&&c.line-c.s>c.v*(.5+c.v/5)+1){ c.claims=false; if(why)std::printf("DROP t %.2f %u\n",t,c.who.value()); }
+        if(service) told.push_back({c.who,c.drive.empty()?(c.plan.empty()?claimed_drive{}:bodies(c.plan)):bodies(c.drive),c.claims}); }
+      if(why&&n%40==0) for(auto&c:cars) if(c.here&&!c.gone){ double en=-1; for(auto&p:c.drive.points) if(p.s_m>=c.line){ en=to_seconds(c.drive.start-now)+p.t_s; break; } std::printf("CAR t %.1f %u s %.1f v %.2f a %.2f line %.1f enters in %.1f claims %d\n",t,c.who.value(),c.s,c.v,c.a,c.line-c.s,en,c.claims); }
+      for(auto&c:cars) if(c.here&&!c.gone){ step(c,now,tr,told); if(c.s>c.way->line.way().length_m()-15){ c.gone=true; c.done=t+.05; } }
+      for(size_t i=0;i<cars.size();++i)for(size_t k=0;k<i;++k){auto&a=cars[i];auto&b=cars[k]; if(!a.here||!b.here||a.gone||b.gone||a.plan.empty()||b.plan.empty())continue; if(overlap(box(a.plan.at(now)),box(b.plan.at(now)))){ if(why&&touch<50)std::printf("TOUCH t %.2f %u s %.1f v %.2f claims %d, %u s %.1f v %.2f claims %d\n",t,a.who.value(),a.s,a.v,a.claims,b.who.value(),b.s,b.v,b.claims); ++touch;}}
+    }
+    kept+=boss.kept; double sum=0; for(auto&c:cars){ if(!c.gone){++stuck;} else {delays.push_back(c.done-c.appears-c.alone_s); sum+=delays.back();} }
+    std::printf("seed %d mean %.2f emerg %ld hard %ld late %ld kept %d\n",seed,sum/cars.size(),emerg,hard,late,boss.kept);
+  }
+  std::sort(delays.begin(),delays.end()); double m=0; for(auto d:delays)m+=d; m/=delays.size();
+  if(!delays.empty()) std::printf("cars %zu mean %.2f p95 %.1f max %.1f touch %d stuck %d cpu mean %.2f max %.1f ms kept %d\n",delays.size(),m,delays[size_t(.95*delays.size())],delays.back(),touch,stuck,cpu/std::max(1L,plans),cpumax,kept);
+}
