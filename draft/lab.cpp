@@ -1,4 +1,5 @@
 // Cars with SOFOF's planner at four arms, conducted: delays, touches.
+#include "planners/crossing/agreed.hpp"
 #include "planners/crossing/conductor.hpp"
 #include "planners/scene/lane_motion.hpp"
 #include "planners/scene/scene_interpreter.hpp"
@@ -12,7 +13,7 @@
 using namespace sofof; using namespace sofof::planners;
 static const bool why=getenv("WHY"), service=!getenv("ALONE");
 static double env(const char*n,double d){ return getenv(n)?atof(getenv(n)):d; }
-struct car { station_id who; route_profile_ptr way; double appears=0, alone_s=0, s=0,v=0,a=0; bool here=false, gone=false; double done=0; world::trajectory plan; std::unique_ptr<spatial_planner> planner; std::unique_ptr<scene_interpreter> scene; driving_scene scene_out; world::trajectory drive; double line=0; bool claims=false; int late=0; };
+struct car { station_id who; route_profile_ptr way; double appears=0, alone_s=0, s=0,v=0,a=0; bool here=false, gone=false; double done=0; world::trajectory plan; std::unique_ptr<spatial_planner> planner; std::unique_ptr<scene_interpreter> scene; driving_scene scene_out; world::trajectory drive; double line=0, clear=0; bool claims=false, near_line=false; int late=0; std::unique_ptr<crossing_member> member; crossing_view view; crossing_claim provider_heard; world::trajectory provider_drive; bool provider_knows=false; int phase=0; long binds=0, bind_late=0; };
 int main(int argc,char**argv){
   int seeds=argc>1?atoi(argv[1]):1; double every=argc>2?atof(argv[2]):4; int each=env("EACH",3);
   auto map=toy::cross_roads(!getenv("RANKS")); world::vehicle_params body; comfort_limits style;
@@ -32,19 +33,7 @@ int main(int argc,char**argv){
       planning_input in; in.at=now; in.s_m=c.s; in.speed_mps=c.v; in.accel_mps2=c.a;
       if(!c.plan.empty()){ auto p=c.plan.at(now); auto f=seen_from(c.way->line.way(),p); in.s_m=p.s_m; in.d_m=f.d_m; in.heading_error_rad=f.heading_error_rad; in.curvature_1pm=p.curvature_1pm; in.speed_mps=p.speed_mps; in.accel_mps2=p.accel_mps2; }
       in.others=c.scene_out; in.others.stop_at_m.reset(); in.others.agreed.reset();
-      double stop=1e9;
-      if(!c.drive.empty()){ auto&P=c.drive.points; double t0=to_seconds(c.drive.start-now); double stand=-1,leave=-1; size_t K=P.size();
-        for(size_t k=0;k+4<P.size();++k) if(P[k].s_m>c.s-0.7&&P[k+4].s_m-P[k].s_m<0.06){ if(stand>=0&&P[k].s_m>stand+.3) break; if(stand<0) K=k; stand=P[k].s_m; leave=t0+P[k+4].t_s; }
-        if(t0>0&&c.v<.3&&P[0].s_m>c.s-.5){ stand=c.s; leave=t0; K=0; }
-        agreed_drive g; g.binds=c.claims; g.line_m=c.line+body.front_m;
-        if(stand>=0&&leave>0.05) { stop=std::max(c.s,stand); } else K=P.size();
-        if(K==P.size()) for(auto&p:P) if(g.axle.empty()||p.s_m>g.axle.back().s_m+.05) g.axle.push_back({p.s_m,t0+p.t_s});
-        // far from the line only the line counts
-        if(K==P.size()){ std::erase_if(g.axle,[&](auto&x){return x.s_m<c.line-2;}); in.others.agreed=g; }
-        else in.others.agreed=agreed_drive{{},g.line_m,false};
-      }
-      else if(service&&c.line>0&&c.s<c.line+1){ stop=c.line; }
-      if(stop<1e8) in.others.stop_at_m=stop+body.front_m+.6;
+      if(c.member){ c.member->look(now,c.view); in.others.agreed=agreed(c.view,now,in.s_m,in.speed_mps,body.front_m); if(!in.others.agreed&&c.near_line){} }
       auto a=in.others.agreed; auto st=in.others.stop_at_m;
       c.scene->describe(now,{c.who,in.s_m,in.d_m,in.speed_mps},tr,in.others,told);
       in.others.agreed=a; in.others.stop_at_m=st;
@@ -57,20 +46,31 @@ int main(int argc,char**argv){
       cars.push_back(std::move(c)); } }
     emerg=hard=late=0;
     conducting how; how.style=style; crossing_ways cw{lanes,{{0,0},80},body}; conductor boss{cw,how,body}; std::vector<crossing_advice> advice;
+    struct letter{car*to; time_point at; crossing_claim what; claimed_drive plan; point from;}; std::vector<letter> letters;
     int n=0; double T=env("T",240);
     for(double t=0;t<T;t+=.05,++n){ time_point now{from_seconds(t)};
       for(auto&c:cars) if(!c.here&&!c.gone&&t>=c.appears){ bool free=true; for(auto&o:cars) if(o.here&&!o.gone&&o.way->line.way().at_lane(o.s).lane==c.way->line.way().at_lane(c.s).lane&&(std::abs(o.s-c.s)<9||(o.s<c.s&&c.s-o.s<9+o.v*1.5+o.v*o.v/3))) free=false; if(free) c.here=true; }
-      if(service&&n%10==0){ std::vector<approaching_car> all; for(auto&c:cars) if(c.here&&!c.gone){ approaching_car x{c.who,c.way,c.s,c.v,c.a,true,{}}; if(!c.drive.empty()&&now<=c.drive.end()) x.claimed=c.drive; x.is_fixed=c.claims; all.push_back(x);} 
+      static const double loss=env("LOSS",0.01);
+      if(service&&n%10==0){ std::vector<approaching_car> all; for(auto&c:cars) if(c.here&&!c.gone){ approaching_car x{c.who,c.way,c.s,c.v,c.a,true,{}}; if(c.provider_knows&&!c.provider_drive.empty()&&now<=c.provider_drive.end()){ x.claimed=c.provider_drive; x.is_fixed=c.provider_heard.drive.has_value(); } all.push_back(x);} 
         clock_t b=clock(); boss.plan(now,all,advice); double ms=1e3*(clock()-b)/CLOCKS_PER_SEC; cpu+=ms; cpumax=std::max(cpumax,ms); ++plans;
-        for(auto&a:advice) for(auto&c:cars) if(c.who==a.who&&!c.claims){ c.line=a.line_m; c.drive=a.drive; } }
-      std::vector<track> tr; std::vector<told_drive> told; for(auto&c:cars) if(c.here&&!c.gone){ auto p=c.plan.empty()?world::trajectory_point{}:c.plan.at(now); if(c.plan.empty()){ auto q=c.way->line.way().path().at(c.s); p.at=q.at; p.heading_rad=q.heading_rad; }
+        for(auto&c:cars){ bool told=false; for(auto&a:advice) if(c.who==a.who){ c.drive=a.drive; told=true; } if(!told&&c.provider_heard.drive) c.drive=c.provider_drive; } }
+      std::vector<track> tr; for(auto&c:cars) if(c.here&&!c.gone){ auto p=c.plan.empty()?world::trajectory_point{}:c.plan.at(now); if(c.plan.empty()){ auto q=c.way->line.way().path().at(c.s); p.at=q.at; p.heading_rad=q.heading_rad; }
         auto bx=box(p); track k; k.id=c.who.value(); k.station=c.who; k.at=k.seen=now; k.moved=now; k.motion.mean.col(0)<<bx.centre.x_m,bx.centre.y_m; k.motion.mean.col(1)<<c.v*std::cos(p.heading_rad),c.v*std::sin(p.heading_rad); k.motion.covariance=Eigen::Matrix2d::Identity()*1e-4; k.heading_rad=p.heading_rad; k.accel_mps2=c.a; k.length_m=bx.length_m; k.width_m=bx.width_m; tr.push_back(k);
-        if(!c.drive.empty()&&now>c.drive.end()){ c.drive={}; c.claims=false; c.line=0; }
-        if(!c.drive.empty()&&!c.claims){ double t0=to_seconds(c.drive.start-now); double enter=1e9; for(auto&p:c.drive.points) if(p.s_m>=c.line){ enter=t0+p.t_s; break; } double stop=c.v*(.5+c.v/5)+1; if(enter<env("CLAIM",4.5)||(c.v>1&&c.line-c.s<stop+c.v*.5)) c.claims=true; }
-        if(c.claims&&c.late>3&&c.line-c.s>c.v*(.5+c.v/5)+1){ c.claims=false; if(why)std::printf("DROP t %.2f %u\n",t,c.who.value()); }
-        if(service) told.push_back({c.who,c.drive.empty()?(c.plan.empty()?claimed_drive{}:bodies(c.plan)):bodies(c.drive),c.claims}); }
-      if(why&&n%40==0) for(auto&c:cars) if(c.here&&!c.gone){ double en=-1; for(auto&p:c.drive.points) if(p.s_m>=c.line){ en=to_seconds(c.drive.start-now)+p.t_s; break; } std::printf("CAR t %.1f %u s %.1f v %.2f a %.2f line %.1f enters in %.1f claims %d\n",t,c.who.value(),c.s,c.v,c.a,c.line-c.s,en,c.claims); }
-      for(auto&c:cars) if(c.here&&!c.gone){ step(c,now,tr,told); if(c.s>c.way->line.way().length_m()-15){ c.gone=true; c.done=t+.05; } }
+        if(!service) continue;
+        if(!c.member){ c.member=std::make_unique<crossing_member>(c.who,body); c.phase=(int)dice.between(0,2); }
+        auto pl=cw.find(c.way,c.s,150); if(pl){ auto&w=cw[pl->way]; double half=(body.front_m+body.rear_m)/2; c.line=w.enters_m+half+pl->lap_m; c.clear=w.leaves_m-half+pl->lap_m; }
+        if(!c.drive.empty()&&now<=c.drive.end()&&dice.between(0,1)>=loss) c.member->advise(now,c.drive);
+        bool was=c.member->state()!=claim_book::state::free; auto was_st=c.member->state();
+        c.member->move(now,{c.s,c.v,pl?c.line:c.s-100,c.clear,p.at,c.plan.empty()?nullptr:&c.plan});
+        if(why&&was&&c.member->state()==claim_book::state::free) std::printf("GAVE UP t %.2f %u s %.1f v %.2f line %.1f was %d\n",t,c.who.value(),c.s,c.v,c.line-body.front_m-c.s,(int)was_st);
+        c.claims=c.member->state()!=claim_book::state::free;
+        if(n%2==c.phase){ auto told=c.member->tell(now); auto* d=c.member->drive(); auto plan=d?bodies(*d):c.plan.empty()?claimed_drive{}:bodies(c.plan);
+          if(dice.between(0,1)>=loss){ c.provider_heard=told; c.provider_drive=d?*d:world::trajectory{}; c.provider_knows=true; }
+          for(auto&o:cars) if(&o!=&c&&o.here&&!o.gone&&o.member&&dice.between(0,1)>=loss) letters.push_back({&o,now+from_seconds(dice.between(.002,.04)),told,plan,p.at}); }
+      }
+      std::erase_if(letters,[&](auto&l){ if(l.at>now) return false; if(l.to->member&&l.to->here) l.to->member->hear(now,l.what,l.plan,l.from); return true; });
+      if(why&&n%40==0) for(auto&c:cars) if(c.here&&!c.gone){ double en=-1; for(auto&p:c.drive.points) if(p.s_m>=c.line-body.front_m){ en=to_seconds(c.drive.start-now)+p.t_s; break; } std::printf("CAR t %.1f %u s %.1f v %.2f a %.2f line %.1f enters in %.1f state %d\n",t,c.who.value(),c.s,c.v,c.a,c.line-body.front_m-c.s,en,c.member?(int)c.member->state():-1); }
+      for(auto&c:cars) if(c.here&&!c.gone){ step(c,now,tr,c.view.told); if(c.s>c.way->line.way().length_m()-15){ c.gone=true; c.done=t+.05; } }
       for(size_t i=0;i<cars.size();++i)for(size_t k=0;k<i;++k){auto&a=cars[i];auto&b=cars[k]; if(!a.here||!b.here||a.gone||b.gone||a.plan.empty()||b.plan.empty())continue; if(overlap(box(a.plan.at(now)),box(b.plan.at(now)))){ if(why&&touch<50)std::printf("TOUCH t %.2f %u s %.1f v %.2f claims %d, %u s %.1f v %.2f claims %d\n",t,a.who.value(),a.s,a.v,a.claims,b.who.value(),b.s,b.v,b.claims); ++touch;}}
     }
     kept+=boss.kept; double sum=0; for(auto&c:cars){ if(!c.gone){++stuck;} else {delays.push_back(c.done-c.appears-c.alone_s); sum+=delays.back();} }

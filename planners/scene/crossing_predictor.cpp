@@ -121,7 +121,7 @@ void crossing_predictor::judge(const crossing_viewer& me,
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
       if (takes_part) {
-        is_crossing = is_crossing || own.on.from_m >= me.front_m;
+        is_crossing = true;
         continue;
       }
       const auto first = !gives_way(me, x, when, own);

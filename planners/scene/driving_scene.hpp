@@ -47,8 +47,9 @@ struct way_moment {
 /// How the own car goes through a crossing, as was agreed with the others.
 struct agreed_drive {
   std::vector<way_moment> axle; ///< Rear axle; both rising.
-  double line_m = 0; ///< Its front waits there, if it does not bind,
+  double line_m = 0; ///< Its front waits there, if it does not bind.
   bool binds = false;
+  std::optional<double> waits_at_m; ///< Its rear axle, before it goes on.
 };
 
 /// A body that reaches into the lane but leaves room to pass beside it.
