@@ -412,7 +412,7 @@ void conductor::tell(time_point now, std::vector<crossing_advice>& out) {
         const auto s_m = at_m - ways_.middle_m();
         const auto p = line.path().at(s_m);
         const auto v =
-            1 / (x.motion.time_s(at_m + 0.5) - x.motion.time_s(at_m - 0.5));
+            std::min(20.0, 1 / std::max(0.05, x.motion.time_s(at_m + 0.5) - x.motion.time_s(at_m - 0.5)));
         a.drive.points.push_back({k * step_s, s_m + x.at.lap_m, p.at,
                                   p.heading_rad, p.curvature_1pm, v, 0});
       }

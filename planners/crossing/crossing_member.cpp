@@ -14,7 +14,10 @@ using namespace std::chrono_literals;
 constexpr duration claimed_every = 200ms;
 constexpr double before_line_m = 1;
 
-/// How a car stops before a line.
+/// How a car sets off, ...
+constexpr double gets_going_mps2 = 1.25;
+
+/// ... and stops before a line.
 constexpr double stops_mps2 = 2, decides_s = 0.5, spare_m = 1;
 
 /// @returns when a drive is at a place; nullopt if it does not come there.
@@ -65,9 +68,12 @@ bool crossing_member::is_kept(time_point now,
   const auto comes = own_.plan ? time_at(*own_.plan, line_m) : std::nullopt;
   if (!then)
     return false;
-  if (!comes) // it is not to be there within the plan either
-    return !own_.plan || *then > own_.plan->end() - from_seconds(rules_.late_s)
-           || *then - now > rules_.claims_before;
+  if (!comes) {
+    const auto v = own_.speed_mps, way_m = line_m - own_.s_m;
+    const auto soonest_s = (std::sqrt(v * v + 2 * gets_going_mps2 * way_m) - v)
+                           / gets_going_mps2;
+    return now + from_seconds(soonest_s) < *then + from_seconds(rules_.late_s);
+  }
   return std::abs(to_seconds(*comes - *then)) < rules_.late_s;
 }
 
