@@ -33,7 +33,7 @@ int main(int argc,char**argv){
       planning_input in; in.at=now; in.s_m=c.s; in.speed_mps=c.v; in.accel_mps2=c.a;
       if(!c.plan.empty()){ auto p=c.plan.at(now); auto f=seen_from(c.way->line.way(),p); in.s_m=p.s_m; in.d_m=f.d_m; in.heading_error_rad=f.heading_error_rad; in.curvature_1pm=p.curvature_1pm; in.speed_mps=p.speed_mps; in.accel_mps2=p.accel_mps2; }
       in.others=c.scene_out; in.others.stop_at_m.reset(); in.others.agreed.reset();
-      if(c.member){ c.member->look(now,c.view); in.others.agreed=agreed(c.view,now,in.s_m,in.speed_mps,body.front_m); if(!in.others.agreed&&c.near_line){} }
+      if(c.member){ c.member->look(now,c.view); agreeing_car ac{in.s_m,in.speed_mps,body.front_m}; in.others.agreed=agreed(c.view,now,ac); in.others.stop_at_m=waiting_line_m(c.view,ac); if(!in.others.agreed&&c.near_line){} }
       auto a=in.others.agreed; auto st=in.others.stop_at_m;
       c.scene->describe(now,{c.who,in.s_m,in.d_m,in.speed_mps},tr,in.others,told);
       in.others.agreed=a; in.others.stop_at_m=st;

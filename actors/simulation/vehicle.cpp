@@ -27,6 +27,8 @@ struct vehicle_actor_state {
   std::optional<driven_car> car;
   messages::onboard_requester_actor requester;
   messages::requester_manager_actor planning; // gets the inputs
+  messages::crossing_driver_actor agent;
+  messages::payload agreed; // by it
   std::optional<v2x_broadcast> broadcast;
   world::perception newest; // of what it perceives
   bool remote = false;
@@ -88,6 +90,7 @@ struct vehicle_actor_state {
 
   void on_requester_down() {
     requester = nullptr;
+    agent = nullptr;
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
@@ -119,6 +122,7 @@ struct vehicle_actor_state {
     const auto due = car->move();
     if (due.sensing) {
       links->report(*car);
+      links->tell(agent, *car);
       car->count_off_road();
     }
     if (due.telling)
@@ -136,7 +140,7 @@ struct vehicle_actor_state {
       return;
     const auto from = car->plan_from(now(self));
     auto question =
-        setup.plans->ask(*setup.car.way, from, newest, car->ego().own);
+        setup.plans->ask(*setup.car.way, from, newest, car->ego().own, agreed);
     self->send(planning,
                messages::service_input{{}, from.at, std::move(question)});
   }
@@ -183,6 +187,15 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const messages::source_change& x) { self->state.on_source(x); },
       [self](const messages::requester_manager_actor& manager) {
         self->state.planning = manager;
+      },
+      [self](const messages::crossing_driver_actor& agent) {
+        self->state.agent = agent;
+      },
+      [self](const messages::payload& agreed) { self->state.agreed = agreed; },
+      [self](const messages::its_pdu& word) {
+        auto& x = self->state;
+        if (x.requester)
+          x.links->say(word, x.car->position(), x.requester);
       },
       [self](world::perception& others) { self->state.on_perception(others); },
       [self](messages::begin_atom) { self->state.on_place(); },

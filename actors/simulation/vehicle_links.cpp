@@ -35,6 +35,23 @@ void vehicle_links::broadcast(
       self_->send(a.link, *message, messages::requester_actor{requester});
 }
 
+void vehicle_links::say(const messages::its_pdu& word, point from,
+                        const messages::onboard_requester_actor& requester) {
+  broadcast(word, from, requester);
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), from, word);
+}
+
+void vehicle_links::tell(const messages::crossing_driver_actor& agent,
+                         const driven_car& car) {
+  if (!agent)
+    return;
+  self_->send(agent, messages::payload::of(car.drive()));
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), car.position(),
+                caf::actor_cast<messages::air_listener_actor>(agent));
+}
+
 void vehicle_links::log_event(messages::event_type what) {
   send_record(self_, setup_.recorder,
               messages::event_record{.at = now(self_),

@@ -30,6 +30,14 @@ public:
   void broadcast(const std::optional<messages::its_pdu>& message, point from,
                  const messages::onboard_requester_actor& requester);
 
+  /// Tells providers and vehicles near.
+  void say(const messages::its_pdu& word, point from,
+           const messages::onboard_requester_actor& requester);
+
+  /// Tells who agrees with others for the car where it is, and that it hears.
+  void tell(const messages::crossing_driver_actor& agent,
+            const driven_car& car);
+
   void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
   void record(const messages::plan_switch_record& jump);

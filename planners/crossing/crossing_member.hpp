@@ -20,6 +20,13 @@ struct crossing_view {
   std::vector<told_drive> told; ///< By all others that take part.
 };
 
+/// What others tell is left out: it stays in the vehicle.
+void visit_fields(auto& v, crossing_view& x) {
+  v("drive", x.drive);
+  v("line_m", x.line_m);
+  v("binds", x.binds);
+}
+
 /// Claims a drive shortly before it enters the crossing, holds it while it can
 /// be kept, and gives it up as long as the vehicle can stop.
 class crossing_member {

@@ -46,10 +46,8 @@ struct way_moment {
 
 /// How the own car goes through a crossing, as was agreed with the others.
 struct agreed_drive {
-  std::vector<way_moment> axle; ///< Rear axle; both rising.
-  double line_m = 0; ///< Its front waits there, if it does not bind.
-  bool binds = false;
-  std::optional<double> waits_at_m; ///< Its rear axle, before it goes on.
+  std::vector<way_moment> axle;     ///< Of its rear axle; both rising.
+  std::optional<double> waits_at_m; ///< Its rear axle does, before that.
 };
 
 /// A body that reaches into the lane but leaves room to pass beside it.

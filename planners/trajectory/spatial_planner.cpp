@@ -288,9 +288,6 @@ speed_constraints spatial_planner::task(const scene& at) {
     t.sooner_s = t.later_s = kept_to_s;
     if (agreed->waits_at_m)
       t.stop_m = std::min(t.stop_m, std::max(0.0, way_from_car(*agreed->waits_at_m)) + 0.6);
-    const auto line_m = way_from_car(agreed->line_m - style_.front_m);
-    if (!agreed->binds && line_m > 0 && line_m < stopping_m(crossing(at)) + 1)
-      t.stop_m = std::min(t.stop_m, line_m + 0.3);
   }
   return t;
 }
