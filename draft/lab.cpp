@@ -45,13 +45,13 @@ int main(int argc,char**argv){
       { car x; x.who=c.who; x.way=c.way; x.s=from; begin(x); std::vector<track> none; std::vector<told_drive> nt; double t=0; auto L=c.way->line.way().length_m()-15; while(x.s<L&&t<120){ step(x,time_point{from_seconds(t)},none,nt); t+=.05;} c.alone_s=t; }
       cars.push_back(std::move(c)); } }
     emerg=hard=late=0;
-    conducting how; how.style=style; crossing_ways cw{lanes,{{0,0},80},body}; conductor boss{cw,how,body}; std::vector<crossing_advice> advice;
+    conducting how; crossing_ways cw{lanes,{{0,0},80},body}; conductor boss{cw,how}; std::vector<crossing_advice> advice;
     struct letter{car*to; time_point at; crossing_claim what; claimed_drive plan; point from;}; std::vector<letter> letters;
     int n=0; double T=env("T",240);
     for(double t=0;t<T;t+=.05,++n){ time_point now{from_seconds(t)};
       for(auto&c:cars) if(!c.here&&!c.gone&&t>=c.appears){ bool free=true; for(auto&o:cars) if(o.here&&!o.gone&&o.way->line.way().at_lane(o.s).lane==c.way->line.way().at_lane(c.s).lane&&(std::abs(o.s-c.s)<9||(o.s<c.s&&c.s-o.s<9+o.v*1.5+o.v*o.v/3))) free=false; if(free) c.here=true; }
       static const double loss=env("LOSS",0.01);
-      if(service&&n%10==0){ std::vector<approaching_car> all; for(auto&c:cars) if(c.here&&!c.gone){ approaching_car x{c.who,c.way,c.s,c.v,c.a,true,{}}; if(c.provider_knows&&!c.provider_drive.empty()&&now<=c.provider_drive.end()){ x.claimed=c.provider_drive; x.is_fixed=c.provider_heard.drive.has_value(); } all.push_back(x);} 
+      if(service&&n%10==0){ std::vector<approaching_car> all; for(auto&c:cars) if(c.here&&!c.gone){ approaching_car x{c.who,c.way,c.s,c.v,c.a,true,{}}; if(c.provider_knows&&!c.provider_drive.empty()&&now<=c.provider_drive.end()){ x.drive=c.provider_drive; x.has_claimed=c.provider_heard.drive.has_value(); } all.push_back(x);} 
         clock_t b=clock(); boss.plan(now,all,advice); double ms=1e3*(clock()-b)/CLOCKS_PER_SEC; cpu+=ms; cpumax=std::max(cpumax,ms); ++plans;
         for(auto&c:cars){ bool told=false; for(auto&a:advice) if(c.who==a.who){ c.drive=a.drive; told=true; if(!a.drive.empty()&&!a.drive.is_sound()){ auto&P=a.drive.points; std::printf("UNSOUND t %.2f %u n %zu step %.4f v %.2f..%.2f\n",t,c.who.value(),P.size(),P.size()>1?P[1].t_s:-1,P.front().speed_mps,P.back().speed_mps); for(auto&p:P) if(!(p.speed_mps<60)) std::printf(" at %.2f v %.2f",p.s_m,p.speed_mps); c.drive={}; } } if(!told&&c.provider_heard.drive) c.drive=c.provider_drive; } }
       std::vector<track> tr; for(auto&c:cars) if(c.here&&!c.gone){ auto p=c.plan.empty()?world::trajectory_point{}:c.plan.at(now); if(c.plan.empty()){ auto q=c.way->line.way().path().at(c.s); p.at=q.at; p.heading_rad=q.heading_rad; }
@@ -73,8 +73,8 @@ int main(int argc,char**argv){
       for(auto&c:cars) if(c.here&&!c.gone){ step(c,now,tr,c.view.told); if(c.s>c.way->line.way().length_m()-15){ c.gone=true; c.done=t+.05; } }
       for(size_t i=0;i<cars.size();++i)for(size_t k=0;k<i;++k){auto&a=cars[i];auto&b=cars[k]; if(!a.here||!b.here||a.gone||b.gone||a.plan.empty()||b.plan.empty())continue; if(overlap(box(a.plan.at(now)),box(b.plan.at(now)))){ if(why&&touch<50)std::printf("TOUCH t %.2f %u s %.1f v %.2f claims %d, %u s %.1f v %.2f claims %d\n",t,a.who.value(),a.s,a.v,a.claims,b.who.value(),b.s,b.v,b.claims); ++touch;}}
     }
-    kept+=boss.kept; double sum=0; for(auto&c:cars){ if(!c.gone){++stuck;} else {delays.push_back(c.done-c.appears-c.alone_s); sum+=delays.back();} }
-    std::printf("seed %d mean %.2f emerg %ld hard %ld late %ld kept %d\n",seed,sum/cars.size(),emerg,hard,late,boss.kept);
+    double sum=0; for(auto&c:cars){ if(!c.gone){++stuck;} else {delays.push_back(c.done-c.appears-c.alone_s); sum+=delays.back();} }
+    std::printf("seed %d mean %.2f emerg %ld hard %ld late %ld kept %d\n",seed,sum/cars.size(),emerg,hard,late,0);
   }
   std::sort(delays.begin(),delays.end()); double m=0; for(auto d:delays)m+=d; m/=delays.size();
   if(!delays.empty()) std::printf("cars %zu mean %.2f p95 %.1f max %.1f touch %d stuck %d cpu mean %.2f max %.1f ms kept %d\n",delays.size(),m,delays[size_t(.95*delays.size())],delays.back(),touch,stuck,cpu/std::max(1L,plans),cpumax,kept);

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t while_points = 4;
 constexpr double waits_below_mps = 0.15;
 /// It counts from so far before the line on.
-constexpr double before_line_m = 2;
-constexpr double here_m = 0.7, stands_mps = 0.3, soon_s = 0.05;
+constexpr double counts_before_line_m = 2;
+constexpr double here_m = 0.7, stands_mps = 0.3, goes_soon_s = 0.05;
 
 } // namespace
 
@@ -37,11 +37,11 @@ std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
     a.waits_at_m = car.s_m;
     goes_s = since_s;
   }
-  if (a.waits_at_m && goes_s > soon_s)
+  if (a.waits_at_m && goes_s > goes_soon_s)
     return a;
   a.waits_at_m.reset();
   for (const auto& p : all)
-    if (p.s_m > with.line_m - car.front_m - before_line_m && (a.axle.empty() || p.s_m > a.axle.back().s_m + 0.05))
+    if (p.s_m > with.line_m - car.front_m - counts_before_line_m && (a.axle.empty() || p.s_m > a.axle.back().s_m + 0.05))
       a.axle.push_back({p.s_m, since_s + p.t_s});
   return a;
 }

@@ -12,13 +12,13 @@ using namespace std::chrono_literals;
 
 /// A claim is a body every so often, and begins so far before the line.
 constexpr duration claimed_every = 200ms;
-constexpr double before_line_m = 1;
+constexpr double claims_before_line_m = 1;
 
 /// How a car sets off, ...
 constexpr double gets_going_mps2 = 1.25;
 
 /// ... and stops before a line.
-constexpr double stops_mps2 = 2, decides_s = 0.5, spare_m = 1;
+constexpr double member_stops_mps2 = 2, member_decides_s = 0.5, member_spare_m = 1;
 
 /// @returns when a drive is at a place; nullopt if it does not come there.
 std::optional<time_point> time_at(const world::trajectory& drive, double s_m) {
@@ -49,7 +49,7 @@ void crossing_member::advise(time_point now, const world::trajectory& drive) {
 bool crossing_member::can_stop() const {
   const auto v = own_.speed_mps;
   return own_.line_m - own_.s_m - car_.front_m
-         > v * (decides_s + v / (2 * stops_mps2)) + spare_m;
+         > v * (member_decides_s + v / (2 * member_stops_mps2)) + member_spare_m;
 }
 
 std::optional<time_point>
@@ -81,7 +81,7 @@ claimed_drive
 crossing_member::claim_of(const world::trajectory& drive) const {
   claimed_drive claim{{}, claimed_every, {}};
   const auto from =
-      time_at(drive, own_.line_m - car_.front_m - before_line_m);
+      time_at(drive, own_.line_m - car_.front_m - claims_before_line_m);
   const auto to = time_at(drive, own_.clear_m + car_.rear_m);
   if (!from)
     return claim;

@@ -4,25 +4,47 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 namespace sofof::planners {
 namespace {
 
-constexpr auto infinity = std::numeric_limits<double>::infinity();
-constexpr double level_m2ps2 = 0.5; // of v²/2
-constexpr std::size_t levels = 240; // to 15.5 m/s
-constexpr auto parts = static_cast<std::size_t>(window_drive::step_m / way_motion::step_m);
-constexpr double set_off_s = 0.6; // by which jerk delays it
+constexpr auto never_s = std::numeric_limits<double>::infinity();
+
+/// Levels of v²/2, to 15.5 m/s.
+constexpr double level_m2ps2 = 0.5;
+constexpr std::size_t levels = 240;
+
+/// By so much a bounded jerk delays who sets off.
+constexpr double sets_off_s = 0.6;
+constexpr double fading_mps3 = 1.6;
+
+/// A car that drives closely behind another may have to brake by so many
+/// levels more.
+constexpr std::size_t harder = 3;
+
+/// A drive may be out by so much where the times between are not reached.
+constexpr double drive_exact_s = 1;
+
+constexpr auto parts =
+    static_cast<std::size_t>(window_drive::step_m / way_motion::step_m);
+
+std::size_t levels_in_step(double accel_mps2) {
+  return static_cast<std::size_t>(accel_mps2 * window_drive::step_m
+                                  / level_m2ps2);
+}
+
+std::size_t level_of(double speed_mps) {
+  return std::min(levels - 1, static_cast<std::size_t>(
+                                  speed_mps * speed_mps / 2 / level_m2ps2
+                                  + 1e-9));
+}
 
 } // namespace
 
 window_drive::window_drive(const free_drive_limits& limits)
-    : up_{static_cast<std::size_t>(limits.accel_mps2 * step_m / level_m2ps2)},
-      down_{static_cast<std::size_t>(limits.decel_mps2 * step_m
-                                     / level_m2ps2)} {
+    : up_{levels_in_step(limits.accel_mps2)},
+      down_{levels_in_step(limits.decel_mps2)} {
   assert(up_ > 0 && down_ > 0);
   for (std::size_t l = 0; l < levels; ++l)
     speeds_.push_back(std::sqrt(2 * static_cast<double>(l) * level_m2ps2));
@@ -32,46 +54,45 @@ bool window_drive::find(const route_profile& way, const task& what,
                         way_motion& out) {
   assert(what.earliest_s.size() >= 2
          && what.earliest_s.size() == what.latest_s.size());
-  for (const auto harder : {0, 2}) {
-    begin(what, harder == 0);
-    bound(way, what);
+  assert(what.speed_mps >= 0);
+  for (const auto more : {std::size_t{0}, harder}) {
+    begin(what, more == 0);
     if (first_ + 1 >= what.earliest_s.size())
       continue;
-    down_ += harder;
+    down_ += more;
+    bound(way, what);
     reach(what);
-    const auto is = read_back(what, out);
-    down_ -= harder;
-    if (is)
+    const auto is_found = read_back(what, out);
+    down_ -= more;
+    if (is_found)
       return true;
   }
   return false;
 }
 
-/// What a car has of acceleration fades out first.
+/// Lets the acceleration fade out.
 void window_drive::begin(const task& what, bool smoothly) {
-  constexpr double jerk_mps3 = 1.6, step_s = 0.05;
-  prefix_.clear();
-  auto s = 0.0, v = what.speed_mps, a = smoothly ? what.accel_mps2 : 0.0, t = 0.0;
-  auto next = 0.5;
-  while (std::abs(a) > 0.05 && v > 0) {
-    const auto then = a > 0 ? std::max(0.0, a - jerk_mps3 * step_s)
-                            : std::min(0.0, a + jerk_mps3 * step_s);
-    const auto u = std::max(0.0, v + (a + then) / 2 * step_s);
-    const auto ds = (v + u) / 2 * step_s;
-    while (s + ds >= next) {
-      prefix_.push_back(t + step_s * (next - s) / ds);
-      next += 0.5;
-    }
+  constexpr double dt_s = 0.05, none_mps2 = 0.05;
+  fade_s_.clear();
+  auto s = 0.0, v = what.speed_mps, t = 0.0, next_m = way_motion::step_m;
+  auto a = smoothly ? what.accel_mps2 : 0.0;
+  while (std::abs(a) > none_mps2 && v > 0) {
+    const auto less = std::min(std::abs(a), fading_mps3 * dt_s);
+    const auto a1 = a > 0 ? a - less : a + less;
+    const auto v1 = std::max(0.0, v + (a + a1) / 2 * dt_s);
+    const auto ds = (v + v1) / 2 * dt_s;
+    for (; ds > 0 && s + ds >= next_m; next_m += way_motion::step_m)
+      fade_s_.push_back(t + dt_s * (next_m - s) / ds);
     s += ds;
-    v = u;
-    a = then;
-    t += step_s;
+    v = v1;
+    a = a1;
+    t += dt_s;
   }
   begin_m_ = s;
   begin_mps_ = v;
   begin_s_ = t;
-  begin_w_ = v * v / 2;
   first_ = static_cast<std::size_t>(s / step_m) + 1;
+  assert(begin_s_ >= 0 && first_ >= 1);
 }
 
 /// As fast as the way allows; a car that is faster brakes.
@@ -79,152 +100,178 @@ void window_drive::bound(const route_profile& way, const task& what) {
   const auto count = what.earliest_s.size();
   top_.resize(count);
   for (auto k = count; k-- > 0;) {
-    const auto most =
-        way.envelope.limit_mps(what.s_m + static_cast<double>(k) * step_m);
-    top_[k] = std::min(levels - 1, static_cast<std::size_t>(
-                                       most * most / 2 / level_m2ps2 + 1e-9));
+    top_[k] = level_of(
+        way.envelope.limit_mps(what.s_m + static_cast<double>(k) * step_m));
     if (k + 1 < count)
       top_[k] = std::min(top_[k], top_[k + 1] + down_);
   }
-  const auto now =
-      std::min(levels - 1, static_cast<std::size_t>(begin_w_ / level_m2ps2));
+  const auto now = level_of(begin_mps_);
   for (std::size_t k = 0; first_ + k < count && k * down_ <= now; ++k)
     top_[first_ + k] = std::max(top_[first_ + k], now - k * down_);
+  assert(std::ranges::all_of(top_, [](auto l) { return l < levels; }));
+}
+
+double window_drive::takes_s(std::size_t from_level,
+                             std::size_t to_level) const {
+  assert(from_level + to_level > 0);
+  return 2 * step_m / (speeds_[from_level] + speeds_[to_level])
+         + (from_level == 0 ? sets_off_s : 0);
+}
+
+void window_drive::take(const task& what, past how, std::size_t place,
+                        std::size_t level, double from_s, double to_s) {
+  from_s = std::max(from_s, what.earliest_s[place]);
+  to_s = std::min(to_s, what.latest_s[place]);
+  if (from_s <= to_s)
+    at(how, place, level) = {static_cast<float>(from_s),
+                             static_cast<float>(to_s)};
 }
 
 void window_drive::reach(const task& what) {
   const auto count = what.earliest_s.size();
-  for (auto& states : states_)
-    states.assign(count * levels, {1, 0});
-  const auto take = [&](has_stood how, std::size_t k, std::size_t l,
-                        double from_s, double to_s) {
-    from_s = std::max(from_s, what.earliest_s[k]);
-    to_s = std::min(to_s, what.latest_s[k]);
-    if (from_s <= to_s)
-      at(how, k, l) = {static_cast<float>(from_s), static_cast<float>(to_s)};
-  };
-  // From where it is, with the speed that it has.
-  const auto here = begin_w_ / level_m2ps2;
+  for (auto& all : reached_)
+    all.assign(count * levels, {});
+  reach_first(what);
+  for (auto k = first_ + 1; k < count; ++k)
+    for (std::size_t l = 0; l <= top_[k]; ++l)
+      reach_next(what, k, l);
+}
+
+/// From where the grid begins, with the speed there.
+void window_drive::reach_first(const task& what) {
+  constexpr double hardly_mps = 0.5;
+  const auto here = begin_mps_ * begin_mps_ / 2 / level_m2ps2;
   const auto lowest = std::max(0.0, here - static_cast<double>(down_));
   const auto highest = std::max(1.0, here + static_cast<double>(up_));
-  const auto stands = begin_w_ <= static_cast<double>(down_) * level_m2ps2;
+  const auto can_stand = here <= static_cast<double>(down_);
   const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
+  assert(way_m > 0);
   for (auto l = static_cast<std::size_t>(std::ceil(lowest));
-       l <= top_[first_] && static_cast<double>(l) <= highest; ++l)
-    if (begin_mps_ + speeds_[l] > 0.5) {
-      const auto takes_s = begin_s_ + 2 * way_m / (begin_mps_ + speeds_[l])
-                           + (begin_mps_ < 0.5 ? set_off_s : 0);
-      take(no, first_, l, takes_s, takes_s);
-      if (l == 0 || (stands && l <= up_))
-        take(yes, first_, l, takes_s, infinity);
+       l <= top_[first_] && static_cast<double>(l) <= highest; ++l) {
+    if (begin_mps_ + speeds_[l] < hardly_mps)
+      continue;
+    const auto t = begin_s_ + 2 * way_m / (begin_mps_ + speeds_[l])
+                   + (begin_mps_ < hardly_mps ? sets_off_s : 0);
+    take(what, past::rolled, first_, l, t, t);
+    if (l == 0 || (can_stand && l <= up_))
+      take(what, past::stood, first_, l, t, never_s);
+  }
+}
+
+void window_drive::reach_next(const task& what, std::size_t place,
+                              std::size_t level) {
+  struct {
+    double from_s = never_s, to_s = -never_s;
+  } all[2];
+  const auto last = std::min(top_[place - 1], level + down_);
+  for (auto q = level > up_ ? level - up_ : std::size_t{level == 0}; q <= last;
+       ++q) {
+    const auto step_s = takes_s(q, level);
+    for (const auto how : pasts) {
+      const auto& x = at(how, place - 1, q);
+      if (x.is_empty())
+        continue;
+      auto& sum = all[static_cast<std::size_t>(how)];
+      sum.from_s = std::min(sum.from_s, x.from_s + step_s);
+      sum.to_s = std::max(sum.to_s, x.to_s + step_s);
     }
-  for (auto k = first_ + 1; k < count; ++k)
-    for (std::size_t l = 0; l <= top_[k]; ++l) {
-      state reached[2] = {{1e9, -1e9}, {1e9, -1e9}};
-      const auto first = l > up_ ? l - up_ : 0;
-      const auto last = std::min(top_[k - 1], l + down_);
-      for (auto q = std::max<std::size_t>(first, l == 0); q <= last; ++q) {
-        const auto takes_s = static_cast<float>(
-            2 * step_m / (speeds_[q] + speeds_[l]) + (q == 0 ? set_off_s : 0));
-        for (const auto how : {no, yes}) {
-          const auto& x = at(how, k - 1, q);
-          if (x.from_s > x.to_s)
-            continue;
-          reached[how].from_s = std::min(reached[how].from_s, x.from_s + takes_s);
-          reached[how].to_s = std::max(reached[how].to_s, x.to_s + takes_s);
-        }
+  }
+  auto& [rolled, stood] = all;
+  if (level == 0) { // it stands there as long as it likes
+    stood.from_s = std::min(rolled.from_s, stood.from_s);
+    if (stood.from_s < never_s)
+      take(what, past::stood, place, level, stood.from_s, never_s);
+    return;
+  }
+  take(what, past::rolled, place, level, rolled.from_s, rolled.to_s);
+  take(what, past::stood, place, level, stood.from_s, stood.to_s);
+}
+
+// -- backwards ----------------------------------------------------------------
+
+bool window_drive::find_end(std::size_t place, moment& out) {
+  out.t_s = never_s;
+  for (std::size_t l = 0; l <= top_[place]; ++l)
+    for (const auto how : pasts)
+      if (const auto& x = at(how, place, l);
+          !x.is_empty() && x.from_s <= out.t_s + 1e-4)
+        out = {how, l, x.from_s};
+  return out.t_s < never_s;
+}
+
+/// @param comes_late  Of several, the slowest before the place is taken.
+/// @returns whether there is one before it; its time is when it is left.
+bool window_drive::step_back(std::size_t place, bool comes_late,
+                             const moment& here, moment& before) {
+  const auto first =
+      here.level > up_ ? here.level - up_ : std::size_t{here.level == 0};
+  const auto last = std::min(top_[place - 1], here.level + down_);
+  auto least_off_s = drive_exact_s;
+  auto is_found = false;
+  for (auto n = first; n <= last; ++n) {
+    const auto q = comes_late ? n : first + last - n;
+    for (const auto how : pasts) {
+      const auto& x = at(how, place - 1, q);
+      if (x.is_empty() || (how != here.how && here.level > 0))
+        continue;
+      const auto t = here.t_s - takes_s(q, here.level);
+      const auto off_s = std::max({0.0, x.from_s - t, t - x.to_s});
+      if (off_s < least_off_s - 1e-3) {
+        least_off_s = off_s;
+        before = {how, q, t};
+        is_found = true;
       }
-      if (l == 0) { // it stands there as long as it likes
-        reached[yes].from_s = std::min(reached[no].from_s, reached[yes].from_s);
-        if (reached[yes].from_s < 1e8)
-          reached[yes].to_s = static_cast<float>(infinity);
-        reached[no] = {1, 0};
-      }
-      for (const auto how : {no, yes})
-        if (reached[how].from_s <= reached[how].to_s)
-          take(how, k, l, reached[how].from_s, reached[how].to_s);
     }
+  }
+  return is_found;
 }
 
 bool window_drive::read_back(const task& what, way_motion& out) {
   const auto count = what.earliest_s.size();
-  auto level = levels;
-  auto how = no;
-  double t = infinity;
-  for (std::size_t l = 0; l <= top_[count - 1]; ++l)
-    for (const auto h : {no, yes}) {
-      const auto& x = at(h, count - 1, l);
-      if (x.from_s <= x.to_s && x.from_s <= t + 1e-4) {
-        level = l;
-        how = h;
-        t = x.from_s;
-      }
-    }
-  if (level == levels)
+  moment here{};
+  if (!find_end(count - 1, here))
     return false;
-  // Every half step; where it stands, it is there first and goes later.
-  std::vector<double> times_s(parts * (count - 1) + 1);
-  auto left_s = t;
-  double worst_miss_s = 0;
-  for (auto k = count - 1;; --k) {
-    times_s[parts * k] = t;
-    if (k == first_) {
-      const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
-      const auto goes_s = left_s - 2 * way_m / (begin_mps_ + speeds_[level]);
-      for (std::size_t i = 0; i < parts * k; ++i) {
-        const auto at_m = 0.5 * static_cast<double>(i);
-        times_s[i] = i == 0 ? 0
-                     : i <= prefix_.size() ? prefix_[i - 1]
-                     : std::lerp(goes_s, left_s, (at_m - begin_m_) / way_m);
-      }
-      break;
-    }
-    const auto wait = what.s_m + static_cast<double>(k) * step_m < what.line_m;
-    const auto first = std::max<std::size_t>(level > up_ ? level - up_ : 0,
-                                             level == 0);
-    const auto last = std::min(top_[k - 1], level + down_);
-    auto best = levels;
-    auto best_how = how;
-    auto miss_s = infinity;
-    for (auto n = first; n <= last; ++n) {
-      const auto q = wait ? n : first + last - n;
-      for (const auto h : {no, yes}) {
-        const auto& x = at(h, k - 1, q);
-        if ((h != how && level > 0) || x.from_s > x.to_s)
-          continue;
-        const auto then = t - 2 * step_m / (speeds_[q] + speeds_[level])
-                          - (q == 0 ? set_off_s : 0);
-        const auto off_s = std::max({0.0, x.from_s - then, then - x.to_s});
-        if (off_s < miss_s - 1e-3) {
-          miss_s = off_s;
-          best = q;
-          best_how = h;
-        }
-      }
-    }
-    if (best == levels)
+  times_s_.resize(parts * (count - 1) + 1);
+  for (auto k = count - 1; k > first_; --k) {
+    times_s_[parts * k] = here.t_s;
+    const auto comes_late =
+        what.s_m + static_cast<double>(k) * step_m < what.line_m;
+    moment before{};
+    if (!step_back(k, comes_late, here, before))
       return false;
-    worst_miss_s = std::max(worst_miss_s, miss_s);
-    const auto takes_s = 2 * step_m / (speeds_[best] + speeds_[level])
-                         + (best == 0 ? set_off_s : 0);
-    left_s = t - takes_s;
+    const auto v0 = speeds_[before.level], v1 = speeds_[here.level];
     for (std::size_t i = 1; i < parts; ++i) {
       const auto share = static_cast<double>(i) / static_cast<double>(parts);
-      const auto v = std::sqrt(std::lerp(speeds_[best] * speeds_[best],
-                                         speeds_[level] * speeds_[level], share));
-      times_s[parts * (k - 1) + i] = left_s + (best == 0 ? set_off_s : 0)
-                                     + 2 * share * step_m / (speeds_[best] + v);
+      const auto v = std::sqrt(std::lerp(v0 * v0, v1 * v1, share));
+      times_s_[parts * (k - 1) + i] = before.t_s
+                                      + (before.level == 0 ? sets_off_s : 0)
+                                      + 2 * share * step_m / (v0 + v);
     }
-    level = best;
-    how = best_how;
-    t = level == 0 ? std::min<double>(left_s, at(yes, k - 1, 0).from_s) : left_s;
+    here = before;
+    if (here.level == 0) // it stands there since it came
+      here.t_s = std::min<double>(here.t_s, at(past::stood, k - 1, 0).from_s);
   }
-  for (std::size_t i = 1; i < times_s.size(); ++i)
-    times_s[i] = std::max(times_s[i], times_s[i - 1]);
-  if (std::getenv("WHY") && worst_miss_s > .1) std::printf("miss %.2f v %.2f\n", worst_miss_s, what.speed_mps);
-  if (worst_miss_s > 1) return false;
-  out = way_motion{what.s_m, std::move(times_s)};
+  times_s_[parts * first_] = here.t_s;
+  const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
+  const auto last_mps = begin_mps_ + speeds_[here.level];
+  write_first(last_mps > 0 ? here.t_s - 2 * way_m / last_mps : here.t_s,
+              here.t_s);
+  for (std::size_t i = 1; i < times_s_.size(); ++i)
+    times_s_[i] = std::max(times_s_[i], times_s_[i - 1]);
+  out = way_motion{what.s_m, times_s_};
   return true;
+}
+
+/// The way to the first place of the grid.
+void window_drive::write_first(double goes_s, double left_s) {
+  const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
+  times_s_[0] = 0;
+  for (std::size_t i = 1; i < parts * first_; ++i) {
+    const auto at_m = static_cast<double>(i) * way_motion::step_m;
+    times_s_[i] = i <= fade_s_.size()
+                      ? fade_s_[i - 1]
+                      : std::lerp(goes_s, left_s, (at_m - begin_m_) / way_m);
+  }
 }
 
 } // namespace sofof::planners

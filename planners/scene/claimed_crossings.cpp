@@ -11,7 +11,7 @@ namespace {
 
 constexpr double step_m = 1;
 /// A claim is kept so exactly.
-constexpr double exact_s = 0.3;
+constexpr double claim_exact_s = 0.3;
 
 /// The claims of a station have one number, which is no track's.
 std::uint32_t number_of(station_id who) {
@@ -45,8 +45,8 @@ void list_claimed(const world::route& way, double width_m, time_point now,
               drive.from + static_cast<duration::rep>(k) * drive.step - now);
           user.from_m = std::min(user.from_m, s - step_m / 2);
           user.to_m = std::max(user.to_m, s + step_m / 2);
-          user.enter_s = std::min(user.enter_s, t_s - exact_s);
-          user.leave_s = std::max(user.leave_s, t_s + exact_s);
+          user.enter_s = std::min(user.enter_s, t_s - claim_exact_s);
+          user.leave_s = std::max(user.leave_s, t_s + claim_exact_s);
         }
       }
       if (user.leave_s > 0 && user.from_m < user.to_m)

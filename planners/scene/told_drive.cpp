@@ -11,7 +11,7 @@ namespace {
 /// Bodies are compared at moments so far apart.
 constexpr duration compared_every = std::chrono::milliseconds{100};
 
-double radius_m(const oriented_box& x) {
+double half_diagonal_m(const oriented_box& x) {
   return std::hypot(x.length_m, x.width_m) / 2;
 }
 
@@ -43,7 +43,7 @@ bool overlap(const claimed_drive& a, const claimed_drive& b, duration apart) {
     const auto last = std::min(t + apart, b.to());
     for (auto u = std::max(t - apart, b.from); u <= last; u += compared_every) {
       const auto other = b.at(u);
-      const auto reach_m = radius_m(own) + radius_m(other);
+      const auto reach_m = half_diagonal_m(own) + half_diagonal_m(other);
       const auto to = other.centre - own.centre;
       if (dot(to, to) < reach_m * reach_m && overlap(own, other))
         return true;

@@ -15,8 +15,7 @@ crossing_office::crossing_office(crossing_world_ptr world,
                                          {world_->options.centre,
                                           world_->options.radius_m},
                                          world_->car},
-                 {},
-                 world_->car} {}
+                 {}} {}
 
 void crossing_office::on_cam(const messages::cam& c, sender_id) {
   if (protocol::is_of_future(c.at, clock_()))
@@ -109,11 +108,11 @@ void crossing_office::plan(time_point now) {
       if (messages::to_trajectory(*x.word->plan, frame, x.way->line.way(),
                                   x.s_m, nullptr, drive)
           == messages::maneuver_fault::none) {
-        car.claimed = drive;
-        car.is_fixed = true;
+        car.drive = drive;
+        car.has_claimed = true;
       }
     } else if (advised != advice_.end() && now < advised->second.end()) {
-      car.claimed = advised->second;
+      car.drive = advised->second;
     }
     cars.push_back(std::move(car));
   }
