@@ -432,6 +432,7 @@ void dismiss(const world_actors& actors, runtime& time) {
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
   end(actors.connections, time);
+  end(std::vector{actors.air}, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

@@ -25,7 +25,7 @@ constexpr double slips_in_s = 0.05;
 constexpr double line_brakes_mps2 = 2, line_decides_s = 0.5, line_spare_m = 1;
 
 /// Slower than this a car stands, m/s.
-constexpr double standing_mps = 0.5;
+constexpr double car_rests_mps = 0.5;
 
 constexpr double told_every_s = 0.1;
 constexpr double told_most_mps = 20;
@@ -121,7 +121,7 @@ approach conductor::make_approach(time_point now, const approaching_car& one,
                              + crossing_ways::behind_m);
   if (one.drive && one.drive->points.size() >= 2)
     x.told = motion_of(*one.drive, now, ways_.middle_m() - at.lap_m);
-  const auto can_stop = one.speed_mps <= standing_mps
+  const auto can_stop = one.speed_mps <= car_rests_mps
                         || line_stopping_m(one.speed_mps)
                                <= way.enters_m - at.middle_m;
   x.is_fixed = !can_stop || !one.is_served
@@ -268,7 +268,7 @@ bool conductor::drive(approach& x, std::span<const std::size_t> before,
 /// @returns whether it can go on as it was told, within the windows.
 bool conductor::is_kept(const approach& x) const {
   if (x.told.empty() || x.told.ends_m() < ways_[x.at.way].leaves_m
-      || (x.is->speed_mps > standing_mps
+      || (x.is->speed_mps > car_rests_mps
           && std::abs(x.told.time_s(x.at.middle_m)) > as_told_s))
     return false;
   for (std::size_t k = 1; k < windows_.earliest_s.size(); ++k) {

@@ -3,6 +3,7 @@
 
 #include "base/geometry.hpp"
 #include "base/options/option_visitor.hpp"
+#include "messages/protocol/motion.hpp"
 #include "messages/protocol/payload.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "planners/crossing/conductor.hpp"
