@@ -33,6 +33,7 @@ struct approach {
   double wish_s = 0;     ///< At the line, as at first sight, if alone.
   double line_s = 0;     ///< At the line, as the search has it.
   way_motion motion;     ///< Fixed or planned; empty: none so far.
+  bool is_as_told = false; ///< So is that.
 };
 
 } // namespace sofof::planners

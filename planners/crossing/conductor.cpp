@@ -28,7 +28,7 @@ constexpr double line_brakes_mps2 = 2, line_decides_s = 0.5, line_spare_m = 1;
 constexpr double car_rests_mps = 0.5;
 
 constexpr double told_every_s = 0.1;
-constexpr double told_most_mps = 20;
+constexpr double told_most_mps2 = 3;
 
 double line_stopping_m(double speed_mps) {
   return speed_mps * (line_decides_s + speed_mps / (2 * line_brakes_mps2))
@@ -260,8 +260,10 @@ bool conductor::drive(approach& x, std::span<const std::size_t> before,
           || x.told.time_s(way.leaves_m)
                  < x.motion.time_s(way.leaves_m) + worth_telling_s)) {
     x.motion = x.told;
+    x.is_as_told = true;
     return true;
   }
+  x.is_as_told = false;
   return is_found;
 }
 
@@ -313,6 +315,7 @@ void conductor::tell(time_point now, std::vector<crossing_advice>& out) {
   for (const auto i : free_)
     if (const auto& x = cars_[i]; x.is->is_served)
       out.push_back({x.is->who, x.motion.empty() ? world::trajectory{}
+                                : x.is_as_told   ? *x.is->drive
                                                  : written(now, x)});
   assert(out.size() <= free_.size());
 }
@@ -321,26 +324,27 @@ void conductor::tell(time_point now, std::vector<crossing_advice>& out) {
 world::trajectory conductor::written(time_point now, const approach& x) const {
   const auto& way = ways_[x.at.way];
   const auto& line = way.way->line.way();
-  constexpr double finely_m = 0.05, beside_m = 0.5;
+  const auto begin_s = x.motion.time_s(x.motion.begins_m());
+  const auto end_s = x.motion.time_s(
+      std::min(x.motion.ends_m(), way.leaves_m + told_behind_m / 2));
+  const auto speed_mps = [&](double t) {
+    const auto from = std::max(begin_s, t - told_every_s);
+    const auto to = std::min(end_s, t + told_every_s);
+    return (x.motion.place_m(to) - x.motion.place_m(from)) / (to - from);
+  };
   world::trajectory drive;
-  auto at_m = x.motion.begins_m();
-  const auto begin_s = x.motion.time_s(at_m);
-  const auto end_s = x.motion.time_s(way.leaves_m + told_behind_m / 2);
   drive.start = now + from_seconds(begin_s);
-  const auto count = std::max(1.0, std::ceil((end_s - begin_s) / told_every_s));
-  const auto step_s = (end_s - begin_s) / count;
-  for (auto k = 0.0; k <= count; ++k) {
-    const auto t = begin_s + k * step_s;
-    while (at_m < x.motion.ends_m() && x.motion.time_s(at_m) < t)
-      at_m += finely_m;
-    const auto s_m = at_m - ways_.middle_m();
+  for (auto k = 0; begin_s + k * told_every_s <= end_s; ++k) {
+    const auto t = begin_s + k * told_every_s;
+    const auto s_m = x.motion.place_m(t) - ways_.middle_m();
     const auto p = line.path().at(s_m);
-    const auto beside_s = x.motion.time_s(at_m + beside_m)
-                          - x.motion.time_s(at_m - beside_m);
-    drive.points.push_back(
-        {k * step_s, s_m + x.at.lap_m, p.at, p.heading_rad, p.curvature_1pm,
-         std::min(told_most_mps, 2 * beside_m / std::max(beside_s, finely_m)),
-         0});
+    const auto accel_mps2 =
+        (speed_mps(t + told_every_s / 2) - speed_mps(t - told_every_s / 2))
+        / told_every_s;
+    drive.points.push_back({k * told_every_s, s_m + x.at.lap_m, p.at,
+                            p.heading_rad, p.curvature_1pm, speed_mps(t),
+                            std::clamp(accel_mps2, -told_most_mps2,
+                                       told_most_mps2)});
   }
   return drive;
 }

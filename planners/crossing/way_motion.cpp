@@ -11,6 +11,9 @@ namespace {
 /// Nobody is thought of as slower than this, m/s.
 constexpr double walking_mps = 1;
 
+/// Who takes longer for a step stands, and then sets off like this.
+constexpr double stands_s = 2, sets_off_in_s = 0.9;
+
 } // namespace
 
 way_motion::way_motion(double from_m, std::vector<double> times_s)
@@ -30,6 +33,24 @@ double way_motion::time_s(double at_m) const {
     takes_s = std::min(takes_s, step_m / walking_mps);
   const auto base = steps > last + 1 ? times_s_.back() - takes_s : times_s_[i];
   return base + (steps - k) * takes_s;
+}
+
+double way_motion::place_m(double at_s) const {
+  assert(times_s_.size() >= 2);
+  const auto next = std::ranges::upper_bound(times_s_, at_s);
+  if (next == times_s_.begin())
+    return from_m_;
+  if (next == times_s_.end())
+    return ends_m();
+  const auto i = static_cast<std::size_t>(next - times_s_.begin()) - 1;
+  const auto takes_s = times_s_[i + 1] - times_s_[i];
+  auto share = (at_s - times_s_[i]) / takes_s;
+  if (takes_s > stands_s) { // at its begin, and sets off in time
+    const auto since_s = sets_off_in_s - (times_s_[i + 1] - at_s);
+    share = since_s > 0 ? since_s * since_s / (sets_off_in_s * sets_off_in_s)
+                        : 0.0;
+  }
+  return from_m_ + step_m * (static_cast<double>(i) + share);
 }
 
 way_motion way_motion::later(double by_s) const {

@@ -30,6 +30,10 @@ public:
   /// there, before the begin as if it had come as fast as there. Not empty.
   double time_s(double at_m) const;
 
+  /// @returns where its middle is at a time; before it begins and after it ends
+  /// as there.
+  double place_m(double at_s) const;
+
   /// @returns the same motion, later.
   way_motion later(double by_s) const;
 

@@ -12,6 +12,8 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -46,7 +48,13 @@ struct crossing_driver_state {
     member->move(t, place());
     planners::crossing_view view;
     member->look(t, view);
-    self->send(vehicle, messages::payload::of(std::move(view)));
+    self->send(vehicle, messages::payload::of(view));
+    if (std::getenv("WHY") && t.time_since_epoch().count() % 1000000000 < 50000000) {
+      const auto* d = member->drive(); const auto pl = place();
+      double in = -1; if (d) for (auto& p : d->points) if (p.s_m >= pl.line_m - world->car.front_m) { in = to_seconds(d->start - t) + p.t_s; break; }
+      double pin = -1; for (auto& p : own->plan->points) if (p.s_m >= pl.line_m - world->car.front_m) { pin = to_seconds(own->plan->start - t) + p.t_s; break; }
+      std::printf("CAR t %.2f %s s %.1f v %.2f line %.1f state %d enters %.2f plan %.2f told %zu\n", to_seconds(t - time_point{}), way->name().c_str(), own->s_m, own->own.speed_mps, pl.line_m - own->s_m - world->car.front_m, (int)member->state(), in, pin, view.told.size());
+    }
     if (told && t - *told < input_period)
       return;
     told = t;
@@ -76,7 +84,7 @@ struct crossing_driver_state {
   void tell(time_point t) {
     const auto says = member->tell(t);
     const auto* drive = member->drive();
-    const auto plan = rest_of(drive ? *drive : *own->plan, t);
+    const auto plan = rest(drive ? *drive : *own->plan, t);
     const auto ahead = way->waypoints(own->s_m, protocol::authority_m,
                                       protocol::authority_spacing_m);
     messages::mcm_uplink up{own->own, ahead, plan.empty() ? nullptr : &plan, {}};
@@ -90,20 +98,14 @@ struct crossing_driver_state {
   }
 
   /// @returns what is left of a drive, but at most 20 s.
-  static world::trajectory rest_of(const world::trajectory& drive,
-                                   time_point t) {
-    constexpr duration step = 200ms, most = 20s;
-    world::trajectory rest;
-    rest.start = t;
-    const auto end = std::min(drive.end(), t + most);
-    for (auto at = t; at <= end; at += step) {
-      auto p = drive.at(at);
-      p.t_s = to_seconds(at - t);
-      rest.points.push_back(p);
-    }
-    if (rest.points.size() < 2)
-      rest.points.clear();
-    return rest;
+  static world::trajectory rest(const world::trajectory& drive, time_point t) {
+    constexpr std::size_t most = 200;
+    auto left = world::rest_of(drive, t);
+    if (left.points.size() > most)
+      left.points.resize(most);
+    if (left.points.size() < 2)
+      left.points.clear();
+    return left;
   }
 
   void on_word(point from, const messages::its_pdu& message) {

@@ -6,6 +6,9 @@
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace sofof::actors {
@@ -40,8 +43,15 @@ public:
     const auto fault = messages::read_suggestion(
         word_, me_, *way, request->s_m,
         world_->where->ahead_by(message->ahead), now, nullptr, drive);
-    if (fault != messages::maneuver_fault::none)
-      return {{}, {}, objection{"readable", 0, 1}};
+    if (!fault) // nothing is suggested now
+      return {messages::payload::of(world::trajectory{})};
+    if (*fault != messages::maneuver_fault::none) {
+      if (std::getenv("WHY")) {
+        std::printf("FAULT %u t %.2f s %.1f v %.2f points %zu\n", me_.value(), to_seconds(now - time_point{}), request->s_m, request->own.speed_mps, drive.points.size());
+        for (std::size_t i = 0; i < drive.points.size(); ++i) { auto& p = drive.points[i]; if (i < 3 || std::abs(p.accel_mps2) > 5 || p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm) > 5) std::printf("  %zu t %.2f s %.2f v %.2f a %.2f k %.3f\n", i, p.t_s, p.s_m, p.speed_mps, p.accel_mps2, p.curvature_1pm); }
+      }
+      return {{}, {}, objection{to_string(*fault), 0, 1}};
+    }
     return {messages::payload::of(std::move(drive))};
   }
 
@@ -100,16 +110,16 @@ public:
   offloading::service_output
   run(time_point now, const messages::service_input& input) override {
     const auto drive = office_->advise(now, station_);
-    if (drive.empty())
-      return {};
     const messages::suggestion what{
         provider_.station,
         provider_.position,
         station_,
         {static_cast<std::uint16_t>(input.session.counter), ++update_}};
-    if (!messages::make_suggestion(what, rest_of(drive, now), *world_->where,
-                                   waypoints_, said_))
-      return {};
+    const auto rest = shortened(world::rest_of(drive, now));
+    if (rest.points.size() < 2
+        || !messages::make_suggestion(what, rest, *world_->where, waypoints_,
+                                      said_))
+      said_ = messages::make_silence(what, now, *world_->where);
     auto message = messages::encoded(said_);
     if (message.octets.empty())
       return {};
@@ -117,18 +127,12 @@ public:
   }
 
 private:
-  static world::trajectory rest_of(const world::trajectory& drive,
-                                   time_point now) {
-    constexpr duration step = std::chrono::milliseconds{100};
-    constexpr duration most = std::chrono::seconds{24};
-    world::trajectory rest;
-    rest.start = now;
-    for (auto t = now; t <= std::min(drive.end(), now + most); t += step) {
-      auto p = drive.at(t);
-      p.t_s = to_seconds(t - now);
-      rest.points.push_back(p);
-    }
-    return rest;
+  /// MCMs have room for so much.
+  static world::trajectory shortened(world::trajectory drive) {
+    constexpr std::size_t most = 240; // 24 s
+    if (drive.points.size() > most)
+      drive.points.resize(most);
+    return drive;
   }
 
   crossing_world_ptr world_;
