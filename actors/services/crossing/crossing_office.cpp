@@ -1,6 +1,7 @@
 // What a provider knows of a crossing, and how it conducts it.
 #include "actors/services/crossing/crossing_office.hpp"
 
+#include "actors/services/planning/drive_words.hpp"
 #include "base/protocol.hpp"
 #include "world/roads/route_finder.hpp"
 
@@ -75,6 +76,20 @@ bool crossing_office::place(heard& x) const {
   return false;
 }
 
+/// @returns how a vehicle says that it drives; empty: it does not.
+world::trajectory crossing_office::plan_of(const heard& x) const {
+  world::trajectory plan;
+  if (!x.word || !x.word->plan)
+    return plan;
+  const messages::maneuver_frame frame{world_->where->frame, x.word->reference,
+                                       x.word->at};
+  if (messages::to_trajectory(*x.word->plan, frame, x.way->line.way(), x.s_m,
+                              nullptr, plan)
+      != messages::maneuver_fault::none)
+    plan.points.clear();
+  return plan;
+}
+
 void crossing_office::plan(time_point now) {
   planned_ = now;
   std::erase_if(heard_, [now](const auto& x) {
@@ -97,20 +112,18 @@ void crossing_office::plan(time_point now) {
                                   x.newest.accel_mps2, asks_.contains(who),
                                   {}, false};
     car.s_m += to_seconds(now - x.newest.at) * x.newest.speed_mps;
-    const auto claims =
-        x.word->answer
-        && x.word->answer->second == messages::etsi::maneuver_response::accept;
+    // What it says of its drive is newer than its CAM, and knows how it brakes.
+    const auto plan = plan_of(x);
+    if (!plan.empty() && plan.end() > now) {
+      const auto here = plan.at(now);
+      car.s_m = here.s_m;
+      car.speed_mps = here.speed_mps;
+      car.accel_mps2 = here.accel_mps2;
+    }
     const auto advised = advice_.find(who);
-    if (claims && x.word->plan) {
-      const messages::maneuver_frame frame{world_->where->frame,
-                                           x.word->reference, x.word->at};
-      world::trajectory drive;
-      if (messages::to_trajectory(*x.word->plan, frame, x.way->line.way(),
-                                  x.s_m, nullptr, drive)
-          == messages::maneuver_fault::none) {
-        car.drive = drive;
-        car.has_claimed = true;
-      }
+    if (is_claim(*x.word) && !plan.empty()) {
+      car.drive = plan;
+      car.has_claimed = true;
     } else if (advised != advice_.end() && now < advised->second.end()) {
       car.drive = advised->second;
     }

@@ -42,6 +42,7 @@ private:
   };
   void plan(time_point now);
   bool place(heard& x) const;
+  world::trajectory plan_of(const heard& x) const;
   planners::route_profile_ptr profile(const world::route_ptr& way);
 
   crossing_world_ptr world_;
