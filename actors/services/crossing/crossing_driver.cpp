@@ -83,8 +83,8 @@ struct crossing_driver_state {
 
   void tell(time_point t) {
     const auto says = member->tell(t);
-    const auto* drive = member->drive();
-    const auto plan = rest(drive ? *drive : *own->plan, t);
+    // What it claims; else what it is going to do, which others go by.
+    const auto plan = rest(says.drive ? *member->drive() : *own->plan, t);
     const auto ahead = way->waypoints(own->s_m, protocol::authority_m,
                                       protocol::authority_spacing_m);
     messages::mcm_uplink up{own->own, ahead, plan.empty() ? nullptr : &plan, {}};
