@@ -73,6 +73,7 @@ inline constexpr int angle_places = 6;
 inline constexpr int comfort_places = 6;
 inline constexpr int margin_places = 4;
 inline constexpr int energy_places = 6;
+inline constexpr int delay_places = 3;
 
 // Which offloading it was.
 inline constexpr auto station = [](const auto& r) {
@@ -236,6 +237,19 @@ inline constexpr csv_column<vehicle_row> of_vehicles[]{
      [](const auto& r) {
        return rounded(r.x.ride.comfort_cost_m2ps3, comfort_places);
      }},
+    {"delay_s",
+     [](const auto& r) {
+       return rounded(r.x.trip ? std::optional{r.x.trip->delay_s()}
+                               : std::nullopt,
+                      delay_places);
+     }},
+    {"stops", [](const auto& r) { return r.x.trip ? r.x.trip->stops : 0; }},
+    {"longest_stop_s",
+     [](const auto& r) {
+       return rounded(r.x.trip ? r.x.trip->longest_stop_s : 0, delay_places);
+     }},
+    {"arrived",
+     [](const auto& r) { return r.x.trip && r.x.trip->has_arrived; }},
     {"on_board_cycles", [](const auto& r) { return r.cycles.on_board; }},
     {"offloaded_cycles", [](const auto& r) { return r.cycles.offloaded; }},
     {"energy_j",

@@ -15,6 +15,7 @@
 #include "base/protocol.hpp"
 #include "channel/with_outage.hpp"
 #include "messages/v2x/decode_broadcast.hpp"
+#include "planners/speed/route_profile.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
 
@@ -23,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <ranges>
 
 namespace sofof::scenario {
@@ -312,7 +314,8 @@ private:
                  fleet.start_speed_mps,
                  {},
                  fresh_limit(s_),
-                 s_.record.tracks ? s_.record.tracks_period : duration{0}};
+                 s_.record.tracks ? s_.record.tracks_period : duration{0},
+                 road_of(v.way)};
     setup.appears_after = v.appears;
     if (const auto* planning = planning_service(s_))
       setup.plans = planning->plans();
@@ -330,6 +333,15 @@ private:
     world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
     name(watched_, world_.vehicles.back(),
          fmt::format("vehicle {}", v.station));
+  }
+
+  /// Vehicles on one route share what is known of it.
+  planners::route_profile_ptr road_of(const world::route_ptr& way) {
+    auto& road = roads_[way.get()];
+    if (!road)
+      road = std::make_shared<const planners::route_profile>(
+          way, planners::comfort_limits{});
+    return road;
   }
 
   std::vector<actors::antenna> connect_all(station_id station) {
@@ -397,6 +409,7 @@ private:
       decode_;
   std::vector<offloading::service> services_; // as in the scenario
   std::vector<provider_cell> cells_;
+  std::map<const world::route*, planners::route_profile_ptr> roads_;
   names watched_;
   world_actors world_;
 };

@@ -3,6 +3,7 @@
 
 #include "base/protocol.hpp"
 #include "planners/scene/lane_motion.hpp"
+#include "planners/speed/lone_drive.hpp"
 #include "planners/trajectory/keep_speed.hpp"
 #include "planners/trajectory/safe_stop.hpp"
 
@@ -66,7 +67,7 @@ driven_car::due driven_car::move() {
   lateral_m_ = place.d_m;
   ++steps_;
   count_safety();
-  figures_->on_step(car_);
+  figures_->on_step(car_, is_at_the_end());
   return {.sensing = ends(protocol::sensor_period, steps_),
           .telling = ends(protocol::ego_period, steps_),
           .track = is_tracked(steps_),
@@ -178,6 +179,17 @@ void driven_car::count_safety() {
   safety_.max_plan_age = std::max(safety_.max_plan_age, age);
   if (age > setup_.fresh_limit)
     safety_.without_fresh_plan += protocol::control_period;
+}
+
+messages::trip_record driven_car::trip() const {
+  assert(has_appeared());
+  const auto& stops = figures_->stops();
+  return {setup_.station,
+          {to_seconds(static_cast<duration::rep>(steps_)
+                      * protocol::control_period),
+           planners::lone_drive_s(*setup_.road, {}, setup_.start_s_m,
+                                  setup_.start_speed_mps, s_m_),
+           stops.count(), stops.longest_s(), is_at_the_end()}};
 }
 
 messages::safety_record driven_car::flush_safety() {

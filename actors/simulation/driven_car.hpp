@@ -5,6 +5,7 @@
 #include "actors/simulation/plan_client.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
+#include "planners/speed/route_profile.hpp"
 #include "world/roads/road_map.hpp"
 #include "world/vehicle/vehicle.hpp"
 
@@ -24,6 +25,7 @@ struct car_setup {
   world::vehicle_params car;
   duration fresh_limit{};  ///< Plans older than this are not fresh.
   duration track_period{}; ///< Between two track records; zero: none.
+  planners::route_profile_ptr road; ///< Of `way`, as comfort has it by default.
 };
 
 /// Steps the car at protocol::control_period along the plan in use. It begins
@@ -81,6 +83,9 @@ public:
     assert(has_appeared());
     return figures_->flush();
   }
+
+  /// @returns its trip so far.
+  messages::trip_record trip() const;
 
 private:
   planners::planning_input measured() const;

@@ -67,8 +67,8 @@ struct vehicle_actor_state {
   // The requester goes first: it has episodes to close.
   void on_exit(const caf::error& reason) {
     catch_up();
-    if (car->has_appeared())
-      links->record_figures(*car);
+    if (car->has_appeared() && !has_arrived)
+      links->record_trip(*car);
     leaving = reason;
     if (requester)
       self->send_exit(requester, reason);
@@ -80,7 +80,7 @@ struct vehicle_actor_state {
   void arrive() {
     has_arrived = true;
     links->log_event(messages::event_type::arrived);
-    links->record_figures(*car);
+    links->record_trip(*car);
     links->leave_road();
     if (requester)
       self->send_exit(requester, caf::exit_reason::user_shutdown);

@@ -55,4 +55,9 @@ void vehicle_links::record_figures(driven_car& car) {
   send_record(self_, setup_.recorder, car.flush_figures());
 }
 
+void vehicle_links::record_trip(driven_car& car) {
+  record_figures(car);
+  send_record(self_, setup_.recorder, car.trip());
+}
+
 } // namespace sofof::actors

@@ -34,6 +34,8 @@ public:
   void record(const driven_car& car, bool remote);
   void record(const messages::plan_switch_record& jump);
   void record_figures(driven_car& car);
+  /// Its drive ends: the rest of its figures, and its trip.
+  void record_trip(driven_car& car);
 
 private:
   vehicle_impl::pointer self_;

@@ -39,7 +39,8 @@ constexpr std::pair<std::string_view, wish> wishes[]{
     {"driving.min_accel", wish::more},   {"driving.max_", wish::less},
     {"driving.hard_brakes", wish::less}, {"driving.comfort_cost", wish::less},
     {"energy.per_km", wish::less},       {"energy.saved", wish::more},
-    {"switch.max_", wish::less},
+    {"switch.max_", wish::less},         {"traffic.arrived", wish::more},
+    {"traffic.", wish::less},
 };
 
 wish wish_for(std::string_view member) {

@@ -7,6 +7,7 @@
 #include "messages/protocol/service.hpp"
 #include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/ride_comfort.hpp"
+#include "world/vehicle/trip.hpp"
 
 #include <optional>
 #include <string>
@@ -122,6 +123,12 @@ struct drive_record {
   world::ride_figures ride;
 };
 
+/// A vehicle's trip has ended: it has arrived, or the run is over.
+struct trip_record {
+  station_id station = 0;
+  world::trip_figures trip;
+};
+
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
@@ -147,7 +154,7 @@ struct collision_record {
 using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
-                 drive_record, plan_switch_record, air_record>;
+                 drive_record, trip_record, plan_switch_record, air_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.
 class record_sink {

@@ -402,6 +402,32 @@ TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
   CHECK(!is_gone(car)); // it waits for the end of the run
 }
 
+TEST_CASE_FIXTURE(driving_world, "a trip is recorded once, when the vehicle "
+                                 "arrives") {
+  drive(120s);
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  REQUIRE(recorder->count<trip_record>() == 1);
+  const auto& [who, trip] = recorder->all<trip_record>().front();
+  CHECK(who == station);
+  CHECK(trip.has_arrived);
+  CHECK(trip.driven_s == doctest::Approx(to_seconds(total().driven)));
+  CHECK(std::abs(trip.delay_s()) < 3);
+  CHECK(trip.stops == 0); // the end is none
+}
+
+TEST_CASE_FIXTURE(driving_world, "a trip that the end of the run cuts off is "
+                                 "recorded as far as it came") {
+  drive(20s);
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  REQUIRE(recorder->count<trip_record>() == 1);
+  const auto& trip = recorder->all<trip_record>().front().trip;
+  CHECK(!trip.has_arrived);
+  CHECK(trip.driven_s == doctest::Approx(20).epsilon(0.01));
+  CHECK(trip.stops == 0);
+}
+
 TEST_CASE_FIXTURE(late_world, "before its time a vehicle is nowhere; then it "
                               "asks for its place") {
   run_for(9s);
