@@ -2,7 +2,6 @@
 #include "actors/simulation/vehicle.hpp"
 
 #include "actors/runtime/time.hpp"
-#include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle_links.hpp"
 #include "base/protocol.hpp"
 
@@ -27,7 +26,6 @@ struct vehicle_actor_state {
   std::optional<driven_car> car;
   messages::onboard_requester_actor requester;
   messages::requester_manager_actor planning; // gets the inputs
-  std::optional<v2x_broadcast> broadcast;
   world::perception newest; // of what it perceives
   bool remote = false;
   bool has_arrived = false;
@@ -54,8 +52,6 @@ struct vehicle_actor_state {
     if (setup.appears_after > 0ms)
       links->log_event(messages::event_type::appeared);
     car->appear(now(self));
-    if (setup.v2x)
-      broadcast.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
     requester = setup.spawn_requester(messages::vehicle_actor{self});
     self->monitor(requester); // the car outlives it, and stops safely
     links->report(*car);
@@ -160,11 +156,7 @@ struct vehicle_actor_state {
       return;
     const auto own = car->ego();
     self->send(requester, own);
-    if (!broadcast)
-      return;
-    links->broadcast(broadcast->awareness(own.own), car->position(), requester);
-    links->broadcast(broadcast->perceived(own.own, newest), car->position(),
-                     requester);
+    links->broadcast(own.own, newest, car->position(), requester);
   }
 };
 

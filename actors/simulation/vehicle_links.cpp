@@ -11,6 +11,13 @@
 
 namespace sofof::actors {
 
+vehicle_links::vehicle_links(vehicle_impl::pointer self,
+                             const vehicle_setup& setup)
+    : self_{self}, setup_{setup} {
+  if (setup.v2x)
+    due_.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
+}
+
 void vehicle_links::ask_for_place(const driven_car& car) {
   self_->send(setup_.road, messages::begin_atom_v, car.report(),
               messages::vehicle_actor{self_});
@@ -25,8 +32,17 @@ void vehicle_links::leave_road() {
 }
 
 void vehicle_links::broadcast(
-    const std::optional<messages::its_pdu>& message, point from,
+    const messages::cam& own, const world::perception& seen, point from,
     const messages::onboard_requester_actor& requester) {
+  if (!due_)
+    return;
+  send(due_->awareness(own), from, requester);
+  send(due_->perceived(own, seen), from, requester);
+}
+
+void vehicle_links::send(const std::optional<messages::its_pdu>& message,
+                         point from,
+                         const messages::onboard_requester_actor& requester) {
   if (!message || message->octets.empty())
     return;
   record_on_air(self_, setup_.recorder, *message);

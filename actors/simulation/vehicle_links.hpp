@@ -1,6 +1,7 @@
 // What a vehicle sends and to whom: road, recorder, and everybody near.
 #pragma once
 
+#include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle.hpp"
 
 #include <optional>
@@ -15,8 +16,7 @@ using vehicle_impl =
 class vehicle_links {
 public:
   /// @param self, setup  Outlive the links.
-  vehicle_links(vehicle_impl::pointer self, const vehicle_setup& setup)
-      : self_{self}, setup_{setup} {}
+  vehicle_links(vehicle_impl::pointer self, const vehicle_setup& setup);
 
   /// The road is asked for the vehicle's place.
   void ask_for_place(const driven_car& car);
@@ -25,9 +25,11 @@ public:
   /// The road has one vehicle less.
   void leave_road();
 
-  /// To all providers that are near enough; nothing if there is no message.
+  /// Tells all providers that are near enough of the vehicle and of what it
+  /// saw last, as far as that is due.
   /// @param requester  Who gets what they answer.
-  void broadcast(const std::optional<messages::its_pdu>& message, point from,
+  void broadcast(const messages::cam& own, const world::perception& seen,
+                 point from,
                  const messages::onboard_requester_actor& requester);
 
   void log_event(messages::event_type what);
@@ -38,8 +40,12 @@ public:
   void record_trip(driven_car& car);
 
 private:
+  void send(const std::optional<messages::its_pdu>& message, point from,
+            const messages::onboard_requester_actor& requester);
+
   vehicle_impl::pointer self_;
   const vehicle_setup& setup_;
+  std::optional<v2x_broadcast> due_; // none if it is not connected
 };
 
 } // namespace sofof::actors
