@@ -52,7 +52,8 @@ struct lane_obstacle {
 struct driving_scene {
   time_point at;
   /// The own car has stood for so long that it waits for nobody who stands any
-  /// more, and goes on as far as it can: everybody else may think the same.
+  /// more, goes on as far as it can, and goes before who can let it go without
+  /// effort: everybody else may think the same.
   bool is_impatient = false;
   std::optional<lead_vehicle> lead;
   /// The front bumper must not pass this arc length on the own route: a

@@ -287,7 +287,7 @@ crossing_car spatial_planner::crossing(const scene& at) const {
   return {style_.front_m,        car_.rear_m,
           at.start.speed_mps,    top_mps,
           style_.max_accel_mps2, style_.firm_decel_mps2(),
-          at.start.accel_mps2};
+          at.start.accel_mps2,   at.others.is_impatient};
 }
 
 // Before a place where others cross, rather than on it, where the way out is
