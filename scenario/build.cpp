@@ -8,6 +8,7 @@
 #include "actors/runtime/supervisor.hpp"
 #include "actors/runtime/time.hpp"
 #include "actors/services/service_client.hpp"
+#include "actors/simulation/air.hpp"
 #include "actors/simulation/crash_injector.hpp"
 #include "actors/simulation/network_link.hpp"
 #include "actors/simulation/road.hpp"
@@ -302,6 +303,9 @@ private:
                noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
     name(watched_, world_.road, "the road");
+    world_.air = actors::spawn_air(
+        sys_, {s_.network.channel, noise_of(s_, "air"), 300});
+    name(watched_, world_.air, "the air");
   }
 
   void add_vehicle(const placed_vehicle& v,
@@ -323,6 +327,7 @@ private:
     setup.where = where_;
     if (fleet.connected) {
       setup.v2x = s_.v2x;
+      setup.air = world_.air;
       setup.antennas = connect_all(v.station);
     }
     for (const auto& a : setup.antennas)
@@ -371,8 +376,9 @@ private:
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
-          {services_[k], [type = s_.services[k]](auto& sys, const auto& car) {
-             return type->spawn_client({sys, car}).actor;
+          {services_[k], [type = s_.services[k], station = v.station,
+                          way = v.way](auto& sys, const auto& car) {
+             return type->spawn_client({sys, car, station, way}).actor;
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,
@@ -439,6 +445,7 @@ void dismiss(const world_actors& actors, runtime& time) {
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
   end(actors.connections, time);
+  end(std::vector{actors.air}, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "messages/type_ids.hpp"
+#include "world/roads/route.hpp"
 
 #include <caf/actor_system.hpp>
 
@@ -12,6 +13,8 @@ namespace sofof::actors {
 struct client_place {
   caf::actor_system& system;
   const messages::vehicle_actor& vehicle; ///< That it belongs to.
+  station_id station = 0;
+  world::route_ptr way; ///< Its route.
 };
 
 /// What a service's `spawn_client` has spawned.

@@ -151,6 +151,10 @@ planners::planning_input driven_car::measured() const {
 
 // -- what others see of it --------------------------------------------------
 
+own_drive driven_car::drive() const {
+  return {ego().own, s_m_, plan_};
+}
+
 messages::ego_state driven_car::ego() const {
   return {{setup_.station, at_, car_.at, car_.heading_rad, car_.speed_mps,
            car_.accel_mps2, std::tan(car_.steer_rad) / setup_.car.wheelbase_m},

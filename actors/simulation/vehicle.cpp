@@ -26,6 +26,7 @@ struct vehicle_actor_state {
   std::optional<driven_car> car;
   messages::onboard_requester_actor requester;
   messages::requester_manager_actor planning; // gets the inputs
+  messages::payload agreed; // at a crossing
   world::perception newest; // of what it perceives
   bool remote = false;
   bool has_arrived = false;
@@ -84,6 +85,7 @@ struct vehicle_actor_state {
 
   void on_requester_down() {
     requester = nullptr;
+    links->tell({});
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
@@ -132,7 +134,7 @@ struct vehicle_actor_state {
       return;
     const auto from = car->plan_from(now(self));
     auto question =
-        setup.plans->ask(*setup.car.way, from, newest, car->ego().own);
+        setup.plans->ask(*setup.car.way, from, newest, car->ego().own, agreed);
     self->send(planning,
                messages::service_input{{}, from.at, std::move(question)});
   }
@@ -140,10 +142,8 @@ struct vehicle_actor_state {
   void on_result(const messages::service_result& result) {
     catch_up();
     const auto next = setup.plans ? setup.plans->read(result) : std::nullopt;
-    if (!next)
-      return;
-    if (const auto jump = car->use(*next, result, now(self)))
-      links->record(*jump);
+    if (next)
+      links->record(car->use(*next, result, now(self)));
   }
 
   void on_source(const messages::source_change& change) {
@@ -175,6 +175,14 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const messages::source_change& x) { self->state.on_source(x); },
       [self](const messages::requester_manager_actor& manager) {
         self->state.planning = manager;
+      },
+      [self](const messages::crossing_driver_actor& agent) {
+        self->state.links->tell(agent);
+      },
+      [self](const messages::payload& agreed) { self->state.agreed = agreed; },
+      [self](const messages::its_pdu& word) {
+        const auto& x = self->state;
+        x.links->say(word, x.car->position(), x.requester);
       },
       [self](world::perception& others) { self->state.on_perception(others); },
       [self](messages::begin_atom) { self->state.on_place(); },

@@ -25,6 +25,12 @@ void vehicle_links::ask_for_place(const driven_car& car) {
 
 void vehicle_links::report(const driven_car& car) {
   self_->send(setup_.road, car.report(), messages::vehicle_actor{self_});
+  if (!agent_)
+    return;
+  self_->send(agent_, messages::payload::of(car.drive()));
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), car.position(),
+                caf::actor_cast<messages::air_listener_actor>(agent_));
 }
 
 void vehicle_links::leave_road() {
@@ -51,6 +57,15 @@ void vehicle_links::send(const std::optional<messages::its_pdu>& message,
       self_->send(a.link, *message, messages::requester_actor{requester});
 }
 
+void vehicle_links::say(const messages::its_pdu& word, point from,
+                        const messages::onboard_requester_actor& requester) {
+  if (!requester)
+    return;
+  send(word, from, requester);
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), from, word);
+}
+
 void vehicle_links::log_event(messages::event_type what) {
   send_record(self_, setup_.recorder,
               messages::event_record{.at = now(self_),
@@ -62,8 +77,10 @@ void vehicle_links::record(const driven_car& car, bool remote) {
   send_record(self_, setup_.recorder, car.track(remote));
 }
 
-void vehicle_links::record(const messages::plan_switch_record& jump) {
-  send_record(self_, setup_.recorder, jump);
+void vehicle_links::record(
+    const std::optional<messages::plan_switch_record>& jump) {
+  if (jump)
+    send_record(self_, setup_.recorder, *jump);
 }
 
 void vehicle_links::record_figures(driven_car& car) {

@@ -20,7 +20,7 @@ public:
 
   /// The road is asked for the vehicle's place.
   void ask_for_place(const driven_car& car);
-  /// The road is told where the vehicle is.
+  /// Road and agent are told where the vehicle is.
   void report(const driven_car& car);
   /// The road has one vehicle less.
   void leave_road();
@@ -32,9 +32,17 @@ public:
                  point from,
                  const messages::onboard_requester_actor& requester);
 
+  /// Tells providers and vehicles near.
+  void say(const messages::its_pdu& word, point from,
+           const messages::onboard_requester_actor& requester);
+
+  /// @param agent  Agrees with others for the vehicle: told from now on what
+  ///               the road is told, and by it the vehicle hears. Null: nobody.
+  void tell(messages::crossing_driver_actor agent) { agent_ = std::move(agent); }
+
   void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
-  void record(const messages::plan_switch_record& jump);
+  void record(const std::optional<messages::plan_switch_record>& jump);
   void record_figures(driven_car& car);
   /// Its drive ends: the rest of its figures, and its trip.
   void record_trip(driven_car& car);
@@ -46,6 +54,7 @@ private:
   vehicle_impl::pointer self_;
   const vehicle_setup& setup_;
   std::optional<v2x_broadcast> due_; // none if it is not connected
+  messages::crossing_driver_actor agent_;
 };
 
 } // namespace sofof::actors

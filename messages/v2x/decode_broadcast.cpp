@@ -30,6 +30,8 @@ broadcast decode(const its_pdu& message, const georeference& where,
     return word_of(read_cpm(in, where, now));
   if (etsi::ts103324::cpm in; etsi::decode(octets, in))
     return word_of(read_cpm(in, where));
+  if (etsi::mcm in; etsi::decode(octets, in))
+    return word_of(read_word(in, where, now));
   return {};
 }
 

@@ -20,6 +20,7 @@ struct other_body {
   track x;
   bool is_crossing = false; ///< On or before a zone ahead of the own front.
   bool cuts_in = false; ///< It comes first to a zone that the own front is on.
+  bool takes_part = false; ///< It has agreed on how to cross, or told.
 };
 
 /// The vehicle that judges, on its route.

@@ -38,6 +38,18 @@ struct way_stretch {
   double from_m = 0, to_m = 0;
 };
 
+/// When to be, or somebody is, at a place of the own way.
+struct way_moment {
+  double s_m = 0; ///< Arc length on the own route.
+  double t_s = 0; ///< After `driving_scene::at`.
+};
+
+/// How the own car goes through a crossing, as was agreed with the others.
+struct agreed_drive {
+  std::vector<way_moment> axle;     ///< Of its rear axle; both rising.
+  std::optional<double> waits_at_m; ///< Its rear axle does, before that.
+};
+
 /// A body that reaches into the lane but leaves room to pass beside it.
 struct lane_obstacle {
   double from_m = 0, to_m = 0;  ///< Of the body, arc length on the own route.
@@ -56,6 +68,9 @@ struct driving_scene {
   /// effort: everybody else may think the same.
   bool is_impatient = false;
   std::optional<lead_vehicle> lead;
+  std::vector<way_moment> lead_told; ///< Where its rear will be, as it tells;
+                                     ///< rising; empty: it does not.
+  std::optional<agreed_drive> agreed;
   /// The front bumper must not pass this arc length on the own route: a
   /// crossing has not been granted yet.
   std::optional<double> stop_at_m;

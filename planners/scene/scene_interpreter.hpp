@@ -5,6 +5,7 @@
 #include "planners/scene/crossing_predictor.hpp"
 #include "planners/scene/driving_scene.hpp"
 #include "planners/scene/lane_network.hpp"
+#include "planners/scene/told_drive.hpp"
 #include "planners/scene/track.hpp"
 #include "world/vehicle/vehicle.hpp"
 
@@ -64,8 +65,11 @@ public:
   /// @param tracks  At most as new as `now`; the own one may be among them
   ///                and is known by its station or its place.
   /// @param out     Its vectors are reused.
+  /// @param told    What others that take part say; those that do are not
+  ///                judged by what is seen of them.
   void describe(time_point now, const own_place& me,
-                std::span<const track> tracks, driving_scene& out);
+                std::span<const track> tracks, driving_scene& out,
+                std::span<const told_drive> told = {});
 
 private:
   struct near { // part of the way
@@ -92,6 +96,12 @@ private:
   lead_vehicle leading(const own_place& me, const track& x, const footprint& b,
                        bool may_pass) const;
   void find_bodies(const own_place& me, driving_scene& out);
+  void find_those_who_tell(time_point now, std::span<const told_drive> told,
+                           bool has_agreed);
+  void list_told(time_point now, const own_place& me,
+                 std::span<const told_drive> told, driving_scene& out);
+  void follow_told(time_point now, const own_place& me,
+                   std::span<const told_drive> told, driving_scene& out) const;
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }

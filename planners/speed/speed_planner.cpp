@@ -398,6 +398,12 @@ void speed_planner::set_windows(const speed_constraints& task,
     if (behind < knots)
       latest_[behind] = std::min(latest_[behind], window.latest_s);
   }
+  for (std::size_t k = 0; k < knots && !task.promised.empty(); ++k)
+    if (const auto t =
+            task.promised_s(from.s_m + static_cast<double>(k) * ds_m)) {
+      earliest_[k] = std::max(earliest_[k], *t - task.sooner_s);
+      latest_[k] = std::min(latest_[k], *t + task.later_s);
+    }
   if (!task.ahead)
     return;
   const auto& ahead = *task.ahead;

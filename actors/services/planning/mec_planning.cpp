@@ -41,8 +41,10 @@ public:
       return {};
     from->others.stop_at_m = stop_at_m_;
     perceived_->tracks(tracks_, station_);
+    perceived_->drives(drives_, station_);
+    from->others.agreed = agreed(*from, now);
     const auto report =
-        cycle_->run(now, planners::made_possible(*from), tracks_);
+        cycle_->run(now, planners::made_possible(*from), tracks_, drives_);
     ego_->follow(cycle_->plan());
     if (!has_begun_
         && (report.emergency || !perceived_->knows_surroundings_of(station_)))
@@ -72,6 +74,25 @@ private:
     stop_at_m_ = ahead->to_m;
     if (word->plan)
       take_over(*word, ahead->from_m, now);
+  }
+
+  // What it has told everybody of how it drives at a crossing. Where it has to
+  // wait as that does not bind, its way ahead ends.
+  std::optional<planners::agreed_drive>
+  agreed(const planners::planning_input& from, time_point now) {
+    const auto word = perceived_->word_of(station_);
+    if (!word || !word->plan)
+      return std::nullopt;
+    const messages::maneuver_frame frame{world_->where->frame, word->reference,
+                                         word->at};
+    planners::crossing_view view;
+    view.binds = true;
+    if (messages::to_trajectory(*word->plan, frame, *cycle_->way(), from.s_m,
+                                nullptr, view.drive)
+        != messages::maneuver_fault::none)
+      return std::nullopt;
+    return planners::agreed(view, now,
+                            {from.s_m, from.speed_mps, world_->car.front_m});
   }
 
   // Where on which route the vehicle's way ahead is.
@@ -176,6 +197,7 @@ private:
   // Room that is used again.
   messages::etsi::mcm word_, said_;
   std::vector<planners::track> tracks_;
+  std::vector<planners::told_drive> drives_;
   std::vector<messages::maneuver_waypoint> waypoints_;
 };
 

@@ -60,7 +60,7 @@ public:
     if (!way)
       return {};
     const auto ahead =
-        authority(*way, request->from.s_m, request->seen.stop_at_m);
+        authority(*way, request->from.s_m, request->stop_at_m(world_->car));
     messages::mcm_uplink word{request->own, ahead, nullptr, {}};
     const auto plan =
         takes_over ? input.in_use.as<world::trajectory>() : nullptr;
@@ -116,8 +116,11 @@ public:
   messages::payload ask(const world::route& way,
                         const planners::planning_input& from,
                         const world::perception& seen,
-                        const messages::cam& own) const override {
-    return messages::payload::of(plan_request{way.name(), from, seen, own});
+                        const messages::cam& own,
+                        const messages::payload& crossing) const override {
+    return messages::payload::of(
+        plan_request{way.name(), from, seen, own,
+                     crossing.as<planners::crossing_view>()});
   }
 
   std::optional<received_plan>
@@ -138,7 +141,7 @@ public:
       : world_{std::move(world)}, provider_{std::move(provider)},
         perceived_{std::make_shared<edge_perception>(
             provider_.clock, world_->streets->map.buildings(),
-            planners::noise_of(world_->eyes))} {}
+            planners::noise_of(world_->eyes), world_->where)} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
