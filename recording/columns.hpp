@@ -41,6 +41,15 @@ struct margin_row {
   const messages::session_id& id() const { return x.session; }
 };
 
+struct claim_row {
+  const messages::claim_record& x;
+  row_context in;
+
+  decimal at(std::optional<time_point> t) const {
+    return t ? seconds(*t - in.start) : decimal{std::nullopt, 9};
+  }
+};
+
 struct disturbed_row {
   const disturbed_messages& of;
 };
@@ -161,6 +170,16 @@ inline constexpr csv_column<margin_row> of_margins[]{
     {"received_s", received},
     {"margin", [](const auto& r) { return std::string_view{r.of.name}; }},
     {"left", [](const auto& r) { return rounded(r.of.left, margin_places); }},
+};
+
+inline constexpr csv_column<claim_row> of_claims[]{
+    {"station", [](const auto& r) { return r.x.station.value(); }},
+    {"lane", [](const auto& r) { return std::string_view{r.x.lane}; }},
+    {"claimed_s", [](const auto& r) { return r.at(r.x.claimed); }},
+    {"bound_s", [](const auto& r) { return r.at(r.x.bound); }},
+    {"enters_s", [](const auto& r) { return r.at(r.x.enters); }},
+    {"leaves_s", [](const auto& r) { return r.at(r.x.leaves); }},
+    {"kept", [](const auto& r) { return r.x.was_kept; }},
 };
 
 inline constexpr csv_column<disturbed_row> of_disturbed[]{

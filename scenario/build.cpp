@@ -334,7 +334,8 @@ private:
       world_.links.push_back(a.link);
     setup.road = world_.road;
     setup.recorder = world_.recorder;
-    setup.spawn_requester = requester_maker(v, std::move(future));
+    setup.spawn_requester =
+        requester_maker(v, setup.car.road, std::move(future));
     world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
     name(watched_, world_.vehicles.back(),
          fmt::format("vehicle {}", v.station));
@@ -371,14 +372,16 @@ private:
   std::function<
       messages::onboard_requester_actor(const messages::vehicle_actor&)>
   requester_maker(
-      const placed_vehicle& v,
+      const placed_vehicle& v, const planners::route_profile_ptr& road,
       std::shared_ptr<const policies::channel_oracle> future) const {
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
-          {services_[k], [type = s_.services[k], station = v.station,
-                          way = v.way](auto& sys, const auto& car) {
-             return type->spawn_client({sys, car, station, way}).actor;
+          {services_[k], [type = s_.services[k], station = v.station, road,
+                          recorder = world_.recorder](auto& sys,
+                                                      const auto& car) {
+             return type->spawn_client({sys, car, station, road, recorder})
+                 .actor;
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,

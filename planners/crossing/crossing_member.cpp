@@ -103,6 +103,7 @@ void crossing_member::hear(time_point now, const crossing_claim& told,
     return;
   const auto matters = distance_m(from, own_.at) < rules_.near_m;
   book_.hear(now, told, matters);
+  follow_claim(now);
   auto x = std::ranges::lower_bound(
       told_, told.who, {}, [](const heard& h) { return h.is.who; });
   if (x == told_.end() || x->is.who != told.who)
@@ -124,19 +125,38 @@ void crossing_member::move(time_point now, const place& own) {
   if (book_.is() != claim_book::state::free && can_stop()
       && !is_kept(now, claimed_))
     book_.give_up();
-  if (book_.is() != claim_book::state::free || !advised_) {
-    own_.plan = nullptr;
-    return;
-  }
-  const auto& drive = advised_->drive;
+  follow_claim(now);
+  if (book_.is() == claim_book::state::free && advised_)
+    claim(now, advised_->drive);
+  own_.plan = nullptr; // it is the caller's
+}
+
+void crossing_member::claim(time_point now, const world::trajectory& drive) {
   const auto at = enters(drive);
   if (!at || !is_kept(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
   const auto claim = claim_of(drive);
-  if (!claim.empty() && book_.claim(now, claim, {}))
-    claimed_ = drive;
-  own_.plan = nullptr;
+  if (claim.empty() || !book_.claim(now, claim, {}))
+    return;
+  claimed_ = drive;
+  present_ = {now, std::nullopt, *at,
+              time_at(drive, own_.clear_m + car_.rear_m).value_or(drive.end()),
+              false};
+  follow_claim(now);
+}
+
+/// Remembers when a claim is bound, and how it ends.
+void crossing_member::follow_claim(time_point now) {
+  if (!present_)
+    return;
+  const auto is = book_.is();
+  if (is == claim_book::state::bound && !present_->bound)
+    present_->bound = now;
+  if (is != claim_book::state::free)
+    return;
+  present_->was_kept = present_->bound && now >= present_->leaves;
+  past_ = std::exchange(present_, {});
 }
 
 const world::trajectory* crossing_member::drive() const {

@@ -8,6 +8,7 @@
 #include "world/vehicle/vehicle.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sofof::planners {
@@ -69,6 +70,17 @@ public:
   /// @returns what it tells everybody now.
   crossing_claim tell(time_point now) const { return book_.tell(now); }
 
+  /// A claim that is over.
+  struct past_claim {
+    time_point claimed;
+    std::optional<time_point> bound;
+    time_point enters, leaves; ///< The crossing.
+    bool was_kept = false;     ///< Else it was given up.
+  };
+
+  /// @returns the claim that ended since the last call.
+  std::optional<past_claim> take_past() { return std::exchange(past_, {}); }
+
   /// @returns how it is going to drive; null: by its own rules.
   const world::trajectory* drive() const;
 
@@ -86,6 +98,8 @@ private:
   bool is_kept(time_point now, const world::trajectory& drive) const;
   claimed_drive claim_of(const world::trajectory& drive) const;
   std::optional<time_point> enters(const world::trajectory& drive) const;
+  void claim(time_point now, const world::trajectory& drive);
+  void follow_claim(time_point now);
 
   station_id me_;
   world::vehicle_params car_;
@@ -93,6 +107,7 @@ private:
   claim_book book_;
   std::optional<advice> advised_;
   world::trajectory claimed_; // what the claim is of
+  std::optional<past_claim> present_, past_;
   place own_;
   struct heard {
     told_drive is;

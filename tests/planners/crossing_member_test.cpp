@@ -129,6 +129,30 @@ TEST_CASE("who will not come when it said gives its claim up, unless it cannot "
   CHECK(close.member.state() == state::bound);
 }
 
+TEST_CASE("a claim that is over is told once: kept, or given up before") {
+  advised_car car{before_s};
+  CHECK_FALSE(car.member.take_past());
+  for (auto t = before_s; t < 14; t += 0.05) {
+    car.member.advise(at(t), car.way);
+    car.member.move(at(t), here(20 + speed_mps * t, speed_mps, &car.way));
+  }
+  const auto past = car.member.take_past();
+  REQUIRE(past);
+  CHECK(past->was_kept);
+  CHECK(past->bound);
+  CHECK(to_seconds(past->enters - at(9.5)) == doctest::Approx(0).epsilon(0.1));
+  CHECK(past->leaves > past->enters);
+  CHECK_FALSE(car.member.take_past());
+
+  advised_car other{after_s};
+  const auto s_m = 10 + speed_mps * after_s;
+  const auto late = drive(s_m, after_s);
+  other.member.move(at(after_s), here(s_m, speed_mps, &late));
+  const auto given_up = other.member.take_past();
+  REQUIRE(given_up);
+  CHECK_FALSE(given_up->was_kept);
+}
+
 TEST_CASE("who is not advised any more goes by its own rules, but for what it "
           "has claimed") {
   advised_car car{before_s};

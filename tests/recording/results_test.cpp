@@ -107,6 +107,26 @@ TEST_CASE("margins are written when wanted, the least ones in the summary") {
   CHECK(margin["standing_s"] == 1.2);
 }
 
+TEST_CASE("claims of crossings are lines of claims.csv, which is absent without "
+          "any") {
+  const scratch dir;
+  {
+    results r{dir.path(), run()};
+    r.on_record(claim_record{101, "in_e", at(5s), at(5200ms), at(9s), at(12s),
+                             true});
+    r.on_record(
+        claim_record{102, "in_n", at(6s), std::nullopt, at(10s), at(13s)});
+    r.finish(at(100s), 2, false);
+  }
+  CHECK(content_of(dir / "claims.csv")
+        == "station,lane,claimed_s,bound_s,enters_s,leaves_s,kept\n"
+           "101,in_e,5.000000000,5.200000000,9.000000000,12.000000000,1\n"
+           "102,in_n,6.000000000,,10.000000000,13.000000000,0\n");
+  results later{dir.path(), run()};
+  later.finish(at(100s), 2, false);
+  CHECK_FALSE(fs::exists(dir / "claims.csv"));
+}
+
 TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
           "disturbed, while the run goes on") {
   const scratch dir;

@@ -1,6 +1,7 @@
 // Mailbox and clock of a member of a crossing.
 #include "actors/services/crossing/crossing_driver.hpp"
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 #include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/plan_request.hpp"
@@ -12,9 +13,8 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace sofof::actors {
@@ -28,13 +28,15 @@ struct crossing_driver_state {
 
   messages::crossing_driver_actor::pointer self = nullptr;
   messages::vehicle_actor vehicle;
+  station_id station = 0;
   crossing_world_ptr world;
   duration input_period{};
-  world::route_ptr way;
+  planners::route_profile_ptr road;
+  messages::recorder_actor recorder;
   messages::requester_manager_actor manager;
   std::optional<planners::crossing_member> member;
   std::optional<planners::crossing_ways> ways;
-  planners::route_profile_ptr profile;
+  std::string lane; // by which it comes, or came when it claimed
   std::optional<time_point> told;
   std::optional<own_drive> own; // as it was told last
   messages::etsi::mcm word;
@@ -46,15 +48,10 @@ struct crossing_driver_state {
     own = *drive;
     const auto t = now(self);
     member->move(t, place());
+    record_past();
     planners::crossing_view view;
     member->look(t, view);
     self->send(vehicle, messages::payload::of(view));
-    if (std::getenv("WHY") && t.time_since_epoch().count() % 1000000000 < 50000000) {
-      const auto* d = member->drive(); const auto pl = place();
-      double in = -1; if (d) for (auto& p : d->points) if (p.s_m >= pl.line_m - world->car.front_m) { in = to_seconds(d->start - t) + p.t_s; break; }
-      double pin = -1; for (auto& p : own->plan->points) if (p.s_m >= pl.line_m - world->car.front_m) { pin = to_seconds(own->plan->start - t) + p.t_s; break; }
-      std::printf("CAR t %.2f %s s %.1f v %.2f line %.1f state %d enters %.2f plan %.2f told %zu\n", to_seconds(t - time_point{}), way->name().c_str(), own->s_m, own->own.speed_mps, pl.line_m - own->s_m - world->car.front_m, (int)member->state(), in, pin, view.told.size());
-    }
     if (told && t - *told < input_period)
       return;
     told = t;
@@ -63,7 +60,7 @@ struct crossing_driver_state {
                               {},
                               t,
                               messages::payload::of(crossing_request{
-                                  way->name(), own->own, own->s_m})});
+                                  way().name(), own->own, own->s_m})});
     tell(t);
   }
 
@@ -72,11 +69,13 @@ struct crossing_driver_state {
     planners::crossing_member::place is{
         own->s_m, own->own.speed_mps, own->s_m - passed_m, own->s_m - passed_m,
         own->own.position, own->plan.get()};
-    if (const auto at = ways->find(profile, own->s_m, look_m)) {
+    if (const auto at = ways->find(road, own->s_m, look_m)) {
       const auto& through = (*ways)[at->way];
       const auto half_m = (world->car.front_m + world->car.rear_m) / 2;
       is.line_m = through.enters_m + half_m + at->lap_m;
       is.clear_m = through.leaves_m - half_m + at->lap_m;
+      if (member->state() == planners::claim_book::state::free)
+        lane = world->streets->map.lanes()[through.lane].name;
     }
     return is;
   }
@@ -85,7 +84,7 @@ struct crossing_driver_state {
     const auto says = member->tell(t);
     // What it claims; else what it is going to do, which others go by.
     const auto plan = rest(says.drive ? *member->drive() : *own->plan, t);
-    const auto ahead = way->waypoints(own->s_m, protocol::authority_m,
+    const auto ahead = way().waypoints(own->s_m, protocol::authority_m,
                                       protocol::authority_spacing_m);
     messages::mcm_uplink up{own->own, ahead, plan.empty() ? nullptr : &plan, {}};
     up.answer.emplace(messages::maneuver_name{},
@@ -120,25 +119,36 @@ struct crossing_driver_state {
     if (is_claim(*said) && !drive.empty())
       claim.drive = drive;
     member->hear(t, claim, drive, from);
+    record_past();
   }
+
+  void record_past() {
+    if (const auto x = member->take_past())
+      send_record(self, recorder,
+                  messages::claim_record{station, lane, x->claimed, x->bound,
+                                         x->enters, x->leaves, x->was_kept});
+  }
+
+  const world::route& way() const { return road->line.way(); }
 };
 
 messages::crossing_driver_actor::behavior_type crossing_driver(
     messages::crossing_driver_actor::stateful_pointer<crossing_driver_state>
         self,
     const messages::vehicle_actor& vehicle, station_id station,
-    world::route_ptr way, crossing_world_ptr world, duration input_period) {
+    planners::route_profile_ptr road, messages::recorder_actor recorder,
+    crossing_world_ptr world, duration input_period) {
   auto& state = self->state;
   state.self = self;
   state.vehicle = vehicle;
+  state.station = station;
   state.member.emplace(station, world->car);
   state.ways.emplace(world->lanes,
                      planners::crossing_ways::area{world->options.centre,
                                                    world->options.radius_m},
                      world->car);
-  state.profile = std::make_shared<const planners::route_profile>(
-      way, planners::comfort_limits{});
-  state.way = std::move(way);
+  state.road = std::move(road);
+  state.recorder = std::move(recorder);
   state.world = std::move(world);
   state.input_period = input_period;
   self->send(vehicle, messages::crossing_driver_actor{self});
@@ -168,7 +178,8 @@ messages::crossing_driver_actor spawn_crossing_driver(const client_place& where,
                                                       crossing_world_ptr world,
                                                       duration input_period) {
   return where.system.spawn(crossing_driver, where.vehicle, where.station,
-                            where.way, std::move(world), input_period);
+                            where.road, where.recorder, std::move(world),
+                            input_period);
 }
 
 } // namespace sofof::actors
