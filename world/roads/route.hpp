@@ -51,9 +51,13 @@ public:
   double limit_mps(double s_m) const;
   double half_width_m(double s_m) const;
 
-  /// Both at once, for who asks often.
+  /// How far it may be driven to the left of the centre line: as far as to the
+  /// right, or to the far side of the lane's opposite.
+  double left_m(double s_m) const;
+
+  /// All at once, for who asks often.
   struct bounds {
-    double half_width_m, limit_mps;
+    double half_width_m, limit_mps, left_m;
   };
   bounds bounds_at(double s_m) const;
 
@@ -74,7 +78,7 @@ private:
   std::vector<std::size_t> sequence_;
   std::vector<double> starts_m_;
   std::vector<std::vector<speed_zone>> limits_; // per lane of the sequence
-  std::vector<double> half_widths_m_;
+  std::vector<double> half_widths_m_, left_m_;
 };
 
 using route_ptr = std::shared_ptr<const route>;
