@@ -171,10 +171,9 @@ void driven_car::count_off_road() {
           + setup_.car.wheelbase_m
                 * point{std::cos(car_.heading_rad), std::sin(car_.heading_rad)},
       s_m_ + setup_.car.wheelbase_m, window_m);
-  const auto bounds = setup_.way->bounds_at(s_m_);
   const auto half_m = setup_.car.width_m / 2;
-  if (std::max(lateral_m_, front.d_m) + half_m > bounds.left_m
-      || half_m - std::min(lateral_m_, front.d_m) > bounds.half_width_m)
+  const auto [low_m, high_m] = std::minmax(lateral_m_, front.d_m);
+  if (!setup_.way->bounds_at(s_m_).hold(low_m - half_m, high_m + half_m))
     safety_.off_road += protocol::sensor_period;
 }
 

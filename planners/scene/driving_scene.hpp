@@ -58,6 +58,8 @@ struct lane_obstacle {
   double speed_mps = 0; ///< Along the own route; negative when it comes.
   double lacks_m = 0;   ///< So much room is lacking; it is passed all the same,
                         ///< as that has begun, or cannot be stopped any more.
+  double left_m = 0; ///< So much room there is besides, left of the lane: its
+                     ///< opposite is free for long enough.
 };
 
 /// What a driver has to know about the others.

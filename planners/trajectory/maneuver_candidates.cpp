@@ -294,7 +294,8 @@ bool list_orders(std::span<const crossing_user> users, const crossing_car& car,
 bool leaves_room(const lane_obstacle& body, side_of_road side,
                  double half_width_m) {
   const auto room = side == side_of_road::right ? body.low_m + half_width_m
-                                                : half_width_m - body.high_m;
+                                                : half_width_m + body.left_m
+                                                      - body.high_m;
   return room >= corridor::room_beside_m - body.lacks_m;
 }
 

@@ -58,6 +58,12 @@ public:
   /// All at once, for who asks often.
   struct bounds {
     double half_width_m, limit_mps, left_m;
+
+    /// @returns whether what reaches from `low_m` to `high_m` across, left
+    /// positive, is on the road.
+    bool hold(double low_m, double high_m) const {
+      return -low_m <= half_width_m && high_m <= left_m;
+    }
   };
   bounds bounds_at(double s_m) const;
 
