@@ -6,6 +6,7 @@
 #include "planners/speed/lone_drive.hpp"
 #include "planners/trajectory/keep_speed.hpp"
 #include "planners/trajectory/safe_stop.hpp"
+#include "world/vehicle/on_road.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -166,14 +167,7 @@ messages::track_record driven_car::track(bool remote) const {
 }
 
 void driven_car::count_off_road() {
-  const auto front = setup_.way->path().project(
-      car_.at
-          + setup_.car.wheelbase_m
-                * point{std::cos(car_.heading_rad), std::sin(car_.heading_rad)},
-      s_m_ + setup_.car.wheelbase_m, window_m);
-  const auto half_m = setup_.car.width_m / 2;
-  const auto [low_m, high_m] = std::minmax(lateral_m_, front.d_m);
-  if (!setup_.way->bounds_at(s_m_).hold(low_m - half_m, high_m + half_m))
+  if (!world::is_on_road(*setup_.way, s_m_, car_, setup_.car))
     safety_.off_road += protocol::sensor_period;
 }
 
