@@ -1,11 +1,10 @@
 // What the tracks on the road mean to one vehicle on its route.
 #include "planners/scene/scene_interpreter.hpp"
 
-#include "planners/scene/claimed_crossings.hpp"
+#include "planners/scene/told_scene.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -90,7 +89,6 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   assert(std::isfinite(me.s_m) && std::isfinite(me.d_m));
   out.at = now;
   out.lead.reset();
-  out.lead_told.clear();
   out.crossings.clear();
   out.beside.clear();
   out.yields_m.clear();
@@ -102,100 +100,20 @@ void scene_interpreter::describe(time_point now, const own_place& me,
                         out.keep_free);
   out.is_impatient =
       stands_s(now, me) > crossings_.patience_s(me.station, front_m);
-  find_those_who_tell(now, told, out.agreed.has_value());
+  find_those_who_tell(now, told, out.agreed.has_value(), others_);
   if (params_.judges_crossings)
     crossings_.judge(
         {me.station, rear_m, front_m, me.speed_mps, out.is_impatient}, others_,
         out.keep_free, out.crossings, out.yields_m);
-  list_told(now, me, told, out);
+  if (!out.agreed) // who has agreed with others knows when they come
+    add_claimed(now, *way_, front_m, corridor_m(), out.keep_free, told,
+                out.crossings);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
-  follow_told(now, me, told, out);
+  list_lead(now, *way_, out.lead, corridor_m(), told, out.lead_told);
   assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
   assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
-}
-
-/// Finds the bodies of those who tell how they drive: sensors know no names.
-void scene_interpreter::find_those_who_tell(time_point now,
-                                            std::span<const told_drive> told,
-                                            bool has_agreed) {
-  constexpr auto as_told_m = 3.5;
-  for (const auto& [who, drive, is_claimed] : told) {
-    if (drive.empty())
-      continue;
-    const auto body = drive.at(now);
-    const auto off_m = [&](const other_body& o) {
-      if (o.x.station)
-        return o.x.station == who ? 0.0 : infinity;
-      return is_along(std::cos(o.x.heading_rad - body.heading_rad))
-                 ? distance_m(o.x.centre(), body.centre)
-                 : infinity;
-    };
-    const auto nearest = std::ranges::min_element(others_, {}, off_m);
-    if (nearest == others_.end() || off_m(*nearest) > as_told_m)
-      continue;
-    nearest->x.station = who;
-    nearest->takes_part = is_claimed || has_agreed;
-  }
-}
-
-/// What others have claimed is closed, but for who has agreed with them.
-void scene_interpreter::list_told(time_point now, const own_place& me,
-                                  std::span<const told_drive> told,
-                                  driving_scene& out) {
-  if (told.empty() || out.agreed)
-    return;
-  std::vector<told_drive> across; // those of the own lane follow or lead
-  const auto& line = way_->path();
-  for (const auto& x : told) {
-    if (!x.is_claimed || x.drive.empty() || x.who == me.station)
-      continue;
-    const auto body = x.drive.at(now);
-    const auto on = line.project(body.centre, me.s_m, 200);
-    const auto is_in_lane = std::abs(on.d_m) < corridor_m()
-                            && is_along(std::cos(body.heading_rad - line.at(on.s_m).heading_rad));
-    if (!is_in_lane)
-      across.push_back(x);
-  }
-  list_claimed(*way_, 2 * corridor_m(), now, out.keep_free, across, out.crossings);
-  std::erase_if(out.crossings, [&](const crossing_user& x) { return x.from_m < me.s_m + params_.car.front_m && x.body >= 0x80000000U; });
-  std::ranges::sort(out.crossings, {}, [](const crossing_user& x) {
-    return std::tuple{x.from_m, x.to_m, x.body};
-  });
-}
-
-/// Who leads and drives as it tells goes on so.
-void scene_interpreter::follow_told(time_point now, const own_place& me,
-                                    std::span<const told_drive> told,
-                                    driving_scene& out) const {
-  if (!out.lead || !out.lead->station)
-    return;
-  const auto it = std::ranges::find(told, *out.lead->station, &told_drive::who);
-  if (it == told.end() || it->drive.empty() || it->drive.to() <= now)
-    return;
-  const auto& drive = it->drive;
-  const auto& line = way_->path();
-  constexpr double true_m = 4;
-  const auto rear_of = [&](const oriented_box& b) {
-    const point ahead{std::cos(b.heading_rad), std::sin(b.heading_rad)};
-    return b.centre + -0.5 * b.length_m * ahead;
-  };
-  auto guess_m = out.lead->rear_s_m;
-  const auto off_m = guess_m - line.project(rear_of(drive.at(now)), guess_m).s_m;
-  if (std::abs(off_m) > true_m)
-    return; // it does not
-  for (auto t = now; t <= drive.to(); t += std::chrono::milliseconds{200}) {
-    const auto on = line.project(rear_of(drive.at(t)), guess_m);
-    if (std::abs(on.d_m) > corridor_m() + 1)
-      break;
-    if (out.lead_told.empty() || on.s_m + off_m > out.lead_told.back().s_m + 0.2)
-      out.lead_told.push_back({on.s_m + off_m, to_seconds(t - now)});
-    else
-      out.lead_told.back().t_s = to_seconds(t - now);
-    guess_m = on.s_m;
-  }
-  (void)me;
 }
 
 double scene_interpreter::stands_s(time_point now, const own_place& me) {
@@ -458,9 +376,8 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!print)
       continue;
     auto b = *print;
-    const auto& [x, is_crossing, cuts_in, takes_part] = others_[where.who];
-    (void)takes_part;
-    if (is_crossing && !is_along(b.cosine))
+    const auto& x = others_[where.who].x;
+    if (others_[where.who].is_crossing && !is_along(b.cosine))
       continue;
     const auto is_in_the_way = [&](double margin_m) {
       return b.low_m - margin_m < corridor_m()

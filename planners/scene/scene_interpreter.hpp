@@ -96,12 +96,6 @@ private:
   lead_vehicle leading(const own_place& me, const track& x, const footprint& b,
                        bool may_pass) const;
   void find_bodies(const own_place& me, driving_scene& out);
-  void find_those_who_tell(time_point now, std::span<const told_drive> told,
-                           bool has_agreed);
-  void list_told(time_point now, const own_place& me,
-                 std::span<const told_drive> told, driving_scene& out);
-  void follow_told(time_point now, const own_place& me,
-                   std::span<const told_drive> told, driving_scene& out) const;
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
