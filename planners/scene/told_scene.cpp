@@ -58,6 +58,8 @@ void add_claimed(time_point now, const world::route& way, double front_m,
                  std::span<const told_drive> told,
                  std::vector<crossing_user>& out) {
   assert(half_m > 0);
+  if (told.empty())
+    return;
   const auto is_on_way = [&](const oriented_box& body) {
     const auto on = way.path().project(body.centre, front_m, own_way_m);
     const auto turned_rad =

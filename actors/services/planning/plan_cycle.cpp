@@ -21,7 +21,9 @@ plan_cycle::plan_cycle(const planning_world& world, station_id station,
       planner_{world.options.make(way_, *world.roads, at_provider)},
       scene_{world.roads->lanes(),
              way_,
-             {.judges_crossings = !world.crossings_granted}} {}
+             {.judges_crossings = !world.crossings_granted,
+              .sees_opposite_m = world.eyes.range_m,
+              .houses = &world.roads->houses()}} {}
 
 planners::plan_report plan_cycle::run(time_point now,
                                       planners::planning_input from,
