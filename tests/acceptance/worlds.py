@@ -42,6 +42,7 @@ class Streets:
         self.half_width_m = half_width_m
         self.limit_mps = limit_mps
         self.lanes = {}  # name: points, names of the next, rank
+        self.opposite = {}  # of a lane, the one beside it on the left
         self.routes = {}  # name: names of lanes, closed or not
         self.buildings = []
         self.clear_m = 0  # no body within this of the middle: a crossing
@@ -64,6 +65,8 @@ class Streets:
                       f"points_m = {places(points)}"]
             if following:
                 lines.append(f"next = {words(following)}")
+            if name in self.opposite:
+                lines.append(f'opposite = "{self.opposite[name]}"')
         for name, (lanes, closed) in self.routes.items():
             lines += ["[[route]]", f'name = "{name}"', f"lanes = {words(lanes)}",
                       f"closed = {str(closed).lower()}"]
@@ -465,6 +468,56 @@ map = "map.toml"
 {fleet(101, 1, "e", 10, speed_mps=8)}[sensors]
 position_noise_m = {noise_m}
 {parked}{server}[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
+
+
+BLOCKED_M, BLOCKS_M = 250, 6.0  # where what blocks a street begins, its length
+
+
+def blocked(seed, at_server):
+    """A street of two ways of which one is blocked 220 m before a car, while
+    others come on the other one, half of them without a radio."""
+    rng = random.Random(f"blocked {seed}")
+    streets = Streets("blocked", 1.75, 8.33)
+    streets.add("east", along((0, 0), (600, 0)))
+    streets.add("west", along((600, 3.5), (0, 3.5)))
+    streets.opposite = {"east": "west", "west": "east"}
+    streets.routes = {"east": (["east"], False), "west": (["west"], False)}
+    fleets, station, at_s = [fleet(101, 1, "east", 30)], 201, 0.0
+    while True:
+        at_s += rng.expovariate(1 / 20)
+        if at_s > 130:
+            break
+        fleets.append(fleet(station, 1, "west", 10, speed_mps=8.0,
+                            appears_s=at_s, connected=rng.random() < 0.5))
+        station += 1
+    width_m = rng.uniform(1.8, 2.5)
+    truck = body((BLOCKED_M + BLOCKS_M / 2, rng.uniform(-0.5, 0.0)), 0, BLOCKS_M,
+                 width_m)
+    server = """[[provider]]
+name = "mec"
+position_m = [250.0, 20.0]
+area_radius_m = 1500.0
+services = ["trajectory_planning"]
+[network]
+profile = "paper_5g"
+[policies]
+lodm = "always"
+codm = "always"
+""" if at_server else ""
+    return streets, f"""name = "blocked {seed}"
+duration = "180s"
+seed = {seed}
+map = "map.toml"
+[traffic]
+crossings = "perceived"
+{"".join(fleets)}[sensors]
+range_m = 130.0
+{truck}{server}[[service]]
 name = "trajectory_planning"
 [record]
 cycles = false
